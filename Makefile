@@ -1,0 +1,52 @@
+# Every target sets up what it needs. CI calls lint, check-derive, test and test-slow, in that order.
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/ready
+
+.PHONY: setup derive check-derive audit reproduce demo test test-slow bench lint format clean
+
+setup: $(READY)
+
+$(READY): pyproject.toml setup.py
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "mechsym needs Python 3.11 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { echo "Python's venv is missing; on Debian: apt-get install python3-venv"; exit 1; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[derive,netcdf,dev]'
+	@touch $@
+
+derive: | $(READY)
+	$(BIN)/mechsym derive
+
+check-derive: | $(READY)
+	PYTHONHASHSEED=1 $(BIN)/mechsym derive --check
+	PYTHONHASHSEED=2 $(BIN)/mechsym derive --check
+
+audit: | $(READY)
+	$(BIN)/mechsym audit --write
+
+reproduce: | $(READY)
+	$(BIN)/mechsym reproduce
+
+demo: | $(READY)
+	$(BIN)/mechsym hinge zotov-89 --out demo
+
+test: | $(READY)
+	$(BIN)/python -m pytest -n 2 -q -m "not slow"
+
+test-slow: | $(READY)
+	$(BIN)/python -m pytest -n 2 -q -m slow
+
+bench: | $(READY)
+	$(BIN)/python -m benchmarks
+
+lint: | $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: | $(READY)
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean:
+	rm -rf .venv demo build *.egg-info

@@ -1,0 +1,1 @@
+"""mechsym: exact equations of motion, verified machine code, elastic hinges and guides."""

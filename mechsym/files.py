@@ -1,0 +1,118 @@
+"""Writing results so that nothing half-written is ever seen."""
+
+import csv
+import json
+import math
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import BadInput
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write `text` to a temporary name beside `path` and move it into place.
+
+    Parameters
+    ----------
+    path : Path
+        File to write; its folder is made when it is missing
+    text : str
+        Contents, stored as UTF-8 with newline line ends
+
+    Returns
+    -------
+    path : Path
+        The same path
+    """
+    path = Path(path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be written ({error.strerror}); choose another folder with --out") from error
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return path
+
+
+def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -> Path:
+    """Write equally long columns, SI units unless the column's name says otherwise.
+
+    Parameters
+    ----------
+    path : Path
+        File to write
+    columns : mapping of str to sequence
+        Column name to values; all of one length
+
+    Returns
+    -------
+    path : Path
+        The same path
+    """
+    import io
+
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*[_cells(values) for values in columns.values()], strict=True))
+    return write_text(path, buffer.getvalue())
+
+
+def _cells(values: Sequence[float] | np.ndarray) -> list[Any]:
+    return [f"{v:.12g}" if isinstance(v, (float, np.floating)) else v for v in values]
+
+
+def to_json(value: Any) -> str:
+    """JSON text of nested records, arrays and numbers; a number that is not finite becomes null.
+
+    Parameters
+    ----------
+    value : object
+        Mappings, sequences, arrays, numbers, text, booleans, None
+
+    Returns
+    -------
+    text : str
+        Indented JSON
+    """
+    return json.dumps(plain(value), indent=2, allow_nan=False)
+
+
+def plain(value: Any) -> Any:
+    """The same value in plain Python types, with null for what is not finite.
+
+    Parameters
+    ----------
+    value : object
+        Mappings, sequences, arrays, numbers, text, booleans, None
+
+    Returns
+    -------
+    value : object
+        dict, list, str, int, float, bool or None
+    """
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    if isinstance(value, (float, np.floating)):
+        return float(value) if math.isfinite(value) else None
+    return value

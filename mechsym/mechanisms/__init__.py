@@ -1,0 +1,1 @@
+"""Runtime mechanisms: frozen parameters and `build(params) -> Mechanism` on top of the generated code."""

@@ -1,0 +1,238 @@
+"""Units at the border, and records that check themselves.
+
+Inside the package every number is SI, angles in radians. A case file or `--set` may write `"142 rpm"` or `"5 MPa"`;
+`parse` turns that into SI and refuses a wrong dimension. A record declares each field with its unit and range:
+
+    @dataclass(frozen=True, kw_only=True)
+    class Spring:
+        p0: float = quantity("Pa", above=0, about="initial excess pressure")
+
+        def __post_init__(self):
+            check(self)
+"""
+
+import dataclasses
+import math
+import re
+from typing import Any
+
+from mechsym.errors import BadInput
+
+# unit: (factor to SI, exponents of kg, m, s, K, rad). Angles carry a dimension of their own so that
+# "5 m" is refused where radians are wanted; rpm and Hz are angular speeds only where rad/s is wanted.
+_BASE: dict[str, tuple[float, tuple[int, ...]]] = {
+    "kg": (1.0, (1, 0, 0, 0, 0)), "g": (1e-3, (1, 0, 0, 0, 0)), "t": (1e3, (1, 0, 0, 0, 0)),
+    "m": (1.0, (0, 1, 0, 0, 0)), "mm": (1e-3, (0, 1, 0, 0, 0)), "cm": (1e-2, (0, 1, 0, 0, 0)),
+    "um": (1e-6, (0, 1, 0, 0, 0)), "L": (1e-3, (0, 3, 0, 0, 0)),
+    "s": (1.0, (0, 0, 1, 0, 0)), "ms": (1e-3, (0, 0, 1, 0, 0)), "min": (60.0, (0, 0, 1, 0, 0)),
+    "h": (3600.0, (0, 0, 1, 0, 0)),
+    "K": (1.0, (0, 0, 0, 1, 0)),
+    "rad": (1.0, (0, 0, 0, 0, 1)), "deg": (math.pi / 180, (0, 0, 0, 0, 1)),
+    "rpm": (2 * math.pi / 60, (0, 0, -1, 0, 1)), "rev": (2 * math.pi, (0, 0, 0, 0, 1)),
+    "Hz": (1.0, (0, 0, -1, 0, 0)),
+    "N": (1.0, (1, 1, -2, 0, 0)), "kN": (1e3, (1, 1, -2, 0, 0)), "MN": (1e6, (1, 1, -2, 0, 0)),
+    "Pa": (1.0, (1, -1, -2, 0, 0)), "kPa": (1e3, (1, -1, -2, 0, 0)), "MPa": (1e6, (1, -1, -2, 0, 0)),
+    "GPa": (1e9, (1, -1, -2, 0, 0)), "bar": (1e5, (1, -1, -2, 0, 0)),
+    "J": (1.0, (1, 2, -2, 0, 0)), "kJ": (1e3, (1, 2, -2, 0, 0)), "MJ": (1e6, (1, 2, -2, 0, 0)),
+    "W": (1.0, (1, 2, -3, 0, 0)), "kW": (1e3, (1, 2, -3, 0, 0)), "MW": (1e6, (1, 2, -3, 0, 0)),
+    "%": (1e-2, (0, 0, 0, 0, 0)),
+}  # fmt: skip
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+_FACTOR = re.compile(r"([A-Za-z%]+)(?:\^?(-?\d+))?$")
+
+
+def units() -> list[str]:
+    """The units that texts may use, besides products and quotients of them.
+
+    Returns
+    -------
+    names : list of str
+        Sorted unit names
+    """
+    return sorted(_BASE)
+
+
+def _unit(text: str) -> tuple[float, tuple[int, ...]]:
+    factor, dims = 1.0, [0] * 5
+    sign = 1
+    for part in re.split(r"([*/ ])", text.strip().replace("**", "^")):
+        if part in ("*", " ", "", "-", "1"):
+            continue
+        if part == "/":
+            sign = -1
+            continue
+        match = _FACTOR.match(part)
+        if match is None or match[1] not in _BASE:
+            raise BadInput(f"unit {text!r} is not known; units are {', '.join(units())} and their products like kg*m^2")
+        power = int(match[2] or 1) * sign
+        scale, exponents = _BASE[match[1]]
+        factor *= scale**power
+        dims = [d + e * power for d, e in zip(dims, exponents, strict=True)]
+        sign = 1
+    return factor, tuple(dims)
+
+
+def _compatible(found: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
+    # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
+    angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))
+    return found == wanted if angular else found[:4] == wanted[:4]
+
+
+def parse(value: Any, unit: str, key: str = "value") -> float:
+    """A number in SI from a number or a text with a unit.
+
+    Parameters
+    ----------
+    value : float, int or str
+        A plain number is taken as SI; a text may end in a unit
+    unit : str
+        The SI unit wanted, `"-"` for a pure number
+    key : str
+        Name of the value, for the message
+
+    Returns
+    -------
+    number : float
+        Value in `unit`
+
+    Raises
+    ------
+    BadInput
+        Not a number, not finite, unknown unit, or a unit of another dimension
+
+    Examples
+    --------
+    >>> round(parse("142 rpm", "rad/s"), 6)
+    14.870205
+    """
+    wanted = f"a number in {unit}" if unit != "-" else "a pure number"
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise BadInput(f"{key} = {value!r} is not {wanted}")
+    if isinstance(value, str):
+        match = _NUMBER.match(value)
+        if match is None:
+            raise BadInput(f'{key} = {value!r} is not {wanted}; write for example 1.5 or "1.5 {unit}"')
+        number = float(match[1])
+        if match[2]:
+            number *= _scale(value, match[2], unit, key)
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise BadInput(f"{key} = {value!r} is not finite; give {wanted}")
+    return number
+
+
+def _scale(value: str, text: str, unit: str, key: str) -> float:
+    try:
+        factor, dims = _unit(text)
+    except BadInput as error:
+        raise BadInput(f"{key} = {value!r}: {error}") from None
+    if not _compatible(dims, _unit(unit)[1]):
+        raise BadInput(f"{key} = {value!r} has the wrong dimension; give it in {unit} or a multiple of that unit")
+    return factor
+
+
+def quantity(
+    unit: str,
+    *,
+    default: Any = dataclasses.MISSING,
+    above: float | None = None,
+    below: float | None = None,
+    low: float | None = None,
+    high: float | None = None,
+    about: str = "",
+) -> Any:
+    """A field of a record that is a number with a unit and a range.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit, `"-"` for a pure number
+    default : float, optional
+        Value when none is given; without it the field must be given
+    above, below : float, optional
+        Bounds that the value must not reach
+    low, high : float, optional
+        Bounds that the value may reach
+    about : str
+        Meaning in a few words
+
+    Returns
+    -------
+    field : dataclasses.Field
+        To be assigned in the class body
+    """
+    metadata = {"unit": unit, "above": above, "below": below, "low": low, "high": high, "about": about}
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def choice(*options: str, default: Any = dataclasses.MISSING, about: str = "") -> Any:
+    """A field of a record that is one of several names.
+
+    Parameters
+    ----------
+    *options : str
+        Allowed names
+    default : str, optional
+        Name when none is given
+    about : str
+        Meaning in a few words
+
+    Returns
+    -------
+    field : dataclasses.Field
+        To be assigned in the class body
+    """
+    return dataclasses.field(default=default, metadata={"options": options, "about": about})
+
+
+def allowed(metadata: Any) -> str:
+    """The range of a field in words.
+
+    Parameters
+    ----------
+    metadata : mapping
+        Metadata of a field made by `quantity`
+
+    Returns
+    -------
+    text : str
+        For example ``> 0 and <= 1``
+    """
+    words = [("above", ">"), ("low", ">="), ("below", "<"), ("high", "<=")]
+    return " and ".join(f"{sign} {metadata[key]:g}" for key, sign in words if metadata.get(key) is not None)
+
+
+def check(record: Any) -> None:
+    """Refuse a record whose numbers are not finite or out of range, or whose names are not among the options.
+
+    Parameters
+    ----------
+    record : dataclass instance
+        Fields made by `quantity` and `choice` are checked; others are left alone
+
+    Raises
+    ------
+    BadInput
+        Names the record's class, field, value, unit and what is allowed
+    """
+    for field in dataclasses.fields(record):
+        value, meta = getattr(record, field.name), field.metadata
+        if "options" in meta and value not in meta["options"]:
+            raise BadInput(f"{field.name} = {value!r} is not an option; options are {', '.join(meta['options'])}")
+        if "unit" in meta and value is not None:
+            _check_number(field.name, value, meta)
+
+
+def _check_number(name: str, value: float, meta: Any) -> None:
+    unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
+    if not math.isfinite(value):
+        raise BadInput(f"{name} = {value}{unit} is not finite")
+    inside = (
+        (meta["above"] is None or value > meta["above"])
+        and (meta["below"] is None or value < meta["below"])
+        and (meta["low"] is None or value >= meta["low"])
+        and (meta["high"] is None or value <= meta["high"])
+    )
+    if not inside:
+        raise BadInput(f"{name} = {value:g}{unit} is out of range; it must be {allowed(meta)}{unit}")
