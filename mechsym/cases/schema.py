@@ -1,0 +1,96 @@
+"""Which record each section of a case becomes. A section with a selector key has one record per named variant."""
+
+import dataclasses
+import importlib
+from typing import Any
+
+from mechsym.errors import BadInput
+from mechsym.quantities import check, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Operation:
+    """Where the machine runs.
+
+    Parameters
+    ----------
+    speed : float
+        Mean crank speed [rad/s]
+    """
+
+    speed: float = quantity("rad/s", above=0, about="mean crank speed")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+# section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
+_SECTIONS: dict[str, Any] = {
+    "operation": "mechsym.cases.schema:Operation",
+}
+
+
+def sections() -> list[str]:
+    """Names of all sections.
+
+    Returns
+    -------
+    names : list of str
+        In the order of a case file
+    """
+    return ["parameters", *_SECTIONS]
+
+
+def selector(section: str) -> str | None:
+    """The key that chooses a section's variant.
+
+    Parameters
+    ----------
+    section : str
+        Name of the section
+
+    Returns
+    -------
+    key : str or None
+        None when the section has one record only
+    """
+    entry = _SECTIONS.get(section)
+    return entry[0] if isinstance(entry, tuple) else None
+
+
+def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
+    """The record class of a section.
+
+    Parameters
+    ----------
+    mechanism : str
+        Name of the mechanism, which decides `[parameters]`
+    section : str
+        Name of the section
+    table : dict
+        The section's raw values, read for its selector
+
+    Returns
+    -------
+    cls : type
+        A frozen dataclass
+
+    Raises
+    ------
+    KeyError
+        No such section
+    BadInput
+        Unknown mechanism, or a missing or unknown variant
+    """
+    if section == "parameters":
+        from mechsym.mechanisms import parameters_class
+
+        return parameters_class(mechanism)
+    entry = _SECTIONS[section]
+    if isinstance(entry, tuple):
+        key, variants = entry
+        if table.get(key) not in variants:
+            raise BadInput(f"{key} = {table.get(key)!r} is not an option; options are {', '.join(variants)}")
+        entry = variants[table[key]]
+    module, _, name = entry.partition(":")
+    return getattr(importlib.import_module(module), name)

@@ -1,0 +1,83 @@
+"""The command line: argument parsing and one call per command. Each command's module is imported only when it runs."""
+
+import importlib
+import sys
+
+import click
+
+from mechsym.errors import BadInput
+
+COMMANDS = {
+    "audit": "mechsym.cli.audit",
+    "cases": "mechsym.cli.catalogue",
+    "derive": "mechsym.cli.derive",
+    "eval": "mechsym.cli.evaluate",
+    "hinge": "mechsym.cli.hinge",
+    "mechanisms": "mechsym.cli.catalogue",
+    "simulate": "mechsym.cli.simulate",
+}
+
+
+class LazyGroup(click.Group):
+    """A group that knows its commands by name and imports a command's module on first use."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names of all commands.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Context of the call
+
+        Returns
+        -------
+        names : list of str
+            Sorted command names
+        """
+        return sorted(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of that name.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Context of the call
+        cmd_name : str
+            Name of the command
+
+        Returns
+        -------
+        command : click.Command or None
+            None when there is no such command
+        """
+        if cmd_name not in COMMANDS:
+            return None
+        return getattr(importlib.import_module(COMMANDS[cmd_name]), cmd_name)
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(package_name="mechsym")
+def mechsym() -> None:
+    """From a mechanism on paper to verified machine code.
+
+    \b
+    Example: mechsym hinge zotov-89 --out demo
+    """
+
+
+def main() -> None:
+    """Run the command line; bad input ends with one line on standard error and exit status 2."""
+    try:
+        sys.exit(mechsym.main(standalone_mode=False))
+    except BadInput as error:
+        print(f"mechsym: {' '.join(str(error).split())}", file=sys.stderr)
+    except click.UsageError as error:
+        command = error.ctx.command_path if error.ctx else "mechsym"
+        print(f"mechsym: {error.format_message()} (see '{command} --help')", file=sys.stderr)
+    except click.exceptions.Exit as error:
+        sys.exit(error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        print("mechsym: interrupted; files already named above are complete", file=sys.stderr)
+        sys.exit(130)
+    sys.exit(2)

@@ -1,0 +1,106 @@
+"""Options and output that every command shares."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.errors import BadInput
+from mechsym.files import to_json
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value to standard output.")
+out_option = click.option(
+    "--out", type=click.Path(path_type=Path, file_okay=False), help="Folder for files; made when missing."
+)
+set_option = click.option(
+    "--set", "overrides", multiple=True, metavar="KEY=VALUE", help='Override a value, e.g. --set spring.p0="9.5 MPa".'
+)
+
+
+def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
+    """KEY=VALUE texts as a mapping.
+
+    Parameters
+    ----------
+    texts : tuple of str
+        Values of a repeatable option
+    option : str
+        The option's name, for the message
+
+    Returns
+    -------
+    values : dict of str to str
+        Key to text, in the order given
+    """
+    values = {}
+    for text in texts:
+        key, sign, value = text.partition("=")
+        if not sign or not key.strip() or not value.strip():
+            raise BadInput(f"{option} {text!r} is not KEY=VALUE; write for example {option} operation.speed='142 rpm'")
+        values[key.strip()] = value.strip()
+    return values
+
+
+def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
+    """Print a result, as JSON or as text for people.
+
+    Parameters
+    ----------
+    value : object
+        The result with its documented keys
+    as_json : bool
+        Whether JSON was asked for
+    text : callable
+        Makes the text for people; called only when needed
+    """
+    click.echo(to_json(value) if as_json else text())
+
+
+def progress(total: int, label: str) -> Any:
+    """A progress bar on standard error, silent when that is no terminal.
+
+    Parameters
+    ----------
+    total : int
+        Number of steps
+    label : str
+        What is going on
+
+    Returns
+    -------
+    bar : context manager
+        Call `update(1)` on it after each step
+    """
+    return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
+
+
+def table(rows: list[dict[str, Any]], columns: list[str]) -> str:
+    """Rows as an aligned text table.
+
+    Parameters
+    ----------
+    rows : list of dict
+        Values by column name
+    columns : list of str
+        Columns to show, in order
+
+    Returns
+    -------
+    text : str
+        Header line and one line a row
+    """
+    cells = [columns, *[[_cell(row.get(c)) for c in columns] for row in rows]]
+    widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
+    return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(str(v) for v in value)
+    return str(value)
