@@ -88,8 +88,8 @@ def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
     ratio += (cycle.mean_indicated_pressure - mean(ratio)) / slope
     if ratio <= 1:
         raise BadInput(
-            f"mean_indicated_pressure = {cycle.mean_indicated_pressure / 1e5:g} bar needs no fuel: without it the cycle "
-            f"has {without_fuel / 1e5:.3g} bar; give more, or a lower scavenge pressure p_s"
+            f"mean_indicated_pressure = {cycle.mean_indicated_pressure / 1e5:g} bar needs no fuel: without it there "
+            f"are {without_fuel / 1e5:.3g} bar; give more, or a lower scavenge pressure p_s"
         )
     return _state(cycle, cylinder, ratio)
 
