@@ -16,13 +16,12 @@ Source: Zotov et al. (2024), eqs. (3) to (8). `hinge_printed.py` has equation (8
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from mechsym import periodic
-from mechsym.mechanism import Mechanism
+from mechsym.mechanism import Mechanism, curves
 
 _MEAN_TOLERANCE = 1e-9  # of the peak torque; what rounding leaves is far below
 
@@ -98,19 +97,19 @@ class Hinge:
     work_max: float
 
 
-def engine_torques(mechanism: Mechanism, pressure: Any, area: float, p_back: float) -> EngineTorques:
-    """The functions of the crank angle that a mechanism and a cylinder pressure give.
+def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float], period: float) -> EngineTorques:
+    """The functions of the crank angle that a mechanism and a piston force give.
 
     Parameters
     ----------
     mechanism : Mechanism
-        One coordinate, with inputs `F` and outputs `inertia` and the travel `x`
-    pressure : Pressure
-        Absolute cylinder pressure over the crank angle, with its kinks and period
-    area : float
-        Piston area [m^2]
-    p_back : float
-        Pressure behind the piston, absolute [Pa]
+        One coordinate, with outputs `inertia` and the travel `x`
+    force : callable
+        phi of shape (n,) [rad] to the net force F on the piston, positive away from the head [N]
+    kinks : sequence of float
+        Angles where the force is not smooth [rad]
+    period : float
+        Period of the force, 2 pi or 4 pi [rad]
 
     Returns
     -------
@@ -118,23 +117,21 @@ def engine_torques(mechanism: Mechanism, pressure: Any, area: float, p_back: flo
         Functions of arrays of crank angles
     """
     (q,) = mechanism.coordinates
-    kinematics, dynamics = mechanism.functions["kinematics"], mechanism.functions["dynamics"]
-
-    def output(name: str) -> Function:
-        return lambda phi: _row(kinematics(**{q: _as_row(phi)})[name])
+    dynamics = mechanism.functions["dynamics"]
 
     def gravity_torque(phi: np.ndarray) -> np.ndarray:
-        at_rest = {name: 0.0 for name in dynamics.name_in()} | {q: _as_row(phi)}
-        return _row(dynamics(**at_rest)["generalized_force"])
+        # at rest and without inputs gravity is the only generalised force
+        row = np.asarray(phi, dtype=float)[None, :]
+        values = dynamics.call([row if name == q else 0.0 for name in dynamics.name_in()])
+        return np.asarray(values[dynamics.index_out("generalized_force")]).ravel()
 
-    travel = output(f"dx_d{q}")
     return EngineTorques(
-        inertia=output("inertia"),
-        dinertia_dphi=output(f"dinertia_d{q}"),
-        gas_torque=lambda phi: (pressure.absolute(phi) - p_back) * area * travel(phi),
+        inertia=lambda phi: curves(mechanism, phi)["inertia"],
+        dinertia_dphi=lambda phi: curves(mechanism, phi)[f"dinertia_d{q}"],
+        gas_torque=lambda phi: force(phi) * curves(mechanism, phi)[f"dx_d{q}"],
         gravity_torque=gravity_torque,
-        kinks=pressure.kinks,
-        period=pressure.period,
+        kinks=kinks,
+        period=period,
     )
 
 
@@ -236,30 +233,22 @@ def harmonics(torque: PPoly, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
 
 
 def odd_share(torque: PPoly) -> float:
-    """Share of the root mean square that sits in odd orders, which no plane track of period pi can give.
+    """Share of the root mean square in odd orders of the period; a track of half that period cannot give it.
 
     Parameters
     ----------
     torque : PPoly
-        Periodic torque of zero mean and period 2 pi [N*m]
+        Periodic torque of zero mean [N*m]
 
     Returns
     -------
     share : float
         Between 0 and 1 [-]
     """
-    phi = np.arange(4096) * 2 * math.pi / 4096
-    odd = (torque(phi) - torque(phi + math.pi)) / 2
+    phi = np.arange(4096) * torque.x[-1] / 4096
+    odd = (torque(phi) - torque(phi + torque.x[-1] / 2)) / 2
     return float(np.sqrt(np.mean(odd**2) / np.mean(torque(phi) ** 2)))
 
 
 def _part(parts: PPoly, i: int) -> PPoly:
     return PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic")
-
-
-def _as_row(phi: np.ndarray) -> np.ndarray:
-    return np.atleast_1d(np.asarray(phi, dtype=float))[None, :]
-
-
-def _row(value: Any) -> np.ndarray:
-    return np.asarray(value).ravel()
