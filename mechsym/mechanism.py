@@ -33,7 +33,8 @@ class Mechanism:
         Values that are bound into the functions
     functions : mapping of str to casadi.Function
         `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force,
-        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `constraints(q.., u..)`; only those that exist
+        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)`;
+        only those that exist
     """
 
     name: str
@@ -137,6 +138,7 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
         "dynamics": (*q, *u, *module.INPUTS),
         "energy": (*q, *u),
         "reactions": (*q, *u, *a, *module.INPUTS),
+        "momentum": (*q, *u, *a),
         "constraints": (*q, *u),
     }
     functions = {f: casadi_function(module, f, letters[f], values) for f in module.FUNCTIONS}

@@ -60,6 +60,9 @@ def groups(equations: Equations) -> list[Group]:
     if equations.reactions:
         about = "Joint reactions (first body on second) and other outputs that need accelerations."
         found.append(Group(name="reactions", about=about, outputs=equations.reactions))
+    if equations.momentum:
+        about = "Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces."
+        found.append(Group(name="momentum", about=about, outputs=equations.momentum))
     if equations.constraint_jacobian:
         names = list(equations.mechanism.constraints)
         rows = zip(names, equations.constraint_jacobian, strict=True)

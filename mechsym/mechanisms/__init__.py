@@ -9,6 +9,7 @@ from mechsym.mechanism import Mechanism, bind
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
+    "hypocycloid": "hypocycloid:HypocycloidParameters",
     "crankshaft_flywheel": "crankshaft_flywheel:CrankshaftFlywheelParameters",
     "crankshaft_flywheel_printed": "crankshaft_flywheel:CrankshaftFlywheelParameters",
 }
