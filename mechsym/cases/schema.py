@@ -27,6 +27,13 @@ class Operation:
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.schema:Operation",
+    "closing": (
+        "rule",
+        {
+            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+        },
+    ),
 }
 
 

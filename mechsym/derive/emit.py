@@ -68,8 +68,9 @@ def groups(equations: Equations) -> list[Group]:
         rows = zip(names, equations.constraint_jacobian, strict=True)
         jacobian = {f"jacobian_{c}_{a}": e for c, row in rows for a, e in zip(q, row, strict=True)}
         velocity_terms = {f"bias_{c}": e for c, e in zip(names, equations.constraint_bias, strict=True)}
-        about = "Constraints: jacobian * qdd + bias = 0."
-        found.append(Group(name="constraints", about=about, outputs=jacobian | velocity_terms))
+        closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
+        about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
+        found.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
     return found
 
 
