@@ -1,5 +1,5 @@
 # Generated from derivations/crankshaft_flywheel.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 0c2da8378c9d11a8   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: ffc9d270617efae0   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 76603cfc801e27b9   (everything below this header)
 # sympy 1.14.0
 """Crankshaft and flywheel, exact. Source: 002_d7297926d6c52225."""

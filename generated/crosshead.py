@@ -1,5 +1,5 @@
 # Generated from derivations/crosshead.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 3342a50e624b2581   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 73dfc8e1b31248a4   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 846a2b8616c5378d   (everything below this header)
 # sympy 1.14.0
 """Crank, rod, crosshead and elastic hinge. Source: 000_9f2b746dc1abd296."""

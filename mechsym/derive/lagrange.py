@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from sympy import Expr, Integer, Rational, Symbol
 
 from mechsym.derive.declare import Body, Mechanism
+from mechsym.derive.rates import acceleration, curvature, velocities, velocity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +94,7 @@ def derive(m: Mechanism) -> Equations:
         reactions={f"R_{e.name}": _reaction(m, e) for e in m.joint_list} | m.dynamic_outputs,
         kinematics=kinematics,
         constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
-        constraint_bias=tuple(m.curvature(g) for g in m.constraints.values()),
+        constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
     )
 
 
@@ -115,10 +116,10 @@ def _bias(m: Mechanism, a: Symbol) -> Expr:
 
 def _body_bias(m: Mechanism, body: Body, a: Symbol) -> Expr:
     d = m.tape.diff
-    turning = body.inertia * d(body.turns, a) * m.curvature(body.turns)
+    turning = body.inertia * d(body.turns, a) * curvature(m, body.turns)
     if body.about_axis:
         return turning
-    return body.mass * sum((d(p, a) * m.curvature(p) for p in body.at), Integer(0)) + turning
+    return body.mass * sum((d(p, a) * curvature(m, p) for p in body.at), Integer(0)) + turning
 
 
 def generalized_force(m: Mechanism, a: Symbol) -> Expr:
@@ -140,20 +141,20 @@ def generalized_force(m: Mechanism, a: Symbol) -> Expr:
     weight = [b.mass * g * d(p, a) for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
     applied = [f.value * d(f.along, a) for f in m.forces]
     springs = [-s.value * s.along * d(s.along, a) for s in m.springs]
-    dampers = [-c.value * m.velocity(c.along) * d(c.along, a) for c in m.dampers]
+    dampers = [-c.value * velocity(m, c.along) * d(c.along, a) for c in m.dampers]
     return m.tape.named(sum([*weight, *applied, *springs, *dampers], Integer(0)))
 
 
 def _reaction(m: Mechanism, joint: Symbol) -> Expr:
     d, total = m.tape.diff, Integer(0)
     for body in m.bodies:
-        total += body.mass * sum((m.acceleration(p) * d(p, joint) for p in body.at), Integer(0))
-        total += body.inertia * m.acceleration(body.turns) * d(body.turns, joint)
+        total += body.mass * sum((acceleration(m, p) * d(p, joint) for p in body.at), Integer(0))
+        total += body.inertia * acceleration(m, body.turns) * d(body.turns, joint)
     return total - generalized_force(m, joint)
 
 
 def _kinetic_energy(m: Mechanism, mass: list[list[Expr]]) -> Expr:
-    u = m.velocities()
+    u = velocities(m)
     terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
     return Rational(1, 2) * sum(terms, Integer(0))
 
