@@ -84,7 +84,7 @@ class Guide:
     rollers : int
         Rollers c that move the spring
     status : str
-        `cut`, or `spring_bottoms`, `spring_pulls`: the spring cannot hold the work
+        `cut`; `spring_bottoms` or `spring_pulls`: the spring cannot hold the work; `crosses_axis`: rho <= 0
     reason : str
         The numbers behind the status
     energy_min, energy_max : float
@@ -140,7 +140,7 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     _refuse_open_track(balance, parameters)
     low, _, high, _ = periodic.extremes(balance.work)
     at_start = _energy_at_start(spring, parameters, high)
-    status, reason = _held(spring, at_start - high, at_start - low)
+    status, reason = _status(spring, parameters, at_start - high, at_start - low)
     rho, closure = _path(balance, spring, parameters, at_start) if status == "cut" else (None, 0.0)
     return Guide(
         parameters=parameters,
@@ -270,8 +270,7 @@ def _energy_at_start(spring: Spring, parameters: GuideParameters, work_max: floa
             return float(law(spring).energy(parameters.z_margin)) + work_max
 
 
-def _held(spring: Spring, energy_min: float, energy_max: float) -> tuple[str, str]:
-    """Status and reason: does the spring hold these energies?"""
+def _status(spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float) -> tuple[str, str]:
     functions = law(spring)
     if energy_max >= functions.energy_high:
         return "spring_bottoms", (
@@ -282,6 +281,13 @@ def _held(spring: Spring, energy_min: float, energy_max: float) -> tuple[str, st
         return "spring_pulls", (
             f"the spring would have to give {-energy_min:.6g} J beyond its free height and can give "
             f"{-functions.energy_low:.6g} J; place the start or raise its preload"
+        )
+    rollers, _ = _ARRANGEMENTS[parameters.arrangement]
+    rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers
+    if rho_min <= 0:
+        return "crosses_axis", (
+            f"the path crosses the shaft axis: its smallest rho would be {rho_min * 1e3:.4g} mm; "
+            "enlarge rho0, stiffen the spring, or let two rollers share its closing"
         )
     return "cut", ""
 
