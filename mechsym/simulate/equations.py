@@ -168,7 +168,7 @@ def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, 
     # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory
     def f(t: float, y: np.ndarray, _alive: Any = buffer) -> np.ndarray:
         y_now[:] = y
-        t_now[0] = now = min(t, last)
+        t_now[0] = now = t if t < last else last
         if sampled:
             q, u = y[:n].tolist(), y[n : 2 * n].tolist()
             for i, value in sampled:

@@ -37,14 +37,15 @@ def advance(phase: Phase, method: str) -> Leg:
         steps += 1
         if solver.status == "failed" or steps >= phase.max_steps:
             failure = f"stopped at t = {solver.t:.6g} s: {message or f'{phase.max_steps} steps were not enough'}"
-        if met is None and not failure:
+        if met is None and phase.surfaces and not failure:
             met, t_met = _first_crossing(phase.surfaces, solver, start[1])
             if met is not None:
                 solver = _solver(phase, method, f, start, t_met, t_met - start[0])
                 continue
+        if met is None:
             step = solver.step_size
-        due = int(np.searchsorted(wanted, solver.t, side="right"))
-        if due:
+        if len(wanted) and wanted[0] <= solver.t:
+            due = int(np.searchsorted(wanted, solver.t, side="right"))
             samples.append(solver.dense_output()(wanted[:due]).T)
             wanted = wanted[due:]
     found = np.concatenate(samples)
