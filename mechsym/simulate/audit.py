@@ -59,9 +59,7 @@ def energy_audit(problem: Problem, columns: Mapping[str, np.ndarray]) -> Energy:
     peak = float(max(np.ptp(total), np.max(columns["kinetic_energy"])))
     reference = work_in if abs(work_in) > 1e-3 * peak else peak
     residual = (sum(work.values()) - lost - change) / reference if reference else 0.0
-    return Energy(
-        work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual
-    )
+    return Energy(work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual)
 
 
 def speed_difference(a: Mapping[str, np.ndarray], b: Mapping[str, np.ndarray]) -> np.ndarray:

@@ -15,6 +15,7 @@ from mechsym.simulate.machine import Panels, Turn, lowest_energy, speeds, stop_a
 
 # a constant load is in balance when a turn gains less than this part of the work that swings in it
 _BALANCE = 1e-6
+_TRIES = 50  # periods after which a shaft that still turns is not followed further
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +99,7 @@ def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
     else:
         return _none(f"Newton's method on one turn did not settle (last step {step:.3g} J)")
     if lowest_energy(found) <= 0:
-        return _stopped(panels, found)
+        return _stopped(panels, speed, flywheel)
     status = "steady" if abs(found.multiplier) < 1 else "unstable"
     return _steady(panels, flywheel, found, status, "the motion repeats every period")
 
@@ -140,10 +141,38 @@ def _none(reason: str) -> Steady:
     )
 
 
-def _stopped(panels: Panels, found: Turn) -> Steady:
-    angle = stop_angle(panels, found)
-    where = "" if angle is None else f" at phi = {np.degrees(angle):.1f} deg"
-    return _none(f"the shaft stops{where}: the work that swings is more than its kinetic energy; add a flywheel")
+def _stopped(panels: Panels, speed: float, flywheel: float) -> Steady:
+    """Tell where a shaft stops that is started at a speed, the reason why it has no steady motion."""
+    energy, period = 0.5 * (float(panels.inertia_edges[0]) + flywheel) * speed**2, panels.edges[-1] - panels.edges[0]
+    for count in range(_TRIES):
+        found = turn(panels, flywheel, energy)
+        angle = stop_angle(panels, found)
+        if angle is not None:
+            where = f"started at {speed:.6g} rad/s it stops after {np.degrees(count * period + angle):.1f} deg"
+            return _none(f"{where}: the work that swings is more than its kinetic energy; add a flywheel")
+        energy = float(found.energy_edges[-1])
+    return _none(f"started at {speed:.6g} rad/s it slows down for {_TRIES} periods and has no steady motion")
+
+
+def mean_torque(panels: Panels) -> float:
+    """Mean over the angle of the torque without load: the load torque that keeps a balance.
+
+    Parameters
+    ----------
+    panels : Panels
+        Machine
+
+    Returns
+    -------
+    torque : float
+        Mean torque [N*m]
+    """
+    return float(_free(panels)[-1] / (panels.edges[-1] - panels.edges[0]))
+
+
+def _free(panels: Panels) -> np.ndarray:
+    """Work of the torque without load, from the start to each end of a panel."""
+    return turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0).energy_edges
 
 
 def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) -> Flywheel:
@@ -190,8 +219,7 @@ def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) ->
 
 def _swing(panels: Panels) -> float:
     """Work that swings in a period about the mean torque."""
-    free = turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0).energy_edges
-    return float(np.ptp(free - free[-1] * (panels.edges - panels.edges[0]) / (panels.edges[-1] - panels.edges[0])))
+    return float(np.ptp(_free(panels) - mean_torque(panels) * (panels.edges - panels.edges[0])))
 
 
 def smallest_flywheel_that_turns(panels: Panels, speed: float, turns: int = 10) -> Flywheel:

@@ -103,7 +103,9 @@ def _grid(phase: Phase) -> np.ndarray:
 
 def _failed(phase: Phase, reason: str) -> Leg:
     empty = np.empty((0, len(phase.y)))
-    return Leg(t=phase.t_start, y=phase.y, samples=empty, steps=0, failure=f"stopped after t = {phase.t_start:g} s: {reason}")
+    return Leg(
+        t=phase.t_start, y=phase.y, samples=empty, steps=0, failure=f"stopped after t = {phase.t_start:g} s: {reason}"
+    )
 
 
 def _heyoka_expressions(hy: Any, function: ca.Function, variables: list[Any]) -> list[Any]:
