@@ -27,6 +27,13 @@ class Operation:
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.schema:Operation",
+    "cycle": (
+        "kind",
+        {
+            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "diagram": "mechsym.engine.diagram:Diagram",
+        },
+    ),
 }
 
 
