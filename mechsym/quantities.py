@@ -221,7 +221,8 @@ def check(record: Any) -> None:
         if "options" in meta and value not in meta["options"]:
             raise BadInput(f"{field.name} = {value!r} is not an option; options are {', '.join(meta['options'])}")
         if "unit" in meta and value is not None:
-            _check_number(field.name, value, meta)
+            for number in value if isinstance(value, tuple) else (value,):
+                _check_number(field.name, number, meta)
 
 
 def _check_number(name: str, value: float, meta: Any) -> None:

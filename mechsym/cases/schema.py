@@ -45,6 +45,13 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "closing": (
+        "rule",
+        {
+            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+        },
+    ),
 }
 
 

@@ -33,6 +33,7 @@ class Mechanism:
         self.input_list: list[Symbol] = []
         self.joint_list: list[Symbol] = []
         self.joint_about: dict[Symbol, str] = {}
+        self.reaction_of: dict[Symbol, Symbol] = {}
         self.bodies: list[Body] = []
         self.springs: list[Element] = []
         self.dampers: list[Element] = []
@@ -56,10 +57,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -76,10 +75,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -95,10 +92,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -109,17 +104,19 @@ class Mechanism:
         self.input_list += symbols
         return _one_or_all(symbols)
 
-    def joints(self, names: str, about: str, unit: str = "N") -> list[Symbol] | Symbol:
+    def joints(self, names: str, about: str, unit: str = "N", reactions: str = "") -> list[Symbol] | Symbol:
         """Declare joint displacements, held at zero, whose generalised forces are the reactions.
 
         Parameters
         ----------
         names : str
-            Names, separated by spaces; the reaction of `x_A` is `R_x_A`
+            Names, separated by spaces
         about : str
             Which body acts on which
         unit : str
             Unit of the reactions
+        reactions : str
+            Names of the reactions; without them the reaction of `x_A` is `R_x_A`
 
         Returns
         -------
@@ -130,8 +127,25 @@ class Mechanism:
         self.joint_list += symbols
         self.tape.variables += symbols
         self.joint_about.update(dict.fromkeys(symbols, about))
-        self.units.update({f"R_{s.name}": unit for s in symbols})
+        names_of = reactions.split() or [f"R_{s.name}" for s in symbols]
+        self.reaction_of.update({s: Symbol(n, real=True) for s, n in zip(symbols, names_of, strict=True)})
+        self.units.update(dict.fromkeys(names_of, unit))
         return _one_or_all(symbols)
+
+    def reaction(self, joint: Symbol) -> Symbol:
+        """The reaction of a joint, for forces that depend on it and for outputs.
+
+        Parameters
+        ----------
+        joint : Symbol
+            Joint displacement
+
+        Returns
+        -------
+        symbol : Symbol
+            Its reaction; `derive` puts the derived expression in its place
+        """
+        return self.reaction_of[joint]
 
     def let(self, name: str, value: Expr, unit: str = "") -> Symbol:
         """Name a physical intermediate.
@@ -196,7 +210,7 @@ class Mechanism:
         inertia : Expr
             Inertia about the centre of mass [kg*m^2]
         inertia_about_axis : Expr, optional
-            Inertia about a fixed axis instead; it includes the share of the mass
+            Inertia about a fixed axis through the origin instead; it includes the share of the mass
         """
         x, y = (self._point(f"{axis}_{name}", value) for axis, value in zip("xy", at, strict=True))
         about_axis = inertia_about_axis is not None
@@ -330,7 +344,7 @@ class Mechanism:
         name : str
             Name of the output
         value : Expr
-            Expression in names, `velocity` and `acceleration` of names, inputs and parameters
+            Expression in names, `velocity` and `acceleration` of names, reactions, inputs and parameters
         unit : str
             Its unit
         """

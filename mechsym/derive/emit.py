@@ -61,13 +61,17 @@ def groups(equations: Equations) -> list[Group]:
     if equations.reactions:
         about = "Joint reactions (first body on second) and other outputs that need accelerations."
         found.append(Group(name="reactions", about=about, outputs=equations.reactions))
+    if equations.momentum:
+        about = "Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces."
+        found.append(Group(name="momentum", about=about, outputs=equations.momentum))
     if equations.constraint_jacobian:
         names = list(equations.mechanism.constraints)
         rows = zip(names, equations.constraint_jacobian, strict=True)
         jacobian = {f"jacobian_{c}_{a}": e for c, row in rows for a, e in zip(q, row, strict=True)}
         velocity_terms = {f"bias_{c}": e for c, e in zip(names, equations.constraint_bias, strict=True)}
-        about = "Constraints: jacobian * qdd + bias = 0."
-        found.append(Group(name="constraints", about=about, outputs=jacobian | velocity_terms))
+        closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
+        about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
+        found.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
     return found
 
 
