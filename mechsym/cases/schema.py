@@ -27,6 +27,17 @@ _SECTIONS: dict[str, Any] = {
             "diagram": "mechsym.engine.diagram:Diagram",
         },
     ),
+    "spring": (
+        "law",
+        {
+            "air_gauge": "mechsym.springs:AirGauge",
+            "air_absolute": "mechsym.springs:AirAbsolute",
+            "coil": "mechsym.springs:Coil",
+        },
+    ),
+    "guide": "mechsym.guide:GuideParameters",
+    "rollers": "mechsym.rollers:RollerParameters",
+    "limits": "mechsym.feasibility:Limits",
     "closing": (
         "rule",
         {
