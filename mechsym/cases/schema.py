@@ -5,7 +5,6 @@ from typing import Any
 
 from mechsym.errors import BadInput
 
-
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
