@@ -34,6 +34,13 @@ _SECTIONS: dict[str, Any] = {
             "diagram": "mechsym.engine.diagram:Diagram",
         },
     ),
+    "closing": (
+        "rule",
+        {
+            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+        },
+    ),
 }
 
 
