@@ -160,7 +160,7 @@ def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tu
     phi : ndarray, shape (n,)
         Crank angles of one period [rad]
     values : ndarray, shape (n,) or (k, n)
-        Samples, crank angle last
+        Samples of pressure, crank angle last [Pa]
     period : float
         2 pi or 4 pi [rad]
 
@@ -169,7 +169,7 @@ def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tu
     phi : ndarray, shape (n,)
         Ascending from half a turn and 0.5 rad before TDC [rad]
     values : ndarray
-        In the order of phi
+        In the order of phi [Pa]
     """
     start = -math.pi - 0.5
     centred = start + np.remainder(phi - start, period)
