@@ -81,6 +81,8 @@ class Guide:
         What was chosen
     spring : AirGauge, AirAbsolute or Coil
         Spring that it was made for
+    omega : float
+        Crank speed that it was made for [rad/s]
     rollers : int
         Rollers c that move the spring
     status : str
@@ -97,6 +99,7 @@ class Guide:
 
     parameters: GuideParameters
     spring: Spring
+    omega: float
     rollers: int
     status: str
     reason: str
@@ -145,6 +148,7 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     return Guide(
         parameters=parameters,
         spring=spring,
+        omega=balance.omega,
         rollers=rollers,
         status=status,
         reason=reason,
@@ -308,4 +312,4 @@ def _path(balance: Balance, spring: Spring, parameters: GuideParameters, at_star
     rho = periodic.antiderivative(slope)
     edges = rho.x[:-1]
     rho.c[-1] += np.mean(parameters.rho0 - z(edges) / rollers - rho(edges))
-    return rho, abs(periodic.mean(slope)) * slope.x[-1]
+    return rho, abs(periodic.mean(slope)) * float(slope.x[-1])
