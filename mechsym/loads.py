@@ -127,9 +127,15 @@ def load_torque(load: Load, omega: Any) -> Any:
         case ConstantLoad():
             return load.torque + 0 * omega
         case PropellerLoad():
-            return load.torque / load.speed**2 * omega * abs(omega)
+            return _square_law(load) * omega * abs(omega)
         case TableLoad():
             return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
+
+
+def _square_law(load: PropellerLoad) -> float:
+    if load.torque is None or load.speed is None:
+        raise BadInput("propeller load without torque or speed; give both, or settle it with the engine's own")
+    return load.torque / load.speed**2
 
 
 def load_slope(load: Load, omega: Any) -> Any:
@@ -153,7 +159,7 @@ def load_slope(load: Load, omega: Any) -> Any:
         case ConstantLoad():
             return 0 * omega
         case PropellerLoad():
-            return 2 * load.torque / load.speed**2 * abs(omega)
+            return 2 * _square_law(load) * abs(omega)
         case TableLoad():
             inside = (omega >= load.speeds[0]) & (omega <= load.speeds[-1])
             return np.where(inside, _curve(load.speeds, load.torques)(omega, 1), 0.0)

@@ -156,6 +156,7 @@ def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, 
     f : callable
         (t, y) to dy/dt, a new array each time
     """
+    buffer: Any
     buffer, call = system.function.buffer()
     t_now, y_now, w_now = np.zeros(1), np.zeros(len(system.columns)), np.array(w)
     out = np.zeros(len(system.columns))
