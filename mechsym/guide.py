@@ -81,10 +81,12 @@ class Guide:
         What was chosen
     spring : AirGauge, AirAbsolute or Coil
         Spring that it was made for
+    omega : float
+        Crank speed that it was made for [rad/s]
     rollers : int
         Rollers c that move the spring
     status : str
-        `cut`, or `spring_bottoms`, `spring_pulls`: the spring cannot hold the work
+        `cut`; `spring_bottoms` or `spring_pulls`: the spring cannot hold the work; `crosses_axis`: rho <= 0
     reason : str
         The numbers behind the status
     energy_min, energy_max : float
@@ -97,6 +99,7 @@ class Guide:
 
     parameters: GuideParameters
     spring: Spring
+    omega: float
     rollers: int
     status: str
     reason: str
@@ -140,11 +143,12 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     _refuse_open_track(balance, parameters)
     low, _, high, _ = periodic.extremes(balance.work)
     at_start = _energy_at_start(spring, parameters, high)
-    status, reason = _held(spring, at_start - high, at_start - low)
+    status, reason = _status(spring, parameters, at_start - high, at_start - low)
     rho, closure = _path(balance, spring, parameters, at_start) if status == "cut" else (None, 0.0)
     return Guide(
         parameters=parameters,
         spring=spring,
+        omega=balance.omega,
         rollers=rollers,
         status=status,
         reason=reason,
@@ -270,8 +274,7 @@ def _energy_at_start(spring: Spring, parameters: GuideParameters, work_max: floa
             return float(law(spring).energy(parameters.z_margin)) + work_max
 
 
-def _held(spring: Spring, energy_min: float, energy_max: float) -> tuple[str, str]:
-    """Status and reason: does the spring hold these energies?"""
+def _status(spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float) -> tuple[str, str]:
     functions = law(spring)
     if energy_max >= functions.energy_high:
         return "spring_bottoms", (
@@ -282,6 +285,13 @@ def _held(spring: Spring, energy_min: float, energy_max: float) -> tuple[str, st
         return "spring_pulls", (
             f"the spring would have to give {-energy_min:.6g} J beyond its free height and can give "
             f"{-functions.energy_low:.6g} J; place the start or raise its preload"
+        )
+    rollers, _ = _ARRANGEMENTS[parameters.arrangement]
+    rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers
+    if rho_min <= 0:
+        return "crosses_axis", (
+            f"the path crosses the shaft axis: its smallest rho would be {rho_min * 1e3:.4g} mm; "
+            "enlarge rho0, stiffen the spring, or let two rollers share its closing"
         )
     return "cut", ""
 
@@ -302,4 +312,4 @@ def _path(balance: Balance, spring: Spring, parameters: GuideParameters, at_star
     rho = periodic.antiderivative(slope)
     edges = rho.x[:-1]
     rho.c[-1] += np.mean(parameters.rho0 - z(edges) / rollers - rho(edges))
-    return rho, abs(periodic.mean(slope)) * slope.x[-1]
+    return rho, abs(periodic.mean(slope)) * float(slope.x[-1])

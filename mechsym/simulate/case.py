@@ -55,7 +55,7 @@ class Simulation:
     turns: float | None = quantity("-", default=None, above=0, about="turns to run")
     speed_start: float | None = quantity("rad/s", default=None, about="speed at the start")
     phi_start: float = quantity("rad", default=0.0, about="angle at the start")
-    tolerance: float = quantity("-", default=1e-10, low=1e-13, high=1e-2, about="tolerance of a step")
+    tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
     output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
     window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
