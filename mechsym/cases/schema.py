@@ -26,6 +26,17 @@ _SECTIONS: dict[str, Any] = {
             "diagram": "mechsym.engine.diagram:Diagram",
         },
     ),
+    "load": (
+        "law",
+        {
+            "constant": "mechsym.loads:ConstantLoad",
+            "propeller": "mechsym.loads:PropellerLoad",
+            "table": "mechsym.loads:TableLoad",
+        },
+    ),
+    "drive": "mechsym.simulate.case:StepTorque",
+    "simulation": "mechsym.simulate.case:Simulation",
+    "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",
         {

@@ -14,6 +14,7 @@ COMMANDS = {
     "eval": "mechsym.cli.evaluate:evaluate",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
+    "simulate": "mechsym.cli.simulate:simulate",
 }
 
 
