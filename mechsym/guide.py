@@ -232,8 +232,8 @@ def _status(
         )
     if energy_min <= functions.energy_low:
         return "spring_pulls", (
-            f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at {functions.energy_low:.6g} J; "
-            "place the start, or raise its preload or z_margin"
+            f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at "
+            f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
         )
     rollers = ROLLERS[parameters.arrangement]
     rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers

@@ -7,7 +7,6 @@ Source: Zotov et al. (2024), Fig. 5 and its caption.
 """
 
 import dataclasses
-from collections.abc import Mapping
 
 from mechsym import feasibility, guide
 from mechsym.arrangement import GuideParameters
@@ -82,14 +81,12 @@ def family(
     members = []
     for letter, (speed, H, rho0) in _CURVES.items():
         for number, p0 in _PRESSURES.items():
-            printed = AirGauge(A=spring.A, H=H, p0=p0, n=spring.n)
-            air: Mapping[str, Spring] = {
-                "as_printed": printed,
-                "placed": dataclasses.replace(spring, H=H, p0=p0),
-            }
-            for start, filled in air.items():
-                chosen = dataclasses.replace(parameters, start=start, rho0=rho0)
-                cut = guide.build(balances[speed], filled, chosen)
-                verdict = feasibility.judge(cut, filled, rollers, limits)
-                members.append(Member(label=letter + number, start=start, guide=cut, verdict=verdict))
+            printed = GuideParameters(arrangement="two_tracks", start="as_printed", rho0=rho0)
+            placed = dataclasses.replace(parameters, start="placed", rho0=rho0)
+            gauge = AirGauge(A=spring.A, H=H, p0=p0, n=spring.n)
+            filled = dataclasses.replace(spring, H=H, p0=p0)
+            for chosen, air in ((printed, gauge), (placed, filled)):
+                cut = guide.build(balances[speed], air, chosen)
+                verdict = feasibility.judge(cut, air, rollers, limits)
+                members.append(Member(label=letter + number, start=chosen.start, guide=cut, verdict=verdict))
     return tuple(members)
