@@ -1,0 +1,272 @@
+r"""The closed period of a cycle as a differential equation in the crank angle, one zone, first law closed.
+
+    m c_v dT/dphi = dQ_R/dphi - dQ_L/dphi - p dV/dphi + (e_f - u) dm/dphi - m (du/dX) dX/dphi,    p = m R T/V
+
+Q_R is the heat released (Wiebe), Q_L the heat lost to the walls, dm the fuel that turns into gas, which brings the
+specific internal energy e_f along. The closed period falls into three phases with smooth equations: before, during
+and after combustion. Each is integrated over its own variable s from 0 to 1; during combustion phi = phi_s + dphi s^4,
+because a Wiebe function with a broken exponent is not smooth at its start in phi, but is nearly so in s.
+
+Every attribute of `Closed` may be a number or a CasADi expression of the design: `closed_function` integrates at
+numbers, differentiates and feeds the optimiser with the same operations.
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from mechsym.engine.chamber import Chamber, volume, wall_area
+from mechsym.engine.gas import ConstantGamma, NasaMixture, properties
+from mechsym.engine.heat import GasState, Law, heat_flux, motored_swirl
+from mechsym.engine.runge_kutta import fold
+
+_SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
+_GRADING = {"before": 1, "during": 4, "after": 1}
+_MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
+_TINY = 1e-100  # keeps the derivatives of y^m finite at y = 0, where they are 0 times infinity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Closed:
+    """Everything that the closed period needs; attributes are numbers or CasADi expressions.
+
+    Parameters
+    ----------
+    chamber, gas, law : Chamber, ConstantGamma or NasaMixture, Annand or Woschni or Hohenberg or Adiabatic
+        Volume, gas properties and heat transfer
+    omega : float
+        Crank speed [rad/s]
+    closes, starts, duration, opens : float
+        Inlet closing, start and duration of combustion, exhaust opening [rad]
+    pressure, temperature, mass : float
+        State when the inlet closes [Pa], [K], [kg]
+    fuel : float
+        Mass of fuel [kg]
+    heat : float
+        Heat that complete combustion would release [J]
+    fuel_energy : float
+        Internal energy that fuel brings along when it turns into gas [J/kg]
+    fuel_entry : str
+        `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
+    wiebe : tuple of float
+        a_p, a_d, m_p, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
+    """
+
+    chamber: Chamber
+    gas: ConstantGamma | NasaMixture
+    law: Law
+    omega: Any
+    closes: Any
+    starts: Any
+    duration: Any
+    opens: Any
+    pressure: Any
+    temperature: Any
+    mass: Any
+    fuel: Any
+    heat: Any
+    fuel_energy: Any
+    fuel_entry: str
+    wiebe: tuple[Any, ...]
+
+
+class Contents(NamedTuple):
+    """Burnt share, mass [kg] and their slopes in phi at one crank angle."""
+
+    burnt: Any
+    burnt_slope: Any
+    mass: Any
+    mass_slope: Any
+
+
+def burnt_fraction(wiebe: tuple[Any, ...], y: Any) -> tuple[Any, Any]:
+    r"""Double Wiebe function and its derivative.
+
+    .. math:: f = (1-b)\{1 - e^{-a_p y^{m_p+1}}\} + b\{1 - e^{-a_d y^{m_d+1}}\}
+
+    Parameters
+    ----------
+    wiebe : tuple of float
+        a_p, a_d, m_p, m_d, b [-]
+    y : CasADi scalar
+        Share of the duration that has passed, 0 to 1 [-]
+
+    Returns
+    -------
+    f : CasADi scalar
+        Burnt share of the fuel [-]
+    df_dy : CasADi scalar
+        Derivative [-]
+    """
+    a_p, a_d, m_p, m_d, b = wiebe
+    total, slope = 0, 0
+    for share, a, m in ((1 - b, a_p, m_p), (b, a_d, m_d)):
+        if isinstance(share, (int, float)) and share == 0:
+            continue
+        power = ca.fmax(y, _TINY) ** m
+        left = ca.exp(-a * power * y)
+        total, slope = total + share * (1 - left), slope + share * a * (m + 1) * power * left
+    return total, slope
+
+
+def contents(closed: Closed, phase: str, phi: Any) -> Contents:
+    """What the chamber holds at a crank angle.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+
+    Returns
+    -------
+    contents : Contents
+        burnt [-], burnt_slope [1/rad], mass [kg], mass_slope [kg/rad]
+    """
+    y = {"before": 0.0, "during": (phi - closed.starts) / closed.duration, "after": 1.0}[phase]
+    burnt, slope = (0.0, 0.0) if phase == "before" else burnt_fraction(closed.wiebe, y)
+    slope = slope / closed.duration if phase == "during" else 0.0
+    match closed.fuel_entry:
+        case "injected":
+            return Contents(burnt, slope, closed.mass + closed.fuel * burnt, closed.fuel * slope)
+        case "vaporised" if phase == "before":
+            rate = closed.fuel / (closed.starts - closed.closes)
+            return Contents(burnt, slope, closed.mass + rate * (phi - closed.closes), rate)
+        case "vaporised":
+            return Contents(burnt, slope, closed.mass + closed.fuel, 0.0)
+    return Contents(burnt, slope, closed.mass, 0.0)
+
+
+def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
+    """Slopes of temperature, work and heat loss with the crank angle.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+    t : CasADi scalar
+        Temperature [K]
+
+    Returns
+    -------
+    dt_dphi : CasADi scalar
+        Temperature [K/rad]
+    dw_dphi : CasADi scalar
+        Work p dV [J/rad]
+    dq_dphi : CasADi scalar
+        Heat to the walls [J/rad]
+    """
+    v, dv = volume(closed.chamber, phi)
+    now = contents(closed, phase, phi)
+    gas = properties(closed.gas, t, now.burnt)
+    p = now.mass * gas.gas_constant * t / v
+    loss = _heat_loss(closed, phase, p, t, v, gas.gas_constant)
+    released = closed.heat * now.burnt_slope
+    brought = (closed.fuel_energy - gas.energy) * now.mass_slope
+    gain = released - loss - p * dv + brought - now.mass * gas.energy_slope * now.burnt_slope
+    return gain / (now.mass * gas.heat_capacity), p * dv, loss
+
+
+def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps: int) -> ca.Function:
+    """The closed period as a function of a design.
+
+    Parameters
+    ----------
+    build : callable
+        Mapping of the design's names to CasADi symbols -> Closed
+    names : sequence of str
+        Names of the design variables
+    steps : int
+        Steps of the integration in all; a multiple of 10
+
+    Returns
+    -------
+    function : casadi.Function
+        (design (k,)) -> `phi` [rad], `t` [K], `p` [Pa], `v` [m^3], each (1, steps + 1) at the ends of the steps, and
+        scalars: `work`, `wall_heat`, `heat_released`, `fuel_energy`, `energy_start`, `energy_end` [J], `omega`
+        [rad/s], `mass`, `fuel` [kg], `displacement` [m^3], `starts` [rad]
+    """
+    z = ca.SX.sym("z", len(names))
+    closed = build({name: z[k] for k, name in enumerate(names)})
+    design = ca.MX.sym("design", len(names))
+    state: Any = ca.Function("start", [z], [ca.vertcat(closed.temperature, 0.0, 0.0)])(design)
+    nodes = [_node(closed, "before", z)(design, 0.0, state)]
+    for phase, share in _SHARES.items():
+        n = round(share * steps)
+        history = fold(_rate(closed, phase, z), 3, len(names), n)(state, design)
+        ends = ca.DM([(k + 1) / n for k in range(n)]).T
+        nodes.append(_node(closed, phase, z)(ca.repmat(design, 1, n), ends, history))
+        state = history[:, -1]
+    t = ca.SX.sym("t")
+    scalars = ca.Function("scalars", [z, t], [ca.vertcat(*_scalars(closed, t).values())])(design, state[0])
+    names_out = ["phi", "t", "p", "v", "work", "wall_heat", *_scalars(closed, t)]
+    outputs = [*ca.vertsplit(ca.horzcat(*nodes)), state[1], state[2], *ca.vertsplit(scalars)]
+    return ca.Function("closed", [design], outputs, ["design"], names_out)
+
+
+def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
+    ends = closed.starts + closed.duration
+    first, last = {
+        "before": (closed.closes, closed.starts),
+        "during": (closed.starts, ends),
+        "after": (ends, closed.opens),
+    }[phase]
+    power = _GRADING[phase]
+    return first + (last - first) * s**power, (last - first) * power * s ** (power - 1)
+
+
+def _rate(closed: Closed, phase: str, z: Any) -> Callable[[Any, Any, Any], Any]:
+    phi, y = ca.SX.sym("phi"), ca.SX.sym("y", 3)
+    slope = ca.Function("rate", [phi, y, z], [ca.vertcat(*rates(closed, phase, phi, y[0]))])
+    span = ca.Function("span", [y, z], [ca.vertcat(*_span(closed, phase, y[0]))])
+
+    def rate(s: Any, y: Any, z: Any) -> Any:
+        here = span(ca.vertcat(s, 0, 0), z)
+        return slope(here[0], y, z) * here[1]
+
+    return rate
+
+
+def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
+    s, y = ca.SX.sym("s"), ca.SX.sym("y", 3)
+    phi, _ = _span(closed, phase, s)
+    now, v = contents(closed, phase, phi), volume(closed.chamber, phi)[0]
+    p = now.mass * properties(closed.gas, y[0], now.burnt).gas_constant * y[0] / v
+    return ca.Function("node", [z, s, y], [ca.vertcat(phi, y[0], p, v)])
+
+
+def _scalars(closed: Closed, t_end: Any) -> dict[str, Any]:
+    first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
+    return {
+        "heat_released": closed.heat * last.burnt,
+        "fuel_energy": closed.fuel_energy * (last.mass - first.mass),
+        "energy_start": first.mass * properties(closed.gas, closed.temperature, first.burnt).energy,
+        "energy_end": last.mass * properties(closed.gas, t_end, last.burnt).energy,
+        "omega": closed.omega,
+        "mass": closed.mass,
+        "fuel": closed.fuel,
+        "displacement": closed.chamber.displacement,
+        "starts": closed.starts,
+    }
+
+
+def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant: Any) -> Any:
+    chamber = closed.chamber
+    swirl: Any = 0.0
+    if phase != "before":
+        v_ref = volume(chamber, closed.closes)[0]
+        motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
+        scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
+        swirl = motored_swirl(closed.law, p, motored, scale)
+    speed = chamber.stroke * closed.omega / ca.pi
+    state = GasState(p, t, v, gas_constant, chamber.bore, speed, swirl)
+    return heat_flux(closed.law, state) * wall_area(chamber, v) / closed.omega
