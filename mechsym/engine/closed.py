@@ -25,6 +25,10 @@ from mechsym.engine.runge_kutta import fold
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
 _GRADING = {"before": 1, "during": 4, "after": 1}
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
+NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
+# energies in J, masses in kg, angles in rad, omega in rad/s, displacement in m^3, stroke in m
+SCALARS = ("heat_released", "fuel_energy", "energy_start", "energy_end", "mass", "fuel", "omega", "closes", "starts",
+           "ends", "opens", "displacement", "stroke")  # fmt: skip
 _TINY = 1e-100  # keeps the derivatives of y^m finite at y = 0, where they are 0 times infinity
 
 
@@ -191,26 +195,25 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
     Returns
     -------
     function : casadi.Function
-        (design (k,)) -> `phi` [rad], `t` [K], `p` [Pa], `v` [m^3], each (1, steps + 1) at the ends of the steps, and
-        scalars: `work`, `wall_heat`, `heat_released`, `fuel_energy`, `energy_start`, `energy_end` [J], `omega`
-        [rad/s], `mass`, `fuel` [kg], `displacement` [m^3], `starts` [rad]
+        (design (k,)) -> the nodes `phi` [rad], `t` [K], `p` [Pa], `dt_dphi` [K/rad], `dp_dphi` [Pa/rad], each
+        (1, steps + 3), the two angles where phases meet standing twice; and the scalars `work`, `wall_heat` [J] and
+        the entries of `SCALARS`
     """
     z = ca.SX.sym("z", len(names))
     closed = build({name: z[k] for k, name in enumerate(names)})
     design = ca.MX.sym("design", len(names))
     state: Any = ca.Function("start", [z], [ca.vertcat(closed.temperature, 0.0, 0.0)])(design)
-    nodes = [_node(closed, "before", z)(design, 0.0, state)]
+    nodes = []
     for phase, share in _SHARES.items():
         n = round(share * steps)
-        history = fold(_rate(closed, phase, z), 3, len(names), n)(state, design)
-        ends = ca.DM([(k + 1) / n for k in range(n)]).T
-        nodes.append(_node(closed, phase, z)(ca.repmat(design, 1, n), ends, history))
+        history = ca.horzcat(state, fold(_rate(closed, phase, z), 3, len(names), n)(state, design))
+        s = ca.DM([k / n for k in range(n + 1)]).T
+        nodes.append(_node(closed, phase, z)(ca.repmat(design, 1, n + 1), s, history))
         state = history[:, -1]
     t = ca.SX.sym("t")
-    scalars = ca.Function("scalars", [z, t], [ca.vertcat(*_scalars(closed, t).values())])(design, state[0])
-    names_out = ["phi", "t", "p", "v", "work", "wall_heat", *_scalars(closed, t)]
+    scalars = ca.Function("scalars", [z, t], [ca.vertcat(*_scalars(closed, t))])(design, state[0])
     outputs = [*ca.vertsplit(ca.horzcat(*nodes)), state[1], state[2], *ca.vertsplit(scalars)]
-    return ca.Function("closed", [design], outputs, ["design"], names_out)
+    return ca.Function("closed", [design], outputs, ["design"], [*NODES, "work", "wall_heat", *SCALARS])
 
 
 def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
@@ -237,26 +240,33 @@ def _rate(closed: Closed, phase: str, z: Any) -> Callable[[Any, Any, Any], Any]:
 
 
 def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
-    s, y = ca.SX.sym("s"), ca.SX.sym("y", 3)
-    phi, _ = _span(closed, phase, s)
-    now, v = contents(closed, phase, phi), volume(closed.chamber, phi)[0]
-    p = now.mass * properties(closed.gas, y[0], now.burnt).gas_constant * y[0] / v
-    return ca.Function("node", [z, s, y], [ca.vertcat(phi, y[0], p, v)])
+    s, y, phi = ca.SX.sym("s"), ca.SX.sym("y", 3), ca.SX.sym("phi")
+    now = contents(closed, phase, phi)
+    p = now.mass * properties(closed.gas, y[0], now.burnt).gas_constant * y[0] / volume(closed.chamber, phi)[0]
+    dt = rates(closed, phase, phi, y[0])[0]
+    dp = ca.jacobian(p, phi) + ca.jacobian(p, y[0]) * dt
+    at_phi = ca.Function("at_phi", [z, phi, y], [ca.vertcat(phi, y[0], p, dt, dp)])
+    return ca.Function("node", [z, s, y], [at_phi(z, _span(closed, phase, s)[0], y)])
 
 
-def _scalars(closed: Closed, t_end: Any) -> dict[str, Any]:
+def _scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
-    return {
+    values = {
         "heat_released": closed.heat * last.burnt,
         "fuel_energy": closed.fuel_energy * (last.mass - first.mass),
         "energy_start": first.mass * properties(closed.gas, closed.temperature, first.burnt).energy,
         "energy_end": last.mass * properties(closed.gas, t_end, last.burnt).energy,
-        "omega": closed.omega,
         "mass": closed.mass,
         "fuel": closed.fuel,
-        "displacement": closed.chamber.displacement,
+        "omega": closed.omega,
+        "closes": closed.closes,
         "starts": closed.starts,
+        "ends": closed.starts + closed.duration,
+        "opens": closed.opens,
+        "displacement": closed.chamber.displacement,
+        "stroke": closed.chamber.stroke,
     }
+    return tuple(values[name] for name in SCALARS)
 
 
 def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant: Any) -> Any:
