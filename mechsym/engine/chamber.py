@@ -37,18 +37,19 @@ class Motion:
         (phi, parameters (k,)) -> x [m], dx_dphi [m/rad], d2x_dphi2 [m/rad^2]; scalars, mapped over columns
     parameters : mapping of str to float
         The k parameters in the order of the function's second input
-    mass : float
-        Mass that moves with each piston [kg]
+    masses : tuple of str
+        Parameters whose sum is the mass that moves with one piston
     bottom : float
         Crank angle of bottom dead centre, pi for every mechanism without offset [rad]
     loads : casadi.Function or None
-        (phi, parameters (k,), F [N]) -> named loads of the mechanism under the piston force F (pressure and inertia)
+        (phi, parameters (k,), omega [rad/s], F [N]) -> named loads of the mechanism at constant speed under the net
+        pressure force F on the piston
     """
 
     name: str
     function: ca.Function
     parameters: Mapping[str, Any]
-    mass: Any
+    masses: tuple[str, ...]
     bottom: float = np.pi
     loads: ca.Function | None = None
 
@@ -65,11 +66,14 @@ class ChamberParameters:
         Largest over smallest volume [-]
     pistons : int
         Pistons that bound the chamber: 1 under a head, or 2 opposed
+    back_pressure : float
+        Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]
     """
 
     bore: float = quantity("m", above=0, about="cylinder bore")
     compression_ratio: float = quantity("-", above=1, high=60, about="largest over smallest volume")
     pistons: int = 1
+    back_pressure: float = quantity("Pa", default=101325.0, low=0, about="absolute pressure behind the piston")
 
     def __post_init__(self) -> None:
         check(self)
@@ -91,6 +95,8 @@ class Chamber:
         Bore [m], area [m^2] and stroke [m] of one piston
     clearance, displacement : float
         Smallest volume, and swept volume of all pistons together [m^3]
+    back_pressure : float
+        Absolute pressure on the other side of the piston [Pa]
     """
 
     motion: Motion
@@ -100,6 +106,7 @@ class Chamber:
     stroke: Any
     clearance: Any
     displacement: Any
+    back_pressure: Any
 
 
 def chamber(parameters: Any, motion: Motion) -> Chamber:
@@ -125,7 +132,7 @@ def chamber(parameters: Any, motion: Motion) -> Chamber:
     clearance = displacement / (parameters.compression_ratio - 1)
     return Chamber(
         motion=motion, pistons=parameters.pistons, bore=parameters.bore, area=area, stroke=stroke,
-        clearance=clearance, displacement=displacement,
+        clearance=clearance, displacement=displacement, back_pressure=parameters.back_pressure,
     )  # fmt: skip
 
 
@@ -181,6 +188,22 @@ def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
     return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx
 
 
+def moving_mass(motion: Motion) -> Any:
+    """Mass that moves with one piston.
+
+    Parameters
+    ----------
+    motion : Motion
+        Motion of one piston
+
+    Returns
+    -------
+    mass : float or CasADi expression
+        Sum of the parameters named in `masses` [kg]
+    """
+    return sum(motion.parameters[name] for name in motion.masses)
+
+
 def wall_area(chamber: Chamber, v: Any) -> Any:
     r"""Surface that the gas touches.
 
@@ -206,9 +229,9 @@ def wall_area(chamber: Chamber, v: Any) -> Any:
 
 
 def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
-    r"""Force that one piston hands to its mechanism at constant speed, from absolute pressure and inertia.
+    r"""Force that one piston hands to its mechanism at constant speed, from pressure and inertia.
 
-    .. math:: F = p A - m\,x''\omega^2
+    .. math:: F = (p - p_b) A - m\,x''\omega^2
 
     Parameters
     ----------
@@ -219,7 +242,7 @@ def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
     omega : float or ndarray
         Crank speed [rad/s]
     p : float, ndarray or CasADi scalar
-        Pressure, less whatever acts on the piston's back [Pa]
+        Absolute pressure in the chamber [Pa]
 
     Returns
     -------
@@ -230,7 +253,8 @@ def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
     -----
     Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
     """
-    return p * chamber.area - chamber.motion.mass * travel(chamber.motion, phi)[2] * omega**2
+    net = (p - chamber.back_pressure) * chamber.area
+    return net - moving_mass(chamber.motion) * travel(chamber.motion, phi)[2] * omega**2
 
 
 def check_motion(motion: Motion) -> None:

@@ -26,9 +26,9 @@ _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; c
 _GRADING = {"before": 1, "during": 4, "after": 1}
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
 NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
-# energies in J, masses in kg, angles in rad, omega in rad/s, displacement in m^3, stroke in m
-SCALARS = ("heat_released", "fuel_energy", "energy_start", "energy_end", "mass", "fuel", "omega", "closes", "starts",
-           "ends", "opens", "displacement", "stroke")  # fmt: skip
+# energies in J (exchange_work: of the ideal gas exchange), masses in kg, angles in rad, omega in rad/s, m^3, m
+SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_start", "energy_end", "exchange_work",
+           "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
 _TINY = 1e-100  # keeps the derivatives of y^m finite at y = 0, where they are 0 times infinity
 
 
@@ -48,8 +48,9 @@ class Closed:
         State when the inlet closes [Pa], [K], [kg]
     fuel : float
         Mass of fuel [kg]
-    heat : float
-        Heat that complete combustion would release [J]
+    heat, fuel_heat, latent_heat : float
+        Heat that combustion releases when the Wiebe function has reached 1, heating value of the fuel, and latent heat
+        charged to the gas [J]
     fuel_energy : float
         Internal energy that fuel brings along when it turns into gas [J/kg]
     fuel_entry : str
@@ -71,6 +72,8 @@ class Closed:
     mass: Any
     fuel: Any
     heat: Any
+    fuel_heat: Any
+    latent_heat: Any
     fuel_energy: Any
     fuel_entry: str
     wiebe: tuple[Any, ...]
@@ -251,11 +254,15 @@ def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
 
 def _scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
+    v_closes, v_opens = (volume(closed.chamber, angle)[0] for angle in (closed.closes, closed.opens))
     values = {
         "heat_released": closed.heat * last.burnt,
+        "fuel_heat": closed.fuel_heat,
+        "latent_heat": closed.latent_heat,
         "fuel_energy": closed.fuel_energy * (last.mass - first.mass),
         "energy_start": first.mass * properties(closed.gas, closed.temperature, first.burnt).energy,
         "energy_end": last.mass * properties(closed.gas, t_end, last.burnt).energy,
+        "exchange_work": closed.pressure * (v_closes - v_opens),
         "mass": closed.mass,
         "fuel": closed.fuel,
         "omega": closed.omega,

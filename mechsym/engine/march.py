@@ -43,8 +43,8 @@ class March:
         Volume [m^3]
     mass, fuel : ndarray, shape (n,) and float
         Gas when the inlet closes with all of the fuel, and the fuel [kg]
-    heat_released, wall_heat, latent_heat : ndarray, shape (n,)
-        Sums over the steps [J]
+    heat_released, wall_heat, latent_heat : ndarray, shape (360, n)
+        Heats of the steps [J]
     """
 
     theta_deg: np.ndarray
@@ -74,7 +74,7 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
     Returns
     -------
     march : March
-        States and sums of heat
+        States and heats
 
     Notes
     -----
@@ -95,8 +95,7 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
         t[k + 1] = p[k + 1] * v[k + 1] / (mass * gas.gas_constant)
     return March(
         theta_deg=theta, omega=omega, p=p, t=t, v=v, mass=held.gas + held.fuel, fuel=held.fuel,
-        heat_released=released.sum(axis=0), wall_heat=lost.sum(axis=0),
-        latent_heat=cycle.latent_heat * vapour.sum(axis=0),
+        heat_released=released, wall_heat=lost, latent_heat=cycle.latent_heat * vapour,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from mechsym.engine.closed import Closed
 from mechsym.engine.friction import Friction
 from mechsym.engine.gas import ConstantGamma, NasaMixture, properties
 from mechsym.engine.heat import Law
-from mechsym.engine.spark_ignition import SparkIgnition, charge, timing, vapour_energy
+from mechsym.engine.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
 from mechsym.errors import BadInput
 
 
@@ -124,6 +124,7 @@ def closed_period(engine: Engine, design: Mapping[str, Any]) -> Closed:
         chamber=room, gas=engine.gas, law=engine.heat_transfer, omega=omega, closes=cycle.inlet_closes,
         starts=starts, duration=duration, opens=cycle.exhaust_opens, pressure=cycle.intake_pressure,
         temperature=cycle.intake_temperature, mass=held.gas, fuel=held.fuel, heat=held.heat,
+        fuel_heat=held.fuel * cycle.heating_value, latent_heat=held.fuel * latent_heat(cycle),
         fuel_energy=vapour_energy(cycle, engine.gas),
         fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
         wiebe=(cycle.wiebe_a, 1.0, cycle.wiebe_m, 1.0, 0.0),

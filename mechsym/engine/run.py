@@ -105,7 +105,7 @@ def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
 
 
 def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pressure and temperature between the nodes, by cubic Hermite polynomials.
+    """Pressure and temperature at the nodes and between them, by cubic Hermite polynomials; every angle stands once.
 
     Parameters
     ----------
@@ -126,7 +126,9 @@ def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarr
     u = np.arange(parts) / parts
     h = np.diff(result.phi, axis=1)[..., None]
     phi = _close(result.phi[:, :-1, None] + u * h, result.phi)
-    return phi, _hermite(result.p, result.dp_dphi, h, u), _hermite(result.t, result.dt_dphi, h, u)
+    once = np.append(np.any(np.diff(phi, axis=1) > 0, axis=0), True)
+    p, t = _hermite(result.p, result.dp_dphi, h, u), _hermite(result.t, result.dt_dphi, h, u)
+    return phi[:, once], p[:, once], t[:, once]
 
 
 def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> Run:

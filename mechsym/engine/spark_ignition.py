@@ -138,6 +138,22 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
     return Charge(density * v_closed, fuel, combustion_efficiency(cycle) * fuel * cycle.heating_value)
 
 
+def latent_heat(cycle: Any) -> Any:
+    """Latent heat that the cycle charges for a kilogram of fuel.
+
+    Parameters
+    ----------
+    cycle : SparkIgnition
+        The cycle's data
+
+    Returns
+    -------
+    heat : float
+        Latent heat, 0 for a charge that is vapour from the start [J/kg]
+    """
+    return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
+
+
 def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Any:
     """Internal energy that a kilogram of fuel brings along when it turns into vapour.
 
@@ -159,7 +175,7 @@ def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Any:
     """
     if cycle.vaporisation == "liquid_energy":
         return properties(gas, cycle.intake_temperature, 0.0).energy - cycle.latent_heat
-    return -cycle.latent_heat if cycle.vaporisation == "latent_heat" else 0.0
+    return -latent_heat(cycle)
 
 
 def timing(cycle: Any, omega: Any) -> tuple[Any, Any]:
@@ -180,33 +196,3 @@ def timing(cycle: Any, omega: Any) -> tuple[Any, Any]:
         Duration [rad]
     """
     return cycle.ignition + cycle.ignition_slope * omega, cycle.duration + cycle.duration_slope * omega
-
-
-def check_timing(cycle: SparkIgnition, omega: np.ndarray) -> None:
-    """Refuse speeds at which combustion does not fit into the closed period.
-
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-
-    Raises
-    ------
-    BadInput
-        Names the first speed, the angle and the bound it passes
-    """
-    start, duration = (np.broadcast_to(a, omega.shape) for a in timing(cycle, omega))
-    checks = [
-        (start <= cycle.inlet_closes, start, "ignition is before the inlet closes", cycle.inlet_closes),
-        (start >= cycle.exhaust_opens, start, "ignition is after the exhaust opens", cycle.exhaust_opens),
-        (duration <= 0, duration, "the duration of combustion is not positive", 0.0),
-        (start + duration > cycle.exhaust_opens, start + duration, "combustion ends after the exhaust opens",
-         cycle.exhaust_opens),
-    ]  # fmt: skip
-    for bad, angle, reason, bound in checks:
-        if bad.any():
-            k = int(np.argmax(bad))
-            raise BadInput(f"{reason}: {np.degrees(angle[k]):.2f} deg against {np.degrees(bound):.2f} deg from firing "
-                           f"TDC at {omega[k] * 30 / np.pi:.4g} rpm; change ignition, duration or their slopes")  # fmt: skip
