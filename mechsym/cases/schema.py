@@ -24,9 +24,53 @@ class Operation:
         check(self)
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Speeds:
+    """The speeds of a performance map.
+
+    Parameters
+    ----------
+    lowest, highest, step : float
+        First and last speed and the distance between speeds [rad/s]
+    """
+
+    lowest: float = quantity("rad/s", above=0, about="first speed")
+    highest: float = quantity("rad/s", above=0, about="last speed")
+    step: float = quantity("rad/s", above=0, about="distance between speeds")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.highest < self.lowest:
+            raise BadInput(f"highest = {self.highest:g} rad/s is below lowest = {self.lowest:g} rad/s")
+
+
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.schema:Operation",
+    "speeds": "mechsym.cases.schema:Speeds",
+    "chamber": "mechsym.engine.chamber:ChamberParameters",
+    "cycle": ("kind", {"spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition"}),
+    "gas": (
+        "model",
+        {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
+    ),
+    "heat_transfer": (
+        "law",
+        {
+            "annand": "mechsym.engine.heat:Annand",
+            "woschni": "mechsym.engine.heat:Woschni",
+            "hohenberg": "mechsym.engine.heat:Hohenberg",
+            "none": "mechsym.engine.heat:Adiabatic",
+        },
+    ),
+    "friction_pressure": (
+        "law",
+        {
+            "none": "mechsym.engine.friction:NoFriction",
+            "chen_flynn": "mechsym.engine.friction:ChenFlynn",
+            "heywood": "mechsym.engine.friction:Heywood",
+        },
+    ),
 }
 
 

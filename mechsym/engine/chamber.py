@@ -64,21 +64,21 @@ class ChamberParameters:
         Cylinder bore [m]
     compression_ratio : float
         Largest over smallest volume [-]
-    pistons : int
-        Pistons that bound the chamber: 1 under a head, or 2 opposed
+    pistons : float
+        Pistons that bound the chamber: 1 under a head, or 2 opposed [-]
     back_pressure : float
         Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]
     """
 
     bore: float = quantity("m", above=0, about="cylinder bore")
     compression_ratio: float = quantity("-", above=1, high=60, about="largest over smallest volume")
-    pistons: int = 1
+    pistons: float = quantity("-", default=1, about="1 under a head, or 2 opposed")
     back_pressure: float = quantity("Pa", default=101325.0, low=0, about="absolute pressure behind the piston")
 
     def __post_init__(self) -> None:
         check(self)
         if self.pistons not in (1, 2):
-            raise BadInput(f"pistons = {self.pistons!r} is not an option; options are 1 (under a head), 2 (opposed)")
+            raise BadInput(f"pistons = {self.pistons:g} is not an option; options are 1 (under a head), 2 (opposed)")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
