@@ -49,7 +49,14 @@ _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.schema:Operation",
     "speeds": "mechsym.cases.schema:Speeds",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
-    "cycle": ("kind", {"spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition"}),
+    "cycle": (
+        "kind",
+        {
+            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "diagram": "mechsym.engine.diagram:Diagram",
+            "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+        },
+    ),
     "gas": (
         "model",
         {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
