@@ -1,16 +1,21 @@
 """The engine of a case and what it does over the speeds: case -> motion -> engine -> performance."""
 
 from dataclasses import asdict
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.schema import Speeds
+from mechsym.engine.chamber import chamber, piston_force, travel, volume
 from mechsym.engine.friction import NoFriction
 from mechsym.engine.gas import ConstantGamma
-from mechsym.engine.model import Engine
+from mechsym.engine.march import march
+from mechsym.engine.model import Engine, closed_period
 from mechsym.engine.performance import Performance, performance
 from mechsym.engine.printed import performance_printed
+from mechsym.engine.run import at_angles, run
 from mechsym.engine.spark_ignition import SparkIgnition
 from mechsym.errors import BadInput
 from mechsym.motion import motion
@@ -104,3 +109,54 @@ def columns(found: Performance) -> dict[str, Any]:
         "brake_efficiency": found.brake_efficiency,
         "energy_residual": found.energy_residual,
     }
+
+
+def curves(engine: Engine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
+    """The closed period at one speed, curve by curve.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    omega : float
+        Crank speed [rad/s]
+    step : float
+        Distance of the angles; the printed method keeps its whole degrees [rad]
+
+    Returns
+    -------
+    curves : dict of str to ndarray, shape (k,)
+        `phi_deg` from firing top dead centre, `p_pa`, `t_k`, `v_m3`, `force_n` and `torque_nm` of one piston
+    """
+    room = chamber(engine.chamber, engine.motion)
+    if engine.cycle.method == "nunes2017_printed":
+        result = march(room, engine.cycle, engine.gas, engine.heat_transfer, np.array([omega]))
+        phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
+    else:
+        phi, p, t = at_angles(run(partial(closed_period, engine), {"omega": omega}), step)
+    force = piston_force(room, phi, omega, p)
+    return {
+        "phi_deg": np.degrees(phi),
+        "p_pa": p,
+        "t_k": t,
+        "v_m3": volume(room, phi)[0],
+        "force_n": force,
+        "torque_nm": force * travel(room.motion, phi)[1],
+    }
+
+
+def speed_range(speeds: Speeds) -> np.ndarray:
+    """The speeds of a performance map.
+
+    Parameters
+    ----------
+    speeds : Speeds
+        Section `[speeds]` of a case
+
+    Returns
+    -------
+    omega : ndarray, shape (n,)
+        lowest, lowest + step, .. up to highest [rad/s]
+    """
+    count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
+    return speeds.lowest + speeds.step * np.arange(count)

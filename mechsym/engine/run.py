@@ -131,6 +131,35 @@ def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return phi[:, once], p[:, once], t[:, once]
 
 
+def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pressure and temperature of the first point on even angles.
+
+    Parameters
+    ----------
+    result : Run
+        The closed period
+    step : float
+        Distance of the angles [rad]
+
+    Returns
+    -------
+    phi : ndarray, shape (k,)
+        From inlet closing to exhaust opening, both included [rad]
+    p : ndarray, shape (k,)
+        Pressure [Pa]
+    t : ndarray, shape (k,)
+        Temperature [K]
+    """
+    from scipy.interpolate import CubicHermiteSpline
+
+    once = np.append(np.diff(result.phi[0]) > 0, True)
+    nodes = result.phi[0, once]
+    phi = np.linspace(nodes[0], nodes[-1], round((nodes[-1] - nodes[0]) / step) + 1)
+    curves = ((result.p, result.dp_dphi), (result.t, result.dt_dphi))
+    p, t = (CubicHermiteSpline(nodes, y[0, once], slope[0, once])(phi) for y, slope in curves)
+    return phi, p, t
+
+
 def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> Run:
     function = closed_function(build, names, steps)
     found = {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in function.call({"design": values}).items()}
