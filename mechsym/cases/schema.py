@@ -78,6 +78,13 @@ _SECTIONS: dict[str, Any] = {
             "heywood": "mechsym.engine.friction:Heywood",
         },
     ),
+    "closing": (
+        "rule",
+        {
+            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+        },
+    ),
 }
 
 
