@@ -17,14 +17,14 @@ def crossovers(speed: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     speed : ndarray, shape (n,)
-        Increasing speeds, any unit
+        Increasing speeds, any unit [-]
     a, b : ndarray, shape (n,)
-        The curves
+        The curves, any unit [-]
 
     Returns
     -------
     crossings : ndarray, shape (k,)
-        Where a - b changes sign, straight between neighbours; unit of `speed`
+        Where a - b changes sign, straight between neighbours, unit of `speed` [-]
     """
     gap = a - b
     k = np.flatnonzero(gap[:-1] * gap[1:] < 0)

@@ -11,10 +11,9 @@ from mechsym.cases.schema import Speeds
 from mechsym.engine.chamber import chamber, piston_force, travel, volume
 from mechsym.engine.friction import NoFriction
 from mechsym.engine.gas import ConstantGamma
-from mechsym.engine.march import march
 from mechsym.engine.model import Engine, closed_period
 from mechsym.engine.performance import Performance, performance
-from mechsym.engine.printed import performance_printed
+from mechsym.engine.printed import marched, performance_printed
 from mechsym.engine.run import at_angles, run
 from mechsym.engine.spark_ignition import SparkIgnition
 from mechsym.errors import BadInput
@@ -130,7 +129,7 @@ def curves(engine: Engine, omega: float, step: float = np.radians(0.5)) -> dict[
     """
     room = chamber(engine.chamber, engine.motion)
     if engine.cycle.method == "nunes2017_printed":
-        result = march(room, engine.cycle, engine.gas, engine.heat_transfer, np.array([omega]))
+        result = marched(engine, np.array([omega]))
         phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
     else:
         phi, p, t = at_angles(run(partial(closed_period, engine), {"omega": omega}), step)

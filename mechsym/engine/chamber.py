@@ -275,4 +275,6 @@ def check_motion(motion: Motion) -> None:
     if not stroke > 0 or abs(x[0]) > 1e-9 * stroke or x.min() < -1e-9 * stroke:
         raise BadInput(f"motion {motion.name!r}: travel must be 0 at phi = 0 and positive elsewhere; min {x.min():g} m")
     if abs(dx[-1]) > 1e-9 * stroke or x[-1] < (1 - 1e-9) * stroke:
-        raise BadInput(f"motion {motion.name!r}: no bottom dead centre at phi = {motion.bottom:g} rad; set its `bottom`")
+        raise BadInput(
+            f"motion {motion.name!r}: no bottom dead centre at phi = {motion.bottom:g} rad; set its `bottom`"
+        )

@@ -21,6 +21,7 @@ from mechsym.engine.chamber import Chamber, volume, wall_area
 from mechsym.engine.gas import ConstantGamma, NasaMixture, properties
 from mechsym.engine.heat import GasState, Law, heat_flux, motored_swirl
 from mechsym.engine.runge_kutta import fold
+from mechsym.engine.wiebe import ddouble_wiebe_dy, double_wiebe
 
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
 _GRADING = {"before": 1, "during": 4, "after": 1}
@@ -29,7 +30,6 @@ NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
 # energies in J (exchange_work: of the ideal gas exchange), masses in kg, angles in rad, omega in rad/s, m^3, m
 SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_start", "energy_end", "exchange_work",
            "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
-_TINY = 1e-100  # keeps the derivatives of y^m finite at y = 0, where they are 0 times infinity
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,7 @@ class Closed:
     fuel_entry : str
         `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
     wiebe : tuple of float
-        a_p, a_d, m_p, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
+        a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
     """
 
     chamber: Chamber
@@ -88,36 +88,6 @@ class Contents(NamedTuple):
     mass_slope: Any
 
 
-def burnt_fraction(wiebe: tuple[Any, ...], y: Any) -> tuple[Any, Any]:
-    r"""Double Wiebe function and its derivative.
-
-    .. math:: f = (1-b)\{1 - e^{-a_p y^{m_p+1}}\} + b\{1 - e^{-a_d y^{m_d+1}}\}
-
-    Parameters
-    ----------
-    wiebe : tuple of float
-        a_p, a_d, m_p, m_d, b [-]
-    y : CasADi scalar
-        Share of the duration that has passed, 0 to 1 [-]
-
-    Returns
-    -------
-    f : CasADi scalar
-        Burnt share of the fuel [-]
-    df_dy : CasADi scalar
-        Derivative [-]
-    """
-    a_p, a_d, m_p, m_d, b = wiebe
-    total, slope = 0, 0
-    for share, a, m in ((1 - b, a_p, m_p), (b, a_d, m_d)):
-        if isinstance(share, (int, float)) and share == 0:
-            continue
-        power = ca.fmax(y, _TINY) ** m
-        left = ca.exp(-a * power * y)
-        total, slope = total + share * (1 - left), slope + share * a * (m + 1) * power * left
-    return total, slope
-
-
 def contents(closed: Closed, phase: str, phi: Any) -> Contents:
     """What the chamber holds at a crank angle.
 
@@ -136,8 +106,8 @@ def contents(closed: Closed, phase: str, phi: Any) -> Contents:
         burnt [-], burnt_slope [1/rad], mass [kg], mass_slope [kg/rad]
     """
     y = {"before": 0.0, "during": (phi - closed.starts) / closed.duration, "after": 1.0}[phase]
-    burnt, slope = (0.0, 0.0) if phase == "before" else burnt_fraction(closed.wiebe, y)
-    slope = slope / closed.duration if phase == "during" else 0.0
+    burnt = 0.0 if phase == "before" else double_wiebe(y, *closed.wiebe)
+    slope = ddouble_wiebe_dy(y, *closed.wiebe) / closed.duration if phase == "during" else 0.0
     match closed.fuel_entry:
         case "injected":
             return Contents(burnt, slope, closed.mass + closed.fuel * burnt, closed.fuel * slope)

@@ -3,7 +3,7 @@ r"""The thesis's explicit march in whole degrees, exactly as it must have been p
 The thesis counts theta = 0 at intake, 360 degrees at firing top dead centre; that count is kept in this module alone.
 One step from theta_1 to theta_2 = theta_1 + 1 degree, all speeds side by side:
 
-    p_2 = [2 (dQ_R - dQ_L - dQ_vap) + p_1 (6 V_1 - V_2)]/(6 V_2 - V_1),   T_2 = p_2 V_2/(m_2 R),   6 = (gamma+1)/(gamma-1)
+    p_2 = [2 (dQ_R - dQ_L - dQ_vap) + p_1 (6 V_1 - V_2)]/(6 V_2 - V_1),  T_2 = p_2 V_2/(m_2 R),  6 = (gamma+1)/(gamma-1)
 
 What the print leaves open, and what alone gives all 28 numbers of its chapter 3: the heat loss takes the gas at the
 start of the step and the area at its end; fuel evaporates in steps that end at or before ignition, adds its mass to m

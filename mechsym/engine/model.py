@@ -127,7 +127,7 @@ def closed_period(engine: Engine, design: Mapping[str, Any]) -> Closed:
         fuel_heat=held.fuel * cycle.heating_value, latent_heat=held.fuel * latent_heat(cycle),
         fuel_energy=vapour_energy(cycle, engine.gas),
         fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
-        wiebe=(cycle.wiebe_a, 1.0, cycle.wiebe_m, 1.0, 0.0),
+        wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0),
     )  # fmt: skip
 
 

@@ -148,12 +148,12 @@ def peak(phi: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     phi : ndarray, shape (n, k)
         Crank angles, increasing along a row [rad]
     y : ndarray, shape (n, k)
-        Values
+        Values, any unit [-]
 
     Returns
     -------
     largest : ndarray, shape (n,)
-        Largest value
+        Largest value, unit of `y` [-]
     angle : ndarray, shape (n,)
         Its crank angle [rad]
     """

@@ -17,6 +17,35 @@ _CV = 718.0  # table 3.2 [J/(kg K)]; R/(gamma - 1) is 717.5
 _LAST = -1  # the energy shares end at 539 degrees, one step before the exhaust opens
 
 
+def marched(engine: Engine, omega: np.ndarray) -> March:
+    """The thesis's march of an engine.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    omega : ndarray, shape (n,)
+        Crank speeds [rad/s]
+
+    Returns
+    -------
+    march : March
+        States at whole degrees
+
+    Raises
+    ------
+    BadInput
+        The march is only defined for a constant gamma and a closed period from -180 to 180 degrees
+    """
+    cycle = engine.cycle
+    if abs(cycle.inlet_closes + np.pi) > 1e-12 or abs(cycle.exhaust_opens - np.pi) > 1e-12:
+        raise BadInput(
+            "method = 'nunes2017_printed' marches from -180 to 180 degrees; set cycle.inlet_closes and "
+            "cycle.exhaust_opens to these"
+        )
+    return march(chamber(engine.chamber, engine.motion), cycle, _gas(engine), engine.heat_transfer, omega)
+
+
 def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
     r"""Figures of the thesis at its one-degree march.
 
@@ -35,18 +64,12 @@ def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
     performance : Performance
         Same entries as the converged figures; `unburnt` is the thesis's remainder (erratum E3)
 
-    Raises
-    ------
-    BadInput
-        The march is only defined for a constant gamma and a closed period from -180 to 180 degrees
-
     Notes
     -----
     Source: Nunes (2017), eqs. (2.51) to (2.53), (2.62) to (2.66), sections 5.1 and 5.2.
     """
-    gas = _check(engine)
     room = chamber(engine.chamber, engine.motion)
-    result = march(room, engine.cycle, gas, engine.heat_transfer, omega)
+    result, gas = marched(engine, omega), _gas(engine)
     fuel_heat = np.full(omega.shape, result.fuel * engine.cycle.heating_value)
     torque = mean_torque(room, result)
     top = np.argmax(result.p, axis=0)
@@ -71,13 +94,9 @@ def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
     )  # fmt: skip
 
 
-def _check(engine: Engine) -> ConstantGamma:
-    cycle = engine.cycle
+def _gas(engine: Engine) -> ConstantGamma:
     if not isinstance(engine.gas, ConstantGamma):
         raise BadInput("method = 'nunes2017_printed' marches with a constant gamma; set gas.model = 'constant_gamma'")
-    if abs(cycle.inlet_closes + np.pi) > 1e-12 or abs(cycle.exhaust_opens - np.pi) > 1e-12:
-        raise BadInput("method = 'nunes2017_printed' marches from -180 to 180 degrees; set cycle.inlet_closes and "
-                       "cycle.exhaust_opens to these")  # fmt: skip
     return engine.gas
 
 
@@ -95,4 +114,5 @@ def _loads(engine: Engine, angle: np.ndarray, omega: np.ndarray, result: March) 
     rows = [np.broadcast_to(a, net.shape).reshape(1, -1) for a in (angle, omega, net)]
     parameters = np.array(list(engine.motion.parameters.values())).reshape(-1, 1)
     found = loads.call([rows[0], parameters, rows[1], rows[2]])
-    return {n: np.abs(np.asarray(v)).reshape(net.shape).max(axis=0) for n, v in zip(loads.name_out(), found, strict=True)}
+    largest = (np.abs(np.asarray(v)).reshape(net.shape).max(axis=0) for v in found)
+    return dict(zip(loads.name_out(), largest, strict=True))

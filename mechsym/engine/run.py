@@ -100,8 +100,11 @@ def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
     ):
         if np.any(bad):
             k = int(np.argmax(bad))
-            raise BadInput(f"{reason}: {np.degrees(angle[k]):.2f} deg against {np.degrees(bound[k]):.2f} deg from firing "
-                           f"TDC at {scalars['omega'][k] * 30 / np.pi:.5g} rpm; change ignition or duration")  # fmt: skip
+            at, limit = np.degrees(angle[k]), np.degrees(bound[k])
+            raise BadInput(
+                f"{reason}: {at:.2f} deg against {limit:.2f} deg from firing TDC at "
+                f"{scalars['omega'][k] * 30 / np.pi:.5g} rpm; change ignition or duration"
+            )
 
 
 def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
