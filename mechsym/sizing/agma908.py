@@ -1,8 +1,8 @@
 """The tables of AGMA 908-B89 in the source's annex, as data, and the interpolation that the source made in them.
 
 `agma908.csv` holds tables A.2 to A.4 (25 degrees, whole depth 2.350, tool edge radius 0.270, thinning 0.024, load at
-the highest point of single tooth contact): I, J of pinion and gear, and how each line could be read. A scan error is named
-under `reading` with what the scan shows; the value stands as `gear_bending` and `gear_geometry` give it.
+the highest point of single tooth contact): I, J of pinion and gear, and how each line could be read. A scan error is
+named under `reading` with what the scan shows; the value stands as `gear_bending` and `gear_geometry` give it.
 Source: Nunes (2017), annex A.2 to A.4 and table 4.8. AGMA 908 advises against interpolating; the formulas need none.
 """
 

@@ -120,5 +120,5 @@ def line_half_width(F, length, R_1, R_2, E_star):
 
 def _curvature(R_1, R_2):
     curvature = 1 / R_1 + 1 / R_2
-    require("sum of curvatures 1/R_1 + 1/R_2", curvature, "1/m", above=0, hint="a hollow cylinder must be the larger one")
+    require("curvature 1/R_1 + 1/R_2", curvature, "1/m", above=0, hint="a hollow cylinder must be the larger")
     return curvature
