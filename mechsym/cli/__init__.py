@@ -12,6 +12,7 @@ COMMANDS = {
     "cases": "mechsym.cli.catalogue:cases",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
 }
 

@@ -9,6 +9,9 @@ from mechsym.mechanism import Mechanism, bind
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
+    "hypocycloid": "hypocycloid:HypocycloidParameters",
+    "rodless": "rodless:RodlessParameters",
+    "rodless_constraints": "rodless:RodlessParameters",
     "crankshaft_flywheel": "crankshaft_flywheel:CrankshaftFlywheelParameters",
     "crankshaft_flywheel_printed": "crankshaft_flywheel:CrankshaftFlywheelParameters",
 }
