@@ -10,11 +10,14 @@ from mechsym.errors import BadInput
 # command: "module:function"
 COMMANDS = {
     "cases": "mechsym.cli.catalogue:cases",
+    "compare": "mechsym.cli.compare:compare",
+    "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "simulate": "mechsym.cli.simulate:simulate",
+    "optimise": "mechsym.cli.optimise:optimise",
 }
 
 
