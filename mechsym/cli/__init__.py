@@ -16,8 +16,8 @@ COMMANDS = {
     "eval": "mechsym.cli.evaluate:evaluate",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
-    "simulate": "mechsym.cli.simulate:simulate",
     "optimise": "mechsym.cli.optimise:optimise",
+    "simulate": "mechsym.cli.simulate:simulate",
 }
 
 
