@@ -50,6 +50,17 @@ _SECTIONS: dict[str, Any] = {
             "heywood": "mechsym.engine.friction:Heywood",
         },
     ),
+    "load": (
+        "law",
+        {
+            "constant": "mechsym.loads:ConstantLoad",
+            "propeller": "mechsym.loads:PropellerLoad",
+            "table": "mechsym.loads:TableLoad",
+        },
+    ),
+    "drive": "mechsym.simulate.case:StepTorque",
+    "simulation": "mechsym.simulate.case:Simulation",
+    "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",
         {

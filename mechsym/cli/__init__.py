@@ -17,6 +17,7 @@ COMMANDS = {
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "optimise": "mechsym.cli.optimise:optimise",
+    "simulate": "mechsym.cli.simulate:simulate",
 }
 
 
