@@ -84,7 +84,7 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     Parameters
     ----------
     value : float, int or str
-        A plain number is taken as SI; a text may end in a unit
+        A plain number is taken as SI; a text may end in a unit [unit]
     unit : str
         The SI unit wanted, `"-"` for a pure number
     key : str
@@ -93,7 +93,7 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     Returns
     -------
     number : float
-        Value in `unit`
+        Value in SI [unit]
 
     Raises
     ------
@@ -149,11 +149,11 @@ def quantity(
     unit : str
         SI unit, `"-"` for a pure number
     default : float, optional
-        Value when none is given; without it the field must be given
+        Value when none is given; without it the field must be given [unit]
     above, below : float, optional
-        Bounds that the value must not reach
+        Bounds that the value must not reach [unit]
     low, high : float, optional
-        Bounds that the value may reach
+        Bounds that the value may reach [unit]
     about : str
         Meaning in a few words
 

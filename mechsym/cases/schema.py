@@ -34,6 +34,13 @@ _SECTIONS: dict[str, Any] = {
             "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
         },
     ),
+    "cycle": (
+        "kind",
+        {
+            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "diagram": "mechsym.engine.diagram:Diagram",
+        },
+    ),
 }
 
 
