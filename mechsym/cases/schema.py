@@ -11,14 +11,6 @@ _SECTIONS: dict[str, Any] = {
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
-    "load": (
-        "law",
-        {
-            "constant": "mechsym.loads:ConstantLoad",
-            "propeller": "mechsym.loads:PropellerLoad",
-            "table": "mechsym.loads:TableLoad",
-        },
-    ),
     "speeds": "mechsym.cases.settings:Speeds",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
