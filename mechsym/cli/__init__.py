@@ -7,14 +7,12 @@ import click
 
 from mechsym.errors import BadInput
 
+# command: "module:function"
 COMMANDS = {
-    "audit": "mechsym.cli.audit",
-    "cases": "mechsym.cli.catalogue",
-    "derive": "mechsym.cli.derive",
-    "eval": "mechsym.cli.evaluate",
-    "hinge": "mechsym.cli.hinge",
-    "mechanisms": "mechsym.cli.catalogue",
-    "simulate": "mechsym.cli.simulate",
+    "cases": "mechsym.cli.catalogue:cases",
+    "derive": "mechsym.cli.derive:derive",
+    "eval": "mechsym.cli.evaluate:evaluate",
+    "mechanisms": "mechsym.cli.catalogue:mechanisms",
 }
 
 
@@ -53,7 +51,8 @@ class LazyGroup(click.Group):
         """
         if cmd_name not in COMMANDS:
             return None
-        return getattr(importlib.import_module(COMMANDS[cmd_name]), cmd_name)
+        module, _, function = COMMANDS[cmd_name].partition(":")
+        return getattr(importlib.import_module(module), function)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

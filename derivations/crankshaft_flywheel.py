@@ -1,0 +1,38 @@
+"""Crankshaft and flywheel on a torsional spring, one slider crank, exact (Chmielewski et al. 2015, equations 1 to 8).
+
+    M -> [I0, phi0] --k1, c1-- [I2, phi2]        x0 = 0 at phi0 = 0 (top dead centre), positive away from the head,
+            r \\_ l  _ [m0] -> x0 <- F            F the gas force on the piston, positive away from the head.
+
+Massless rod, no gravity, no friction; c1 (torsional damping) is 0 in the paper. The rod force is positive in tension.
+"""
+
+from mechsym.derive import Mechanism, cos, sin
+
+
+def crankshaft_flywheel():
+    m = Mechanism("crankshaft_flywheel", source="002_d7297926d6c52225", about="Crankshaft and flywheel, exact.")
+    phi0, phi2 = m.coordinates("phi0 phi2")
+    I0, I2 = m.parameters("I0 I2", "kg*m^2")
+    r, l = m.parameters("r l", "m")
+    m0 = m.parameters("m0", "kg")
+    k1 = m.parameters("k1", "N*m/rad")
+    c1 = m.parameters("c1", "N*m*s/rad")
+    M = m.inputs("M", "N*m")
+    F = m.inputs("F", "N")
+
+    lam = m.let("lam", r / l, "-")  # (5)
+    gamma0 = m.angle("gamma0", sine=lam * sin(phi0))  # (4)
+    x0 = m.let("x0", r * (1 - cos(phi0)) + l * (1 - cos(gamma0)), "m")  # (8)
+    twist = m.let("twist", phi0 - phi2, "rad")
+
+    m.body("crank", turns=phi0, inertia=I0)
+    m.body("flywheel", turns=phi2, inertia=I2)
+    m.body("piston", mass=m0, at=(-x0, 0))
+    m.spring(k1, stretch=twist)
+    m.damper(c1, stretch=twist)
+    m.torque(M, along=phi0)
+    m.force(F, along=x0)
+    m.output(x0, order=2)
+    m.output(gamma0)
+    m.output_dynamic("rod_force", (m0 * m.acceleration(x0) - F) / cos(gamma0), "N")  # (3) with gas force
+    return m

@@ -1,0 +1,75 @@
+"""`mechsym eval`: a mechanism at one state."""
+
+import dataclasses
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.errors import BadInput
+
+
+@click.command("eval")
+@click.argument("name")
+@click.option("--case", "case_name", help="Case that gives the parameters; without it set them all.")
+@set_option
+@json_option
+def evaluate(name: str, case_name: str | None, overrides: tuple[str, ...], as_json: bool) -> None:
+    """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
+
+    What is not set is 0. mass_matrix * qdd + bias = generalized_force.
+
+    \b
+    Example: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
+    """
+    from mechsym.mechanism import state
+
+    mechanism, values = _read(name, case_name, pairs(overrides))
+    found = state(mechanism, values)
+    emit(found, as_json, lambda: "\n".join(_lines(found)))
+
+
+def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float]]:
+    from mechsym import mechanisms
+    from mechsym.mechanism import listing
+    from mechsym.quantities import parse
+
+    cls = mechanisms.parameters_class(name)
+    letters = listing(name)
+    units = letters["coordinates"] | letters["inputs"]
+    units |= {f"{q}d": f"{unit}/s" for q, unit in letters["coordinates"].items()}
+    parameters, values = _case_parameters(name, case_name), {}
+    for key, text in given.items():
+        if key in letters["parameters"]:
+            parameters[key] = parse(text, letters["parameters"][key], f"--set {key}")
+        elif key in units:
+            values[key] = parse(text, units[key], f"--set {key}")
+        else:
+            known = ", ".join([*units, *letters["parameters"]])
+            raise BadInput(f"--set {key}: {name} has no such letter; letters are {known}")
+    fields = dataclasses.fields(cls)
+    missing = [f.name for f in fields if f.name not in parameters and f.default is dataclasses.MISSING]
+    if missing:
+        raise BadInput(f"{name}: no value for {', '.join(missing)}; give --case or --set {missing[0]}=...")
+    return mechanisms.build(name, cls(**parameters)), values
+
+
+def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:
+    from mechsym import cases
+
+    if case_name is None:
+        return {}
+    case = cases.load(case_name)
+    from mechsym.mechanisms import parameters_class
+
+    parameters = case.need("parameters")
+    if not isinstance(parameters, parameters_class(name)):
+        raise BadInput(f"{case.file} is a case of {case.mechanism}, not of {name}; choose another with --case")
+    return dataclasses.asdict(parameters)
+
+
+def _lines(found: dict[str, Any]) -> list[str]:
+    flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
+    return [
+        f"{key:24s} {value:.12g}" if isinstance(value, float) else f"{key:24s} {value}" for key, value in flat.items()
+    ]

@@ -1,0 +1,47 @@
+"""The symbolic side: declare a mechanism, derive its exact equations, generate code from them. The only home of sympy
+besides `mechsym.audit`.
+
+declare.py    what a mechanism is made of (bodies, joints, springs, forces)
+tape.py       named intermediates and their named derivatives
+lagrange.py   mass matrix, bias, generalised forces, energies, reactions
+textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
+identity.py   is an expression zero? numbers at 50 digits and a polynomial certificate
+printer.py    sympy -> CasADi text and expressions
+emit.py       one readable module of Python per mechanism
+listing.py    the equations as LaTeX and MathML for reports
+build.py      from derivations/ to generated/, or compare the two
+"""
+
+from sympy import (
+    Abs,
+    And,
+    Max,
+    Min,
+    Mod,
+    Not,
+    Or,
+    Piecewise,
+    Rational,
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    exp,
+    log,
+    pi,
+    sign,
+    sin,
+    sqrt,
+    tan,
+)
+
+from mechsym.derive.declare import Mechanism
+from mechsym.derive.lagrange import Equations, derive
+from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi
+
+__all__ = [
+    "Abs", "And", "Equations", "Max", "Mechanism", "Min", "Mod", "Not", "Or", "Piecewise", "Rational",
+    "UnsupportedNode", "acos", "asin", "atan", "atan2", "casadi_text", "cos", "derive", "exp", "log", "pi", "sign",
+    "sin", "sqrt", "tan", "to_casadi",
+]  # fmt: skip

@@ -1,0 +1,288 @@
+"""One readable module of Python per mechanism: header, tables of names, one function per group of equations."""
+
+import hashlib
+import textwrap
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy
+from sympy import Expr, Integer, Symbol, cse, numbered_symbols
+
+from mechsym.derive.lagrange import Equations
+from mechsym.derive.printer import casadi_text
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group:
+    """One generated function.
+
+    Parameters
+    ----------
+    name, about : str
+        Function name and first line of its docstring
+    outputs : mapping of str to Expr
+        What it returns, in order
+    """
+
+    name: str
+    about: str
+    outputs: Mapping[str, Expr]
+
+
+def groups(equations: Equations) -> list[Group]:
+    """The functions that are generated for a mechanism.
+
+    Parameters
+    ----------
+    equations : Equations
+        Derived equations
+
+    Returns
+    -------
+    groups : list of Group
+        Flat list, in the order of the module
+    """
+    q = [v.name for v in equations.mechanism.q]
+    mass = {f"mass_{a}_{b}": equations.mass_matrix[i][j] for i, a in enumerate(q) for j, b in enumerate(q)}
+    bias = {f"bias_{a}": e for a, e in zip(q, equations.bias, strict=True)}
+    force = {f"force_{a}": e for a, e in zip(q, equations.generalized_force, strict=True)}
+    found = [
+        Group(name="kinematics", about="Kinematics at given coordinates.", outputs=equations.kinematics),
+        Group(
+            name="dynamics",
+            about="Equations of motion: mass * qdd + bias = force (gravity, springs, dampers, inputs).",
+            outputs=mass | bias | force,
+        ),
+    ]
+    if equations.kinetic_energy is not None and equations.potential_energy is not None:
+        energy = {"kinetic_energy": equations.kinetic_energy, "potential_energy": equations.potential_energy}
+        found.append(Group(name="energy", about="Energies; the potential is zero at the origin.", outputs=energy))
+    if equations.reactions:
+        about = "Joint reactions (first body on second) and other outputs that need accelerations."
+        found.append(Group(name="reactions", about=about, outputs=equations.reactions))
+    if equations.constraint_jacobian:
+        names = list(equations.mechanism.constraints)
+        rows = zip(names, equations.constraint_jacobian, strict=True)
+        jacobian = {f"jacobian_{c}_{a}": e for c, row in rows for a, e in zip(q, row, strict=True)}
+        velocity_terms = {f"bias_{c}": e for c, e in zip(names, equations.constraint_bias, strict=True)}
+        about = "Constraints: jacobian * qdd + bias = 0."
+        found.append(Group(name="constraints", about=about, outputs=jacobian | velocity_terms))
+    return found
+
+
+def assignments(equations: Equations, outputs: Mapping[str, Expr]) -> tuple[list[tuple[Symbol, Expr]], dict[str, Expr]]:
+    """The needed part of the tape in order, joints held at zero, repeated terms named `_t0, _t1, ...`.
+
+    Parameters
+    ----------
+    equations : Equations
+        Derived equations
+    outputs : mapping of str to Expr
+        What is wanted
+
+    Returns
+    -------
+    steps : list of (Symbol, Expr)
+        Assignments in order
+    results : dict of str to Expr
+        The outputs in terms of them
+    """
+    tape = equations.mechanism.tape
+    held: dict[Symbol, Expr] = dict.fromkeys(equations.mechanism.joint_list, Integer(0))
+    trivial, lines = dict(held), {}
+    names_of: dict[Expr, Expr] = {}
+    for symbol in tape.needed(outputs.values()):
+        value = tape.entries[symbol].xreplace(trivial)
+        if value.is_Number or value.is_Symbol or (-value).is_Symbol:
+            trivial[symbol] = value
+        elif value in names_of:
+            trivial[symbol] = names_of[value]
+        else:
+            lines[symbol] = value
+            names_of |= {value: symbol, -value: -symbol}
+    results = {name: e.xreplace(trivial) for name, e in outputs.items()}
+    names = _reachable(lines, results.values())
+    common, reduced = cse([*(lines[n] for n in names), *results.values()], numbered_symbols("_t"), order="canonical")
+    ordered = _interleave(names, reduced[: len(names)], dict(common))
+    placed = {s for s, _ in ordered}
+    tail = _interleave([], [], {s: e for s, e in common if s not in placed}, reduced[len(names) :])
+    return ordered + tail, dict(zip(results, reduced[len(names) :], strict=True))
+
+
+def _reachable(lines: Mapping[Symbol, Expr], wanted: object) -> list[Symbol]:
+    todo, seen = list(wanted), set()  # type: ignore[call-overload]
+    while todo:
+        for symbol in todo.pop().free_symbols & lines.keys():
+            if symbol not in seen:
+                seen.add(symbol)
+                todo.append(lines[symbol])
+    return [s for s in lines if s in seen]
+
+
+def _interleave(
+    names: list[Symbol], values: list[Expr], common: dict[Symbol, Expr], extra: list[Expr] | None = None
+) -> list[tuple[Symbol, Expr]]:
+    steps: list[tuple[Symbol, Expr]] = []
+    placed: set[Symbol] = set()
+
+    def require(expression: Expr) -> None:
+        for symbol in sorted(expression.free_symbols & common.keys(), key=lambda s: int(s.name[2:])):
+            if symbol not in placed:
+                placed.add(symbol)
+                require(common[symbol])
+                steps.append((symbol, common[symbol]))
+
+    for name, value in zip(names, values, strict=True):
+        require(value)
+        steps.append((name, value))
+    for value in extra or []:
+        require(value)
+    return steps
+
+
+def arguments(equations: Equations, steps: list[tuple[Symbol, Expr]], results: Mapping[str, Expr]) -> list[str]:
+    """Letters that a function needs, in the order coordinates, velocities, accelerations, inputs, parameters.
+
+    Parameters
+    ----------
+    equations : Equations
+        Derived equations
+    steps : list of (Symbol, Expr)
+        Assignments
+    results : mapping of str to Expr
+        Outputs
+
+    Returns
+    -------
+    names : list of str
+        Argument names
+
+    Raises
+    ------
+    ValueError
+        A letter that was never declared
+    """
+    m = equations.mechanism
+    used = {s.name for e in [*(v for _, v in steps), *results.values()] for s in e.free_symbols}
+    order = [*m.q, *m.velocities(), *m.accelerations(), *m.input_list, *m.parameter_list]
+    known = [s.name for s in order]
+    unknown = used - set(known) - {s.name for s, _ in steps}
+    if unknown:
+        raise ValueError(f"{m.name}: undeclared letters {sorted(unknown)}; declare them as parameters or inputs")
+    return [name for name in known if name in used]
+
+
+def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
+    """Text of one generated function and its arguments.
+
+    Parameters
+    ----------
+    equations : Equations
+        Derived equations
+    group : Group
+        What to generate
+
+    Returns
+    -------
+    text : str
+        Python source of the function
+    names : list of str
+        Its arguments
+    """
+    steps, results = assignments(equations, group.outputs)
+    names = arguments(equations, steps, results)
+    m = equations.mechanism
+    units = m.units | {v.name: f"{m.units[q.name]}/s" for q, v in zip(m.q, m.velocities(), strict=True)}
+    units |= {a.name: f"{m.units[q.name]}/s^2" for q, a in zip(m.q, m.accelerations(), strict=True)}
+    given = ", ".join(f"{n} [{units[n]}]" for n in names)
+    body = [f"{s.name} = {casadi_text(e)}" for s, e in steps]
+    body += [f"{n} = {casadi_text(e)}" for n, e in results.items() if e != Symbol(n, real=True)]
+    doc = _wrapped(f"Takes {given or 'nothing'}.") + _wrapped(f"Returns {', '.join(results)}.")
+    lines = [f"def {group.name}({', '.join(names)}):", f'    """{group.about}', "", *doc, '    """']
+    lines += [f"    {line}" for line in body]
+    return "\n".join([*lines, f"    return {', '.join(results)}{',' if len(results) == 1 else ''}"]), names
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, 114, initial_indent="    ", subsequent_indent="        ")
+
+
+def module_text(equations: Equations, script: str, source_hash: str) -> str:
+    """Text of the generated module with its header.
+
+    Parameters
+    ----------
+    equations : Equations
+        Derived equations
+    script : str
+        Path of the derivation from the project's top, for the header
+    source_hash : str
+        Hash of the derivation and of `mechsym/derive`
+
+    Returns
+    -------
+    text : str
+        Python source
+    """
+    m = equations.mechanism
+    parts, table = [], []
+    for group in groups(equations):
+        text, names = function_text(equations, group)
+        parts.append(text)
+        table.append(f'    "{group.name}": (\n        {tuple(names)!r},\n        {tuple(group.outputs)!r},\n    ),')
+    head = [
+        f'"""{m.about or m.name} Source: {m.source}."""',
+        "",
+        "import casadi as ca",
+        "",
+        f'NAME = "{m.name}"',
+        f'SOURCE = "{m.source}"',
+        f"COORDINATES = {tuple(s.name for s in m.q)!r}",
+        f"INPUTS = {tuple(s.name for s in m.input_list)!r}",
+        f"PARAMETERS = {tuple(s.name for s in m.parameter_list)!r}",
+        "# function: (arguments, outputs)",
+        "FUNCTIONS = {",
+        *table,
+        "}",
+    ]
+    body = "\n".join(head) + "\n\n\n" + "\n\n\n".join(parts) + "\n"
+    return header(script, source_hash, digest(body)) + body
+
+
+def header(script: str, source_hash: str, body_hash: str) -> str:
+    """The stamp of a generated file: what it came from and that it is not to be edited.
+
+    Parameters
+    ----------
+    script : str
+        Path of the derivation
+    source_hash, body_hash : str
+        16 hex digits each
+
+    Returns
+    -------
+    text : str
+        Comment lines
+    """
+    return (
+        f"# Generated from {script} by mechsym.derive. Do NOT edit: run `make derive`.\n"
+        f"# source sha256: {source_hash}   ({script} + mechsym/derive/*.py, newlines normalised)\n"
+        f"# body   sha256: {body_hash}   (everything below this header)\n"
+        f"# sympy {sympy.__version__}\n"
+    )
+
+
+def digest(text: str) -> str:
+    """First 16 hex digits of the SHA-256 of a text with newlines normalised.
+
+    Parameters
+    ----------
+    text : str
+        Any text
+
+    Returns
+    -------
+    digits : str
+        16 hex digits
+    """
+    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()[:16]

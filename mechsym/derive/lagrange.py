@@ -1,0 +1,164 @@
+r"""Exact equations of motion from a declaration, in the geometric form.
+
+With body positions as explicit functions of the coordinates,
+
+.. math:: M = \sum J^T m J, \quad h = \sum J^T m \dot J u, \quad M \ddot q + h = Q(q, u)
+
+is Lagrange's equation (textbook.py proves it for every mechanism) at a fraction of its operations. A joint
+displacement is one more coordinate whose acceleration is zero: its equation gives the reaction.
+"""
+
+from dataclasses import dataclass
+
+from sympy import Expr, Integer, Rational, Symbol
+
+from mechsym.derive.declare import Body, Mechanism
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equations:
+    """The derived equations of a mechanism; every expression is in the names of its tape.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The declaration, with its tape
+    mass_matrix : tuple of tuple of Expr, shape (n, n)
+        Mass matrix
+    bias, generalized_force : tuple of Expr, shape (n,)
+        Velocity terms on the left; gravity, springs, dampers and inputs on the right
+    kinetic_energy, potential_energy : Expr or None
+        Energies; None for a model given only by its equations
+    reactions : dict of str to Expr
+        Joint reactions and dynamic outputs by name
+    kinematics : dict of str to Expr
+        Kinematic outputs by name
+    constraint_jacobian : tuple of tuple of Expr, shape (m, n)
+        Rows of the constraints, empty without constraints
+    constraint_bias : tuple of Expr, shape (m,)
+        Velocity terms of the constraints' second derivatives
+    """
+
+    mechanism: Mechanism
+    mass_matrix: tuple[tuple[Expr, ...], ...]
+    bias: tuple[Expr, ...]
+    generalized_force: tuple[Expr, ...]
+    kinetic_energy: Expr | None
+    potential_energy: Expr | None
+    reactions: dict[str, Expr]
+    kinematics: dict[str, Expr]
+    constraint_jacobian: tuple[tuple[Expr, ...], ...] = ()
+    constraint_bias: tuple[Expr, ...] = ()
+
+
+def derive(m: Mechanism) -> Equations:
+    """Exact equations of a declared mechanism.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+
+    Returns
+    -------
+    equations : Equations
+        Mass matrix, bias, forces, energies, reactions
+    """
+    if m.given is not None:
+        rows, bias, force = m.given
+        return Equations(
+            mechanism=m,
+            mass_matrix=tuple(map(tuple, rows)),
+            bias=tuple(bias),
+            generalized_force=tuple(force),
+            kinetic_energy=None,
+            potential_energy=None,
+            reactions=dict(m.dynamic_outputs),
+            kinematics={s.name: s for s in m.kinematic_outputs},
+        )
+    mass = [[_mass(m, a, b) for b in m.q] for a in m.q]
+    kinematics: dict[str, Expr] = {s.name: s for s in m.kinematic_outputs}
+    if len(m.q) == 1:
+        inertia = m.let("inertia", mass[0][0], "kg*m^2")
+        mass = [[inertia]]
+        kinematics["inertia"] = inertia
+        kinematics[f"dinertia_d{m.q[0].name}"] = m.tape.derivative(inertia, m.q[0])
+    return Equations(
+        mechanism=m,
+        mass_matrix=tuple(map(tuple, mass)),
+        bias=tuple(_bias(m, v) for v in m.q),
+        generalized_force=tuple(generalized_force(m, v) for v in m.q),
+        kinetic_energy=_kinetic_energy(m, mass),
+        potential_energy=_potential_energy(m),
+        reactions={f"R_{e.name}": _reaction(m, e) for e in m.joint_list} | m.dynamic_outputs,
+        kinematics=kinematics,
+        constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
+        constraint_bias=tuple(m.curvature(g) for g in m.constraints.values()),
+    )
+
+
+def _mass(m: Mechanism, a: Symbol, b: Symbol) -> Expr:
+    return sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0))
+
+
+def _body_mass(m: Mechanism, body: Body, a: Symbol, b: Symbol) -> Expr:
+    d = m.tape.diff
+    turning = body.inertia * d(body.turns, a) * d(body.turns, b)
+    if body.about_axis:
+        return turning
+    return body.mass * sum((d(p, a) * d(p, b) for p in body.at), Integer(0)) + turning
+
+
+def _bias(m: Mechanism, a: Symbol) -> Expr:
+    return sum((_body_bias(m, body, a) for body in m.bodies), Integer(0))
+
+
+def _body_bias(m: Mechanism, body: Body, a: Symbol) -> Expr:
+    d = m.tape.diff
+    turning = body.inertia * d(body.turns, a) * m.curvature(body.turns)
+    if body.about_axis:
+        return turning
+    return body.mass * sum((d(p, a) * m.curvature(p) for p in body.at), Integer(0)) + turning
+
+
+def generalized_force(m: Mechanism, a: Symbol) -> Expr:
+    r"""Generalised force by virtual work, :math:`Q_a = \sum f\,\partial s / \partial a`.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+    a : Symbol
+        Coordinate or joint displacement
+
+    Returns
+    -------
+    force : Expr
+        Gravity, springs, dampers and applied forces together
+    """
+    d = m.tape.diff
+    weight = [b.mass * g * d(p, a) for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
+    applied = [f.value * d(f.along, a) for f in m.forces]
+    springs = [-s.value * s.along * d(s.along, a) for s in m.springs]
+    dampers = [-c.value * m.velocity(c.along) * d(c.along, a) for c in m.dampers]
+    return m.tape.named(sum([*weight, *applied, *springs, *dampers], Integer(0)))
+
+
+def _reaction(m: Mechanism, joint: Symbol) -> Expr:
+    d, total = m.tape.diff, Integer(0)
+    for body in m.bodies:
+        total += body.mass * sum((m.acceleration(p) * d(p, joint) for p in body.at), Integer(0))
+        total += body.inertia * m.acceleration(body.turns) * d(body.turns, joint)
+    return total - generalized_force(m, joint)
+
+
+def _kinetic_energy(m: Mechanism, mass: list[list[Expr]]) -> Expr:
+    u = m.velocities()
+    terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
+    return Rational(1, 2) * sum(terms, Integer(0))
+
+
+def _potential_energy(m: Mechanism) -> Expr:
+    weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
+    springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
+    return m.tape.named(sum([*weight, *springs], Integer(0)))

@@ -1,0 +1,246 @@
+"""Named intermediates and their named derivatives.
+
+A tape is an ordered list of assignments `name = expression` in earlier names, coordinates and parameters. A derivative
+of a name is itself a name, made once on first use: the second derivative of `x` by `phi` is `d2x_dphi2`. The sine and
+cosine of a coordinate or of a named angle are names too (`sin_phi`, `cos_phi`), so that everything stays polynomial
+in them and no derivative is ever expanded into trigonometric functions.
+"""
+
+from collections.abc import Callable, Iterable
+
+from sympy import Expr, Float, Integer, Symbol, asin, cos, sin, sqrt, sympify
+
+Rule = Callable[[Symbol], Expr]
+
+
+class Tape:
+    """Ordered assignments with derivatives by the chain rule.
+
+    Parameters
+    ----------
+    coordinates : iterable of Symbol
+        What intermediates are differentiated by and may take sine and cosine of
+    """
+
+    def __init__(self, coordinates: Iterable[Symbol] = ()) -> None:
+        self.variables = list(coordinates)
+        self.entries: dict[Symbol, Expr] = {}
+        self._rules: dict[Symbol, Rule] = {}
+        self._derived_from: dict[Symbol, tuple[Symbol, tuple[Symbol, ...]]] = {}
+        self._derivatives: dict[tuple[Symbol, Symbol], Expr] = {}
+
+    def define(self, name: str, value: Expr | int) -> Symbol:
+        """Put `name = value` on the tape.
+
+        Parameters
+        ----------
+        name : str
+            A new identifier
+        value : Expr
+            Expression in earlier names, coordinates and parameters; no floating-point numbers
+
+        Returns
+        -------
+        symbol : Symbol
+            The name as a symbol
+
+        Raises
+        ------
+        ValueError
+            The name is taken, is not an identifier, or the value holds a Float
+        """
+        symbol, expression = Symbol(name, real=True), self.named(sympify(value))
+        if not name.isidentifier() or name.startswith("_"):
+            raise ValueError(f"{name!r} is not a usable name; use letters, digits and inner underscores")
+        if symbol in self.entries or symbol in self.variables:
+            raise ValueError(f"the name {name!r} is taken; give the new intermediate another one")
+        if expression.has(Float):
+            raise ValueError(f"{name} holds a floating-point number; write a Rational or make it a parameter")
+        self.entries[symbol] = expression
+        return symbol
+
+    def define_angle(self, name: str, sine: Expr) -> Symbol:
+        """Put an angle in (-pi/2, pi/2) on the tape by its sine, with its cosine as a name of its own.
+
+        Parameters
+        ----------
+        name : str
+            Name of the angle; `sin_name` and `cos_name` are defined with it
+        sine : Expr
+            Sine of the angle
+
+        Returns
+        -------
+        angle : Symbol
+            The angle
+        """
+        s = self.define(f"sin_{name}", sine)
+        c = self.define(f"cos_{name}", sqrt(1 - s**2))
+        angle = self.define(name, asin(s))
+        self._rules[angle] = lambda v: self.derivative(s, v) / c
+        self._rules[c] = lambda v: -s * self.derivative(angle, v)
+        return angle
+
+    def named(self, expression: Expr) -> Expr:
+        """Replace sine and cosine of single names by the tape's names for them.
+
+        Parameters
+        ----------
+        expression : Expr
+            Any expression
+
+        Returns
+        -------
+        expression : Expr
+            The same value
+        """
+        found = sorted(expression.atoms(sin, cos), key=str)
+        return expression.xreplace({f: self._circular(f) for f in found})
+
+    def _circular(self, function: Expr) -> Expr:
+        angle = function.args[0]
+        if angle not in self.entries and angle not in self.variables:
+            return function
+        s, c = (Symbol(f"{f}_{angle.name}", real=True) for f in ("sin", "cos"))
+        if s not in self.entries:
+            self.entries[s], self.entries[c] = sin(angle), cos(angle)
+            self._rules[s] = lambda v: c * self.derivative(angle, v)
+            self._rules[c] = lambda v: -s * self.derivative(angle, v)
+        return s if isinstance(function, sin) else c
+
+    def diff(self, expression: Expr, variable: Symbol) -> Expr:
+        """Total derivative of an expression in names.
+
+        Parameters
+        ----------
+        expression : Expr
+            Expression in names, coordinates and parameters
+        variable : Symbol
+            Coordinate or joint displacement
+
+        Returns
+        -------
+        derivative : Expr
+            Expression in names, among them new named derivatives
+        """
+        expression = self.named(expression)
+        symbols = sorted(expression.free_symbols, key=lambda s: s.name)
+        return sum((expression.diff(s) * self.derivative(s, variable) for s in symbols), Integer(0))
+
+    def derivative(self, symbol: Symbol, variable: Symbol) -> Expr:
+        """Derivative of one name, itself a name unless it is a number or a single symbol.
+
+        Parameters
+        ----------
+        symbol : Symbol
+            A name, coordinate or parameter
+        variable : Symbol
+            Coordinate or joint displacement
+
+        Returns
+        -------
+        derivative : Expr
+            Usually a symbol such as `dx_dphi`
+        """
+        if symbol == variable:
+            return Integer(1)
+        if symbol not in self.entries:
+            return Integer(0)
+        if (symbol, variable) not in self._derivatives:
+            self._derivatives[symbol, variable] = self._make_derivative(symbol, variable)
+        return self._derivatives[symbol, variable]
+
+    def _make_derivative(self, symbol: Symbol, variable: Symbol) -> Expr:
+        rule = self._rules.get(symbol)
+        value = rule(variable) if rule else self.diff(self.entries[symbol], variable)
+        if value.is_Number or value.is_Symbol or (-value).is_Symbol:
+            return value
+        root, by = self.derived_from(symbol)
+        by = tuple(sorted([*by, variable], key=self.variables.index))
+        name = Symbol(derivative_name(root.name, [v.name for v in by]), real=True)
+        if name not in self.entries:
+            self.entries[name] = value
+            self._derived_from[name] = (root, by)
+        return name
+
+    def derived_from(self, symbol: Symbol) -> tuple[Symbol, tuple[Symbol, ...]]:
+        """What a name is the derivative of, and by which variables.
+
+        Parameters
+        ----------
+        symbol : Symbol
+            Any name
+
+        Returns
+        -------
+        root : Symbol
+            The name itself when it is no derivative
+        by : tuple of Symbol
+            Variables with repetition, empty when it is no derivative
+        """
+        return self._derived_from.get(symbol, (symbol, ()))
+
+    def flat(self, expression: Expr) -> Expr:
+        """The expression with every name replaced by its definition, down to coordinates and parameters.
+
+        Parameters
+        ----------
+        expression : Expr
+            Expression in names
+
+        Returns
+        -------
+        expression : Expr
+            Closed form
+        """
+        values: dict[Symbol, Expr] = {}
+        for symbol in self.needed([expression]):
+            values[symbol] = self.entries[symbol].xreplace(values)
+        return expression.xreplace(values)
+
+    def needed(self, expressions: Iterable[Expr]) -> list[Symbol]:
+        """Names that the expressions depend on, in the order of definition.
+
+        Parameters
+        ----------
+        expressions : iterable of Expr
+            Expressions in names
+
+        Returns
+        -------
+        names : list of Symbol
+            An order in which each name follows what it uses
+        """
+        done: dict[Symbol, None] = {}
+
+        def visit(expression: Expr) -> None:
+            for symbol in sorted(expression.free_symbols & self.entries.keys(), key=lambda s: s.name):
+                if symbol not in done:
+                    visit(self.entries[symbol])
+                    done[symbol] = None
+
+        for expression in expressions:
+            visit(expression)
+        return list(done)
+
+
+def derivative_name(root: str, by: list[str]) -> str:
+    """Name of a derivative: `dx_dphi`, `d2x_dphi2`, and `d2x0_dphi0_dphi0` where a letter ends in a digit.
+
+    Parameters
+    ----------
+    root : str
+        What is differentiated
+    by : list of str
+        What it is differentiated by, with repetition
+
+    Returns
+    -------
+    name : str
+        An identifier
+    """
+    order = len(by)
+    head = f"d{root}" if order == 1 else f"d{order}{root}"
+    if len(set(by)) == 1 and order > 1 and not by[0][-1].isdigit():
+        return f"{head}_d{by[0]}{order}"
+    return "_".join([head, *(f"d{v}" for v in by)])
