@@ -221,9 +221,7 @@ def test_symbolic_backends_refuse_what_they_cannot_do(name, monkeypatch):
     with pytest.raises(BadInput, match="no events"):
         simulate(braked(), Settings(backend=name))
     with pytest.raises(BadInput, match="plain callables"):
-        simulate(
-            stepped(parts=(Part(name="drive", input="M", value=lambda t, q, u: 1.0),)), Settings(backend=name)
-        )
+        simulate(stepped(parts=(Part(name="drive", input="M", value=lambda t, q, u: 1.0),)), Settings(backend=name))
 
 
 def test_missing_heyoka_names_the_extra(monkeypatch):
@@ -233,9 +231,7 @@ def test_missing_heyoka_names_the_extra(monkeypatch):
 
 
 def test_chaos_is_reported():
-    problem = Problem(
-        mechanism=double_pendulum(), parts=(), q0=(2.5, 2.0), u0=(0.0, 0.0), t_end=60.0, output=0.05
-    )
+    problem = Problem(mechanism=double_pendulum(), parts=(), q0=(2.5, 2.0), u0=(0.0, 0.0), t_end=60.0, output=0.05)
     result = simulate(problem, Settings(tolerance=1e-10))
     assert result.status == "chaotic"
     assert abs(result.energy.residual) < 1e-6
