@@ -11,14 +11,6 @@ _SECTIONS: dict[str, Any] = {
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
-    "load": (
-        "law",
-        {
-            "constant": "mechsym.loads:ConstantLoad",
-            "propeller": "mechsym.loads:PropellerLoad",
-            "table": "mechsym.loads:TableLoad",
-        },
-    ),
     "cycle": (
         "kind",
         {
@@ -34,8 +26,8 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.loads:TableLoad",
         },
     ),
-    "drive": "mechsym.simulate.case:StepTorque",
-    "simulation": "mechsym.simulate.case:Simulation",
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
     "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",

@@ -130,7 +130,7 @@ def held(system: System, t: float) -> np.ndarray:
     Returns
     -------
     w : ndarray, shape (k,)
-        In the units of the inputs
+        In the units of the inputs [N*m or N]
     """
     return np.array([_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values], dtype=float)
 
