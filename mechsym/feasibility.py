@@ -14,6 +14,7 @@ from mechsym.springs import Coil, law
 from mechsym.turn import Turn, at_pieces
 
 _CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
+_ROUNDING = 1e-12  # equal values may differ in the last digits
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -175,7 +176,7 @@ def undercut_radius(curvature: np.ndarray) -> float | None:
 
 def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
     rho_min, _, rho_max, _ = periodic.extremes(path(guide))
-    z_min, z_max = (float(closing(guide, np.float64(rho))) for rho in (rho_max, rho_min))
+    z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
     functions = law(spring)
     return {
         "rho_min": rho_min,
@@ -204,7 +205,7 @@ def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> l
         Check(
             name="free_height",
             text=longer if z_min < 0 else f"smallest closing {z_min * 1e3:.3g} mm",
-            kept=z_min >= 0,
+            kept=z_min >= -_ROUNDING * spring.H,
             margin=z_min / spring.H if z_min < 0 else None,
         ),
         _at_most("closing", "closing z/H", numbers["z_max"] / spring.H, limits.closing_share, ""),
@@ -256,8 +257,7 @@ def _undercut_check(largest: float | None, radius: float, profile_radius: float)
 def _at_most(name: str, words: str, value: float, limit: float, unit: str) -> Check:
     text = f"{words} {value:.4g} of at most {limit:.4g} {unit}".rstrip()
     margin = (limit - value) / (limit if limit > 0 else value)
-    # equal values may differ in the last digit
-    return Check(name=name, text=text, kept=margin >= -1e-12, margin=margin)
+    return Check(name=name, text=text, kept=margin >= -_ROUNDING, margin=margin)
 
 
 def _reason(checks: tuple[Check, ...]) -> str:
