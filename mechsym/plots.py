@@ -1,7 +1,7 @@
-"""Figures of a hinge design. matplotlib is imported here and in the other plot modules only; a figure is never shown."""
+"""Figures of a hinge design. matplotlib is imported in plot modules only; a figure is never shown."""
 
 import io
-from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -38,9 +38,9 @@ def svg(figure: Figure) -> str:
     return text[text.index("<svg") :]
 
 
-def _axes(width: float, height: float, rows: int = 1, columns: int = 1, **options: object) -> tuple[Figure, Sequence]:
+def _axes(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, Any]:
     figure = Figure(figsize=(width, height), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(rows, columns, **options)).ravel()  # type: ignore[arg-type]
+    axes = np.atleast_1d(figure.subplots(rows, columns, **options)).ravel()
     for axis in axes:
         axis.grid(True, color="#e3e6ea", linewidth=0.7)
         axis.set_axisbelow(True)
@@ -48,10 +48,10 @@ def _axes(width: float, height: float, rows: int = 1, columns: int = 1, **option
     return figure, axes
 
 
-def _angle_axis(axis: object, period: float) -> None:
+def _angle_axis(axis: Any, period: float) -> None:
     degrees = period * _DEG
-    axis.set_xlim(0, degrees)  # type: ignore[attr-defined]
-    axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))  # type: ignore[attr-defined]
+    axis.set_xlim(0, degrees)
+    axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))
 
 
 def pressure(design: Design) -> Figure:
@@ -102,7 +102,11 @@ def torque(design: Design) -> Figure:
     hinge = design.hinge
     figure, (upper, lower) = _axes(9, 5.0, 2, 1, sharex=True, height_ratios=[2, 1])
     phi = np.linspace(0, hinge.period, 1441)
-    parts = [("gas and load", hinge.gas_part, RED), ("inertia", hinge.inertia_part, GREEN), ("gravity", hinge.gravity_part, ORANGE)]
+    parts = [
+        ("gas and load", hinge.gas_part, RED),
+        ("inertia", hinge.inertia_part, GREEN),
+        ("gravity", hinge.gravity_part, ORANGE),
+    ]
     for name, part, color in parts:
         upper.plot(phi * _DEG, part(phi) / 1e3, color=color, linewidth=1, label=name)
     upper.plot(phi * _DEG, hinge.torque(phi) / 1e3, color=BLUE, linewidth=2, label="hinge torque $M_h$")
@@ -136,8 +140,12 @@ def track(design: Design, turn: Turn, radius: float) -> Figure:
     figure, (axis,) = _axes(5.2, 5.2)
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
     circle = design.guide.parameters.rho0 * np.exp(1j * np.linspace(0, 2 * np.pi, 361))
-    axis.plot(circle.real, circle.imag, color=GREY, linewidth=0.8, linestyle="--", label=r"$\rho_0$, spring at free height")
-    axis.plot(turn.rho * np.cos(turn.theta), turn.rho * np.sin(turn.theta), color=BLUE, label="path of the roller centre")
+    axis.plot(
+        circle.real, circle.imag, color=GREY, linewidth=0.8, linestyle="--", label=r"$\rho_0$, spring at free height"
+    )
+    axis.plot(
+        turn.rho * np.cos(turn.theta), turn.rho * np.sin(turn.theta), color=BLUE, label="path of the roller centre"
+    )
     axis.plot(x, y, color=RED, label="cut profile, first track")
     if design.guide.rollers == 2:
         axis.plot(-x, -y, color=RED, linewidth=0.8, linestyle=":", label="second track, turned by 180 deg")
@@ -145,7 +153,7 @@ def track(design: Design, turn: Turn, radius: float) -> Figure:
     axis.set_aspect("equal")
     axis.set_xlabel("x [m]")
     axis.set_ylabel("y [m]")
-    axis.legend(fontsize=7, loc="upper left")
+    axis.legend(fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
     return figure
 
 
@@ -198,7 +206,13 @@ def speeds(design: Design) -> Figure:
         Two panels: with hinge, and all
     """
     figure, (left, right) = _axes(9, 3.4, 1, 2)
-    colors = {"without": GREY, "hinge_constant": BLUE, "hinge_propeller": GREEN, "off_constant": RED, "off_propeller": ORANGE}
+    colors = {
+        "without": GREY,
+        "hinge_constant": BLUE,
+        "hinge_propeller": GREEN,
+        "off_constant": RED,
+        "off_propeller": ORANGE,
+    }
     (q,), (u,) = design.assembly.mechanism.coordinates, velocities(design.assembly.mechanism)
     for trial in design.trials:
         turns = trial.result.columns[q] / (2 * np.pi)
@@ -237,7 +251,9 @@ def retuning(design: Design) -> Figure:
     phi = np.linspace(0, again.wanted.period, 1441)
     left.plot(phi * _DEG, design.hinge.torque(phi) / 1e3, color=GREY, label="wanted at the design speed")
     left.plot(phi * _DEG, again.wanted.torque(phi) / 1e3, color=BLUE, label="wanted at the other speed")
-    left.plot(phi * _DEG, crank_torque(design.guide, again.spring, phi) / 1e3, color=RED, label="same guide, best pressure")
+    left.plot(
+        phi * _DEG, crank_torque(design.guide, again.spring, phi) / 1e3, color=RED, label="same guide, best pressure"
+    )
     left.legend(fontsize=7)
     left.set_xlabel("crank angle [deg]")
     left.set_ylabel("hinge torque [kN m]")
