@@ -16,8 +16,8 @@ import numpy as np
 from mechsym import mechanisms, torsion
 from mechsym.cases import Case
 from mechsym.quantities import check, quantity
+from mechsym.runs import problem_of, settings_of
 from mechsym.simulate import Result, simulate
-from mechsym.simulate.case import problem_of, settings_of
 from mechsym.torsion import Critical
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]

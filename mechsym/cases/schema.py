@@ -50,8 +50,8 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.loads:TableLoad",
         },
     ),
-    "drive": "mechsym.simulate.case:StepTorque",
-    "simulation": "mechsym.simulate.case:Simulation",
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
     "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",

@@ -36,8 +36,8 @@ def simulate(
     \b
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
     """
+    from mechsym.runs import problem_of, settings_of, window_of
     from mechsym.simulate import simulate as run
-    from mechsym.simulate.case import problem_of, settings_of, window_of
     from mechsym.simulate.summary import summary
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
