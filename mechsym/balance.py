@@ -28,6 +28,8 @@ class Balance:
     ----------
     kind : str
         `whole_cycle` or `every_turn`
+    omega : float
+        Crank speed that it is for [rad/s]
     period : float
         Period of the torque that the hinge gives [rad]
     torque, work : PPoly
@@ -41,6 +43,7 @@ class Balance:
     """
 
     kind: str
+    omega: float
     period: float
     torque: PPoly
     work: PPoly
@@ -76,11 +79,12 @@ def build(hinge: Hinge, kind: str) -> Balance:
     missing, inertia = work_rest(phi), hinge.inertia(phi)
     return Balance(
         kind=kind,
+        omega=hinge.omega,
         period=period,
         torque=torque,
         work=periodic.antiderivative(torque),
         rest=rest,
-        rest_swing=high - low,
+        rest_swing=abs(high - low),
         ripple_constant_load=ripple(constant_load_speed(missing, inertia, hinge.omega)),
         ripple_propeller_load=ripple(
             propeller_load_speed(missing, inertia, hinge.omega, hinge.load_torque, hinge.period)

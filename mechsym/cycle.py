@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.schema import Speeds
+from mechsym.cases.settings import Speeds
 from mechsym.engine.chamber import chamber, piston_force, travel, volume
 from mechsym.engine.friction import NoFriction
 from mechsym.engine.gas import ConstantGamma

@@ -2,16 +2,19 @@
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 
-from mechsym.guide import Guide, Spring
+from mechsym import periodic
+from mechsym.guide import Guide, Spring, closing, path
 from mechsym.quantities import check, quantity
 from mechsym.rollers import RollerParameters
-from mechsym.springs import Coil
+from mechsym.springs import Coil, law
 from mechsym.turn import Turn, at_pieces
 
 _CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
+_ROUNDING = 1e-12  # equal values may differ in the last digits
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -91,6 +94,8 @@ class Verdict:
         Roller radius from which the profile is undercut; None if the path never bends inwards [m]
     roller_reaction_max, hertz_stress_max, tilting_couple_max : float or None
         [N], [Pa], [N*m]
+    inertia_force_max : float or None
+        For each kilogram that moves with a roller, at the speed the guide was cut for; left out of all above [N/kg]
     loss_torque_mean : float or None
         Mean over the turn, on the guide's shaft [N*m]
     closure : float
@@ -113,6 +118,7 @@ class Verdict:
     roller_reaction_max: float | None = None
     hertz_stress_max: float | None = None
     tilting_couple_max: float | None = None
+    inertia_force_max: float | None = None
     loss_torque_mean: float | None = None
     closure: float = 0.0
 
@@ -140,14 +146,14 @@ def judge(guide: Guide, spring: Spring, rollers: RollerParameters, limits: Limit
         failed = Check(name="spring", text=guide.reason, kept=False, margin=-1.0)
         return Verdict(feasible=False, reason=guide.reason, margin=-1.0, checks=(failed,))
     turn = at_pieces(guide, spring, rollers)
-    checks = (*_spring_checks(turn, spring, limits), *_track_checks(guide, turn, rollers, limits))
+    numbers = _numbers(guide, spring, turn)
+    checks = (*_spring_checks(numbers, spring, limits), *_track_checks(guide, numbers, rollers, limits))
     return Verdict(
         feasible=all(c.kept for c in checks),
         reason=_reason(checks),
         margin=min(c.margin for c in checks if c.margin is not None),
         checks=checks,
-        closure=guide.closure,
-        **_numbers(turn),
+        **numbers,
     )
 
 
@@ -168,52 +174,63 @@ def undercut_radius(curvature: np.ndarray) -> float | None:
     return -1 / lowest if lowest < 0 else None
 
 
-def _numbers(turn: Turn) -> dict[str, float | None]:
+def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
+    rho_min, _, rho_max, _ = periodic.extremes(path(guide))
+    z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
+    functions = law(spring)
     return {
-        "rho_min": float(turn.rho.min()),
-        "rho_max": float(turn.rho.max()),
-        "z_min": float(turn.z.min()),
-        "z_max": float(turn.z.max()),
-        "spring_force_max": float(turn.force.max()),
-        "spring_pressure_max": None if turn.pressure is None else float(turn.pressure.max()),
+        "rho_min": rho_min,
+        "rho_max": rho_max,
+        "z_min": z_min,
+        "z_max": z_max,
+        # all laws rise with z
+        "spring_force_max": float(functions.force(z_max)),
+        "spring_pressure_max": None if functions.pressure is None else float(functions.pressure(z_max)),
         "pressure_angle_max": float(np.abs(turn.pressure_angle).max()),
         "curvature_radius_min": float(1 / np.abs(turn.curvature).max()),
         "undercut_radius": undercut_radius(turn.curvature),
         "roller_reaction_max": float(turn.reaction_1.max()),
         "hertz_stress_max": float(turn.hertz_stress.max()),
         "tilting_couple_max": float(turn.tilting_couple.max()),
+        "inertia_force_max": float(np.abs(turn.inertia_force).max()),
         "loss_torque_mean": float(np.trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
+        "closure": guide.closure,
     }
 
 
-def _spring_checks(turn: Turn, spring: Spring, limits: Limits) -> list[Check]:
-    z_min, z_max = float(turn.z.min()), float(turn.z.max())
+def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> list[Check]:
+    z_min, force_min = numbers["z_min"], float(law(spring).force(numbers["z_min"]))
     longer = f"the spring is {-z_min * 1e3:.3g} mm longer than its free height; place the start"
     checks = [
         Check(
             name="free_height",
             text=longer if z_min < 0 else f"smallest closing {z_min * 1e3:.3g} mm",
-            kept=z_min >= 0,
+            kept=z_min >= -_ROUNDING * spring.H,
             margin=z_min / spring.H if z_min < 0 else None,
         ),
-        _at_most("closing", "closing z/H", z_max / spring.H, limits.closing_share, ""),
-        _positive("spring_force", "smallest spring force", float(turn.force.min()) / 1e3, "kN"),
+        _at_most("closing", "closing z/H", numbers["z_max"] / spring.H, limits.closing_share, ""),
+        Check(
+            name="spring_force",
+            text=f"smallest spring force {force_min / 1e3:.4g} kN",
+            kept=force_min > 0,
+            margin=None if force_min > 0 else -1.0,
+        ),
     ]
-    if turn.pressure is not None:
-        bar = float(turn.pressure.max()) / 1e6, limits.spring_pressure / 1e6
-        checks.append(_at_most("spring_pressure", "spring pressure", *bar, "MPa"))
+    if numbers["spring_pressure_max"] is not None:
+        mpa = numbers["spring_pressure_max"] / 1e6, limits.spring_pressure / 1e6
+        checks.append(_at_most("spring_pressure", "spring pressure", *mpa, "MPa"))
     return checks
 
 
-def _track_checks(guide: Guide, turn: Turn, rollers: RollerParameters, limits: Limits) -> list[Check]:
-    angle = math.degrees(np.abs(turn.pressure_angle).max())
-    reaction, stress = float(turn.reaction_1.max()), float(turn.hertz_stress.max())
+def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParameters, limits: Limits) -> list[Check]:
+    angle, stress = math.degrees(numbers["pressure_angle_max"]), numbers["hertz_stress_max"]
+    reaction = numbers["roller_reaction_max"] / 1e3
     checks = [
         _at_most("pressure_angle", "pressure angle", angle, math.degrees(limits.pressure_angle), "deg"),
-        _curvature_check(turn, rollers, limits),
-        _at_most("roller_reaction", "roller reaction", reaction / 1e3, limits.roller_reaction / 1e3, "kN"),
+        _undercut_check(numbers["undercut_radius"], rollers.radius, limits.profile_radius),
+        _at_most("roller_reaction", "roller reaction", reaction, limits.roller_reaction / 1e3, "kN"),
         _at_most("closure", "gap of the path", guide.closure, _CLOSURE * guide.parameters.rho0, "m"),
-        _at_most("centre", "roller radius in the smallest rho", rollers.radius, float(turn.rho.min()), "m"),
+        _at_most("centre", "roller radius in the smallest rho", rollers.radius, numbers["rho_min"], "m"),
     ]
     if math.isfinite(stress):
         checks.append(_at_most("hertz_stress", "contact pressure", stress / 1e6, limits.hertz_stress / 1e6, "MPa"))
@@ -224,16 +241,15 @@ def _track_checks(guide: Guide, turn: Turn, rollers: RollerParameters, limits: L
     return checks
 
 
-def _curvature_check(turn: Turn, rollers: RollerParameters, limits: Limits) -> Check:
-    largest = undercut_radius(turn.curvature)
+def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> Check:
     if largest is None:
         return Check(name="undercut", text="the path never bends inwards", kept=True, margin=None)
-    left = largest - rollers.radius - limits.profile_radius
+    left = largest - radius - profile_radius
     text = (
         f"the path bends inwards with a radius of {largest * 1e3:.4g} mm, which leaves the profile "
-        f"{(largest - rollers.radius) * 1e3:.4g} mm at a roller radius of {rollers.radius * 1e3:.4g} mm"
-        + (" (undercut)" if largest <= rollers.radius else "")
-        + f"; at least {limits.profile_radius * 1e3:.4g} mm"
+        f"{(largest - radius) * 1e3:.4g} mm at a roller radius of {radius * 1e3:.4g} mm"
+        + (" (undercut)" if largest <= radius else "")
+        + f"; at least {profile_radius * 1e3:.4g} mm"
     )
     return Check(name="undercut", text=text, kept=left >= 0, margin=left / largest)
 
@@ -241,13 +257,7 @@ def _curvature_check(turn: Turn, rollers: RollerParameters, limits: Limits) -> C
 def _at_most(name: str, words: str, value: float, limit: float, unit: str) -> Check:
     text = f"{words} {value:.4g} of at most {limit:.4g} {unit}".rstrip()
     margin = (limit - value) / (limit if limit > 0 else value)
-    # equal values may differ in the last digit
-    return Check(name=name, text=text, kept=margin >= -1e-12, margin=margin)
-
-
-def _positive(name: str, words: str, value: float, unit: str) -> Check:
-    kept = value > 0
-    return Check(name=name, text=f"{words} {value:.4g} {unit}", kept=kept, margin=None if kept else -1.0)
+    return Check(name=name, text=text, kept=margin >= -_ROUNDING, margin=margin)
 
 
 def _reason(checks: tuple[Check, ...]) -> str:

@@ -32,6 +32,8 @@ class Turn:
         Contact pressure [Pa]
     tilting_couple : ndarray
         Of tracks in offset planes, 0 for other arrangements [N*m]
+    inertia_force : ndarray
+        Radial force for each kilogram that moves with a roller, left out by the massless model [N/kg]
     torque, loss_torque : ndarray
         On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
     """
@@ -50,6 +52,7 @@ class Turn:
     reaction_2: np.ndarray
     hertz_stress: np.ndarray
     tilting_couple: np.ndarray
+    inertia_force: np.ndarray
     torque: np.ndarray
     loss_torque: np.ndarray
 
@@ -96,7 +99,7 @@ def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Tur
         Arrays of shape (n,), angles not decreasing
     """
     rho = path(guide)
-    theta = periodic.piece_points(rho, 33)
+    theta = periodic.piece_points(rho, 65)
     values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]
     return _turn(guide, spring, parameters, theta.ravel(), values)
 
@@ -141,6 +144,7 @@ def _turn(guide: Guide, spring: Spring, parameters: RollerParameters, theta: np.
         reaction_2=force if guide.rollers == 1 else reaction,
         hertz_stress=rollers.hertz_stress(reaction, kappa, parameters),
         tilting_couple=rollers.tilting_couple(reaction, offset),
+        inertia_force=rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio),
         torque=guide.rollers * force * drho,
         loss_torque=guide.rollers * rollers.loss_torque(reaction, rho, drho, parameters),
     )

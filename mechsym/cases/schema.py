@@ -1,53 +1,17 @@
 """Which record each section of a case becomes. A section with a selector key has one record per named variant."""
 
-import dataclasses
 import importlib
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Operation:
-    """Where the machine runs.
-
-    Parameters
-    ----------
-    speed : float
-        Mean crank speed [rad/s]
-    """
-
-    speed: float = quantity("rad/s", above=0, about="mean crank speed")
-
-    def __post_init__(self) -> None:
-        check(self)
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Speeds:
-    """The speeds of a performance map.
-
-    Parameters
-    ----------
-    lowest, highest, step : float
-        First and last speed and the distance between speeds [rad/s]
-    """
-
-    lowest: float = quantity("rad/s", above=0, about="first speed")
-    highest: float = quantity("rad/s", above=0, about="last speed")
-    step: float = quantity("rad/s", above=0, about="distance between speeds")
-
-    def __post_init__(self) -> None:
-        check(self)
-        if self.highest < self.lowest:
-            raise BadInput(f"highest = {self.highest:g} rad/s is below lowest = {self.lowest:g} rad/s")
-
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
-    "operation": "mechsym.cases.schema:Operation",
-    "speeds": "mechsym.cases.schema:Speeds",
+    "operation": "mechsym.cases.settings:Operation",
+    "flywheel": "mechsym.cases.settings:FlywheelSettings",
+    "trials": "mechsym.cases.settings:TrialSettings",
+    "retune": "mechsym.cases.settings:RetuneSettings",
+    "speeds": "mechsym.cases.settings:Speeds",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
         "kind",
@@ -78,6 +42,28 @@ _SECTIONS: dict[str, Any] = {
             "heywood": "mechsym.engine.friction:Heywood",
         },
     ),
+    "load": (
+        "law",
+        {
+            "constant": "mechsym.loads:ConstantLoad",
+            "propeller": "mechsym.loads:PropellerLoad",
+            "table": "mechsym.loads:TableLoad",
+        },
+    ),
+    "drive": "mechsym.simulate.case:StepTorque",
+    "simulation": "mechsym.simulate.case:Simulation",
+    "startup": "mechsym.startup:StartUpClaim",
+    "spring": (
+        "law",
+        {
+            "air_gauge": "mechsym.springs:AirGauge",
+            "air_absolute": "mechsym.springs:AirAbsolute",
+            "coil": "mechsym.springs:Coil",
+        },
+    ),
+    "guide": "mechsym.guide:GuideParameters",
+    "rollers": "mechsym.rollers:RollerParameters",
+    "limits": "mechsym.feasibility:Limits",
     "closing": (
         "rule",
         {

@@ -14,8 +14,10 @@ COMMANDS = {
     "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "optimise": "mechsym.cli.optimise:optimise",
+    "simulate": "mechsym.cli.simulate:simulate",
 }
 
 

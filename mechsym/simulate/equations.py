@@ -156,12 +156,13 @@ def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, 
     f : callable
         (t, y) to dy/dt, a new array each time
     """
+    buffer: Any
     buffer, call = system.function.buffer()
     t_now, y_now, w_now = np.zeros(1), np.zeros(len(system.columns)), np.array(w)
     out = np.zeros(len(system.columns))
     for i, array in enumerate((t_now, y_now, w_now)):
-        buffer.set_arg(i, memoryview(array))
-    buffer.set_res(0, memoryview(out))
+        buffer.set_arg(i, array.data)
+    buffer.set_res(0, out.data)
     sampled = [(i, v) for i, v in enumerate(system.values) if not isinstance(v, Steps)]
     n, last = system.size, float(np.nextafter(t_end, -np.inf))
 
