@@ -87,9 +87,9 @@ def mean(poly: PPoly) -> float:
     Returns
     -------
     mean : float
-        In the unit of the values
+        [unit of the values]
     """
-    return float(_integral(poly)(poly.x[-1])) / (poly.x[-1] - poly.x[0])
+    return float(_integral(poly)(poly.x[-1]) / (poly.x[-1] - poly.x[0]))
 
 
 def antiderivative(poly: PPoly) -> PPoly:
@@ -195,7 +195,7 @@ def piece_values(poly: PPoly, phi: np.ndarray) -> np.ndarray:
     Returns
     -------
     values : ndarray, shape (pieces, count)
-        In the unit of the values
+        [unit of the values]
     """
     u = phi - poly.x[:-1, None]
     values = np.zeros_like(u)

@@ -57,10 +57,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -77,10 +75,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -96,10 +92,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------

@@ -58,15 +58,18 @@ def cut_cycles(recording: Recording, period: float) -> tuple[np.ndarray, np.ndar
 
 def _cut(angle: np.ndarray, pressure: np.ndarray, start: float, period: float) -> tuple[np.ndarray, np.ndarray]:
     steps = np.diff(angle)
-    step = float(np.median(steps))
-    per_period = round(period / step)
-    even = bool(np.all(np.abs(steps - step) < 1e-3 * step)) and abs(per_period * step - period) < 1e-3 * step
+    step, widest = float(np.median(steps)), float(steps.max())
     first = int(np.searchsorted(angle, start - 1e-3 * step))
-    count = math.floor((angle[-1] - angle[first] + step) / period + 1e-6)
-    if even:
+    count = math.floor((angle[-1] - angle[first] + 1.001 * widest) / period)
+    per_period = round(period / step)
+    if bool(np.all(np.abs(steps - step) < 1e-3 * step)) and abs(per_period * step - period) < 1e-3 * step:
         cycles = pressure[first : first + count * per_period].reshape(count, per_period)
         return angle[first] + period / per_period * np.arange(per_period), cycles
     samples = int(np.clip(math.ceil(period / float(steps.min())), _FEWEST, _MOST))
     grid = angle[first] + period / samples * np.arange(samples)
-    at = np.minimum(grid + period * np.arange(count)[:, None], angle[-1])
+    at = grid + period * np.arange(count)[:, None]
+    if at[-1, -1] > angle[-1]:
+        # the last cycle closes on the pressure it began with
+        pressure = np.append(pressure, np.interp(at[-1, 0], angle, pressure))
+        angle = np.append(angle, at[-1, 0] + period)
     return grid, PchipInterpolator(angle, pressure)(at)

@@ -95,6 +95,7 @@ def diagram_facts(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycles
     p_mi = cycle_work(measured, cylinder) / 1e5
     scatter = float(measured.cycles.std(axis=0).max())
     return (
+        *(f"the file says: {comment}" for comment in measured.comments),
         f"{measured.file}: {len(p_mi)} cycles; net mean indicated pressure {p_mi.min():.2f} to {p_mi.max():.2f} bar, "
         f"peaks {measured.cycles.max(axis=1).min() / 1e5:.1f} to {measured.cycles.max() / 1e5:.1f} bar absolute",
         _alignment_fact(diagram, measured, work_per_angle(measured, cylinder) * math.radians(1.0)),

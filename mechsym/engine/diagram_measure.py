@@ -47,6 +47,8 @@ class MeasuredCycles:
         Factor on what remained [-]
     line : Line
         Compression line fitted to `raw_mean`, before scaling
+    comments : tuple of str
+        Comment lines of the file
     """
 
     file: str
@@ -59,6 +61,7 @@ class MeasuredCycles:
     offsets: np.ndarray
     scale: float
     line: Line
+    comments: tuple[str, ...]
 
 
 def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
@@ -93,11 +96,7 @@ def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
     offsets = _offsets(diagram, cylinder, phi, raw)
     scale = _scale(diagram, phi, raw.mean(axis=0) - offsets.mean(), line)
     cycles = scale * (raw - offsets[:, None])
-    if not cycles.min() > 0:
-        raise BadInput(
-            f"{diagram.file}: the absolute pressure falls to {cycles.min() / 1e5:.3g} bar; "
-            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
-        )
+    _refuse_negative(diagram.file, cycles)
     return MeasuredCycles(
         file=diagram.file,
         period=period,
@@ -109,7 +108,18 @@ def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
         offsets=offsets,
         scale=scale,
         line=line,
+        comments=recording.comments,
     )
+
+
+def _refuse_negative(file: str, cycles: np.ndarray) -> None:
+    # noise may push single samples of a throttled engine below zero, the mean cycle not
+    lowest = float(cycles.mean(axis=0).min())
+    if lowest <= 0:
+        raise BadInput(
+            f"{file}: the absolute pressure of the mean cycle falls to {lowest / 1e5:.3g} bar; "
+            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
+        )
 
 
 def _dead_centre(
@@ -150,14 +160,16 @@ def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tu
     phi : ndarray, shape (n,)
         Crank angles of one period [rad]
     values : ndarray, shape (n,) or (k, n)
-        Samples, crank angle last
+        Samples of pressure, crank angle last [Pa]
+    period : float
+        2 pi or 4 pi [rad]
 
     Returns
     -------
     phi : ndarray, shape (n,)
         Ascending from half a turn and 0.5 rad before TDC [rad]
     values : ndarray
-        In the order of phi
+        In the order of phi [Pa]
     """
     start = -math.pi - 0.5
     centred = start + np.remainder(phi - start, period)

@@ -1,6 +1,7 @@
 """Which record of `[cycle]` becomes which pressure. A new kind adds one line to each table."""
 
 import dataclasses
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -72,7 +73,7 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
     Parameters
     ----------
     cycle : record
-        `[cycle]` of a case; of a `diagram` all methods are kept, of another kind bore, compression ratio and p_back
+        `[cycle]` of a case; of a `diagram` all methods are kept, of another kind what it knows of the engine
     file : str
         CSV file
 
@@ -83,10 +84,22 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
     """
     if isinstance(cycle, Diagram):
         return dataclasses.replace(cycle, file=file)
+    known = _two_stroke_line(cycle) if isinstance(cycle, TwoStrokeMarine) else {"working_cycle": "four-stroke"}
     return Diagram(
         bore=cycle.bore,
         compression_ratio=cycle.compression_ratio,
-        working_cycle="two-stroke" if isinstance(cycle, TwoStrokeMarine) else "four-stroke",
         p_back=back_pressure(cycle),
         file=file,
+        **known,
     )
+
+
+def _two_stroke_line(cycle: TwoStrokeMarine) -> dict[str, Any]:
+    # the compression line stands between the exhaust's closing and the start of combustion, with a margin
+    return {
+        "working_cycle": "two-stroke",
+        "n_c": cycle.n_c,
+        "inlet_pressure": two_stroke.scavenging_pressure(cycle.p_s),
+        "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
+        "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
+    }

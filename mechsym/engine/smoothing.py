@@ -20,12 +20,12 @@ def noise(values: np.ndarray) -> float:
     Parameters
     ----------
     values : ndarray, shape (n,)
-        Evenly spaced samples of one period
+        Evenly spaced samples of one period [unit of the samples]
 
     Returns
     -------
     sigma : float
-        From the median of the fourth differences, blind to anything smooth [unit of the values]
+        From the median of the fourth differences, blind to anything smooth [unit of the samples]
     """
     around = np.concatenate([values, values[:4]])
     return float(np.median(np.abs(np.diff(around, 4))) / _MEDIAN / _FOURTH)
