@@ -1,9 +1,8 @@
 """Theories of the mechanisms: the tapes that their derivations make, with joints closed, and what follows from them."""
 
 from collections.abc import Mapping
-from functools import cache
 
-from sympy import Expr, Integer, Matrix, Symbol
+from sympy import Expr, Integer, Matrix
 
 from mechsym.audit.theory.record import Letter, Theory, tape_of
 from mechsym.derive import Equations, Mechanism, derive
