@@ -34,6 +34,18 @@ def test_start_up_keys_and_files(tmp_path):
     assert found["files"][0].endswith("series.csv")
 
 
+def test_start_up_map_and_pictures(tmp_path):
+    arguments = ("chmielewski", "--set", "t_end=3 s", "--set", "output_step=0.01 s", "--dampings", "0.2,5")
+    found, status = numbers(*arguments, "--out", str(tmp_path))
+    assert status == 0 and [s["c1"] for s in found["start_up"]] == [0.0, 0.2, 5.0]
+    assert found["start_up"][0]["criticals"][1]["order"] == 2
+    for picture in ("campbell.svg", "startup.svg"):
+        assert (tmp_path / picture).read_text().startswith("<svg")
+    assert "torque_peak" in run(*arguments).stdout
+    short, _ = numbers("chmielewski", "--set", "t_end=0.5 s", "--set", "window=0.1 s")
+    assert short["start_up"] == [] and short["findings"] == []
+
+
 def test_engine_with_hinge_keeps_its_speed():
     found, status = numbers("zotov-89", "--set", "simulation.turns=3")
     assert status == 0 and found["end"] == "turns"
@@ -67,6 +79,8 @@ def test_text_for_people():
         (["chmielewski", "--set", "drive.input=X"], "part names 'X'"),
         (["chmielewski", "--set", "window=5 bar"], "wrong dimension"),
         (["zotov-89", "--backend", "sundials"], "knows no events"),
+        (["zotov-89", "--set", "simulation.turns=1", "--dampings", "1"], "needs a start-up case"),
+        (["chmielewski", "--set", "t_end=3 s", "--dampings", "1 bar"], "--dampings"),
         (["nowhere"], "neither built in"),
     ],
 )

@@ -9,7 +9,8 @@ from simulated import mechanism as build
 
 from mechsym import torsion
 from mechsym.errors import BadInput
-from mechsym.mechanisms import crankshaft_flywheel
+from mechsym.mechanisms import crank_train, crankshaft_flywheel
+from mechsym.simulate import Part, Problem, Settings, Steps, simulate
 
 
 def series_of_piston(p):
@@ -124,6 +125,24 @@ def test_three_discs_with_two_modes():
     b = k1 * (1 / i1 + 1 / i2) + k2 * (1 / i2 + 1 / i3)
     c = k1 * k2 * (i1 + i2 + i3) / (i1 * i2 * i3)
     np.testing.assert_allclose(found[1:] ** 2, np.sort(np.roots([1, -b, c])), rtol=1e-12)
+
+
+def test_balanced_in_line_six_keeps_orders_three_and_six():
+    degrees = np.pi / 180
+    six = crank_train.build(
+        crank_train.CrankTrainParameters(
+            throw=(1, 2, 3, 4, 5, 6), phase=tuple(degrees * a for a in (0, 240, 120, 120, 240, 0)),
+            r=0.05, l1=0.05, l2=0.1, m_rod=0.6, m_piston=0.5, I_rod=0.003, I0=0.02, I_f=0.3, k=1e5, c=2.0,
+        )
+    )  # fmt: skip
+    linear = torsion.matrices(six)
+    found = torsion.modes(linear.mass, linear.stiffness).frequencies
+    assert len(found) == 7 and found[0] == 0 and np.all(np.diff(found) > 0)
+    sums = np.abs(torsion.orders(six, count=8).inertia.sum(axis=1))
+    np.testing.assert_array_equal(np.flatnonzero(sums > 1e-12) + 1, [3, 6])
+    load = Part(name="load", input="M", role="load", value=Steps(values=(5.0,)))
+    result = simulate(Problem(mechanism=six, parts=(load,), q0=(0.0,) * 7, u0=(100.0,) * 7, t_end=0.1), Settings())
+    assert result.status == "converged" and abs(result.energy.residual) < 1e-9
 
 
 def test_model_without_energies_is_refused(chmielewski):
