@@ -18,7 +18,10 @@ from mechsym.optimise.problem import Limit, Problem, figure_units
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
 _ACTIVE = 1e-6  # a limit counts as met this closely, in units of its own size or range
-_OPTIONS = {"ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 300}, "print_time": False}
+_OPTIONS: dict[str, Any] = {
+    "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 300},
+    "print_time": False,
+}
 _MARGIN = 0.01  # the start keeps off the bounds of the variables
 
 
