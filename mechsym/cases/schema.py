@@ -12,6 +12,7 @@ _SECTIONS: dict[str, Any] = {
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
     "speeds": "mechsym.cases.settings:Speeds",
+    "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
         "kind",
