@@ -13,7 +13,7 @@ pin force lies on the axis. The tooth force is positive in the sense of rotation
 flanks press the planet towards O with tan(alpha_n) of its size.
 """
 
-from mechsym.derive import Abs, Mechanism, acceleration, cos, sin, tan
+from mechsym.derive import Abs, Mechanism, acceleration, cos, reaction, sin, tan
 
 
 def hypocycloid():
@@ -45,7 +45,7 @@ def hypocycloid():
     m.body("piston", mass=m3, at=(2 * e - x, 0))
     m.force(F, along=x)
     m.torque(-M, along=theta)
-    separating = Abs(m.reaction(s_T)) * tan(alpha_n)
+    separating = Abs(reaction(m, s_T)) * tan(alpha_n)
     m.force(-separating, along=radial)
     m.output(x, order=2)
     m.output_dynamic("tooth_force_radial", separating, "N")

@@ -42,6 +42,6 @@ def rodless_constraints():
     m.constraint("pin_y", y_C - r * sin(alpha))
     m.constraint("guide_a", y_a)
     m.constraint("guide_b", y_b)
-    m.output(x_a)
-    m.output(x_b)
+    m.output(x_a, order=1)
+    m.output(x_b, order=1)
     return m

@@ -1,6 +1,6 @@
 # Generated from derivations/rodless_constraints.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 363e8e44f8b7d2ec   (derivations/rodless_constraints.py + mechsym/derive/*.py, newlines normalised)
-# body   sha256: 4a5877ea93e2c1db   (everything below this header)
+# source sha256: 262204961aa9aea4   (derivations/rodless_constraints.py + mechsym/derive/*.py, newlines normalised)
+# body   sha256: 5f1b4311eb39dbd8   (everything below this header)
 # sympy 1.14.0
 """The rodless mechanism with constraints, for its rank. Source: 003_8746f5f4ad51b1d1."""
 
@@ -15,7 +15,7 @@ PARAMETERS = ('r', 'I1', 'u1', 'm_link', 'I_link', 'm_a', 'm_b')
 FUNCTIONS = {
     "kinematics": (
         ('x_C', 'y_C', 'beta', 'r'),
-        ('x_a', 'x_b'),
+        ('x_a', 'dx_a_dbeta', 'x_b', 'dx_b_dbeta'),
     ),
     "dynamics": (
         ('beta', 'betad', 'F_a', 'F_b', 'M', 'r', 'I1', 'm_link', 'I_link', 'm_a', 'm_b'),
@@ -40,13 +40,17 @@ def kinematics(x_C, y_C, beta, r):
     """Kinematics at given coordinates.
 
     Takes x_C [m], y_C [m], beta [rad], r [m].
-    Returns x_a, x_b.
+    Returns x_a, dx_a_dbeta, x_b, dx_b_dbeta.
     """
     cos_beta = ca.cos(beta)
-    x_a = cos_beta * r + x_C
+    _t0 = cos_beta * r
+    x_a = _t0 + x_C
     sin_beta = ca.sin(beta)
-    x_b = -r * sin_beta + y_C
-    return x_a, x_b
+    _t1 = r * sin_beta
+    dx_a_dbeta = -_t1
+    x_b = -_t1 + y_C
+    dx_b_dbeta = -_t0
+    return x_a, dx_a_dbeta, x_b, dx_b_dbeta
 
 
 def dynamics(beta, betad, F_a, F_b, M, r, I1, m_link, I_link, m_a, m_b):

@@ -24,7 +24,7 @@ class Solution:
     Parameters
     ----------
     acceleration : ndarray, shape (n,)
-        Accelerations of the coordinates
+        Accelerations of the coordinates [m/s^2] or [rad/s^2]
     multipliers : dict of str to float or None
         Generalised force of each constraint on the coordinates; None where the rank does not determine it
     rank, count : int
@@ -168,7 +168,7 @@ def determined(solution: Solution, combination: Mapping[str, float]) -> float | 
     Returns
     -------
     value : float or None
-        None where the rigid mechanism leaves it open
+        None where the rigid mechanism leaves it open; unit of the combination [N] or [N*m]
     """
     weights = np.array([float(combination.get(n, 0.0)) for n in solution.names])
     open_part = np.abs(weights @ solution.free).max() if solution.free.size else 0.0
@@ -192,7 +192,7 @@ def motion(
     values : dict of str to float
         The same with all coordinates and velocities
     acceleration : ndarray, shape (n,)
-        Accelerations of the coordinates
+        Accelerations of the coordinates [m/s^2] or [rad/s^2]
     outputs : dict of str to float or None
         `force_<constraint>` by name (None: not determined), `constraint_rank`, `constraint_count`
     """

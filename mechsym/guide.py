@@ -12,63 +12,24 @@ The spring gives the work that the torque takes: U(z) = const - W(phi), so z fol
 
 .. math:: M_\theta = c\,F(z)\,\frac{d\rho}{d\theta} = \frac{M_h}{\text{shaft ratio}}
 
-Arrangements: `two_tracks` (c = 2; two tracks half a turn apart in offset planes), `one_roller` (c = 1; against a fixed
-spring seat), `half_speed_pi_periodic` (c = 2; both rollers on one plane track, which repeats every half turn and so
-turns at half the speed of the cycle). Start: `as_printed` (z = 0 at phi = 0, the paper's) or `placed` (the constant is
-chosen so that the spring is never longer than its free height).
-
-Source: Zotov et al. (2024), eqs. (9) to (14), for the first arrangement with the first start.
+Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `as_printed`; the names are explained in
+`mechsym.arrangement`.
 """
 
 import dataclasses
-import math
 from collections.abc import Callable
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from mechsym import periodic
-from mechsym.balance import KINDS, Balance
+from mechsym.arrangement import ROLLERS, GuideParameters, refuse_open_track
+from mechsym.balance import Balance
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.hinge import exists
 from mechsym.springs import AirAbsolute, AirGauge, Coil, law
 
 Spring = AirGauge | AirAbsolute | Coil
-
-# arrangement: (rollers that move the spring, track periods in one turn of its shaft must be a multiple of this)
-_ARRANGEMENTS = {"two_tracks": (2, 1), "one_roller": (1, 1), "half_speed_pi_periodic": (2, 2)}
-_STARTS = ("placed", "as_printed")
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class GuideParameters:
-    """What is chosen about the guide.
-
-    Parameters
-    ----------
-    arrangement : str
-        `two_tracks`, `one_roller` or `half_speed_pi_periodic`
-    start : str
-        `placed` or `as_printed`
-    rho0 : float
-        Shaft axis to roller centre where the spring has its free height [m]
-    z_margin : float
-        Smallest closing that a placed start keeps [m]
-    shaft_ratio : float
-        Turns of the guide's shaft per turn of the crank [-]
-    balance : str
-        Part of the torque to balance, `whole_cycle` or `every_turn`
-    """
-
-    arrangement: str = choice(*_ARRANGEMENTS, about="how the track carries the spring")
-    start: str = choice(*_STARTS, default="placed", about="where the turn starts on the spring's curve")
-    rho0: float = quantity("m", above=0, about="roller centre to shaft axis at free height")
-    z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
-    shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
-    balance: str = choice(*KINDS, default="whole_cycle", about="part of the torque to balance")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -86,7 +47,8 @@ class Guide:
     rollers : int
         Rollers c that move the spring
     status : str
-        `cut`; `spring_bottoms` or `spring_pulls`: the spring cannot hold the work; `crosses_axis`: rho <= 0
+        `cut`; or why not: `takes_work` (no spring gives this torque), `spring_bottoms`, `spring_pulls` (this spring
+        cannot hold the work), `crosses_axis` (rho would not stay positive)
     reason : str
         The numbers behind the status
     energy_min, energy_max : float
@@ -120,9 +82,9 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     balance : Balance
         Torque to give, with its work
     spring : AirGauge, AirAbsolute or Coil
-        Parameters of the spring
+        Its spring
     parameters : GuideParameters
-        Arrangement, start, rho0 and the rest
+        What is chosen
 
     Returns
     -------
@@ -132,18 +94,20 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     Raises
     ------
     BadInput
-        The track would not close after a turn of its shaft
+        The track would not close after a turn of its shaft, or z_margin leaves no spring
 
     Notes
     -----
     Source: Zotov et al. (2024), eqs. (9) to (11): U_0 = 0, c = 2, gauge law. The slope is fitted and the path is its
     exact integral, so that the torque of the path is exact too. Massless rollers and spring, no friction.
     """
-    rollers, _ = _ARRANGEMENTS[parameters.arrangement]
-    _refuse_open_track(balance, parameters)
+    rollers = ROLLERS[parameters.arrangement]
+    refuse_open_track(parameters, balance.period)
+    if parameters.z_margin >= spring.H:
+        raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
     low, _, high, _ = periodic.extremes(balance.work)
-    at_start = _energy_at_start(spring, parameters, high)
-    status, reason = _status(spring, parameters, at_start - high, at_start - low)
+    at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
+    status, reason = _status(balance, spring, parameters, at_start - high, at_start - low)
     rho, closure = _path(balance, spring, parameters, at_start) if status == "cut" else (None, 0.0)
     return Guide(
         parameters=parameters,
@@ -160,12 +124,12 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
 
 
 def path(guide: Guide) -> PPoly:
-    """The path of the roller centres of a guide that could be cut.
+    """The path of the roller centres.
 
     Parameters
     ----------
     guide : Guide
-        With status `cut`
+        A guide
 
     Returns
     -------
@@ -178,7 +142,7 @@ def path(guide: Guide) -> PPoly:
         There is no path; the message says why
     """
     if guide.rho is None:
-        raise BadInput(f"the guide has no path: {guide.reason}")
+        raise BadInput(f"there is no guide: {guide.reason}")
     return guide.rho
 
 
@@ -255,27 +219,12 @@ def torque_function(guide: Guide, spring: Spring) -> Callable[[float], float]:
     return torque
 
 
-def _refuse_open_track(balance: Balance, parameters: GuideParameters) -> None:
-    _, multiple = _ARRANGEMENTS[parameters.arrangement]
-    periods = 2 * math.pi / (balance.period * parameters.shaft_ratio)
-    if round(periods) < 1 or abs(periods - round(periods)) > 1e-9 or round(periods) % multiple:
-        right = 2 * math.pi / (balance.period * multiple)
-        raise BadInput(
-            f"guide.shaft_ratio = {parameters.shaft_ratio:g}: the {parameters.arrangement} track does not close, since "
-            f"the torque repeats every {balance.period / (2 * math.pi):g} turns of the crank; use {right:g}"
-        )
-
-
-def _energy_at_start(spring: Spring, parameters: GuideParameters, work_max: float) -> float:
-    match parameters.start:
-        case "as_printed":
-            return 0.0
-        case _:
-            return float(law(spring).energy(parameters.z_margin)) + work_max
-
-
-def _status(spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float) -> tuple[str, str]:
+def _status(
+    balance: Balance, spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float
+) -> tuple[str, str]:
     functions = law(spring)
+    if not exists(balance.torque):
+        return "takes_work", f"the torque has a mean of {periodic.mean(balance.torque):.6g} N*m; no spring gives that"
     if energy_max >= functions.energy_high:
         return "spring_bottoms", (
             f"the spring would have to store {energy_max:.6g} J and holds {functions.energy_high:.6g} J at its full "
@@ -283,10 +232,10 @@ def _status(spring: Spring, parameters: GuideParameters, energy_min: float, ener
         )
     if energy_min <= functions.energy_low:
         return "spring_pulls", (
-            f"the spring would have to give {-energy_min:.6g} J beyond its free height and can give "
-            f"{-functions.energy_low:.6g} J; place the start or raise its preload"
+            f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at "
+            f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
         )
-    rollers, _ = _ARRANGEMENTS[parameters.arrangement]
+    rollers = ROLLERS[parameters.arrangement]
     rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers
     if rho_min <= 0:
         return "crosses_axis", (
@@ -299,7 +248,7 @@ def _status(spring: Spring, parameters: GuideParameters, energy_min: float, ener
 def _path(balance: Balance, spring: Spring, parameters: GuideParameters, at_start: float) -> tuple[PPoly, float]:
     """Path over the guide's angle and the gap that its slope would leave after a period."""
     functions, ratio = law(spring), parameters.shaft_ratio
-    rollers, _ = _ARRANGEMENTS[parameters.arrangement]
+    rollers = ROLLERS[parameters.arrangement]
 
     def z(theta: np.ndarray) -> np.ndarray:
         return functions.closing(at_start - balance.work(theta / ratio))

@@ -101,9 +101,16 @@ def settle(load: Load, torque: float, speed: float) -> Load:
     load : record of this module
         The same law with numbers everywhere
     """
-    values = {"torque": torque, "speed": speed}
-    blanks = {k: v for k, v in values.items() if hasattr(load, k) and getattr(load, k) is None}
-    return replace(load, **blanks)
+    match load:
+        case ConstantLoad(torque=None):
+            return replace(load, torque=torque)
+        case PropellerLoad():
+            return replace(
+                load,
+                torque=torque if load.torque is None else load.torque,
+                speed=speed if load.speed is None else load.speed,
+            )
+    return load
 
 
 def load_torque(load: Load, omega: Any) -> Any:
@@ -125,11 +132,23 @@ def load_torque(load: Load, omega: Any) -> Any:
     """
     match load:
         case ConstantLoad():
-            return load.torque + 0 * omega
+            return _constant(load) + 0 * omega
         case PropellerLoad():
-            return load.torque / load.speed**2 * omega * abs(omega)
+            return _square_law(load) * omega * abs(omega)
         case TableLoad():
             return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
+
+
+def _constant(load: ConstantLoad) -> float:
+    if load.torque is None:
+        raise BadInput("constant load without torque; give it, or settle it with the engine's own")
+    return load.torque
+
+
+def _square_law(load: PropellerLoad) -> float:
+    if load.torque is None or load.speed is None:
+        raise BadInput("propeller load without torque or speed; give both, or settle it with the engine's own")
+    return load.torque / load.speed**2
 
 
 def load_slope(load: Load, omega: Any) -> Any:
@@ -153,7 +172,7 @@ def load_slope(load: Load, omega: Any) -> Any:
         case ConstantLoad():
             return 0 * omega
         case PropellerLoad():
-            return 2 * load.torque / load.speed**2 * abs(omega)
+            return 2 * _square_law(load) * abs(omega)
         case TableLoad():
             inside = (omega >= load.speeds[0]) & (omega <= load.speeds[-1])
             return np.where(inside, _curve(load.speeds, load.torques)(omega, 1), 0.0)

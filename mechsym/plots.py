@@ -153,7 +153,7 @@ def track(design: Design, turn: Turn, radius: float) -> Figure:
     axis.set_aspect("equal")
     axis.set_xlabel("x [m]")
     axis.set_ylabel("y [m]")
-    axis.legend(fontsize=7, loc="upper left")
+    axis.legend(fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
     return figure
 
 

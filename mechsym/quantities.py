@@ -72,6 +72,27 @@ def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     return factor, tuple(dims)
 
 
+def dimension(unit: str) -> tuple[int, ...]:
+    """Exponents of kg, m, s and K in a unit; angles are pure numbers.
+
+    Parameters
+    ----------
+    unit : str
+        Product of units, `"-"` for a pure number
+
+    Returns
+    -------
+    exponents : tuple of int
+        Of kg, m, s, K
+
+    Examples
+    --------
+    >>> dimension("N*m")
+    (1, 2, -2, 0)
+    """
+    return _unit(unit)[1][:4]
+
+
 def _compatible(found: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
     # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
     angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))

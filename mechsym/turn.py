@@ -99,7 +99,7 @@ def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Tur
         Arrays of shape (n,), angles not decreasing
     """
     rho = path(guide)
-    theta = periodic.piece_points(rho, 33)
+    theta = periodic.piece_points(rho, 65)
     values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]
     return _turn(guide, spring, parameters, theta.ravel(), values)
 

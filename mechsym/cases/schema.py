@@ -11,6 +11,37 @@ _SECTIONS: dict[str, Any] = {
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
+    "speeds": "mechsym.cases.settings:Speeds",
+    "chamber": "mechsym.engine.chamber:ChamberParameters",
+    "cycle": (
+        "kind",
+        {
+            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "diagram": "mechsym.engine.diagram:Diagram",
+            "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+        },
+    ),
+    "gas": (
+        "model",
+        {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
+    ),
+    "heat_transfer": (
+        "law",
+        {
+            "annand": "mechsym.engine.heat:Annand",
+            "woschni": "mechsym.engine.heat:Woschni",
+            "hohenberg": "mechsym.engine.heat:Hohenberg",
+            "none": "mechsym.engine.heat:Adiabatic",
+        },
+    ),
+    "friction_pressure": (
+        "law",
+        {
+            "none": "mechsym.engine.friction:NoFriction",
+            "chen_flynn": "mechsym.engine.friction:ChenFlynn",
+            "heywood": "mechsym.engine.friction:Heywood",
+        },
+    ),
     "load": (
         "law",
         {
@@ -19,13 +50,9 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.loads:TableLoad",
         },
     ),
-    "cycle": (
-        "kind",
-        {
-            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
-            "diagram": "mechsym.engine.diagram:Diagram",
-        },
-    ),
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
+    "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",
         {

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from mechsym.errors import BadInput
 from mechsym.quantities import check, quantity
 
 
@@ -64,3 +65,23 @@ class RetuneSettings:
     """
 
     case: str
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Speeds:
+    """The speeds of a performance map.
+
+    Parameters
+    ----------
+    lowest, highest, step : float
+        First and last speed and the distance between speeds [rad/s]
+    """
+
+    lowest: float = quantity("rad/s", above=0, about="first speed")
+    highest: float = quantity("rad/s", above=0, about="last speed")
+    step: float = quantity("rad/s", above=0, about="distance between speeds")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.highest < self.lowest:
+            raise BadInput(f"highest = {self.highest:g} rad/s is below lowest = {self.lowest:g} rad/s")

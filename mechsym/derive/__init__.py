@@ -40,10 +40,10 @@ from sympy import (
 from mechsym.derive.declare import Mechanism
 from mechsym.derive.lagrange import Equations, derive
 from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi
-from mechsym.derive.rates import acceleration, velocities, velocity
+from mechsym.derive.rates import acceleration, reaction, velocities, velocity
 
 __all__ = [
     "Abs", "And", "Equations", "Max", "Mechanism", "Min", "Mod", "Not", "Or", "Piecewise", "Rational",
     "UnsupportedNode", "acceleration", "acos", "asin", "atan", "atan2", "casadi_text", "cos", "derive", "exp", "log",
-    "pi", "sign", "sin", "sqrt", "tan", "to_casadi", "velocities", "velocity",
+    "pi", "reaction", "sign", "sin", "sqrt", "tan", "to_casadi", "velocities", "velocity",
 ]  # fmt: skip

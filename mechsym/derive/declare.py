@@ -132,21 +132,6 @@ class Mechanism:
         self.units.update(dict.fromkeys(names_of, unit))
         return _one_or_all(symbols)
 
-    def reaction(self, joint: Symbol) -> Symbol:
-        """The reaction of a joint, for forces that depend on it and for outputs.
-
-        Parameters
-        ----------
-        joint : Symbol
-            Joint displacement
-
-        Returns
-        -------
-        symbol : Symbol
-            Its reaction; `derive` puts the derived expression in its place
-        """
-        return self.reaction_of[joint]
-
     def let(self, name: str, value: Expr, unit: str = "") -> Symbol:
         """Name a physical intermediate.
 

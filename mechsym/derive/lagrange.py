@@ -154,7 +154,7 @@ def _reactions(m: Mechanism) -> dict[str, Expr]:
     # friction and separating forces depend on other reactions: these are put in, in the order of the joints
     found: dict[Symbol, Expr] = {}
     for joint in m.joint_list:
-        found[m.reaction(joint)] = _reaction(m, joint).xreplace(found)
+        found[m.reaction_of[joint]] = _reaction(m, joint).xreplace(found)
     outputs = {s.name: e for s, e in found.items()} | {n: e.xreplace(found) for n, e in m.dynamic_outputs.items()}
     for name, expression in outputs.items():
         if unknown := sorted(s.name for s in expression.free_symbols & found.keys()):

@@ -40,7 +40,7 @@ def listing(equations: Equations) -> dict[str, Any]:
         "parameters": {s.name: m.units[s.name] for s in m.parameter_list},
         "inputs": {s.name: m.units[s.name] for s in m.input_list},
         "outputs": {name: _unit(m, name) for name in outputs},
-        "reactions": {m.reaction(s).name: about for s, about in m.joint_about.items()},
+        "reactions": {m.reaction_of[s].name: about for s, about in m.joint_about.items()},
         "constraints": list(m.constraints),
         "equations": [_equation(m, *row) for row in _rows(equations)],
     }

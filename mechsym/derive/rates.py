@@ -1,4 +1,4 @@
-"""Rates of expressions in names: velocity, acceleration, and the acceleration at constant velocities."""
+"""What declarations take besides positions: velocities, accelerations and reactions, as expressions in names."""
 
 from sympy import Expr, Integer, Symbol
 
@@ -92,3 +92,21 @@ def curvature(m: Mechanism, value: Expr) -> Expr:
     first = [m.tape.diff(value, v) for v in m.q]
     pairs = zip(first, velocities(m), strict=True)
     return sum((velocity(m, f) * u for f, u in pairs), Integer(0)).expand()
+
+
+def reaction(m: Mechanism, joint: Symbol) -> Symbol:
+    """The reaction of a joint, for forces that depend on it and for outputs.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+    joint : Symbol
+        Joint displacement
+
+    Returns
+    -------
+    symbol : Symbol
+        Its reaction; `derive` puts the derived expression in its place
+    """
+    return m.reaction_of[joint]

@@ -117,7 +117,7 @@ def machine(engine: Engine) -> Machine:
     def torque(phi: np.ndarray) -> np.ndarray:
         inputs: dict[str, np.ndarray] = {}
         for force in engine.forces:
-            inputs[force.input] = inputs.get(force.input, 0.0) + force.value(phi)
+            inputs[force.input] = inputs.get(force.input, np.zeros(len(phi))) + force.value(phi)
         return _over(dynamics, phi, inputs)[2]
 
     return Machine(inertia=inertia, torque=torque, load=engine.load, period=engine.period, kinks=engine.kinks)

@@ -1,6 +1,7 @@
 r"""A shaft with one coordinate over the angle: kinetic energy instead of speed, angle instead of time.
 
-.. math:: \frac{\mathrm{d}T}{\mathrm{d}\varphi} = Q(\varphi) - M_r(\omega), \qquad T = \tfrac12 (I(\varphi) + J)\,\omega^2
+.. math:: \frac{\mathrm{d}T}{\mathrm{d}\varphi} = Q(\varphi) - M_r(\omega),
+          \qquad T = \tfrac12 (I(\varphi) + J)\,\omega^2
 
 Q is the torque of everything that depends on the angle only (gas, hinge, gravity), M_r the load, J a flywheel. Kinks of
 the torque are known angles, so panels end at them; a shaft that stops is T = 0, where nothing is singular. Each panel
@@ -123,8 +124,8 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
     """
     kinks = [phi_start + (k - phi_start) % machine.period for k in machine.kinks]
     ends = np.unique(np.round([phi_start, *kinks, phi_start + machine.period], 12))
-    ends = [np.linspace(a, b, int(np.ceil((b - a) / _WIDEST)) + 1)[:-1] for a, b in zip(ends, ends[1:], strict=False)]
-    edges = np.append(np.concatenate(ends), phi_start + machine.period)
+    even = [np.linspace(a, b, int(np.ceil((b - a) / _WIDEST)) + 1)[:-1] for a, b in zip(ends, ends[1:], strict=False)]
+    edges = np.append(np.concatenate(even), phi_start + machine.period)
     x = _gauss()[0]
     phi = (edges[1:, None] + edges[:-1, None]) / 2 + np.diff(edges)[:, None] / 2 * x
     inertia, torque, at_edges = machine.inertia(phi.ravel()), machine.torque(phi.ravel()), machine.inertia(edges)

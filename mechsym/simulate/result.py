@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -152,7 +153,7 @@ def write_netcdf(result: Result, path: Path) -> Path:
     return path
 
 
-def dataset(result: Result):  # type: ignore[no-untyped-def]
+def dataset(result: Result) -> Any:
     """The time series as an xarray data set with unit attributes.
 
     Parameters

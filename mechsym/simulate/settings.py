@@ -24,7 +24,7 @@ class Settings:
         Limit of steps in a smooth phase
     """
 
-    tolerance: float = quantity("-", default=1e-10, low=1e-13, high=1e-2, about="tolerance of a step")
+    tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
     check: str = choice("tolerance", "none", default="tolerance", about="check of convergence")
     difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")

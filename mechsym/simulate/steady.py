@@ -15,6 +15,7 @@ from mechsym.simulate.machine import Panels, Turn, lowest_energy, speeds, stop_a
 
 # a constant load is in balance when a turn gains less than this part of the work that swings in it
 _BALANCE = 1e-6
+_STANDING = 1e6  # stands for the ripple of a shaft that does not turn; one that nearly stops has up to about ten
 _TRIES = 50  # periods after which a shaft that still turns is not followed further
 
 
@@ -195,7 +196,7 @@ def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) ->
 
     def excess(inertia: float) -> float:
         found = steady_state(panels, speed, inertia).speed_ripple
-        return (2.0 if found is None else found) - target
+        return (_STANDING if found is None else found) - target
 
     bare = steady_state(panels, speed)
     if bare.speed_ripple is not None and bare.speed_ripple <= target:

@@ -1,0 +1,194 @@
+"""A CasADi function as a list of plain instructions, each value named once.
+
+CasADi keeps an SX function as a tape: instructions over a work vector whose places are used again and again. Here
+every place is renamed on each write, so that a value has one definition, equal instructions are merged and unused ones
+dropped. Everything that writes code (`dialects`, `emit`) starts from this record.
+"""
+
+import collections
+import dataclasses
+import functools
+
+import casadi
+
+from mechsym.errors import BadInput
+
+# opcodes whose meaning is another one's
+_SAME = {"constpow": "pow"}
+# operators that cost about one cycle; everything else is called expensive here
+CHEAP = frozenset({"add", "sub", "mul", "neg", "sq", "twice", "fabs"})
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Tape:
+    """Straight-line program of a function of scalars.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function
+    inputs, outputs : tuple of str
+        Names of the scalar inputs and outputs, elements of a vector as `y[0]`, `y[1]`
+    nodes : tuple of (str, tuple)
+        Operator and operands. Operands are indices of earlier nodes, except for `("input", (i,))` and
+        `("constant", (value,))`
+    results : tuple of int
+        Node of each output
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    nodes: tuple[tuple[str, tuple], ...]
+    results: tuple[int, ...]
+
+
+@functools.cache
+def _operators() -> dict[int, str]:
+    names = {getattr(casadi, n): n[3:].lower() for n in dir(casadi) if n.startswith("OP_")}
+    return {code: _SAME.get(name, name) for code, name in names.items()}
+
+
+def _slots(function: casadi.Function, side: str) -> list[tuple[str, int]]:
+    count, name, size = (
+        (function.n_in(), function.name_in, function.numel_in)
+        if side == "in"
+        else (function.n_out(), function.name_out, function.numel_out)
+    )
+    return [(name(i), size(i)) for i in range(count)]
+
+
+def _names(slots: list[tuple[str, int]]) -> tuple[str, ...]:
+    return tuple(name if size == 1 else f"{name}[{j}]" for name, size in slots for j in range(size))
+
+
+def _offsets(slots: list[tuple[str, int]]) -> list[int]:
+    starts = [0]
+    for _, size in slots:
+        starts.append(starts[-1] + size)
+    return starts
+
+
+def read(function: casadi.Function) -> Tape:
+    """The tape of a CasADi function, merged and without dead code.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        SX function, or an MX function that can be expanded
+
+    Returns
+    -------
+    tape : Tape
+        Its straight-line program; elements of a sparse output that are not stored are zero
+
+    Raises
+    ------
+    BadInput
+        The function calls something that is not made of elementary operations
+    """
+    if not function.is_a("SXFunction"):
+        try:
+            function = function.expand()
+        except RuntimeError as error:
+            reason = str(error).strip().splitlines()[-1]
+            raise BadInput(
+                f"function {function.name()}: cannot be written as elementary operations ({reason}); "
+                "build it from SX expressions"
+            ) from None
+    ins, outs = _slots(function, "in"), _slots(function, "out")
+    nodes, results = _rename(function, _offsets(ins), _offsets(outs))
+    nodes, results = prune(nodes, results)
+    return Tape(
+        name=function.name(), inputs=_names(ins), outputs=_names(outs), nodes=tuple(nodes), results=tuple(results)
+    )
+
+
+def _dense(function: casadi.Function, side: str, index: int) -> list[int]:
+    # stored elements of a sparse matrix, as places in the dense one (column by column)
+    sparsity = function.sparsity_in(index) if side == "in" else function.sparsity_out(index)
+    return sparsity.find()
+
+
+def _rename(function: casadi.Function, inputs: list[int], outputs: list[int]) -> tuple[list[tuple[str, tuple]], list]:
+    names = _operators()
+    nodes: list[tuple[str, tuple]] = []
+    known: dict[tuple[str, tuple], int] = {}
+    work: dict[int, int] = {}
+
+    def node(op: str, args: tuple) -> int:
+        key = (op, args)
+        if key not in known:
+            known[key] = len(nodes)
+            nodes.append(key)
+        return known[key]
+
+    places_in = [_dense(function, "in", i) for i in range(function.n_in())]
+    places_out = [_dense(function, "out", i) for i in range(function.n_out())]
+    results = [-1] * outputs[-1]
+    for k in range(function.n_instructions()):
+        op, args, out = names[function.instruction_id(k)], function.instruction_input(k), function.instruction_output(k)
+        if op == "input":
+            work[out[0]] = node(op, (inputs[args[0]] + places_in[args[0]][args[1]],))
+        elif op == "output":
+            results[outputs[out[0]] + places_out[out[0]][out[1]]] = work[args[0]]
+        elif op == "const":
+            work[out[0]] = node("constant", (function.instruction_constant(k),))
+        elif op == "assign":
+            work[out[0]] = work[args[0]]
+        else:
+            work[out[0]] = node(op, tuple(work[a] for a in args))
+    return nodes, [node("constant", (0.0,)) if r < 0 else r for r in results]
+
+
+def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tuple[str, tuple]], list[int]]:
+    """Drop what no result needs.
+
+    Parameters
+    ----------
+    nodes : list of (str, tuple)
+        Instructions in order
+    results : list of int
+        Node of each output
+
+    Returns
+    -------
+    nodes, results : list
+        Renumbered, in the same order
+    """
+    needed = set(results)
+    for i in range(len(nodes) - 1, -1, -1):
+        if i in needed and nodes[i][0] not in ("input", "constant"):
+            needed.update(nodes[i][1])
+    place: dict[int, int] = {}
+    kept = []
+    for i, (op, args) in enumerate(nodes):
+        if i in needed:
+            place[i] = len(kept)
+            kept.append((op, args if op in ("input", "constant") else tuple(place[a] for a in args)))
+    return kept, [place[r] for r in results]
+
+
+def operation_counts(tape: Tape) -> dict[str, int]:
+    """How often each operator occurs; a sine and a cosine of one angle count as one `sincos`.
+
+    Parameters
+    ----------
+    tape : Tape
+        The program
+
+    Returns
+    -------
+    counts : dict of str to int
+        Sorted by operator, `total` last
+    """
+    angles = collections.defaultdict(set)
+    counts: collections.Counter[str] = collections.Counter()
+    for op, args in tape.nodes:
+        if op in ("sin", "cos"):
+            angles[args[0]].add(op)
+        elif op not in ("input", "constant"):
+            counts[op] += 1
+    if angles:
+        counts["sincos"] = len(angles)
+    return {**dict(sorted(counts.items())), "total": sum(counts.values())}
