@@ -120,7 +120,8 @@ def check_crank(part: CrankPart, loads: CrankLoads, wants: Wants, material: Mate
     for name, (d, lever, notched) in places.items():
         M_x, M_y = loads.F_x * lever / 2, loads.F_y * lever / 2
         T = loads.shaft_torque if name.startswith("shaft") else np.zeros_like(M_x)
-        section = _section(d, part, wants, material, notched)
+        bore = 0.0 if name.startswith("shaft") else part.pin_bore
+        section = _section((d, bore), part, wants, material, notched)
         checks.append(_worst(name, "static factor", static_factor(section, M_x, M_y, T, strength), wants.shaft_static,
                              "bending and torsion", "eq. 4.32, von Mises", loads))  # fmt: skip
         checks.append(_worst(name, "fatigue factor", fatigue_factor(section, M_x, M_y, loads.turn, T), wants.fatigue,
@@ -161,13 +162,14 @@ def check_output(d: float, loads: CrankLoads, wants: Wants, material: Material) 
     ]  # fmt: skip
 
 
-def _section(d: float, part: CrankPart, wants: Wants, material: Material, notched: bool) -> Section:
+def _section(size: tuple[float, float], part: CrankPart, wants: Wants, material: Material, notched: bool) -> Section:
+    d, bore = size
     S_e = endurance_limit(material.ultimate, d, wants.surface)
     if not notched:
-        return Section(d=d, S_e=S_e, S_ut=material.ultimate)
+        return Section(d=d, bore=bore, S_e=S_e, S_ut=material.ultimate)
     wide = max(part.web_width, 2 * d)  # a web is a wide shoulder
-    return Section(d=d, S_e=S_e, S_ut=material.ultimate, K_f=fillet_factor_bending(wants.fillet, d, wide),
-                   K_fs=fillet_factor_torsion(wants.fillet, d, wide))  # fmt: skip
+    K_f, K_fs = fillet_factor_bending(wants.fillet, d, wide), fillet_factor_torsion(wants.fillet, d, wide)
+    return Section(d=d, bore=bore, S_e=S_e, S_ut=material.ultimate, K_f=K_f, K_fs=K_fs)
 
 
 def _check_web(part: CrankPart, loads: CrankLoads, wants: Wants, material: Material) -> list[Check]:

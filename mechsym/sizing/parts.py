@@ -94,8 +94,8 @@ class CrankPart:
 
     Parameters
     ----------
-    pin, pin_length : float
-        Crankpin [m]
+    pin, pin_length, pin_bore : float
+        Diameter, length and bore of the crankpin [m]
     web, web_width : float
         Thickness of a web and its smallest width [m]
     shaft : float
@@ -113,6 +113,7 @@ class CrankPart:
     shaft: float = quantity("m", above=0, about="shaft at the inner journal")
     shaft_length: float = quantity("m", above=0, about="length of the shaft")
     output: float = quantity("m", above=0, about="output shaft")
+    pin_bore: float = quantity("m", default=0.0, low=0, about="bore of the crankpin")
 
     def __post_init__(self) -> None:
         check(self)

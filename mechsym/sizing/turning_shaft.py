@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechsym.quantities import check, quantity
+from mechsym.sizing.checks import require
 from mechsym.sizing.crankshaft import bending_stress, torsion_stress
 from mechsym.sizing.fatigue import stress_cycle
 
@@ -20,8 +21,8 @@ class Section:
 
     Parameters
     ----------
-    d : float
-        Diameter [m]
+    d, bore : float
+        Diameter and bore [m]
     S_e, S_ut : float
         Endurance limit of the part and ultimate strength [Pa]
     K_f, K_fs : float
@@ -33,9 +34,11 @@ class Section:
     S_ut: float = quantity("Pa", above=0, about="ultimate strength")
     K_f: float = quantity("-", default=1.0, low=1, about="notch factor in bending")
     K_fs: float = quantity("-", default=1.0, low=1, about="notch factor in torsion")
+    bore: float = quantity("m", default=0.0, low=0, about="bore")
 
     def __post_init__(self) -> None:
         check(self)
+        require("bore", self.bore, "m", below=self.d, hint="the bore must leave a wall")
 
 
 def fatigue_factor(section, M_x, M_y, turn, T):
@@ -74,11 +77,12 @@ def fatigue_factor(section, M_x, M_y, turn, T):
     >>> [f"{fatigue_factor(section, M, none, turn, none)[0]:.2f}" for turn in (angle, 0 * angle)]
     ['2.00', '8.00']
     """
-    tau_a, tau_m = stress_cycle(torsion_stress(np.asarray(T), section.d))
+    hollow = 1 - (section.bore / section.d) ** 4
+    tau_a, tau_m = stress_cycle(torsion_stress(np.asarray(T), section.d) / hollow)
     used = np.zeros(np.shape(M_x)[0])
     for alpha in np.arange(_FIBRES) * 2 * np.pi / _FIBRES:
         direction = np.asarray(turn) + alpha
-        sigma = bending_stress(M_x * np.cos(direction) + M_y * np.sin(direction), section.d)
+        sigma = bending_stress(M_x * np.cos(direction) + M_y * np.sin(direction), section.d) / hollow
         sigma_a, sigma_m = stress_cycle(sigma)
         amplitude = np.hypot(section.K_f * sigma_a, np.sqrt(3) * section.K_fs * tau_a)
         mean = np.hypot(section.K_f * np.maximum(sigma_m, 0), np.sqrt(3) * section.K_fs * tau_m)
@@ -116,7 +120,8 @@ def static_factor(section, M_x, M_y, T, strength):
     >>> f"{static_factor(section, none, none, np.full((1, 1), 243.6), 1.565e9)[0]:.2f}"
     '0.37'
     """
-    sigma = bending_stress(np.hypot(M_x, M_y), section.d)
-    tau = torsion_stress(np.asarray(T), section.d)
+    hollow = 1 - (section.bore / section.d) ** 4
+    sigma = bending_stress(np.hypot(M_x, M_y), section.d) / hollow
+    tau = torsion_stress(np.asarray(T), section.d) / hollow
     with np.errstate(divide="ignore"):
         return strength / np.sqrt(sigma**2 + 3 * tau**2).max(axis=-1)

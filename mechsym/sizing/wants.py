@@ -51,6 +51,8 @@ class Wants:
         Number of bolts [-]
     reach : float
         Crank axis to the middle of the engine [m]
+    pin_bore : float
+        Bore of the crankpin over its diameter (usual) [-]
     fillet : float
         Radius of the fillets on the crankshaft (usual) [m]
     surface : str
@@ -94,6 +96,7 @@ class Wants:
     reboring: float = quantity("m", default=0.002, low=0, about="allowance in the cylinder wall")
     bolts: float = quantity("-", default=5.0, low=2, high=24, about="bolts of the cylinder")
     reach: float = quantity("m", default=0.145, above=0, about="crank axis to the middle of the engine")
+    pin_bore: float = quantity("-", default=0.5, low=0, high=0.8, about="bore of the crankpin over its diameter")
     fillet: float = quantity("m", default=0.0025, above=0, about="fillets of the crankshaft")
     surface: str = choice("ground", "machined", "as-forged", default="ground", about="shafts")
     carrier_wall: float = quantity("m", default=0.002, low=0, about="wall between journal and main bearing")
