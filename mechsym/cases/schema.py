@@ -20,6 +20,7 @@ _SECTIONS: dict[str, Any] = {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+            "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
     "gas": (
@@ -65,6 +66,7 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",
         {
