@@ -13,6 +13,7 @@ COMMANDS = {
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
+    "native": "mechsym.cli.native:native",
 }
 
 
