@@ -6,7 +6,7 @@
 Massless rod, no gravity, no friction; c1 (torsional damping) is 0 in the paper. The rod force is positive in tension.
 """
 
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, acceleration, cos, sin
 
 
 def crankshaft_flywheel():
@@ -34,5 +34,5 @@ def crankshaft_flywheel():
     m.force(F, along=x0)
     m.output(x0, order=2)
     m.output(gamma0)
-    m.output_dynamic("rod_force", (m0 * m.acceleration(x0) - F) / cos(gamma0), "N")  # (3) with gas force
+    m.output_dynamic("rod_force", (m0 * acceleration(m, x0) - F) / cos(gamma0), "N")  # (3) with gas force
     return m

@@ -4,7 +4,7 @@ The transmission in (6) is exact, the piston's acceleration (11) is truncated: t
 neither kinematics, so it is declared by its equations and has no energies. The trailing "= 0" of (6) is a misprint.
 """
 
-from mechsym.derive import Mechanism, Rational, cos, sin, sqrt
+from mechsym.derive import Mechanism, Rational, cos, sin, sqrt, velocities
 
 
 def crankshaft_flywheel_printed():
@@ -18,7 +18,7 @@ def crankshaft_flywheel_printed():
     k1 = m.parameters("k1", "N*m/rad")
     c1 = m.parameters("c1", "N*m*s/rad")
     M = m.inputs("M", "N*m")
-    phi0d, phi2d = m.velocities()
+    phi0d, phi2d = velocities(m)
 
     lam = m.let("lam", r / l, "-")
     s, c = sin(phi0), cos(phi0)

@@ -1,6 +1,6 @@
 # Generated from derivations/crankshaft_flywheel.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 0c2da8378c9d11a8   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
-# body   sha256: 76603cfc801e27b9   (everything below this header)
+# source sha256: df5c38c28f889761   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
+# body   sha256: 74ddbdb1a6f4bc1c   (everything below this header)
 # sympy 1.14.0
 """Crankshaft and flywheel, exact. Source: 002_d7297926d6c52225."""
 
@@ -28,6 +28,10 @@ FUNCTIONS = {
     "reactions": (
         ('phi0', 'phi0d', 'phi0dd', 'F', 'r', 'l', 'm0'),
         ('rod_force',),
+    ),
+    "momentum": (
+        ('phi0', 'phi0d', 'phi0dd', 'phi2dd', 'I0', 'I2', 'r', 'l', 'm0'),
+        ('momentum_rate_x', 'momentum_rate_y', 'angular_momentum_rate'),
     ),
 }
 
@@ -134,3 +138,29 @@ def reactions(phi0, phi0d, phi0dd, F, r, l, m0):
     dx0_dphi0 = -dcos_gamma0_dphi0 * l + r * sin_phi0
     rod_force = _t0 * (-F + m0 * (d2x0_dphi0_dphi0 * phi0d**2 + dx0_dphi0 * phi0dd))
     return rod_force,
+
+
+def momentum(phi0, phi0d, phi0dd, phi2dd, I0, I2, r, l, m0):
+    """Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces.
+
+    Takes phi0 [rad], phi0d [rad/s], phi0dd [rad/s^2], phi2dd [rad/s^2], I0 [kg*m^2], I2 [kg*m^2], r [m], l [m],
+        m0 [kg].
+    Returns momentum_rate_x, momentum_rate_y, angular_momentum_rate.
+    """
+    cos_phi0 = ca.cos(phi0)
+    lam = r / l
+    sin_phi0 = ca.sin(phi0)
+    sin_gamma0 = lam * sin_phi0
+    cos_gamma0 = ca.sqrt(1 - sin_gamma0**2)
+    dsin_gamma0_dphi0 = cos_phi0 * lam
+    _t0 = 1 / cos_gamma0
+    dgamma0_dphi0 = _t0 * dsin_gamma0_dphi0
+    dcos_gamma0_dphi0 = -dgamma0_dphi0 * sin_gamma0
+    d2gamma0_dphi0_dphi0 = -_t0 * sin_gamma0 - dcos_gamma0_dphi0 * dsin_gamma0_dphi0 / cos_gamma0**2
+    d2cos_gamma0_dphi0_dphi0 = -d2gamma0_dphi0_dphi0 * sin_gamma0 - dgamma0_dphi0 * dsin_gamma0_dphi0
+    d2x0_dphi0_dphi0 = cos_phi0 * r - d2cos_gamma0_dphi0_dphi0 * l
+    dx0_dphi0 = -dcos_gamma0_dphi0 * l + r * sin_phi0
+    momentum_rate_x = m0 * (-d2x0_dphi0_dphi0 * phi0d**2 - dx0_dphi0 * phi0dd)
+    momentum_rate_y = 0
+    angular_momentum_rate = I0 * phi0dd + I2 * phi2dd
+    return momentum_rate_x, momentum_rate_y, angular_momentum_rate

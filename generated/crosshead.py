@@ -1,6 +1,6 @@
 # Generated from derivations/crosshead.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 3342a50e624b2581   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
-# body   sha256: 846a2b8616c5378d   (everything below this header)
+# source sha256: 6671981c50a0984c   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
+# body   sha256: 79a98414e0168558   (everything below this header)
 # sympy 1.14.0
 """Crank, rod, crosshead and elastic hinge. Source: 000_9f2b746dc1abd296."""
 
@@ -28,6 +28,10 @@ FUNCTIONS = {
     "reactions": (
         ('phi', 'phid', 'phidd', 'F', 'r1', 'r2', 'l1', 'l2', 'm1', 'm2', 'm3', 'm4', 'm5', 'IC2', 'g', 'axis_tilt'),
         ('R_x_O', 'R_y_O', 'R_x_A', 'R_y_A', 'R_x_B', 'R_y_B', 'R_y_G'),
+    ),
+    "momentum": (
+        ('phi', 'phid', 'phidd', 'r1', 'r2', 'l1', 'l2', 'm1', 'm2', 'm3', 'm4', 'm5', 'I01', 'IC2'),
+        ('momentum_rate_x', 'momentum_rate_y', 'angular_momentum_rate'),
     ),
 }
 
@@ -219,3 +223,43 @@ def reactions(phi, phid, phidd, F, r1, r2, l1, l2, m1, m2, m3, m4, m5, IC2, g, a
     R_y_B = _t26 * m2 - _t27
     R_y_G = _t16 * _t9 - _t26 * m2 + _t27
     return R_x_O, R_y_O, R_x_A, R_y_A, R_x_B, R_y_B, R_y_G
+
+
+def momentum(phi, phid, phidd, r1, r2, l1, l2, m1, m2, m3, m4, m5, I01, IC2):
+    """Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces.
+
+    Takes phi [rad], phid [rad/s], phidd [rad/s^2], r1 [m], r2 [m], l1 [m], l2 [m], m1 [kg], m2 [kg], m3 [kg], m4
+        [kg], m5 [kg], I01 [kg*m^2], IC2 [kg*m^2].
+    Returns momentum_rate_x, momentum_rate_y, angular_momentum_rate.
+    """
+    cos_phi = ca.cos(phi)
+    d2x_crank_dphi2 = -cos_phi * r1
+    l = l1 + l2
+    r = r1 + r2
+    lam = r / l
+    sin_phi = ca.sin(phi)
+    sin_psi = lam * sin_phi
+    cos_psi = ca.sqrt(1 - sin_psi**2)
+    dsin_psi_dphi = cos_phi * lam
+    _t0 = 1 / cos_psi
+    dpsi_dphi = _t0 * dsin_psi_dphi
+    dcos_psi_dphi = -dpsi_dphi * sin_psi
+    d2psi_dphi2 = -_t0 * sin_psi - dcos_psi_dphi * dsin_psi_dphi / cos_psi**2
+    d2cos_psi_dphi2 = -d2psi_dphi2 * sin_psi - dpsi_dphi * dsin_psi_dphi
+    _t1 = cos_phi * r
+    d2x_dphi2 = _t1 - d2cos_psi_dphi2 * l
+    d2x_rod_dphi2 = -_t1 + d2cos_psi_dphi2 * l1
+    dx_crank_dphi = -r1 * sin_phi
+    _t2 = -r * sin_phi
+    dx_dphi = -_t2 - dcos_psi_dphi * l
+    dx_rod_dphi = _t2 + dcos_psi_dphi * l1
+    d2y_rod_dphi2 = -l2 * sin_psi
+    dy_rod_dphi = dsin_psi_dphi * l2
+    x_rod = _t1 + cos_psi * l1
+    _t3 = phid**2
+    _t4 = _t3 * d2x_rod_dphi2 + dx_rod_dphi * phidd
+    _t5 = _t3 * d2y_rod_dphi2 + dy_rod_dphi * phidd
+    momentum_rate_x = _t4 * m2 + m1 * (_t3 * d2x_crank_dphi2 + dx_crank_dphi * phidd) + (-_t3 * d2x_dphi2 - dx_dphi * phidd) * (m3 + m4 + m5)
+    momentum_rate_y = _t5 * m2 + m1 * (_t3 * dx_crank_dphi - d2x_crank_dphi2 * phidd)
+    angular_momentum_rate = I01 * phidd + IC2 * (-_t3 * d2psi_dphi2 - dpsi_dphi * phidd) + m2 * (_t4 * d2y_rod_dphi2 + _t5 * x_rod)
+    return momentum_rate_x, momentum_rate_y, angular_momentum_rate

@@ -33,7 +33,8 @@ class Mechanism:
         Values that are bound into the functions
     functions : mapping of str to casadi.Function
         `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force,
-        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `constraints(q.., u..)`; only those that exist
+        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)`
+        giving closure, jacobian, bias; only those that exist
     """
 
     name: str
@@ -137,6 +138,7 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
         "dynamics": (*q, *u, *module.INPUTS),
         "energy": (*q, *u),
         "reactions": (*q, *u, *a, *module.INPUTS),
+        "momentum": (*q, *u, *a),
         "constraints": (*q, *u),
     }
     functions = {f: casadi_function(module, f, letters[f], values) for f in module.FUNCTIONS}
@@ -170,6 +172,8 @@ def casadi_function(
     results = dict(zip(outputs, (ca.SX(v) for v in values), strict=True))
     if function == "dynamics":
         results = _matrices(results, module.COORDINATES)
+    if function == "constraints":
+        results = _constraint_matrices(results, module.COORDINATES)
     free = [p for p in parameters.values() if isinstance(p, ca.SX)]
     inputs = [*symbols.values(), *free]
     names = [*symbols, *(p.name() for p in free)]
@@ -181,6 +185,13 @@ def _matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX
     bias = ca.vertcat(*(results[f"bias_{a}"] for a in q))
     force = ca.vertcat(*(results[f"force_{a}"] for a in q))
     return {"mass_matrix": mass, "bias": bias, "generalized_force": force}
+
+
+def _constraint_matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:
+    names = [n.removeprefix("closure_") for n in results if n.startswith("closure_")]
+    jacobian = ca.vertcat(*(ca.horzcat(*(results[f"jacobian_{c}_{a}"] for a in q)) for c in names))
+    stacked = {group: ca.vertcat(*(results[f"{group}_{c}"] for c in names)) for group in ("closure", "bias")}
+    return {"closure": stacked["closure"], "jacobian": jacobian, "bias": stacked["bias"]}
 
 
 def acceleration_function(mechanism: Mechanism) -> ca.Function:
@@ -231,7 +242,7 @@ def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
     mechanism : Mechanism
         With its parameters
     values : mapping of str to float
-        Coordinates, velocities and inputs; what is not named is 0
+        Coordinates, velocities and inputs; what is not named is 0, or what the constraints make it
 
     Returns
     -------
@@ -240,15 +251,15 @@ def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
         energies are None for a model given only by its equations
     """
     q, u = mechanism.coordinates, velocities(mechanism)
+    values, qdd, joint_forces = _motion(mechanism, values)
 
     def numbers(names: Sequence[str]) -> list[float]:
         return [float(values.get(n, 0.0)) for n in names]
 
     dynamics = mechanism.functions["dynamics"]
     mass, bias, force = (np.asarray(v) for v in dynamics.call(numbers(dynamics.name_in())))
-    qdd = np.linalg.solve(mass, force - bias).ravel()
     found = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
-    outputs = _named(mechanism.functions["kinematics"], numbers(q))
+    outputs: dict[str, float | None] = {**_named(mechanism.functions["kinematics"], numbers(q)), **joint_forces}
     if "reactions" in mechanism.functions:
         reactions = mechanism.functions["reactions"]
         outputs |= _named(reactions, [float(found.get(n, 0.0)) for n in reactions.name_in()])
@@ -257,6 +268,19 @@ def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
         energies |= _named(mechanism.functions["energy"], numbers([*q, *u]))
     vectors = {"mass_matrix": mass.tolist(), "bias": bias.ravel().tolist(), "generalized_force": force.ravel().tolist()}
     return vectors | {"acceleration": qdd.tolist()} | energies | {"outputs": outputs}
+
+
+def _motion(
+    mechanism: Mechanism, values: Mapping[str, float]
+) -> tuple[dict[str, float], np.ndarray, dict[str, float | None]]:
+    if "constraints" in mechanism.functions:
+        from mechsym import constraints
+
+        return constraints.motion(mechanism, values)
+    dynamics = mechanism.functions["dynamics"]
+    given = [float(values.get(n, 0.0)) for n in dynamics.name_in()]
+    mass, bias, force = (np.asarray(v) for v in dynamics.call(given))
+    return dict(values), np.linalg.solve(mass, force - bias).ravel(), {}
 
 
 def _named(function: ca.Function, values: Sequence[float]) -> dict[str, float]:

@@ -72,6 +72,27 @@ def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     return factor, tuple(dims)
 
 
+def dimension(unit: str) -> tuple[int, ...]:
+    """Exponents of kg, m, s and K in a unit; angles are pure numbers.
+
+    Parameters
+    ----------
+    unit : str
+        Product of units, `"-"` for a pure number
+
+    Returns
+    -------
+    exponents : tuple of int
+        Of kg, m, s, K
+
+    Examples
+    --------
+    >>> dimension("N*m")
+    (1, 2, -2, 0)
+    """
+    return _unit(unit)[1][:4]
+
+
 def _compatible(found: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
     # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
     angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))
@@ -84,7 +105,7 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     Parameters
     ----------
     value : float, int or str
-        A plain number is taken as SI; a text may end in a unit
+        A plain number is taken as SI; a text may end in a unit [unit]
     unit : str
         The SI unit wanted, `"-"` for a pure number
     key : str
@@ -93,7 +114,7 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     Returns
     -------
     number : float
-        Value in `unit`
+        Value in SI [unit]
 
     Raises
     ------
@@ -149,11 +170,11 @@ def quantity(
     unit : str
         SI unit, `"-"` for a pure number
     default : float, optional
-        Value when none is given; without it the field must be given
+        Value when none is given; without it the field must be given [unit]
     above, below : float, optional
-        Bounds that the value must not reach
+        Bounds that the value must not reach [unit]
     low, high : float, optional
-        Bounds that the value may reach
+        Bounds that the value may reach [unit]
     about : str
         Meaning in a few words
 
@@ -221,7 +242,8 @@ def check(record: Any) -> None:
         if "options" in meta and value not in meta["options"]:
             raise BadInput(f"{field.name} = {value!r} is not an option; options are {', '.join(meta['options'])}")
         if "unit" in meta and value is not None:
-            _check_number(field.name, value, meta)
+            for number in value if isinstance(value, tuple) else (value,):
+                _check_number(field.name, number, meta)
 
 
 def _check_number(name: str, value: float, meta: Any) -> None:

@@ -1,32 +1,76 @@
 """Which record each section of a case becomes. A section with a selector key has one record per named variant."""
 
-import dataclasses
 import importlib
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Operation:
-    """Where the machine runs.
-
-    Parameters
-    ----------
-    speed : float
-        Mean crank speed [rad/s]
-    """
-
-    speed: float = quantity("rad/s", above=0, about="mean crank speed")
-
-    def __post_init__(self) -> None:
-        check(self)
-
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
-    "operation": "mechsym.cases.schema:Operation",
+    "operation": "mechsym.cases.settings:Operation",
+    "flywheel": "mechsym.cases.settings:FlywheelSettings",
+    "trials": "mechsym.cases.settings:TrialSettings",
+    "retune": "mechsym.cases.settings:RetuneSettings",
+    "speeds": "mechsym.cases.settings:Speeds",
+    "chamber": "mechsym.engine.chamber:ChamberParameters",
+    "cycle": (
+        "kind",
+        {
+            "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "diagram": "mechsym.engine.diagram:Diagram",
+            "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+        },
+    ),
+    "gas": (
+        "model",
+        {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
+    ),
+    "heat_transfer": (
+        "law",
+        {
+            "annand": "mechsym.engine.heat:Annand",
+            "woschni": "mechsym.engine.heat:Woschni",
+            "hohenberg": "mechsym.engine.heat:Hohenberg",
+            "none": "mechsym.engine.heat:Adiabatic",
+        },
+    ),
+    "friction_pressure": (
+        "law",
+        {
+            "none": "mechsym.engine.friction:NoFriction",
+            "chen_flynn": "mechsym.engine.friction:ChenFlynn",
+            "heywood": "mechsym.engine.friction:Heywood",
+        },
+    ),
+    "load": (
+        "law",
+        {
+            "constant": "mechsym.loads:ConstantLoad",
+            "propeller": "mechsym.loads:PropellerLoad",
+            "table": "mechsym.loads:TableLoad",
+        },
+    ),
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
+    "startup": "mechsym.startup:StartUpClaim",
+    "spring": (
+        "law",
+        {
+            "air_gauge": "mechsym.springs:AirGauge",
+            "air_absolute": "mechsym.springs:AirAbsolute",
+            "coil": "mechsym.springs:Coil",
+        },
+    ),
+    "guide": "mechsym.guide:GuideParameters",
+    "rollers": "mechsym.rollers:RollerParameters",
+    "limits": "mechsym.feasibility:Limits",
+    "closing": (
+        "rule",
+        {
+            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+        },
+    ),
 }
 
 

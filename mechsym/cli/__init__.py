@@ -10,10 +10,15 @@ from mechsym.errors import BadInput
 # command: "module:function"
 COMMANDS = {
     "cases": "mechsym.cli.catalogue:cases",
+    "compare": "mechsym.cli.compare:compare",
+    "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
+    "optimise": "mechsym.cli.optimise:optimise",
+    "simulate": "mechsym.cli.simulate:simulate",
 }
 
 

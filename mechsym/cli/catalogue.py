@@ -17,11 +17,10 @@ def mechanisms(as_json: bool) -> None:
     Example: mechsym mechanisms --json
     """
     from mechsym import mechanisms as known
-    from mechsym.mechanism import listing
 
     rows = []
     for name in known.names():
-        found = listing(name)
+        found = known.listing(name)
         letters = {k: list(found[k]) for k in ("coordinates", "parameters", "inputs", "outputs")}
         rows.append({"name": name, **letters, "source": found["source"], "about": found["about"]})
     emit(rows, as_json, lambda: table(rows, ["name", "coordinates", "inputs", "source", "about"]))

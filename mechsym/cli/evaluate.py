@@ -31,27 +31,26 @@ def evaluate(name: str, case_name: str | None, overrides: tuple[str, ...], as_js
 
 def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float]]:
     from mechsym import mechanisms
-    from mechsym.mechanism import listing
     from mechsym.quantities import parse
 
-    cls = mechanisms.parameters_class(name)
-    letters = listing(name)
-    units = letters["coordinates"] | letters["inputs"]
-    units |= {f"{q}d": f"{unit}/s" for q, unit in letters["coordinates"].items()}
-    parameters, values = _case_parameters(name, case_name), {}
-    for key, text in given.items():
-        if key in letters["parameters"]:
-            parameters[key] = parse(text, letters["parameters"][key], f"--set {key}")
-        elif key in units:
-            values[key] = parse(text, units[key], f"--set {key}")
-        else:
-            known = ", ".join([*units, *letters["parameters"]])
-            raise BadInput(f"--set {key}: {name} has no such letter; letters are {known}")
+    cls, parameters = mechanisms.parameters_class(name), _case_parameters(name, case_name)
+    letters = mechanisms.listing(name)["parameters"]
+    parameters |= {k: parse(t, letters[k], f"--set {k}") for k, t in given.items() if k in letters}
     fields = dataclasses.fields(cls)
     missing = [f.name for f in fields if f.name not in parameters and f.default is dataclasses.MISSING]
     if missing:
         raise BadInput(f"{name}: no value for {', '.join(missing)}; give --case or --set {missing[0]}=...")
-    return mechanisms.build(name, cls(**parameters)), values
+    mechanism = mechanisms.build(name, cls(**parameters))
+    listing = mechanisms.listing(name, mechanism)
+    units = listing["coordinates"] | listing["inputs"]
+    units |= {f"{q}d": f"{unit}/s" for q, unit in listing["coordinates"].items()}
+    values = {}
+    for key, text in given.items():
+        if key in units:
+            values[key] = parse(text, units[key], f"--set {key}")
+        elif key not in letters:
+            raise BadInput(f"--set {key}: {name} has no such letter; letters are {', '.join([*units, *letters])}")
+    return mechanism, values
 
 
 def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:

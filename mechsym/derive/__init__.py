@@ -1,8 +1,9 @@
 """The symbolic side: declare a mechanism, derive its exact equations, generate code from them. The only home of sympy
 besides `mechsym.audit`.
 
-declare.py    what a mechanism is made of (bodies, joints, springs, forces)
+declare.py    what a mechanism is made of (bodies, joints, springs, forces; records in elements.py)
 tape.py       named intermediates and their named derivatives
+rates.py      velocities and accelerations of named expressions
 lagrange.py   mass matrix, bias, generalised forces, energies, reactions
 textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
 identity.py   is an expression zero? numbers at 50 digits and a polynomial certificate
@@ -39,9 +40,10 @@ from sympy import (
 from mechsym.derive.declare import Mechanism
 from mechsym.derive.lagrange import Equations, derive
 from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi
+from mechsym.derive.rates import acceleration, reaction, velocities, velocity
 
 __all__ = [
     "Abs", "And", "Equations", "Max", "Mechanism", "Min", "Mod", "Not", "Or", "Piecewise", "Rational",
-    "UnsupportedNode", "acos", "asin", "atan", "atan2", "casadi_text", "cos", "derive", "exp", "log", "pi", "sign",
-    "sin", "sqrt", "tan", "to_casadi",
+    "UnsupportedNode", "acceleration", "acos", "asin", "atan", "atan2", "casadi_text", "cos", "derive", "exp", "log",
+    "pi", "reaction", "sign", "sin", "sqrt", "tan", "to_casadi", "velocities", "velocity",
 ]  # fmt: skip

@@ -5,53 +5,10 @@ like a coordinate and is held at zero: it gives the relative displacement of the
 its generalised force is the reaction of the first body on the second.
 """
 
-from dataclasses import dataclass
-
 from sympy import Expr, Integer, Symbol, sympify
 
+from mechsym.derive.elements import Body, Element
 from mechsym.derive.tape import Tape
-
-
-@dataclass(frozen=True, kw_only=True)
-class Body:
-    """A rigid body: mass at a point, and an inertia that turns.
-
-    Parameters
-    ----------
-    name : str
-        Name of the body
-    mass, inertia : Expr
-        Mass, and inertia about the centre of mass or, with `about_axis`, about the fixed axis
-    at : tuple of Expr
-        Centre of mass, (x, y)
-    turns : Expr
-        Angle, positive from x to y
-    about_axis : bool
-        Whether the inertia is about a fixed axis that the centre of mass turns round
-    """
-
-    name: str
-    mass: Expr
-    at: tuple[Expr, Expr]
-    turns: Expr
-    inertia: Expr
-    about_axis: bool
-
-
-@dataclass(frozen=True, kw_only=True)
-class Element:
-    """A force, spring or damper that acts along a displacement.
-
-    Parameters
-    ----------
-    value : Expr
-        Force or torque, stiffness, or damping
-    along : Expr
-        The displacement or angle that it works on
-    """
-
-    value: Expr
-    along: Expr
 
 
 class Mechanism:
@@ -76,6 +33,7 @@ class Mechanism:
         self.input_list: list[Symbol] = []
         self.joint_list: list[Symbol] = []
         self.joint_about: dict[Symbol, str] = {}
+        self.reaction_of: dict[Symbol, Symbol] = {}
         self.bodies: list[Body] = []
         self.springs: list[Element] = []
         self.dampers: list[Element] = []
@@ -99,10 +57,8 @@ class Mechanism:
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -112,17 +68,15 @@ class Mechanism:
         symbols = self._symbols(names, unit)
         self.q += symbols
         self.tape.variables += symbols
-        return symbols[0] if len(symbols) == 1 else symbols
+        return _one_or_all(symbols)
 
     def parameters(self, names: str, unit: str) -> list[Symbol] | Symbol:
         """Declare constants.
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -131,17 +85,15 @@ class Mechanism:
         """
         symbols = self._symbols(names, unit)
         self.parameter_list += symbols
-        return symbols[0] if len(symbols) == 1 else symbols
+        return _one_or_all(symbols)
 
     def inputs(self, names: str, unit: str) -> list[Symbol] | Symbol:
         """Declare applied forces or torques that the outside world sets.
 
         Parameters
         ----------
-        names : str
-            Names, separated by spaces
-        unit : str
-            Unit of all of them
+        names, unit : str
+            Names separated by spaces, unit of all of them
 
         Returns
         -------
@@ -150,19 +102,21 @@ class Mechanism:
         """
         symbols = self._symbols(names, unit)
         self.input_list += symbols
-        return symbols[0] if len(symbols) == 1 else symbols
+        return _one_or_all(symbols)
 
-    def joints(self, names: str, about: str, unit: str = "N") -> list[Symbol] | Symbol:
+    def joints(self, names: str, about: str, unit: str = "N", reactions: str = "") -> list[Symbol] | Symbol:
         """Declare joint displacements, held at zero, whose generalised forces are the reactions.
 
         Parameters
         ----------
         names : str
-            Names, separated by spaces; the reaction of `x_A` is `R_x_A`
+            Names, separated by spaces
         about : str
             Which body acts on which
         unit : str
             Unit of the reactions
+        reactions : str
+            Names of the reactions; without them the reaction of `x_A` is `R_x_A`
 
         Returns
         -------
@@ -173,8 +127,10 @@ class Mechanism:
         self.joint_list += symbols
         self.tape.variables += symbols
         self.joint_about.update(dict.fromkeys(symbols, about))
-        self.units.update({f"R_{s.name}": unit for s in symbols})
-        return symbols[0] if len(symbols) == 1 else symbols
+        names_of = reactions.split() or [f"R_{s.name}" for s in symbols]
+        self.reaction_of.update({s: Symbol(n, real=True) for s, n in zip(symbols, names_of, strict=True)})
+        self.units.update(dict.fromkeys(names_of, unit))
+        return _one_or_all(symbols)
 
     def let(self, name: str, value: Expr, unit: str = "") -> Symbol:
         """Name a physical intermediate.
@@ -239,7 +195,7 @@ class Mechanism:
         inertia : Expr
             Inertia about the centre of mass [kg*m^2]
         inertia_about_axis : Expr, optional
-            Inertia about a fixed axis instead; it includes the share of the mass
+            Inertia about a fixed axis through the origin instead; it includes the share of the mass
         """
         x, y = (self._point(f"{axis}_{name}", value) for axis, value in zip("xy", at, strict=True))
         about_axis = inertia_about_axis is not None
@@ -373,77 +329,13 @@ class Mechanism:
         name : str
             Name of the output
         value : Expr
-            Expression in names, `velocity` and `acceleration` of names, inputs and parameters
+            Expression in names, `velocity` and `acceleration` of names, reactions, inputs and parameters
         unit : str
             Its unit
         """
         self.units[name] = unit
         self.dynamic_outputs[name] = self.tape.named(sympify(value))
 
-    def velocities(self) -> list[Symbol]:
-        """Symbols of the velocities, `phid` for `phi`.
 
-        Returns
-        -------
-        symbols : list of Symbol
-            In the order of the coordinates
-        """
-        return [Symbol(f"{v.name}d", real=True) for v in self.q]
-
-    def accelerations(self) -> list[Symbol]:
-        """Symbols of the accelerations, `phidd` for `phi`.
-
-        Returns
-        -------
-        symbols : list of Symbol
-            In the order of the coordinates
-        """
-        return [Symbol(f"{v.name}dd", real=True) for v in self.q]
-
-    def velocity(self, value: Expr) -> Expr:
-        """Rate of an expression in names.
-
-        Parameters
-        ----------
-        value : Expr
-            Expression in names and coordinates
-
-        Returns
-        -------
-        rate : Expr
-            Expression with the velocities
-        """
-        return sum((self.tape.diff(value, v) * u for v, u in zip(self.q, self.velocities(), strict=True)), Integer(0))
-
-    def acceleration(self, value: Expr) -> Expr:
-        """Second time derivative of an expression in names.
-
-        Parameters
-        ----------
-        value : Expr
-            Expression in names and coordinates
-
-        Returns
-        -------
-        acceleration : Expr
-            Expression with the velocities and accelerations
-        """
-        linear = (self.tape.diff(value, v) * a for v, a in zip(self.q, self.accelerations(), strict=True))
-        return sum(linear, self.curvature(value))
-
-    def curvature(self, value: Expr) -> Expr:
-        """The part of the second time derivative that is quadratic in the velocities.
-
-        Parameters
-        ----------
-        value : Expr
-            Expression in names and coordinates
-
-        Returns
-        -------
-        acceleration : Expr
-            Expression with the velocities
-        """
-        first = [self.tape.diff(value, v) for v in self.q]
-        pairs = zip(first, self.velocities(), strict=True)
-        return sum((self.velocity(f) * u for f, u in pairs), Integer(0)).expand()
+def _one_or_all(symbols: list[Symbol]) -> list[Symbol] | Symbol:
+    return symbols[0] if len(symbols) == 1 else symbols

@@ -10,6 +10,7 @@ from sympy import Expr, Integer, Symbol, cse, numbered_symbols
 
 from mechsym.derive.lagrange import Equations
 from mechsym.derive.printer import casadi_text
+from mechsym.derive.rates import accelerations, velocities
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,13 +61,17 @@ def groups(equations: Equations) -> list[Group]:
     if equations.reactions:
         about = "Joint reactions (first body on second) and other outputs that need accelerations."
         found.append(Group(name="reactions", about=about, outputs=equations.reactions))
+    if equations.momentum:
+        about = "Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces."
+        found.append(Group(name="momentum", about=about, outputs=equations.momentum))
     if equations.constraint_jacobian:
         names = list(equations.mechanism.constraints)
         rows = zip(names, equations.constraint_jacobian, strict=True)
         jacobian = {f"jacobian_{c}_{a}": e for c, row in rows for a, e in zip(q, row, strict=True)}
         velocity_terms = {f"bias_{c}": e for c, e in zip(names, equations.constraint_bias, strict=True)}
-        about = "Constraints: jacobian * qdd + bias = 0."
-        found.append(Group(name="constraints", about=about, outputs=jacobian | velocity_terms))
+        closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
+        about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
+        found.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
     return found
 
 
@@ -164,7 +169,7 @@ def arguments(equations: Equations, steps: list[tuple[Symbol, Expr]], results: M
     """
     m = equations.mechanism
     used = {s.name for e in [*(v for _, v in steps), *results.values()] for s in e.free_symbols}
-    order = [*m.q, *m.velocities(), *m.accelerations(), *m.input_list, *m.parameter_list]
+    order = [*m.q, *velocities(m), *accelerations(m), *m.input_list, *m.parameter_list]
     known = [s.name for s in order]
     unknown = used - set(known) - {s.name for s, _ in steps}
     if unknown:
@@ -192,8 +197,8 @@ def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
     steps, results = assignments(equations, group.outputs)
     names = arguments(equations, steps, results)
     m = equations.mechanism
-    units = m.units | {v.name: f"{m.units[q.name]}/s" for q, v in zip(m.q, m.velocities(), strict=True)}
-    units |= {a.name: f"{m.units[q.name]}/s^2" for q, a in zip(m.q, m.accelerations(), strict=True)}
+    units = m.units | {v.name: f"{m.units[q.name]}/s" for q, v in zip(m.q, velocities(m), strict=True)}
+    units |= {a.name: f"{m.units[q.name]}/s^2" for q, a in zip(m.q, accelerations(m), strict=True)}
     given = ", ".join(f"{n} [{units[n]}]" for n in names)
     body = [f"{s.name} = {casadi_text(e)}" for s, e in steps]
     body += [f"{n} = {casadi_text(e)}" for n, e in results.items() if e != Symbol(n, real=True)]

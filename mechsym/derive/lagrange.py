@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from sympy import Expr, Integer, Rational, Symbol
 
 from mechsym.derive.declare import Body, Mechanism
+from mechsym.derive.rates import acceleration, curvature, velocities, velocity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +34,8 @@ class Equations:
         Joint reactions and dynamic outputs by name
     kinematics : dict of str to Expr
         Kinematic outputs by name
+    momentum : dict of str to Expr
+        Rates of linear momentum and of angular momentum about the origin, all bodies together
     constraint_jacobian : tuple of tuple of Expr, shape (m, n)
         Rows of the constraints, empty without constraints
     constraint_bias : tuple of Expr, shape (m,)
@@ -47,6 +50,7 @@ class Equations:
     potential_energy: Expr | None
     reactions: dict[str, Expr]
     kinematics: dict[str, Expr]
+    momentum: dict[str, Expr]
     constraint_jacobian: tuple[tuple[Expr, ...], ...] = ()
     constraint_bias: tuple[Expr, ...] = ()
 
@@ -75,6 +79,7 @@ def derive(m: Mechanism) -> Equations:
             potential_energy=None,
             reactions=dict(m.dynamic_outputs),
             kinematics={s.name: s for s in m.kinematic_outputs},
+            momentum={},
         )
     mass = [[_mass(m, a, b) for b in m.q] for a in m.q]
     kinematics: dict[str, Expr] = {s.name: s for s in m.kinematic_outputs}
@@ -90,10 +95,11 @@ def derive(m: Mechanism) -> Equations:
         generalized_force=tuple(generalized_force(m, v) for v in m.q),
         kinetic_energy=_kinetic_energy(m, mass),
         potential_energy=_potential_energy(m),
-        reactions={f"R_{e.name}": _reaction(m, e) for e in m.joint_list} | m.dynamic_outputs,
+        reactions=_reactions(m),
         kinematics=kinematics,
+        momentum=_momentum(m),
         constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
-        constraint_bias=tuple(m.curvature(g) for g in m.constraints.values()),
+        constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
     )
 
 
@@ -115,10 +121,10 @@ def _bias(m: Mechanism, a: Symbol) -> Expr:
 
 def _body_bias(m: Mechanism, body: Body, a: Symbol) -> Expr:
     d = m.tape.diff
-    turning = body.inertia * d(body.turns, a) * m.curvature(body.turns)
+    turning = body.inertia * d(body.turns, a) * curvature(m, body.turns)
     if body.about_axis:
         return turning
-    return body.mass * sum((d(p, a) * m.curvature(p) for p in body.at), Integer(0)) + turning
+    return body.mass * sum((d(p, a) * curvature(m, p) for p in body.at), Integer(0)) + turning
 
 
 def generalized_force(m: Mechanism, a: Symbol) -> Expr:
@@ -140,20 +146,42 @@ def generalized_force(m: Mechanism, a: Symbol) -> Expr:
     weight = [b.mass * g * d(p, a) for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
     applied = [f.value * d(f.along, a) for f in m.forces]
     springs = [-s.value * s.along * d(s.along, a) for s in m.springs]
-    dampers = [-c.value * m.velocity(c.along) * d(c.along, a) for c in m.dampers]
+    dampers = [-c.value * velocity(m, c.along) * d(c.along, a) for c in m.dampers]
     return m.tape.named(sum([*weight, *applied, *springs, *dampers], Integer(0)))
+
+
+def _reactions(m: Mechanism) -> dict[str, Expr]:
+    # friction and separating forces depend on other reactions: these are put in, in the order of the joints
+    found: dict[Symbol, Expr] = {}
+    for joint in m.joint_list:
+        found[m.reaction_of[joint]] = _reaction(m, joint).xreplace(found)
+    outputs = {s.name: e for s, e in found.items()} | {n: e.xreplace(found) for n, e in m.dynamic_outputs.items()}
+    for name, expression in outputs.items():
+        if unknown := sorted(s.name for s in expression.free_symbols & found.keys()):
+            raise ValueError(f"{name} depends on {', '.join(unknown)}; declare the joint of that reaction earlier")
+    return outputs
 
 
 def _reaction(m: Mechanism, joint: Symbol) -> Expr:
     d, total = m.tape.diff, Integer(0)
     for body in m.bodies:
-        total += body.mass * sum((m.acceleration(p) * d(p, joint) for p in body.at), Integer(0))
-        total += body.inertia * m.acceleration(body.turns) * d(body.turns, joint)
+        total += body.mass * sum((acceleration(m, p) * d(p, joint) for p in body.at), Integer(0))
+        total += body.inertia * acceleration(m, body.turns) * d(body.turns, joint)
     return total - generalized_force(m, joint)
 
 
+def _momentum(m: Mechanism) -> dict[str, Expr]:
+    x, y, turning = Integer(0), Integer(0), Integer(0)
+    for body in m.bodies:
+        (px, py), (ax, ay) = body.at, (acceleration(m, p) for p in body.at)
+        x, y = x + body.mass * ax, y + body.mass * ay
+        turning += body.inertia * acceleration(m, body.turns)
+        turning += 0 if body.about_axis else body.mass * (px * ay - py * ax)
+    return {"momentum_rate_x": x, "momentum_rate_y": y, "angular_momentum_rate": turning}
+
+
 def _kinetic_energy(m: Mechanism, mass: list[list[Expr]]) -> Expr:
-    u = m.velocities()
+    u = velocities(m)
     terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
     return Rational(1, 2) * sum(terms, Integer(0))
 

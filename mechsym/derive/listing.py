@@ -7,6 +7,7 @@ from sympy import Derivative, Eq, Expr, Symbol, cos, latex, mathml, sin
 from mechsym.derive.declare import Mechanism
 from mechsym.derive.emit import groups
 from mechsym.derive.lagrange import Equations
+from mechsym.derive.rates import accelerations, velocities
 
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
 _LATEX = {"lam": r"\lambda", "phi": r"\varphi"}
@@ -39,7 +40,7 @@ def listing(equations: Equations) -> dict[str, Any]:
         "parameters": {s.name: m.units[s.name] for s in m.parameter_list},
         "inputs": {s.name: m.units[s.name] for s in m.input_list},
         "outputs": {name: _unit(m, name) for name in outputs},
-        "reactions": {f"R_{s.name}": about for s, about in m.joint_about.items()},
+        "reactions": {m.reaction_of[s].name: about for s, about in m.joint_about.items()},
         "constraints": list(m.constraints),
         "equations": [_equation(m, *row) for row in _rows(equations)],
     }
@@ -62,7 +63,7 @@ def _rows(equations: Equations) -> list[tuple[str, Expr, Expr]]:
         if not symbol.name.startswith(("sin_", "cos_")) or symbol.name[4:] not in {v.name for v in m.tape.variables}:
             rows.append(("kinematics", symbol, m.tape.entries[symbol].xreplace(held)))
     for i, a in enumerate(m.q):
-        row = sum(e * x for e, x in zip(equations.mass_matrix[i], m.accelerations(), strict=True))
+        row = sum(e * x for e, x in zip(equations.mass_matrix[i], accelerations(m), strict=True))
         rows.append((f"motion of {a.name}", row + equations.bias[i], equations.generalized_force[i].xreplace(held)))
     if equations.kinetic_energy is not None and equations.potential_energy is not None:
         rows.append(("kinetic energy", Symbol("T"), equations.kinetic_energy))
@@ -95,7 +96,7 @@ def _physical(m: Mechanism, expression: Expr) -> Expr:
 
 
 def _stem(m: Mechanism, symbol: Symbol) -> tuple[str, int]:
-    for order, found in enumerate((m.velocities(), m.accelerations()), 1):
+    for order, found in enumerate((velocities(m), accelerations(m)), 1):
         names = [s.name for s in found]
         if symbol.name in names:
             return m.q[names.index(symbol.name)].name, order

@@ -11,6 +11,7 @@ from sympy import Expr, Integer, Symbol
 
 from mechsym.derive.identity import certificate, random_state, vanishes_at_random_points
 from mechsym.derive.lagrange import Equations
+from mechsym.derive.rates import accelerations, velocities
 
 
 def lagrange_left_side(equations: Equations) -> list[Expr]:
@@ -28,7 +29,7 @@ def lagrange_left_side(equations: Equations) -> list[Expr]:
     """
     m = equations.mechanism
     T = _held(equations, equations.kinetic_energy)
-    q, u, a = m.q, m.velocities(), m.accelerations()
+    q, u, a = m.q, velocities(m), accelerations(m)
     left = []
     for i, v in enumerate(q):
         momentum = T.diff(u[i])
@@ -50,7 +51,7 @@ def geometric_left_side(equations: Equations) -> list[Expr]:
     left : list of Expr
         One expression a coordinate
     """
-    a = equations.mechanism.accelerations()
+    a = accelerations(equations.mechanism)
     rows = zip(equations.mass_matrix, equations.bias, strict=True)
     return [_held(equations, sum((e * x for e, x in zip(row, a, strict=True)), bias)) for row, bias in rows]
 

@@ -1,17 +1,26 @@
 """Runtime mechanisms: frozen parameters and `build(params) -> Mechanism` on top of the generated code."""
 
 import dataclasses
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.mechanism import Mechanism, bind
+from mechsym.mechanism import listing as stored_listing
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
+    "crank_throw": "crank_throw:CrankThrowParameters",
+    "crank_train": "crank_train:CrankTrainParameters",
+    "hypocycloid": "hypocycloid:HypocycloidParameters",
+    "rodless": "rodless:RodlessParameters",
+    "rodless_constraints": "rodless:RodlessParameters",
     "crankshaft_flywheel": "crankshaft_flywheel:CrankshaftFlywheelParameters",
     "crankshaft_flywheel_printed": "crankshaft_flywheel:CrankshaftFlywheelParameters",
 }
+
+_ASSEMBLED = ("crank_train",)  # put together at run time from a derived part
 
 
 def names() -> list[str]:
@@ -66,4 +75,26 @@ def build(name: str, parameters: Any) -> Mechanism:
     """
     if not isinstance(parameters, parameters_class(name)):
         raise BadInput(f"{name} takes {parameters_class(name).__name__}, not {type(parameters).__name__}")
+    if name in _ASSEMBLED:
+        return import_module(f"mechsym.mechanisms.{name}").build(parameters)
     return bind(name, dataclasses.asdict(parameters))
+
+
+def listing(name: str, mechanism: Mechanism | None = None) -> Mapping[str, Any]:
+    """Letters, units and source of a mechanism.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mechanism
+    mechanism : Mechanism, optional
+        What was built; a crank train's letters depend on its number of throws and cylinders
+
+    Returns
+    -------
+    listing : mapping
+        Keys name, about, source, coordinates, parameters, inputs, outputs, equations
+    """
+    if name in _ASSEMBLED:
+        return import_module(f"mechsym.mechanisms.{name}").listing(mechanism)
+    return stored_listing(name)

@@ -1,0 +1,189 @@
+"""One tree, three number systems: floats for speed, many digits for decisions, symbols for proofs.
+
+Values are arrays of states. What has no value (a root of a negative number, a division by zero, a power beyond all
+bounds) is nan in the first two systems, so that hostile input costs nothing and never counts as agreement.
+"""
+
+import ast
+from collections.abc import Callable, Mapping, MutableMapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy
+
+from mechsym.audit.tree import Node, children, function_of
+from mechsym.errors import BadInput
+
+MAX_EXPONENT = 10_000
+MAX_ARGUMENT = 1e12
+
+
+@dataclass(frozen=True, kw_only=True)
+class Algebra:
+    """A number system.
+
+    Parameters
+    ----------
+    number : callable
+        From an exact Fraction
+    operations : mapping
+        ast operator class to function of two values
+    functions : mapping of str to callable
+        Functions of one value
+    pi : callable
+        The value of pi, now
+    """
+
+    number: Callable[[Fraction], Any]
+    operations: Mapping[type, Callable]
+    functions: Mapping[str, Callable]
+    pi: Callable[[], Any]
+
+
+def evaluate(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping | None = None) -> Any:
+    """Value of an expression.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+    names : mapping of str to value
+        Values of its letters
+    algebra : Algebra
+        Number system
+    memo : mutable mapping, optional
+        Values by node, filled while evaluating; trees that share nodes share work
+
+    Returns
+    -------
+    value : object
+        Array or scalar of the number system
+    """
+    memo = {} if memo is None else memo
+    if tree not in memo:
+        memo[tree] = _value(tree, names, algebra, memo)
+    return memo[tree]
+
+
+def _value(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping) -> Any:
+    if isinstance(tree, ast.Constant):
+        return algebra.number(Fraction(str(tree.value)))
+    if isinstance(tree, ast.Name):
+        return names[tree.id]
+    values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
+    if isinstance(tree, ast.BinOp):
+        return algebra.operations[type(tree.op)](*values)
+    if isinstance(tree, ast.UnaryOp):
+        return -values[0]
+    return algebra.functions[str(function_of(tree))](values[0])
+
+
+def _float_power(base: Any, exponent: Any) -> Any:
+    return np.power(base, np.where(np.abs(exponent) <= MAX_EXPONENT, exponent, np.nan))
+
+
+def _total(value: Any) -> Any:
+    if np.ndim(value) < 2:
+        raise BadInput("sum() needs a letter that has one value per part, such as the force on each journal")
+    return np.sum(value, axis=0)
+
+
+def _cot(value: Any) -> Any:
+    return 1 / np.tan(value)
+
+
+FLOATS = Algebra(
+    number=lambda f: np.float64(f.numerator) / np.float64(f.denominator),
+    operations={
+        ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide, ast.Pow: _float_power,
+    },
+    functions={
+        "sin": np.sin, "cos": np.cos, "tan": np.tan, "cot": _cot, "asin": np.arcsin, "acos": np.arccos,
+        "atan": np.arctan, "sqrt": np.sqrt, "exp": np.exp, "log": np.log, "abs": np.abs, "sum": _total,
+    },
+    pi=lambda: np.float64(np.pi),
+)  # fmt: skip
+
+
+def _each(function: Callable, arguments: int = 1) -> Callable:
+    # one state at a time: what raises or leaves the real numbers is nan
+    def guarded(*values: Any) -> Any:
+        try:
+            result = function(*values)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return mpmath.nan
+        return result if isinstance(result, mpmath.mpf) else mpmath.nan
+
+    return np.frompyfunc(guarded, arguments, 1)
+
+
+def _within(function: Callable) -> Callable:
+    return _each(lambda x: function(x) if abs(x) <= MAX_ARGUMENT else mpmath.nan)
+
+
+def _power(base: Any, exponent: Any) -> Any:
+    if not abs(exponent) <= MAX_EXPONENT:
+        return mpmath.nan
+    return base ** int(exponent) if exponent == int(exponent) else base**exponent
+
+
+DIGITS = Algebra(
+    number=lambda f: mpmath.mpf(f.numerator) / f.denominator,
+    operations={
+        ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply,
+        ast.Div: _each(lambda a, b: a / b, 2), ast.Pow: _each(_power, 2),
+    },
+    functions={
+        "sin": _within(mpmath.sin), "cos": _within(mpmath.cos), "tan": _within(mpmath.tan),
+        "cot": _within(mpmath.cot), "asin": _each(mpmath.asin), "acos": _each(mpmath.acos),
+        "atan": _each(mpmath.atan), "sqrt": _each(mpmath.sqrt), "exp": _within(mpmath.exp),
+        "log": _each(mpmath.log), "abs": _each(abs), "sum": _total,
+    },
+    pi=lambda: +mpmath.pi,
+)  # fmt: skip
+
+
+def _symbolic(function: Callable, arguments: int = 1) -> Callable:
+    return np.frompyfunc(function, arguments, 1)
+
+
+def _symbolic_power(base: Any, exponent: Any) -> Any:
+    # sympy computes powers of numbers at once, however large
+    if exponent.is_number and not abs(exponent) <= (MAX_EXPONENT if base.free_symbols else MAX_EXPONENT**0.5):
+        raise BadInput(f"the exponent {str(exponent)[:40]} is too large")
+    return base**exponent
+
+
+SYMBOLS = Algebra(
+    number=lambda f: sympy.Rational(f.numerator, f.denominator),
+    operations={
+        ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: _symbolic(lambda a, b: a / b, 2),
+        ast.Pow: _symbolic(_symbolic_power, 2),
+    },
+    functions={
+        name: _symbolic(getattr(sympy, name if name != "abs" else "Abs"))
+        for name in ("sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs")
+    } | {"sum": _total},
+    pi=lambda: sympy.pi,
+)  # fmt: skip
+
+
+def states(values: Mapping[str, Any], algebra: Algebra) -> dict[str, Any]:
+    """Letters with their values, and pi.
+
+    Parameters
+    ----------
+    values : mapping of str to value
+        Values of the number system
+    algebra : Algebra
+        Number system
+
+    Returns
+    -------
+    names : dict
+        A new mapping that has pi too
+    """
+    return {"pi": algebra.pi(), **values}

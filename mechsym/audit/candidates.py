@@ -1,0 +1,181 @@
+"""Edits that make a part of the formula what it is required to be: candidates for a repair."""
+
+import ast
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, single_edits, without_double_signs
+from mechsym.audit.insertion import Vocabulary, candidate_words, is_unit, product, product_tree, simple, vocabulary
+from mechsym.audit.question import Bench, Question, names, value
+from mechsym.audit.required import Required, required
+from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
+from mechsym.quantities import dimension
+
+_MET = 1e-5
+_VALID = 0.6
+
+
+def listed_edits(question: Question, tree: Node) -> list[Edit]:
+    """Edits that are tried one by one: the list of slips, and the same slip wherever a part is repeated.
+
+    Parameters
+    ----------
+    question : Question
+        Letters and theory
+    tree : Node
+        The formula as it stands
+
+    Returns
+    -------
+    edits : list of Edit
+        Changes; some give the same function
+    """
+    return [*single_edits(tree, lambda letter: confusable(question, letter)), *_repeated(tree)]
+
+
+def confusable(question: Question, letter: str) -> list[str]:
+    """Letters that one may be mistaken for: the same letter with another index, or one of the same unit.
+
+    Parameters
+    ----------
+    question : Question
+        Letters and theory
+    letter : str
+        A letter of the formula
+
+    Returns
+    -------
+    letters : list of str
+        Those with the same stem first
+    """
+    stem = re.sub(r"\d+$", "", letter)
+    used = [*question.formula.letters, *question.theory.letters]
+    indexed = [k for k in used if re.sub(r"\d+$", "", k) == stem]
+    unit = _unit(question, letter)
+    alike = [k for k in used if unit is not None and _unit(question, k) == unit]
+    return [k for k in dict.fromkeys([*indexed, *alike]) if k != letter]
+
+
+def _unit(question: Question, letter: str) -> tuple[int, ...] | None:
+    if letter in question.formula.letters or letter not in question.theory.letters:
+        return None
+    return dimension(question.theory.letters[letter].unit)
+
+
+def _repeated(tree: Node) -> Iterator[Edit]:
+    nodes = [p.node for p in places(tree) if children(p.node) and value_of(p.node) is None]
+    counts = Counter(ast.dump(n) for n in nodes)
+    distinct = {ast.dump(n): n for n in nodes if counts[ast.dump(n)] > 1}
+    for text, node in distinct.items():
+        for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
+            yield Edit(kind="everywhere", path=(), new=_everywhere(tree, text, new))
+
+
+def _everywhere(tree: Node, text: str, new: Node) -> Node:
+    return without_double_signs(substitute(tree, lambda n: new if children(n) and ast.dump(n) == text else None))
+
+
+def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequence[Edit], insert: bool) -> list[Edit]:
+    """Edits after which a part of the formula is what it is required to be at every state.
+
+    Parameters
+    ----------
+    question : Question
+        Letters and theory
+    asked : Bench
+        States
+    tree : Node
+        The formula as it stands
+    listed : sequence of Edit
+        Edits to try one by one
+    insert : bool
+        Whether to look for terms and factors that were left out, rather than for wrong numbers and signs
+
+    Returns
+    -------
+    edits : list of Edit
+        Candidates
+    """
+    memo: dict[Node, Any] = {}
+    value(asked, tree, memo)
+    wishes = required(asked, tree, memo)
+    names(asked, {n for edit in listed for n in letters(edit.new)})
+    nodes = {p.path: p.node for p in places(tree)}
+    edits = list(listed)
+    with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
+        if insert:
+            words = vocabulary(asked, candidate_words(question, tree))
+            edits += _insertions(asked, tree, wishes, memo, words)
+        else:
+            edits += _numbers(asked, tree, wishes, memo)
+        return [e for e in edits if _meets(asked, nodes, wishes, memo, e)]
+
+
+def _meets(asked: Bench, nodes: dict[Path, Node], wishes: Required, memo: dict[Node, Any], edit: Edit) -> bool:
+    path = edit.path
+    while path not in wishes:
+        path = path[:-1]
+    new = replace(nodes[path], edit.path[len(path) :], edit.new)
+    wish, old, found = wishes[path], memo[nodes[path]], value(asked, new, memo)
+    valid = ~np.isnan(np.asarray(wish, dtype=float))
+    wrong, left = np.abs(old - wish)[valid], np.abs(found - wish)[valid]
+    if len(wrong) < _VALID * len(valid) or not np.all(wrong > 0):
+        return False
+    noise = 0 if asked.digits else 1e-9 * np.abs(wish)[valid]
+    return bool(np.all(left <= np.maximum(_MET * wrong, noise)) and np.all(wrong > 10 * noise))
+
+
+def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) -> Iterator[Edit]:
+    for place in places(tree):
+        if place.path not in wishes or not is_product(place):
+            continue
+        factor = simple(np.asarray(_quotient(asked, wishes[place.path], memo[place.node]), dtype=float))
+        if factor is None or factor == 1:
+            continue
+        if factor == -1:
+            yield Edit(kind="sign", path=place.path, new=negative(place.node))
+        elif factor > 0:
+            kind = "number" if value_of(place.node) is not None else "unit" if is_unit(factor) else "factor"
+            yield Edit(kind=kind, path=place.path, new=scaled(place.node, factor))
+
+
+def _quotient(asked: Bench, above: Any, below: Any) -> Any:
+    return asked.algebra.operations[ast.Div](above, below)
+
+
+def _insertions(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any], words: Vocabulary) -> Iterator[Edit]:
+    for place in places(tree):
+        if place.path not in wishes or value_of(place.node) is not None:
+            continue
+        wish, old = wishes[place.path], memo[place.node]
+        if is_product(place):
+            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times)
+        if is_term(place):
+            yield from _put_back(asked, place, words, wish - old, _plus)
+
+
+Join = Callable[[Node, Any, Any], Node]
+
+
+def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join) -> Iterable[Edit]:
+    found = product(asked, words, missing)
+    if found is not None and found[1]:
+        yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
+
+
+def _times(node: Node, factor: Any, used: Any) -> Node:
+    above = [(w, e) for w, e in used if e > 0]
+    below = [(w, -e) for w, e in used if e < 0]
+    new = scaled(negative(node) if factor < 0 else node, abs(factor))
+    if above:
+        new = binary(ast.Mult, new, product_tree(type(factor)(1), above))
+    return binary(ast.Div, new, product_tree(type(factor)(1), below)) if below else new
+
+
+def _plus(node: Node, factor: Any, used: Any) -> Node:
+    return binary(ast.Sub if factor < 0 else ast.Add, node, product_tree(abs(factor), used))

@@ -1,0 +1,263 @@
+r"""What was left out: terms and factors found from the values that are missing.
+
+A missing factor or term is sought as a product of powers of the letters, functions and brackets of the formula and of
+the derivation, :math:`c \prod v_i^{a_i}`: its logarithm is linear in the exponents, so least squares over the states
+give them all at once, and only whole or half exponents with a simple number c are believed.
+"""
+
+import ast
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from mechsym.audit.question import Bench, Question, value
+from mechsym.audit.theory.record import dependencies
+from mechsym.audit.tree import Node, binary, call, is_operation, letters, name, number, value_of, walk
+
+MAX_WORDS = 26
+MAX_FACTORS = 6
+MAX_EXPONENT = 4
+MAX_INTEGER = 24
+UNITS = (1000, 60, 3600, 360, 10**6, 100, 180)
+_CLOSE = 1e-5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Vocabulary:
+    """Words of which missing factors are made, with their values at the states of a bench.
+
+    Parameters
+    ----------
+    words : tuple of Node
+        Letters, functions and brackets that are independent of each other
+    signs : ndarray, shape (k, n)
+        Signs of their values
+    logs : ndarray, shape (n, k)
+        Logarithms of their absolute values
+    """
+
+    words: tuple[Node, ...]
+    signs: np.ndarray
+    logs: np.ndarray
+
+
+def candidate_words(question: Question, tree: Node) -> list[Node]:
+    """Words that a missing factor may be made of, the formula's own first.
+
+    Parameters
+    ----------
+    question : Question
+        Formula and theory
+    tree : Node
+        The formula as it stands
+
+    Returns
+    -------
+    words : list of Node
+        Letters, functions and brackets
+    """
+    theory, own = question.theory, question.formula.letters
+    needed = dependencies(theory, [question.quantity])
+    angles = [theory.angle, *(k for k in theory.tape if f"cos_{k}" in theory.tape)]
+    printed = [n for _, n in walk(tree) if isinstance(n, (ast.Name, ast.Call)) or is_operation(n, ast.Add, ast.Sub)]
+    turning = [a for a in angles if needed & {a, f"sin_{a}", f"cos_{a}"} and a not in own]
+    circular = [call(f, name(a)) for a in turning for f in ("sin", "cos")]
+    authors = [name(k) for k, value in own.items() if needed & dependencies(theory, letters(value))]
+    free = [name(k) for k in theory.letters if k in needed and k not in own and k not in question.hold]
+    words = [*sorted([*printed, *circular], key=_complexity), *authors, *free]
+    return _distinct(w for w in words if not (isinstance(w, ast.Name) and w.id in angles))
+
+
+def _complexity(node: Node) -> int:
+    # letters before sin(phi), sin(phi) before sin(2*phi), brackets last
+    if isinstance(node, ast.Call):
+        return 1 if isinstance(node.args[0], ast.Name) else 2
+    return 3 if isinstance(node, ast.BinOp) else 0
+
+
+def _distinct(nodes: Iterable[Node]) -> list[Node]:
+    found: dict[str, Node] = {}
+    for node in nodes:
+        if value_of(node) is None:
+            found.setdefault(ast.dump(node), node)
+    return list(found.values())
+
+
+def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
+    """The words that are independent at the states of a bench.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    words : sequence of Node
+        Candidates, the preferred first
+
+    Returns
+    -------
+    vocabulary : Vocabulary
+        No word is a product of powers of others
+    """
+    kept: list[Node] = []
+    signs: list[np.ndarray] = []
+    logs = [np.ones(len(asked.expected))]
+    for word in words:
+        if len(kept) >= min(MAX_WORDS, len(asked.expected) - 4):
+            break
+        sign, log = logarithm(asked, value(asked, word))
+        if not np.all(np.isfinite(log)) or np.ptp(log) < 1e-9 or _depends(log, logs):
+            continue
+        kept.append(word)
+        logs.append(log)
+        signs.append(sign)
+    shape = (len(kept), len(asked.expected))
+    return Vocabulary(words=tuple(kept), signs=np.array(signs).reshape(shape), logs=np.array(logs[1:]).reshape(shape).T)
+
+
+def _depends(log: np.ndarray, logs: list[np.ndarray]) -> bool:
+    matrix = np.array(logs).T
+    solution, *_ = np.linalg.lstsq(matrix, log, rcond=None)
+    return bool(np.max(np.abs(matrix @ solution - log)) < 1e-7 * max(1.0, np.max(np.abs(log))))
+
+
+def logarithm(asked: Bench, values: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Signs and logarithms of values, in floats.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    values : array, shape (n,)
+        Values of its number system
+
+    Returns
+    -------
+    signs, logs : ndarray, shape (n,)
+        Logarithms of absolute values; infinite or nan where there is none
+    """
+    with np.errstate(all="ignore"):
+        if not asked.digits:
+            return np.sign(values), np.log(np.abs(values))
+        with mpmath.workdps(asked.digits):
+            logs = [float(mpmath.log(abs(v))) if v and not mpmath.isnan(v) else np.nan for v in values]
+            return np.array([float(mpmath.sign(v)) for v in values]), np.array(logs)
+
+
+def product(asked: Bench, words: Vocabulary, values: Any) -> tuple[Fraction, list[tuple[Node, Fraction]]] | None:
+    """Values as a simple number times a product of powers of words.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    words : Vocabulary
+        Independent words at the same states
+    values : array, shape (n,)
+        What is missing
+
+    Returns
+    -------
+    product : (Fraction, list of (Node, Fraction)) or None
+        The number, and words with their exponents; None when the values are no such product
+    """
+    signs, logs = logarithm(asked, values)
+    if not np.all(np.isfinite(logs)):
+        return None
+    matrix = np.column_stack([np.ones(len(logs)), words.logs])
+    solution, *_ = np.linalg.lstsq(matrix, logs, rcond=None)
+    exponents = np.round(2 * solution[1:]) / 2
+    if np.any(np.abs(exponents - solution[1:]) > 1e-3) or np.max(np.abs(exponents), initial=0.0) > MAX_EXPONENT:
+        return None
+    used = [(w, Fraction(e)) for w, e in zip(words.words, exponents, strict=True) if e]
+    if len(used) > MAX_FACTORS:
+        return None
+    with np.errstate(all="ignore"):
+        turned = np.prod(np.where(exponents[:, None] % 2 == 1, words.signs, 1.0), axis=0) * signs
+    constants = turned * np.exp(logs - words.logs @ exponents)
+    found = simple(constants)
+    return None if found is None else (found, used)
+
+
+def simple(constants: np.ndarray) -> Fraction | None:
+    """The simple number that all values are, if there is one.
+
+    Parameters
+    ----------
+    constants : ndarray, shape (n,)
+        Values at the states
+
+    Returns
+    -------
+    number : Fraction or None
+        A quotient of integers up to 24, or of such by a unit factor (60, 1000, ...)
+    """
+    if not len(constants) or not np.all(np.isfinite(constants)):
+        return None
+    middle = float(np.median(constants))
+    if not middle or np.max(np.abs(constants / middle - 1)) > _CLOSE:
+        return None
+    for unit in (Fraction(1), *map(Fraction, UNITS), *(Fraction(1, u) for u in UNITS)):
+        found = Fraction(middle / float(unit)).limit_denominator(MAX_INTEGER)
+        if found and abs(found.numerator) <= MAX_INTEGER and abs(float(found * unit) / middle - 1) < _CLOSE:
+            return found * unit
+    return None
+
+
+def is_unit(factor: Fraction) -> bool:
+    """Whether a factor is more likely a change of unit than a slip of the pen.
+
+    Parameters
+    ----------
+    factor : Fraction
+        Simple number
+
+    Returns
+    -------
+    answer : bool
+        True for 60, 1/1000 and the like
+    """
+    return max(abs(factor.numerator), factor.denominator) > MAX_INTEGER
+
+
+def product_tree(factor: Fraction, words: Sequence[tuple[Node, Fraction]]) -> Node:
+    """A product of powers as an expression.
+
+    Parameters
+    ----------
+    factor : Fraction
+        Positive number
+    words : sequence of (Node, Fraction)
+        Words with their exponents
+
+    Returns
+    -------
+    tree : Node
+        One fraction bar, roots as sqrt
+    """
+    above = [_power(w, e) for w, e in words if e > 0]
+    below = [_power(w, -e) for w, e in words if e < 0]
+    if factor.numerator != 1 or not above:
+        above.insert(0, number(factor.numerator))
+    if factor.denominator != 1:
+        below.insert(0, number(factor.denominator))
+    top = _multiply(above)
+    return binary(ast.Div, top, _multiply(below)) if below else top
+
+
+def _multiply(factors: list[Node]) -> Node:
+    tree = factors[0]
+    for factor in factors[1:]:
+        tree = binary(ast.Mult, tree, factor)
+    return tree
+
+
+def _power(word: Node, exponent: Fraction) -> Node:
+    if exponent == 1:
+        return word
+    if exponent == Fraction(1, 2):
+        return call("sqrt", word)
+    return binary(ast.Pow, word, number(exponent))

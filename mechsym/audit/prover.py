@@ -1,0 +1,121 @@
+"""Is the formula exactly the derived quantity? Many digits at random states decide, a polynomial certificate proves."""
+
+from dataclasses import dataclass
+
+import mpmath
+import numpy as np
+
+from mechsym.audit.algebra import DIGITS, FLOATS
+from mechsym.audit.certificate import proves_equal
+from mechsym.audit.question import Bench, Question, bench, digit_values, float_values, random_fractions, value
+from mechsym.audit.tree import Node
+
+POINTS = 20
+WORKING_DIGITS = 50
+TOLERANCE_DIGITS = 40
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judges:
+    """The states that decide whether a formula is exact, made once per question.
+
+    Parameters
+    ----------
+    quick : Bench
+        In floats: refutes almost everything that is wrong
+    strict : Bench
+        With 50 digits
+    """
+
+    quick: Bench
+    strict: Bench
+
+
+def judges(question: Question, seed: int = 1) -> Judges:
+    """Random states for a question.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked
+    seed : int
+        Seed of the states
+
+    Returns
+    -------
+    judges : Judges
+        The same states in floats and with many digits
+    """
+    values = random_fractions(question, POINTS, seed)
+    with mpmath.workdps(WORKING_DIGITS):
+        strict = digit_values(values)
+    return Judges(
+        quick=bench(question, float_values(values), FLOATS), strict=bench(question, strict, DIGITS, WORKING_DIGITS)
+    )
+
+
+def is_exact(judged: Judges, tree: Node) -> bool:
+    """Whether a formula agrees with the derived quantity to 40 digits at every random state.
+
+    Parameters
+    ----------
+    judged : Judges
+        Random states
+    tree : Node
+        Expression
+
+    Returns
+    -------
+    exact : bool
+        False is a refutation
+    """
+    return agrees_quickly(judged, tree) and _agrees(judged.strict, tree)
+
+
+def agrees_quickly(judged: Judges, tree: Node) -> bool:
+    """Whether floats leave it open that a formula is exact.
+
+    Parameters
+    ----------
+    judged : Judges
+        Random states
+    tree : Node
+        Expression
+
+    Returns
+    -------
+    open : bool
+        False is a refutation
+    """
+    printed, expected = value(judged.quick, tree), judged.quick.expected
+    with np.errstate(all="ignore"):
+        wrong = ~(np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected)))
+    return not np.any(wrong & np.isfinite(expected))
+
+
+def _agrees(strict: Bench, tree: Node) -> bool:
+    printed, valid = value(strict, tree), 0
+    with mpmath.workdps(strict.digits):
+        for p, e in zip(printed, strict.expected, strict=True):
+            if mpmath.isnan(e):
+                continue
+            if not abs(p - e) <= mpmath.mpf(10) ** -TOLERANCE_DIGITS * abs(e):
+                return False
+            valid += 1
+    return 2 * valid > len(printed)
+
+
+def certified(question: Question) -> bool:
+    """Whether the polynomial certificate proves an exact formula.
+
+    Parameters
+    ----------
+    question : Question
+        A formula that `is_exact` found exact
+
+    Returns
+    -------
+    proved : bool
+        False means that the digits are the only evidence
+    """
+    return proves_equal(question, question.formula.tree)

@@ -1,0 +1,279 @@
+"""The repair search: which single edit makes the formula right? Found by search, never entered by hand."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from mechsym.audit.algebra import DIGITS, FLOATS
+from mechsym.audit.candidates import listed_edits, matching_edits
+from mechsym.audit.edits import RANKS, Edit, apply
+from mechsym.audit.orders import EXACT, FINE, Group, groups, orders, residual
+from mechsym.audit.printer import to_python
+from mechsym.audit.prover import Judges, is_exact, judges
+from mechsym.audit.question import (
+    Bench,
+    Question,
+    bench,
+    digit_values,
+    float_values,
+    max_rel_error,
+    random_fractions,
+    small_rods,
+    turn,
+    value,
+)
+from mechsym.audit.tree import Node
+
+SEARCH_DIGITS = 80
+SEARCH_POINTS = 34
+_BEAM = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Examination:
+    """A question with all states at which it is asked, made once.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked
+    judged : Judges
+        States that decide exactness
+    groups : list of Group
+        States that decide the orders
+    turn : Bench
+        States that measure the error
+    search : dict of str to Bench
+        States of the search by group, made when needed
+    """
+
+    question: Question
+    judged: Judges
+    groups: list[Group]
+    turn: Bench
+    search: dict[str, Bench] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repair:
+    """A formula that an edit made better.
+
+    Parameters
+    ----------
+    tree : Node
+        The corrected formula
+    edits : tuple of Edit
+        What was changed, in order
+    exact : bool
+        Whether it is the derived quantity
+    orders : mapping of str to float
+        Order of each group's error
+    max_rel_error : float
+        Largest relative error over a turn [-]
+    """
+
+    tree: Node
+    edits: tuple[Edit, ...]
+    exact: bool
+    orders: Mapping[str, float]
+    max_rel_error: float
+
+
+def examine(question: Question) -> Examination:
+    """Prepare the states at which a question is asked.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked
+
+    Returns
+    -------
+    examination : Examination
+        All states
+    """
+    return Examination(question=question, judged=judges(question), groups=groups(question), turn=turn(question))
+
+
+def standing(exam: Examination, tree: Node, edits: tuple[Edit, ...] = ()) -> Repair:
+    """How good a formula is as it stands.
+
+    Parameters
+    ----------
+    exam : Examination
+        States
+    tree : Node
+        Expression
+    edits : tuple of Edit
+        How it came about
+
+    Returns
+    -------
+    standing : Repair
+        Exactness, orders and error
+    """
+    exact = is_exact(exam.judged, tree)
+    known = {g.name: EXACT for g in exam.groups} if exact else orders(exam.groups, tree)
+    return Repair(tree=tree, edits=edits, exact=exact, orders=known, max_rel_error=max_rel_error(exam.turn, tree))
+
+
+def repairs(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
+    """Formulas one edit away that are exact, or better in order and in error; the most plausible first.
+
+    Parameters
+    ----------
+    exam : Examination
+        States
+    start : Repair
+        The formula as it stands
+    insert : bool
+        Whether terms and factors that were left out are looked for, rather than slips
+
+    Returns
+    -------
+    repairs : list of Repair
+        Edits that give the same function count once, the simplest is kept
+    """
+    return sorted((r for r in better(exam, start, insert) if r.exact or is_sound(r)), key=_rank)
+
+
+def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
+    """Formulas one edit away that are exact, or of lower error with some group's order raised and none lowered.
+
+    Parameters
+    ----------
+    exam : Examination
+        States
+    start : Repair
+        The formula as it stands
+    insert : bool
+        Whether terms and factors that were left out are looked for, rather than slips
+
+    Returns
+    -------
+    better : list of Repair
+        Distinct functions; a single exact one ends the search
+    """
+    listed = [] if insert else listed_edits(exam.question, start.tree)
+    found = matching_edits(exam.question, search_bench(exam, "exact"), start.tree, listed, insert)
+    for edit in _by_simplicity(start.tree, found):
+        tree = apply(start.tree, edit)
+        if is_exact(exam.judged, tree):
+            return [standing(exam, tree, (*start.edits, edit))]
+    edits = _distinct(exam, start.tree, _order_edits(exam, start, listed, insert))
+    candidates = (standing(exam, apply(start.tree, e), (*start.edits, e)) for e in edits)
+    return [c for c in candidates if _improves(c, start)]
+
+
+def is_sound(repair: Repair) -> bool:
+    """Whether every group's leading term is right.
+
+    Parameters
+    ----------
+    repair : Repair
+        A formula's standing
+
+    Returns
+    -------
+    answer : bool
+        False when there is no small parameter
+    """
+    return bool(repair.orders) and min(repair.orders.values()) >= 1
+
+
+def _order_edits(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Edit]:
+    found: dict[Any, list[Edit]] = {}
+    for group in exam.groups:
+        alike = residual(group.coarse, start.tree), residual(group.fine, start.tree)
+        if start.orders[group.name] != EXACT and alike not in found:
+            asked = search_bench(exam, group.name) if insert else group.fine
+            found[alike] = matching_edits(exam.question, asked, start.tree, listed, insert)
+    return [edit for edits in found.values() for edit in edits]
+
+
+def search_bench(exam: Examination, group: str) -> Bench:
+    """States of the search: ordinary ones in floats for `"exact"`, long rods with many digits for a group.
+
+    Parameters
+    ----------
+    exam : Examination
+        Keeps what was made
+    group : str
+        `"exact"` or the name of a group
+
+    Returns
+    -------
+    bench : Bench
+        The crank is in the first quadrant, where most terms are positive
+    """
+    if group not in exam.search:
+        exam.search[group] = _search_bench(exam, group)
+    return exam.search[group]
+
+
+def _search_bench(exam: Examination, group: str) -> Bench:
+    question, theory = exam.question, exam.question.theory
+    values = random_fractions(question, SEARCH_POINTS, seed=5)
+    if theory.angle:
+        values[theory.angle] = [
+            Fraction(1, 5) + abs(v) * Fraction(19, 10) % Fraction(11, 10) for v in values[theory.angle]
+        ]
+    if group == "exact":
+        return bench(question, float_values(values), FLOATS)
+    if group != "all":
+        values |= {g.name: [Fraction(0)] * SEARCH_POINTS for g in exam.groups if g.name != group}
+    with mpmath.workdps(SEARCH_DIGITS):
+        digits = digit_values(small_rods(theory, values, FINE))
+    return bench(question, digits, DIGITS, SEARCH_DIGITS)
+
+
+def _improves(candidate: Repair, start: Repair) -> bool:
+    pairs = [(candidate.orders[g], start.orders[g]) for g in start.orders]
+    higher = all(new >= old for new, old in pairs) and any(new > old for new, old in pairs)
+    return higher and candidate.max_rel_error < start.max_rel_error
+
+
+def _distinct(exam: Examination, tree: Node, edits: list[Edit]) -> list[Edit]:
+    found: dict[Any, Edit] = {}
+    for edit in _by_simplicity(tree, edits):
+        found.setdefault(fingerprint(exam, apply(tree, edit)), edit)
+    return list(found.values())
+
+
+def _by_simplicity(tree: Node, edits: list[Edit]) -> list[Edit]:
+    return sorted(edits, key=lambda e: _simplicity(e, apply(tree, e)))
+
+
+def fingerprint(exam: Examination, tree: Node) -> bytes:
+    """What two formulas that are the same function have in common: their values to eight digits.
+
+    Parameters
+    ----------
+    exam : Examination
+        States
+    tree : Node
+        Expression
+
+    Returns
+    -------
+    fingerprint : bytes
+        Equal for equal functions, but for rounding at the last digit
+    """
+    values = np.asarray(value(exam.judged.quick, tree), dtype=float)
+    with np.errstate(all="ignore"):
+        scale = 10.0 ** (8 - np.ceil(np.log10(np.abs(values))))
+        return np.where(np.isfinite(values) & (values != 0), np.round(values * scale), 0).tobytes()
+
+
+def _simplicity(edit: Edit, tree: Node) -> tuple[int, int]:
+    return RANKS[edit.kind], len(to_python(tree))
+
+
+def _rank(repair: Repair) -> tuple[Any, ...]:
+    worst = min(repair.orders.values(), default=EXACT)
+    total = sum(min(k, 9.0) for k in repair.orders.values())
+    return not repair.exact, -worst, -total, *_simplicity(repair.edits[-1], repair.tree)

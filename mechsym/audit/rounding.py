@@ -1,0 +1,53 @@
+"""Constants that were rounded: 6.28 for 2 pi makes a formula approximate, not wrong."""
+
+import ast
+from decimal import Decimal
+from typing import Any
+
+import numpy as np
+
+from mechsym.audit.edits import places
+from mechsym.audit.question import value
+from mechsym.audit.repair import Examination, search_bench
+from mechsym.audit.required import required
+from mechsym.audit.tree import Node
+
+_SAME = 1e-9
+
+
+def rounded_constant(exam: Examination, tree: Node) -> str:
+    """Whether one number of the formula, given with all its digits, would make it exact.
+
+    Parameters
+    ----------
+    exam : Examination
+        States
+    tree : Node
+        The formula
+
+    Returns
+    -------
+    note : str
+        Which number is rounded; empty when there is none
+    """
+    asked = search_bench(exam, "exact")
+    memo: dict[Node, Any] = {}
+    value(asked, tree, memo)
+    wishes = required(asked, tree, memo)
+    for place in places(tree):
+        if isinstance(place.node, ast.Constant) and place.path in wishes:
+            wish = _constant(wishes[place.path])
+            if wish is not None and _rounds_to(wish, place.node.value):
+                return f"the constant {place.node.value!r} is {wish:.9g} rounded"
+    return ""
+
+
+def _constant(values: Any) -> float | None:
+    values = np.broadcast_to(values, np.shape(values) or (1,))
+    middle = float(np.median(values))
+    return middle if middle and np.all(np.abs(values / middle - 1) < _SAME) else None
+
+
+def _rounds_to(wish: float, printed: Any) -> bool:
+    exponent = Decimal(str(printed)).as_tuple().exponent
+    return isinstance(printed, float) and abs(wish - printed) <= 0.5 * 10.0 ** int(exponent)

@@ -1,0 +1,116 @@
+"""Letters as authors spell them and as mechsym knows them: `\\varphi_0`, `φ0` and `phi_0` are all `phi0`."""
+
+import re
+from collections.abc import Iterable
+
+from mechsym.errors import BadInput
+
+_GREEK = {
+    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "ζ": "zeta", "η": "eta", "θ": "theta",
+    "κ": "kappa", "λ": "lam", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau",
+    "φ": "phi", "ϕ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega", "Δ": "Delta", "Σ": "Sigma", "Φ": "Phi",
+    "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "²": "**2", "³": "**3", "·": "*",
+    "×": "*", "−": "-", "√": "sqrt",
+}  # fmt: skip
+_ALIASES = {"lambda": "lam", "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho"}
+_LATEX = {
+    "lam": r"\lambda", "phi": r"\varphi", "epsilon": r"\varepsilon", **{
+        n: rf"\{n}" for n in (
+            "alpha", "beta", "gamma", "delta", "zeta", "eta", "theta", "kappa", "mu", "nu", "xi", "pi", "rho", "sigma",
+            "tau", "chi", "psi", "omega", "Delta", "Sigma", "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
+        )
+    },
+}  # fmt: skip
+_WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_STEMS = "|".join([*sorted(_LATEX, key=len, reverse=True), "[A-Za-z]"])
+_NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A-Za-z0-9]+?))?(?P<dots>dd?)?")
+
+
+def from_greek(text: str) -> str:
+    """Replace Greek letters and typographic signs by the names and signs that Python reads.
+
+    Parameters
+    ----------
+    text : str
+        Text of a formula
+
+    Returns
+    -------
+    text : str
+        The same with `phi` for φ, `lam` for λ and `lambda`
+    """
+    text = "".join(f"{_GREEK[c]}" if c in _GREEK else c for c in text)
+    return _WORD.sub(lambda m: _ALIASES.get(m[0], m[0]), text)
+
+
+def plain(base: str, subscript: str = "", dots: int = 0) -> str:
+    """A letter's plain name from what LaTeX spells out.
+
+    Parameters
+    ----------
+    base : str
+        Letter or command without backslash
+    subscript : str
+        Its subscript
+    dots : int
+        Time derivatives over it
+
+    Returns
+    -------
+    name : str
+        For example `phi0dd`
+    """
+    return _ALIASES.get(base, base) + re.sub(r"[^A-Za-z0-9]", "", subscript) + "d" * dots
+
+
+def resolve(written: str, known: Iterable[str]) -> str | None:
+    """The known letter that a written one means; underscores do not matter.
+
+    Parameters
+    ----------
+    written : str
+        Plain name as read
+    known : iterable of str
+        Known letters
+
+    Returns
+    -------
+    name : str or None
+        None when there is no such letter
+
+    Raises
+    ------
+    BadInput
+        Two known letters fit
+    """
+    known = list(known)
+    if written in known:
+        return written
+    found = [k for k in known if k.replace("_", "") == written.replace("_", "")]
+    if len(found) > 1:
+        raise BadInput(f"the letter {written!r} may mean {' or '.join(found)}; write the one you mean")
+    return found[0] if found else None
+
+
+def latex(name: str) -> str:
+    r"""A plain name as LaTeX.
+
+    Parameters
+    ----------
+    name : str
+        Plain name
+
+    Returns
+    -------
+    text : str
+        For example `\ddot{\varphi}_{0}`
+    """
+    match = _NAME.fullmatch(name)
+    if match is None:
+        word = name.replace("_", r"\_")
+        return rf"\mathrm{{{word}}}"
+    stem, index, dots = match["stem"], match["digits"] or match["word"], match["dots"]
+    base = _LATEX.get(stem, stem)
+    if dots:
+        base = rf"\{dots}ot{{{base}}}"
+    return f"{base}_{{{index}}}" if index else base

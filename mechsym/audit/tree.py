@@ -1,0 +1,311 @@
+"""Formulas as Python syntax trees with a short list of allowed nodes, edited by replacing one node.
+
+A tree keeps the form that its author printed, which a computer algebra system would lose. Nodes are `ast` nodes and
+are never changed in place; trees share what they have in common. Numbers are exact: `0.25` means 1/4.
+"""
+
+import ast
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+
+Node = ast.expr
+Path = tuple[str, ...]  # steps from the root: left, right, operand, argument
+
+_STEPS = {ast.BinOp: ("left", "right"), ast.UnaryOp: ("operand",), ast.Call: ("argument",)}
+
+
+def name(text: str) -> ast.Name:
+    """A letter.
+
+    Parameters
+    ----------
+    text : str
+        Identifier
+
+    Returns
+    -------
+    node : ast.Name
+        The letter as a node
+    """
+    return ast.Name(id=text, ctx=ast.Load())
+
+
+def number(value: Fraction | int, decimal: bool = False) -> Node:
+    """A number as an author writes it.
+
+    Parameters
+    ----------
+    value : Fraction or int
+        Exact value
+    decimal : bool
+        Whether a short decimal is preferred to a fraction bar
+
+    Returns
+    -------
+    node : Node
+        A constant, a quotient of constants, or the negative of one
+    """
+    value = Fraction(value)
+    if value < 0:
+        return negative(number(-value, decimal))
+    if value.denominator == 1:
+        return ast.Constant(value=int(value))
+    if decimal and Fraction(repr(float(value))) == value:
+        return ast.Constant(value=float(value))
+    return binary(ast.Div, ast.Constant(value=value.numerator), ast.Constant(value=value.denominator))
+
+
+def negative(node: Node) -> Node:
+    """The negative of an expression; two signs cancel.
+
+    Parameters
+    ----------
+    node : Node
+        Expression
+
+    Returns
+    -------
+    node : Node
+        Its negative
+    """
+    return node.operand if isinstance(node, ast.UnaryOp) else ast.UnaryOp(op=ast.USub(), operand=node)
+
+
+def binary(operator: type[ast.operator], left: Node, right: Node) -> ast.BinOp:
+    """An operation on two expressions.
+
+    Parameters
+    ----------
+    operator : type
+        One of ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow
+    left, right : Node
+        Operands
+
+    Returns
+    -------
+    node : ast.BinOp
+        The operation
+    """
+    return ast.BinOp(left=left, op=operator(), right=right)
+
+
+def call(function: str, argument: Node) -> ast.Call:
+    """A function of one expression.
+
+    Parameters
+    ----------
+    function : str
+        One of `limits.FUNCTIONS`
+    argument : Node
+        Its argument
+
+    Returns
+    -------
+    node : ast.Call
+        The call
+    """
+    return ast.Call(func=name(function), args=[argument], keywords=[])
+
+
+def is_operation(node: Node, *operators: type[ast.operator]) -> bool:
+    """Whether a node is one of the named operations.
+
+    Parameters
+    ----------
+    node : Node
+        Any node
+    *operators : type
+        Operators asked for
+
+    Returns
+    -------
+    answer : bool
+        True when it is
+    """
+    return isinstance(node, ast.BinOp) and isinstance(node.op, operators)
+
+
+def function_of(node: Node) -> str | None:
+    """Name of the function that a node calls.
+
+    Parameters
+    ----------
+    node : Node
+        Any node
+
+    Returns
+    -------
+    function : str or None
+        None when the node is no call
+    """
+    return node.func.id if isinstance(node, ast.Call) else None  # type: ignore[attr-defined]
+
+
+def value_of(node: Node) -> Fraction | None:
+    """Exact value of a number, a negative number or a quotient of numbers.
+
+    Parameters
+    ----------
+    node : Node
+        Any node
+
+    Returns
+    -------
+    value : Fraction or None
+        None when the node holds letters or functions
+    """
+    if isinstance(node, ast.Constant):
+        return Fraction(str(node.value))
+    if isinstance(node, ast.UnaryOp):
+        inner = value_of(node.operand)
+        return None if inner is None else -inner
+    if is_operation(node, ast.Div):
+        above, below = value_of(node.left), value_of(node.right)  # type: ignore[attr-defined]
+        return above / below if above is not None and below else None
+    return None
+
+
+def children(node: Node) -> list[tuple[str, Node]]:
+    """Steps to the operands of a node.
+
+    Parameters
+    ----------
+    node : Node
+        Any node
+
+    Returns
+    -------
+    children : list of (str, Node)
+        Empty for letters and numbers
+    """
+    if isinstance(node, ast.Call):
+        return [("argument", argument) for argument in node.args[:1]]
+    return [(step, getattr(node, step)) for step in _STEPS.get(type(node), ())]
+
+
+def walk(tree: Node) -> Iterator[tuple[Path, Node]]:
+    """Every node with the path to it, a node before its operands.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+
+    Yields
+    ------
+    path : tuple of str
+        Steps from the root
+    node : Node
+        The node there
+    """
+    waiting: list[tuple[Path, Node]] = [((), tree)]
+    while waiting:
+        path, node = waiting.pop()
+        yield path, node
+        waiting += [((*path, step), child) for step, child in reversed(children(node))]
+
+
+def at(tree: Node, path: Path) -> Node:
+    """The node at the end of a path.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+    path : tuple of str
+        Steps from the root
+
+    Returns
+    -------
+    node : Node
+        The node there
+    """
+    for step in path:
+        tree = dict(children(tree))[step]
+    return tree
+
+
+def replace(tree: Node, path: Path, new: Node) -> Node:
+    """The tree with one node replaced; the rest is shared.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+    path : tuple of str
+        Where the new node goes
+    new : Node
+        The new node
+
+    Returns
+    -------
+    tree : Node
+        A new tree
+    """
+    if not path:
+        return new
+    below = replace(dict(children(tree))[path[0]], path[1:], new)
+    if isinstance(tree, ast.Call):
+        return call(str(function_of(tree)), below)
+    if isinstance(tree, ast.UnaryOp):
+        return negative(below)
+    assert isinstance(tree, ast.BinOp)
+    sides = {"left": tree.left, "right": tree.right} | {path[0]: below}
+    return ast.BinOp(op=tree.op, **sides)
+
+
+def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
+    """The tree with every node that `change` answers to replaced.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+    change : callable
+        Takes a node, gives the new node or None to keep it and look at its operands
+
+    Returns
+    -------
+    tree : Node
+        A new tree
+    """
+    new = change(tree)
+    if new is not None:
+        return new
+    for step, child in children(tree):
+        below = substitute(child, change)
+        if below is not child:
+            tree = replace(tree, (step,), below)
+    return tree
+
+
+def letters(tree: Node) -> list[str]:
+    """Letters of an expression in the order of their first use.
+
+    Parameters
+    ----------
+    tree : Node
+        Expression
+
+    Returns
+    -------
+    names : list of str
+        Without repetition
+    """
+    return list(dict.fromkeys(node.id for _, node in walk(tree) if isinstance(node, ast.Name)))
+
+
+def same(first: Node, second: Node) -> bool:
+    """Whether two trees are written the same.
+
+    Parameters
+    ----------
+    first, second : Node
+        Expressions
+
+    Returns
+    -------
+    answer : bool
+        True when every node agrees
+    """
+    return first is second or ast.dump(first) == ast.dump(second)

@@ -1,0 +1,92 @@
+"""`mechsym simulate`: time simulation of a case."""
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym import cases
+from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+
+
+@click.command()
+@click.argument("case")
+@click.option("--tolerance", help="Tolerance of a step; the case's, or 1e-10.")
+@click.option("--backend", help="Integrator by name, e.g. scipy-dop853, sundials, heyoka.")
+@click.option("--no-check", is_flag=True, help="Leave out the second run at a hundredth of the tolerance.")
+@set_option
+@out_option
+@json_option
+@click.pass_context
+def simulate(
+    ctx: click.Context,
+    case: str,
+    tolerance: str | None,
+    backend: str | None,
+    no_check: bool,
+    overrides: tuple[str, ...],
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Simulate CASE over time, with an energy audit and a check of the tolerance.
+
+    Exit status 1 when the run did not converge; a stall is an event, not a failure.
+
+    \b
+    Example: mechsym simulate chmielewski --set c1=0.2 --out startup
+    """
+    from mechsym.runs import problem_of, settings_of, window_of
+    from mechsym.simulate import simulate as run
+    from mechsym.simulate.summary import summary
+
+    options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
+    given = {k: v for k, v in options.items() if v is not None}
+    found = cases.load(case, pairs(overrides) | given)
+    settings = settings_of(found)
+    problem = problem_of(found)
+    result = run(problem, dataclasses.replace(settings, check="none") if no_check else settings)
+    report = {"case": found.name, "backend": settings.backend, "tolerance": settings.tolerance}
+    report |= summary(result, problem.mechanism.coordinates, window_of(found, problem))
+    report["findings"] = _findings(found, result)
+    report["files"] = [] if out is None else _write(result, out)
+    emit(report, as_json, lambda: _text(report))
+    ctx.exit(1 if result.status in ("failed", "not converged", "chaotic") else 0)
+
+
+def _findings(case: cases.Case, result: Any) -> list[str]:
+    """What a start-up shows; other runs have nothing to add to their numbers."""
+    if "startup" not in case.sections or result.status == "failed":
+        return []
+    from mechsym.startup import start_up
+
+    return list(start_up(case, result).findings)
+
+
+def _write(result: Any, out: Path) -> list[str]:
+    from mechsym.errors import MissingExtra
+    from mechsym.simulate import write_netcdf, write_series
+
+    files = [write_series(result, out / "series.csv")]
+    try:
+        files.append(write_netcdf(result, out / "series.nc"))
+    except MissingExtra as error:
+        click.echo(f"no netCDF file: {error}", err=True)
+    return [str(f) for f in files]
+
+
+def _text(report: dict[str, Any]) -> str:
+    keys = ["t_end", "end", "status", "energy_residual", "tolerance_difference", "steps", "wall_s"]
+    lines = [f"{key:22}{_number(report[key])}" for key in keys]
+    lines.append(f"{'reason':22}{report['reason']}")
+    if report["event"]:
+        lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
+    rows = [{"speed over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
+    lines += ["", table(rows, ["speed over the last", "of", "mean", "min", "max"])]
+    if report["findings"]:
+        lines += ["", *(f"- {line}" for line in report["findings"])]
+    return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
+
+
+def _number(value: Any) -> str:
+    return f"{value:.8g}" if isinstance(value, float) else str(value)

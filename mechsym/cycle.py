@@ -1,0 +1,161 @@
+"""The engine of a case and what it does over the speeds: case -> motion -> engine -> performance."""
+
+from dataclasses import asdict
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cases.settings import Speeds
+from mechsym.engine.chamber import chamber, piston_force, travel, volume
+from mechsym.engine.friction import NoFriction
+from mechsym.engine.gas import ConstantGamma
+from mechsym.engine.model import Engine, closed_period
+from mechsym.engine.performance import Performance, performance
+from mechsym.engine.printed import marched, performance_printed
+from mechsym.engine.run import at_angles, run
+from mechsym.engine.spark_ignition import SparkIgnition
+from mechsym.errors import BadInput
+from mechsym.motion import motion
+
+RPM = np.pi / 30
+
+
+def engine(case: Case) -> Engine:
+    """The engine that a case describes.
+
+    Parameters
+    ----------
+    case : Case
+        With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` and `[friction_pressure]`
+        default to a constant gamma and no friction
+
+    Returns
+    -------
+    engine : Engine
+        Ready for `performance`
+
+    Raises
+    ------
+    BadInput
+        A section is missing, or the cycle is of another kind
+    """
+    cycle = case.need("cycle")
+    if not isinstance(cycle, SparkIgnition):
+        raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
+    return Engine(
+        chamber=case.need("chamber"),
+        motion=motion(case.mechanism, asdict(case.need("parameters"))),
+        cycle=cycle,
+        gas=case.sections.get("gas", ConstantGamma()),
+        heat_transfer=case.need("heat_transfer"),
+        friction_pressure=case.sections.get("friction_pressure", NoFriction()),
+    )
+
+
+def over_speeds(engine: Engine, omega: np.ndarray) -> Performance:
+    """Figures over the speeds, by the method that the cycle names.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    omega : ndarray, shape (n,)
+        Crank speeds [rad/s]
+
+    Returns
+    -------
+    performance : Performance
+        Figures at the n speeds
+    """
+    if engine.cycle.method == "nunes2017_printed":
+        return performance_printed(engine, omega)
+    return performance(engine, {"omega": omega})
+
+
+def columns(found: Performance) -> dict[str, Any]:
+    """Figures under the names and units of the command line.
+
+    Parameters
+    ----------
+    found : Performance
+        Figures at n points
+
+    Returns
+    -------
+    columns : dict
+        `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings
+    """
+    shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
+    return {
+        "speed_rpm": found.omega / RPM,
+        "torque_avg": found.torque_avg,
+        "torque_max": found.torque_max,
+        "power_kw": found.power / 1e3,
+        "mep_kpa": found.mep / 1e3,
+        "sfc_g_kwh": found.sfc * 3.6e9,
+        "efficiency": found.efficiency,
+        "p_max_mpa": found.p_max / 1e6,
+        "p_max_angle_deg": np.degrees(found.p_max_angle),
+        "force_max": found.force_max,
+        "fractions": shares,
+        "loads": found.loads,
+        "friction_mep_kpa": found.friction_mep / 1e3,
+        "brake_torque": found.brake_torque,
+        "brake_power_kw": found.brake_power / 1e3,
+        "brake_sfc_g_kwh": found.brake_sfc * 3.6e9,
+        "brake_efficiency": found.brake_efficiency,
+        "energy_residual": found.energy_residual,
+    }
+
+
+def curves(engine: Engine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
+    """The closed period at one speed, curve by curve.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    omega : float
+        Crank speed [rad/s]
+    step : float
+        Distance of the angles; the printed method keeps its whole degrees [rad]
+
+    Returns
+    -------
+    curves : dict of str to ndarray, shape (k,)
+        `phi_deg` from firing top dead centre, `p_pa`, `t_k`, `v_m3`, `force_n` and `torque_nm` of one piston
+    """
+    room = chamber(engine.chamber, engine.motion)
+    if engine.cycle.method == "nunes2017_printed":
+        result = marched(engine, np.array([omega]))
+        phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
+    else:
+        phi, p, t = at_angles(run(partial(closed_period, engine), {"omega": omega}), step)
+    force = piston_force(room, phi, omega, p)
+    return {
+        "phi_deg": np.degrees(phi),
+        "p_pa": p,
+        "t_k": t,
+        "v_m3": volume(room, phi)[0],
+        "force_n": force,
+        "torque_nm": force * travel(room.motion, phi)[1],
+    }
+
+
+def speed_range(speeds: Speeds) -> np.ndarray:
+    """The speeds of a performance map.
+
+    Parameters
+    ----------
+    speeds : Speeds
+        Section `[speeds]` of a case
+
+    Returns
+    -------
+    omega : ndarray, shape (n,)
+        lowest, lowest + step, .. up to highest [rad/s]
+    """
+    count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
+    return speeds.lowest + speeds.step * np.arange(count)

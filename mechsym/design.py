@@ -1,0 +1,120 @@
+"""The whole job: case -> mechanism -> pressure -> hinge -> guide -> verdict -> trials -> retuning."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+from mechsym import balance, cases, feasibility, guide, hinge, trials
+from mechsym.assembly import Assembly, assemble, kept_flywheel, load_of
+from mechsym.balance import Balance
+from mechsym.cases import Case
+from mechsym.cases.settings import TrialSettings
+from mechsym.feasibility import Verdict
+from mechsym.guide import Guide
+from mechsym.hinge import Hinge
+from mechsym.trials import Flywheels, Retuned, Sensitivity, Trial
+
+STEPS = 6  # how often `design` calls `progress`
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Design:
+    """A designed hinge and how it runs.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Engine
+    hinge : Hinge
+        Torque that keeps the speed constant
+    balance : Balance
+        Part of it that the guide gives
+    guide : Guide
+        Guide, or why there is none
+    verdict : Verdict
+        Whether it can be built
+    trials : tuple of Trial
+        Runs side by side
+    flywheels : Flywheels
+        What the hinge saves, and what a faulty one needs
+    sensitivities : tuple of Sensitivity
+        Ripple for each per cent of error
+    retuned : Retuned or None
+        The same guide at the other speed of the case
+    flywheel_kept : float
+        Flywheel of the case [kg*m^2]
+    """
+
+    assembly: Assembly
+    hinge: Hinge
+    balance: Balance
+    guide: Guide
+    verdict: Verdict
+    trials: tuple[Trial, ...]
+    flywheels: Flywheels
+    sensitivities: tuple[Sensitivity, ...]
+    retuned: Retuned | None
+    flywheel_kept: float
+
+
+def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] = lambda: None) -> Design:
+    """Design the elastic hinge of an engine and prove it by simulation.
+
+    Parameters
+    ----------
+    case : Case
+        With sections parameters, operation, cycle, spring, guide, rollers, limits
+    diagram : str, optional
+        CSV file of a measured diagram in place of the case's cycle
+    progress : callable, optional
+        Called after each of the six steps
+
+    Returns
+    -------
+    design : Design
+        Everything that the report shows
+
+    Raises
+    ------
+    BadInput
+        A section is missing, or a value is impossible
+    """
+    spring, choices = case.need("spring"), case.need("guide")
+    rollers, limits, load = case.need("rollers"), case.need("limits"), load_of(case)
+    turns = case.sections.get("trials", TrialSettings()).turns
+    engine = assemble(case, diagram)
+    progress()
+    wanted = hinge.build(engine.torques, engine.omega)
+    part = balance.build(wanted, choices.balance)
+    cut = guide.build(part, spring, choices)
+    verdict = feasibility.judge(cut, spring, rollers, limits)
+    usable = cut if cut.rho is not None else None
+    progress()
+    runs = trials.side_by_side(engine, wanted, usable, load, turns)
+    progress()
+    wheels = trials.flywheels(engine, wanted, usable, load)
+    progress()
+    errors = trials.sensitivities(engine, wanted, usable, load) if usable else []
+    progress()
+    again = _retuned(case, usable, turns) if usable else None
+    progress()
+    return Design(
+        assembly=engine,
+        hinge=wanted,
+        balance=part,
+        guide=cut,
+        verdict=verdict,
+        trials=tuple(runs),
+        flywheels=wheels,
+        sensitivities=tuple(errors),
+        retuned=again,
+        flywheel_kept=kept_flywheel(case),
+    )
+
+
+def _retuned(case: Case, cut: Guide, turns: float) -> Retuned | None:
+    section = case.sections.get("retune")
+    if section is None:
+        return None
+    other = assemble(cases.load(section.case))
+    return trials.retuned(other, hinge.build(other.torques, other.omega), cut, load_of(case), turns)

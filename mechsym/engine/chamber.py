@@ -1,0 +1,280 @@
+r"""The combustion chamber: all that the engine cycle knows of a mechanism is how far a piston has travelled.
+
+    head, or the other piston
+    |<-- V_c -->|<------ x(phi) ------>|
+    |           |                      |### piston, area A, one or two to a chamber
+    |           x = 0                  |
+             top dead centre
+
+phi is the crank angle from (firing) top dead centre, positive in the sense of rotation; x is positive away from the
+head. Volume and its slope are `V = V_c + n A x` and `n A dx/dphi` with n pistons to the chamber, the clearance
+`V_c = n A S/(CR - 1)` follows from the compression ratio CR and the stroke S of one piston.
+
+Every attribute of a `Chamber` may be a number or a CasADi expression: the same functions then give numbers or the
+model that is differentiated.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import check, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Motion:
+    """How one piston moves with the crank.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mechanism
+    function : casadi.Function
+        (phi, parameters (k,)) -> x [m], dx_dphi [m/rad], d2x_dphi2 [m/rad^2]; scalars, mapped over columns
+    parameters : mapping of str to float
+        The k parameters in the order of the function's second input
+    masses : tuple of str
+        Parameters whose sum is the mass that moves with one piston
+    bottom : float
+        Crank angle of bottom dead centre, pi for every mechanism without offset [rad]
+    loads : casadi.Function or None
+        (phi, parameters (k,), omega [rad/s], F [N]) -> named loads of the mechanism at constant speed under the net
+        pressure force F on the piston
+    """
+
+    name: str
+    function: ca.Function
+    parameters: Mapping[str, Any]
+    masses: tuple[str, ...]
+    bottom: float = np.pi
+    loads: ca.Function | None = None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ChamberParameters:
+    """Section `[chamber]` of a case.
+
+    Parameters
+    ----------
+    bore : float
+        Cylinder bore [m]
+    compression_ratio : float
+        Largest over smallest volume [-]
+    pistons : float
+        Pistons that bound the chamber: 1 under a head, or 2 opposed [-]
+    back_pressure : float
+        Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]
+    """
+
+    bore: float = quantity("m", above=0, about="cylinder bore")
+    compression_ratio: float = quantity("-", above=1, high=60, about="largest over smallest volume")
+    pistons: float = quantity("-", default=1, about="1 under a head, or 2 opposed")
+    back_pressure: float = quantity("Pa", default=101325.0, low=0, about="absolute pressure behind the piston")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.pistons not in (1, 2):
+            raise BadInput(f"pistons = {self.pistons:g} is not an option; options are 1 (under a head), 2 (opposed)")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Chamber:
+    """A chamber of given size on a given motion; attributes are numbers or CasADi expressions.
+
+    Parameters
+    ----------
+    motion : Motion
+        Motion of one piston
+    pistons : int
+        Pistons that bound the chamber
+    bore, area, stroke : float
+        Bore [m], area [m^2] and stroke [m] of one piston
+    clearance, displacement : float
+        Smallest volume, and swept volume of all pistons together [m^3]
+    back_pressure : float
+        Absolute pressure on the other side of the piston [Pa]
+    """
+
+    motion: Motion
+    pistons: int
+    bore: Any
+    area: Any
+    stroke: Any
+    clearance: Any
+    displacement: Any
+    back_pressure: Any
+
+
+def chamber(parameters: Any, motion: Motion) -> Chamber:
+    r"""Size the chamber.
+
+    .. math:: A = \pi B^2/4, \quad V_d = n A S, \quad V_c = V_d/(CR - 1)
+
+    Parameters
+    ----------
+    parameters : ChamberParameters
+        Bore, compression ratio, pistons; or any object with these attributes, which may be CasADi expressions
+    motion : Motion
+        Motion of one piston
+
+    Returns
+    -------
+    chamber : Chamber
+        Areas and volumes filled in
+    """
+    area = np.pi / 4 * parameters.bore**2
+    stroke = travel(motion, motion.bottom)[0]
+    displacement = parameters.pistons * area * stroke
+    clearance = displacement / (parameters.compression_ratio - 1)
+    return Chamber(
+        motion=motion, pistons=parameters.pistons, bore=parameters.bore, area=area, stroke=stroke,
+        clearance=clearance, displacement=displacement, back_pressure=parameters.back_pressure,
+    )  # fmt: skip
+
+
+def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
+    """Travel of one piston and its first two derivatives with respect to the crank angle.
+
+    Parameters
+    ----------
+    motion : Motion
+        Motion of one piston
+    phi : float, ndarray of any shape, or CasADi scalar
+        Crank angle from top dead centre [rad]
+
+    Returns
+    -------
+    x : same kind as `phi`
+        Travel from top dead centre [m]
+    dx_dphi : same kind as `phi`
+        First derivative [m/rad]
+    d2x_dphi2 : same kind as `phi`
+        Second derivative [m/rad^2]
+    """
+    parameters = list(motion.parameters.values())
+    symbolic = isinstance(phi, (ca.SX, ca.MX)) or any(isinstance(p, (ca.SX, ca.MX)) for p in parameters)
+    if symbolic:
+        return motion.function(phi, ca.vertcat(*parameters))
+    angles = np.asarray(phi, float)
+    columns = motion.function(angles.reshape(1, -1), np.asarray(parameters, float).reshape(-1, 1))
+    x, dx, d2x = (np.asarray(c).reshape(angles.shape) for c in columns)
+    return (x, dx, d2x) if angles.ndim else (float(x), float(dx), float(d2x))
+
+
+def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
+    r"""Volume of the chamber and its derivative with respect to the crank angle.
+
+    .. math:: V = V_c + n A x(\varphi), \quad V' = n A x'(\varphi)
+
+    Parameters
+    ----------
+    chamber : Chamber
+        The chamber
+    phi : float, ndarray or CasADi scalar
+        Crank angle from top dead centre [rad]
+
+    Returns
+    -------
+    v : same kind as `phi`
+        Volume [m^3]
+    dv_dphi : same kind as `phi`
+        Derivative [m^3/rad]
+    """
+    x, dx, _ = travel(chamber.motion, phi)
+    return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx
+
+
+def moving_mass(motion: Motion) -> Any:
+    """Mass that moves with one piston.
+
+    Parameters
+    ----------
+    motion : Motion
+        Motion of one piston
+
+    Returns
+    -------
+    mass : float or CasADi expression
+        Sum of the parameters named in `masses` [kg]
+    """
+    return sum(motion.parameters[name] for name in motion.masses)
+
+
+def wall_area(chamber: Chamber, v: Any) -> Any:
+    r"""Surface that the gas touches.
+
+    .. math:: A_w = 2 A + 4 V/B
+
+    Parameters
+    ----------
+    chamber : Chamber
+        The chamber
+    v : float, ndarray or CasADi scalar
+        Volume of the chamber [m^3]
+
+    Returns
+    -------
+    area : same kind as `v`
+        Two crowns, or crown and flat head, and the liner between them [m^2]
+
+    Notes
+    -----
+    Source: Nunes (2017), eq. (2.40), for a cylinder closed by two flat ends.
+    """
+    return 2 * chamber.area + 4 * v / chamber.bore
+
+
+def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
+    r"""Force that one piston hands to its mechanism at constant speed, from pressure and inertia.
+
+    .. math:: F = (p - p_b) A - m\,x''\omega^2
+
+    Parameters
+    ----------
+    chamber : Chamber
+        The chamber
+    phi : float, ndarray or CasADi scalar
+        Crank angle from top dead centre [rad]
+    omega : float or ndarray
+        Crank speed [rad/s]
+    p : float, ndarray or CasADi scalar
+        Absolute pressure in the chamber [Pa]
+
+    Returns
+    -------
+    force : same kind as `p`
+        Positive away from the head [N]
+
+    Notes
+    -----
+    Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
+    """
+    net = (p - chamber.back_pressure) * chamber.area
+    return net - moving_mass(chamber.motion) * travel(chamber.motion, phi)[2] * omega**2
+
+
+def check_motion(motion: Motion) -> None:
+    """Refuse a motion whose dead centres are not where the chamber expects them.
+
+    Parameters
+    ----------
+    motion : Motion
+        With numbers for parameters
+
+    Raises
+    ------
+    BadInput
+        x(0) is not 0, x is negative somewhere, or x has no dead centre at `bottom`
+    """
+    x, dx, _ = travel(motion, np.append(np.linspace(0.0, 2 * np.pi, 181), motion.bottom))
+    stroke = x.max()
+    if not stroke > 0 or abs(x[0]) > 1e-9 * stroke or x.min() < -1e-9 * stroke:
+        raise BadInput(f"motion {motion.name!r}: travel must be 0 at phi = 0 and positive elsewhere; min {x.min():g} m")
+    if abs(dx[-1]) > 1e-9 * stroke or x[-1] < (1 - 1e-9) * stroke:
+        raise BadInput(
+            f"motion {motion.name!r}: no bottom dead centre at phi = {motion.bottom:g} rad; set its `bottom`"
+        )

@@ -1,0 +1,244 @@
+"""Reading a measured indicator diagram: a CSV file with a crank angle and a pressure column.
+
+    # comment lines are kept
+    crank_angle_deg,time_s,pressure_bar        units stand in the header: name_unit, name [unit] or name (unit)
+    0,0.012470,1.5591
+    ...
+
+The angle may go on over the cycles or start again each turn or cycle; any spacing, any start. A file that cannot be
+trusted is refused with its line, the reason and the way out; nothing is repaired silently.
+"""
+
+import csv
+import dataclasses
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import parse
+
+# Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
+_UNITS = {
+    "rad": ("rad", "deg", "rev"),
+    "Pa": ("Pa", "kPa", "MPa", "bar"),
+}
+_HEADER = re.compile(r"^(?P<name>.*?)(?:_(?P<plain>[A-Za-z]+)|\s*[\[(]\s*(?P<bracketed>[^\])]*?)\s*[\])])$")
+_DELIMITERS = (";", "\t", ",")
+_COARSEST = math.radians(15.0)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Recording:
+    """What stands in a diagram file, in SI, the angle made continuous.
+
+    Parameters
+    ----------
+    file : str
+        Where it was read
+    angle : ndarray, shape (n,)
+        Ascending angle, its zero as in the file [rad]
+    pressure : ndarray, shape (n,)
+        Pressure as measured, offset unknown [Pa]
+    lines : ndarray of int, shape (n,)
+        Line of each sample in the file
+    comments : tuple of str
+        Comment lines without their mark
+    columns : tuple of str
+        Headers of the angle and the pressure column
+    """
+
+    file: str
+    angle: np.ndarray
+    pressure: np.ndarray
+    lines: np.ndarray
+    comments: tuple[str, ...]
+    columns: tuple[str, str]
+
+
+def read_diagram(path: str | Path, period: float, angle_column: str = "", pressure_column: str = "") -> Recording:
+    """Read a diagram file and refuse what cannot be trusted.
+
+    Parameters
+    ----------
+    path : str or Path
+        CSV file; columns divided by comma, semicolon or tab
+    period : float
+        2 pi or 4 pi: how far at least the angle must go [rad]
+    angle_column, pressure_column : str
+        Header of the column to take when several carry such a unit
+
+    Returns
+    -------
+    recording : Recording
+        At least one whole period
+
+    Raises
+    ------
+    BadInput
+        Names file, line, reason and way out
+    """
+    comments, header, rows = _split(str(path), _text(path))
+    angle_at, angle_unit = _column(str(path), header, "rad", angle_column)
+    pressure_at, pressure_unit = _column(str(path), header, "Pa", pressure_column)
+    names = header[1]
+    lines = np.array([line for line, _ in rows])
+    values = _numbers(str(path), rows, names, (angle_at, pressure_at))
+    pressure = values[:, 1] * parse(f"1 {pressure_unit}", "Pa")
+    angle = _continuous(str(path), values[:, 0] * parse(f"1 {angle_unit}", "rad"), lines)
+    _check_steps(str(path), angle, lines, names[angle_at])
+    _check_span(str(path), angle, period, names[angle_at])
+    _check_pressure(str(path), pressure, names[pressure_at])
+    return Recording(
+        file=str(path),
+        angle=angle,
+        pressure=pressure,
+        lines=lines,
+        comments=tuple(comments),
+        columns=(names[angle_at], names[pressure_at]),
+    )
+
+
+def _text(path: str | Path) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: not UTF-8 text (byte {error.start}); export the diagram as a CSV text file") from None
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read ({error.strerror}); give the path of a CSV file") from None
+
+
+def _split(file: str, text: str) -> tuple[list[str], tuple[int, list[str]], list[tuple[int, list[str]]]]:
+    comments, table = [], []
+    for line, content in enumerate(text.splitlines(), start=1):
+        if content.lstrip().startswith("#"):
+            comments.append(content.lstrip().lstrip("#").strip())
+        elif content.strip():
+            table.append((line, content))
+    if not table:
+        raise BadInput(
+            f"{file}: holds no data; it needs a header like crank_angle_deg,pressure_bar and one row a sample"
+        )
+    delimiter = next((d for d in _DELIMITERS if d in table[0][1]), ",")
+    # one reader a line: an unbalanced quotation mark must not swallow the rows below it
+    cells = [next(csv.reader([content], delimiter=delimiter)) for _, content in table]
+    rows = [(line, [cell.strip() for cell in row]) for (line, _), row in zip(table, cells, strict=True)]
+    if all(_is_number(cell) for cell in rows[0][1]):
+        raise BadInput(
+            f"{file}, line {rows[0][0]}: numbers where the header should be; "
+            "write a first line that names the columns and their units, for example crank_angle_deg,pressure_bar"
+        )
+    if len(rows) < 2:
+        raise BadInput(f"{file}: no row follows the header in line {rows[0][0]}; one row a sample is needed")
+    return comments, rows[0], rows[1:]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _column(file: str, header: tuple[int, list[str]], si: str, wanted: str) -> tuple[int, str]:
+    line, names = header
+    what, key = ("crank angle", "angle_column") if si == "rad" else ("pressure", "pressure_column")
+    if wanted and wanted not in names:
+        raise BadInput(f"{file}, line {line}: no column {wanted!r}; columns are {', '.join(names)}; change {key}")
+    found = [(i, _unit(n)) for i, n in enumerate(names) if _unit(n) in _UNITS[si] and wanted in ("", n)]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        choices = ", ".join(names[i] for i, _ in found)
+        raise BadInput(f"{file}, line {line}: several {what} columns ({choices}); name one with {key}")
+    raise BadInput(
+        f"{file}, line {line}: no column has the unit of a {what} ({', '.join(_UNITS[si])}); columns are "
+        f"{', '.join(names)}; write the unit into the name, for example "
+        f"{'crank_angle_deg' if si == 'rad' else 'pressure_bar'}"
+    )
+
+
+def _unit(name: str) -> str:
+    match = _HEADER.match(name)
+    return (match["plain"] or match["bracketed"] or "") if match else ""
+
+
+def _numbers(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, int]) -> np.ndarray:
+    values = np.empty((len(rows), 2))
+    for row, (line, cells) in enumerate(rows):
+        if len(cells) != len(names):
+            raise BadInput(
+                f"{file}, line {line}: {len(cells)} values for {len(names)} columns; mend or delete the line "
+                "(a decimal comma needs ';' between the columns and a point in the numbers)"
+            )
+        for k, column in enumerate(at):
+            if not _is_number(cells[column]):
+                raise BadInput(
+                    f"{file}, line {line}: {names[column]} = {cells[column]!r} is not a number; mend the line"
+                )
+            values[row, k] = float(cells[column])
+            if not math.isfinite(values[row, k]):
+                raise BadInput(
+                    f"{file}, line {line}: {names[column]} = {cells[column]} is not finite; "
+                    "cut the record so that no sample is missing"
+                )
+    return values
+
+
+def _continuous(file: str, angle: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    # an encoder starts again each turn or each cycle: a fall by whole turns, less one step, is no fault
+    steps = np.diff(angle)
+    turns = np.where(steps < -math.pi, np.ceil(-steps / (2 * math.pi)), 0.0)
+    steps = steps + 2 * math.pi * turns
+    bad = np.flatnonzero(steps <= 1e-9)
+    if bad.size:
+        i = int(bad[0])
+        what = "repeats the angle of" if abs(steps[i]) <= 1e-9 else "falls behind"
+        raise BadInput(
+            f"{file}, line {lines[i + 1]}: angle {math.degrees(angle[i + 1]):.6g} deg {what} line {lines[i]} "
+            f"({math.degrees(angle[i]):.6g} deg); angles must rise row by row and start again only after whole turns"
+        )
+    return angle[0] + np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _check_steps(file: str, angle: np.ndarray, lines: np.ndarray, name: str) -> None:
+    steps = np.diff(angle)
+    usual = float(np.median(steps)) if steps.size else 0.0
+    even = steps.size > 20 and float(np.mean(np.abs(steps - usual) < 0.05 * usual)) > 0.9
+    limit = min(_COARSEST, 1.5 * usual) if even else _COARSEST
+    bad = np.flatnonzero(steps > limit * (1 + 1e-9))
+    if bad.size == 0:
+        return
+    i = int(bad[0])
+    if usual > _COARSEST:
+        raise BadInput(
+            f"{file}, line {lines[i + 1]}: {math.degrees(usual):.4g} deg from row to row is too coarse, at most "
+            f"{math.degrees(_COARSEST):g} deg are allowed; is the unit of {name} right?"
+        )
+    raise BadInput(
+        f"{file}, line {lines[i + 1]}: gap of {math.degrees(steps[i]):.4g} deg after line {lines[i]} "
+        f"(usual step {math.degrees(usual):.4g} deg); fill in the missing samples or cut the record there"
+    )
+
+
+def _check_span(file: str, angle: np.ndarray, period: float, name: str) -> None:
+    # the step that closes the period may be as wide as the widest of the record
+    widest = float(np.diff(angle).max()) if angle.size > 1 else 0.0
+    span = float(angle[-1] - angle[0])
+    if span + 1.001 * widest < period:
+        raise BadInput(
+            f"{file}: {name} covers {math.degrees(span):.6g} deg, not a full period of {math.degrees(period):g} deg; "
+            "give a longer record, the right unit, or the right working_cycle"
+        )
+
+
+def _check_pressure(file: str, pressure: np.ndarray, name: str) -> None:
+    swing = float(np.ptp(pressure))
+    if not 0.5e5 <= swing <= 500e5:
+        raise BadInput(
+            f"{file}: {name} swings by {swing / 1e5:.4g} bar, no cylinder does (0.5 to 500 bar); "
+            "is its unit right, and was the sensor connected?"
+        )

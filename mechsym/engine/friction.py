@@ -1,0 +1,96 @@
+r"""Friction mean pressure by a named correlation, for brake figures where the mechanism itself declares no friction."""
+
+import dataclasses
+from typing import Any
+
+from mechsym.quantities import check, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class NoFriction:
+    """Section `[friction_pressure]`, `law = "none"`: brake figures equal indicated figures."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ChenFlynn:
+    """Section `[friction_pressure]`, `law = "chen_flynn"`.
+
+    Parameters
+    ----------
+    constant : float
+        Part that is always there [Pa]
+    per_peak_pressure : float
+        Part of the peak pressure [-]
+    per_speed : float
+        Part proportional to the mean piston speed [Pa*s/m]
+    per_speed_squared : float
+        Part proportional to its square [Pa*s^2/m^2]
+    """
+
+    constant: float = quantity("Pa", default=0.4e5, low=0, about="constant part")
+    per_peak_pressure: float = quantity("-", default=0.005, low=0, about="share of the peak pressure")
+    per_speed: float = quantity("Pa*s/m", default=0.09e5, low=0, about="per mean piston speed")
+    per_speed_squared: float = quantity("Pa*s^2/m^2", default=0.0009e5, low=0, about="per its square")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Heywood:
+    """Section `[friction_pressure]`, `law = "heywood"`: motored four-cylinder spark-ignition engines, 0.8 to 2 litres.
+
+    Parameters
+    ----------
+    constant, per_speed, per_speed_squared : float
+        fmep = constant + per_speed n + per_speed_squared n^2 [Pa], n in 1000 rpm
+    """
+
+    constant: float = quantity("Pa", default=0.97e5, low=0, about="constant part")
+    per_speed: float = quantity("Pa", default=0.15e5, low=0, about="per 1000 rpm")
+    per_speed_squared: float = quantity("Pa", default=0.05e5, low=0, about="per (1000 rpm)^2")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+Friction = NoFriction | ChenFlynn | Heywood
+
+
+def friction_pressure(law: Friction, p_max: Any, piston_speed: Any, omega: Any) -> Any:
+    r"""Friction mean effective pressure.
+
+    .. math::
+        \text{Chen-Flynn:}\quad & f = A + B\,p_{max} + C\,\bar S_p + D\,\bar S_p^2 \\
+        \text{Heywood:}\quad & f = 0.97 + 0.15\,n + 0.05\,n^2 \;\text{bar}, \; n \text{ in 1000 rpm}
+
+    Parameters
+    ----------
+    law : NoFriction, ChenFlynn or Heywood
+        Correlation and its coefficients
+    p_max : float, ndarray or CasADi expression
+        Peak pressure [Pa]
+    piston_speed : float, ndarray or CasADi expression
+        Mean piston speed [m/s]
+    omega : float, ndarray or CasADi expression
+        Crank speed [rad/s]
+
+    Returns
+    -------
+    fmep : same kind as the arguments
+        Friction mean effective pressure [Pa]
+
+    Notes
+    -----
+    Sources: Chen and Flynn (1965), SAE 650733, with coefficients of usual size; Heywood (1988), eq. (13.6).
+    """
+    match law:
+        case NoFriction():
+            return 0.0 * omega
+        case ChenFlynn():
+            speed = law.per_speed * piston_speed + law.per_speed_squared * piston_speed**2
+            return law.constant + law.per_peak_pressure * p_max + speed
+        case Heywood():
+            n = omega * 60 / (2 * 3.141592653589793) / 1000
+            return law.constant + law.per_speed * n + law.per_speed_squared * n**2
+    raise TypeError(f"no friction correlation for {type(law).__name__}")

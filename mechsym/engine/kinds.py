@@ -1,0 +1,105 @@
+"""Which record of `[cycle]` becomes which pressure. A new kind adds one line to each table."""
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import casadi as ca
+
+from mechsym.engine import two_stroke
+from mechsym.engine.cylinder import Cylinder, cylinder_of
+from mechsym.engine.diagram import Diagram
+from mechsym.engine.diagram_pressure import diagram_pressure
+from mechsym.engine.pressure import Pressure
+from mechsym.engine.two_stroke import TwoStrokeMarine
+from mechsym.engine.two_stroke_solve import two_stroke_pressure
+
+_PRESSURES: dict[type, Callable[[Any, Cylinder], Pressure]] = {
+    TwoStrokeMarine: two_stroke_pressure,
+    Diagram: diagram_pressure,
+}
+_BACK_PRESSURES: dict[type, Callable[[Any], float]] = {
+    TwoStrokeMarine: two_stroke.back_pressure,
+    Diagram: lambda diagram: diagram.p_back,
+}
+
+
+def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cylinder]:
+    """Pressure in the cylinder of a mechanism.
+
+    Parameters
+    ----------
+    cycle : record
+        `[cycle]` of a case, of any kind
+    kinematics : casadi.Function
+        One input, the crank angle; outputs `x` and `dx_dphi`
+
+    Returns
+    -------
+    pressure : Pressure
+        Absolute pressure over the period
+    cylinder : Cylinder
+        Its geometry
+
+    Raises
+    ------
+    BadInput
+        The cycle cannot be made
+    """
+    cylinder = cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
+    return _PRESSURES[type(cycle)](cycle, cylinder), cylinder
+
+
+def back_pressure(cycle: Any) -> float:
+    """Absolute pressure under the piston.
+
+    Parameters
+    ----------
+    cycle : record
+        `[cycle]` of a case, of any kind
+
+    Returns
+    -------
+    p_back : float
+        For `piston_force` [Pa]
+    """
+    return _BACK_PRESSURES[type(cycle)](cycle)
+
+
+def with_diagram(cycle: Any, file: str) -> Diagram:
+    """The cycle of a case with a measured diagram in its place.
+
+    Parameters
+    ----------
+    cycle : record
+        `[cycle]` of a case; of a `diagram` all methods are kept, of another kind what it knows of the engine
+    file : str
+        CSV file
+
+    Returns
+    -------
+    diagram : Diagram
+        For `cylinder_pressure`
+    """
+    if isinstance(cycle, Diagram):
+        return dataclasses.replace(cycle, file=file)
+    known = _two_stroke_line(cycle) if isinstance(cycle, TwoStrokeMarine) else {"working_cycle": "four-stroke"}
+    return Diagram(
+        bore=cycle.bore,
+        compression_ratio=cycle.compression_ratio,
+        p_back=back_pressure(cycle),
+        file=file,
+        **known,
+    )
+
+
+def _two_stroke_line(cycle: TwoStrokeMarine) -> dict[str, Any]:
+    # the compression line stands between the exhaust's closing and the start of combustion, with a margin
+    return {
+        "working_cycle": "two-stroke",
+        "n_c": cycle.n_c,
+        "inlet_pressure": two_stroke.scavenging_pressure(cycle.p_s),
+        "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
+        "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
+    }

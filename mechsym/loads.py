@@ -1,0 +1,178 @@
+"""Load torque of the driven machine as a law of the shaft speed. Each law is a record; one function evaluates them all.
+
+The torque opposes the motion: positive values brake a shaft that turns forwards. A constant load leaves the mean speed
+of an engine undetermined; one that grows with speed brings it back.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import check, quantity
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConstantLoad:
+    """The same torque at every speed.
+
+    Parameters
+    ----------
+    torque : float or None
+        Load torque; None takes the mean torque of the engine cycle [N*m]
+    """
+
+    torque: float | None = quantity("N*m", default=None, about="load torque; without it the cycle's mean torque")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PropellerLoad:
+    """Torque that grows with the square of the speed.
+
+    Parameters
+    ----------
+    torque : float or None
+        Torque at the reference speed; None takes the mean torque of the engine cycle [N*m]
+    speed : float or None
+        Reference speed; None takes the speed of operation [rad/s]
+    """
+
+    torque: float | None = quantity("N*m", default=None, low=0, about="torque at the reference speed")
+    speed: float | None = quantity("rad/s", default=None, above=0, about="reference speed")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableLoad:
+    """Torque over speed from a table, joined without overshoot by cubics (PCHIP), constant beyond its ends.
+
+    Parameters
+    ----------
+    speeds : tuple of float
+        Ascending speeds, at least two [rad/s]
+    torques : tuple of float
+        Torque at each speed [N*m]
+    """
+
+    speeds: tuple[float, ...] = quantity("rad/s", about="ascending speeds")
+    torques: tuple[float, ...] = quantity("N*m", about="torque at each speed")
+
+    def __post_init__(self) -> None:
+        if len(self.speeds) < 2 or len(self.speeds) != len(self.torques):
+            raise BadInput(
+                f"load table has {len(self.speeds)} speeds and {len(self.torques)} torques; it needs as many of each, "
+                "at least two"
+            )
+        if not np.all(np.isfinite([*self.speeds, *self.torques])) or np.any(np.diff(self.speeds) <= 0):
+            raise BadInput("load table: speeds must ascend and all values be finite; sort the table by speed")
+
+
+@lru_cache(maxsize=16)
+def _curve(speeds: tuple[float, ...], torques: tuple[float, ...]) -> Any:
+    from scipy.interpolate import PchipInterpolator
+
+    return PchipInterpolator(speeds, torques)
+
+
+Load = ConstantLoad | PropellerLoad | TableLoad
+
+
+def settle(load: Load, torque: float, speed: float) -> Load:
+    """The law with its blanks filled in from the engine's own operation.
+
+    Parameters
+    ----------
+    load : record of this module
+        A law, perhaps without torque or speed
+    torque : float
+        Mean torque of the engine cycle [N*m]
+    speed : float
+        Speed of operation [rad/s]
+
+    Returns
+    -------
+    load : record of this module
+        The same law with numbers everywhere
+    """
+    match load:
+        case ConstantLoad(torque=None):
+            return replace(load, torque=torque)
+        case PropellerLoad():
+            return replace(
+                load,
+                torque=torque if load.torque is None else load.torque,
+                speed=speed if load.speed is None else load.speed,
+            )
+    return load
+
+
+def load_torque(load: Load, omega: Any) -> Any:
+    r"""Load torque at a shaft speed.
+
+    .. math:: M_r = M, \qquad M_r = M \frac{\omega |\omega|}{\omega_0^2}, \qquad M_r = \text{table}(\omega)
+
+    Parameters
+    ----------
+    load : record of this module
+        A settled law
+    omega : float, ndarray or casadi.SX
+        Shaft speed; symbols are taken by the constant and the propeller law [rad/s]
+
+    Returns
+    -------
+    torque : same kind as omega
+        Torque against forward motion [N*m]
+    """
+    match load:
+        case ConstantLoad():
+            return _constant(load) + 0 * omega
+        case PropellerLoad():
+            return _square_law(load) * omega * abs(omega)
+        case TableLoad():
+            return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
+
+
+def _constant(load: ConstantLoad) -> float:
+    if load.torque is None:
+        raise BadInput("constant load without torque; give it, or settle it with the engine's own")
+    return load.torque
+
+
+def _square_law(load: PropellerLoad) -> float:
+    if load.torque is None or load.speed is None:
+        raise BadInput("propeller load without torque or speed; give both, or settle it with the engine's own")
+    return load.torque / load.speed**2
+
+
+def load_slope(load: Load, omega: Any) -> Any:
+    r"""Slope of the load torque over speed.
+
+    .. math:: \mathrm{d}M_r / \mathrm{d}\omega
+
+    Parameters
+    ----------
+    load : record of this module
+        A settled law
+    omega : float or ndarray
+        Shaft speed [rad/s]
+
+    Returns
+    -------
+    slope : same kind as omega
+        0 for a constant load and beyond the ends of a table [N*m*s/rad]
+    """
+    match load:
+        case ConstantLoad():
+            return 0 * omega
+        case PropellerLoad():
+            return 2 * _square_law(load) * abs(omega)
+        case TableLoad():
+            inside = (omega >= load.speeds[0]) & (omega <= load.speeds[-1])
+            return np.where(inside, _curve(load.speeds, load.torques)(omega, 1), 0.0)

@@ -1,0 +1,87 @@
+"""Which cylinders drive a rodless engine: any number, single or double acting, two-stroke or four-stroke.
+
+Each working face is a chamber. Side "a+" is the face that the outward travel of slider a compresses (dead centre at
+alpha = 0); "b+" has its dead centre at pi/2, "a-" at pi, "b-" at 3 pi/2. An opposite piston on the same rod and the
+inner face of a double-acting piston are both a "-" chamber.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import check, quantity
+
+DEAD_CENTRES = {"a+": 0.0, "b+": math.pi / 2, "a-": math.pi, "b-": 3 * math.pi / 2}
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class RodlessChambers:
+    """The chambers of one link.
+
+    Parameters
+    ----------
+    sides : tuple of str
+        Side of each chamber, of a+, a-, b+, b-
+    areas : tuple of float
+        Area of each working face; less by the rod's where a rod passes through [m^2]
+    firing : tuple of float
+        Crank angle at which each chamber fires, a dead centre of its side, within one cycle [rad]
+    p_back : float
+        Pressure on the other side of the pistons [Pa]
+    """
+
+    sides: tuple[str, ...]
+    areas: tuple[float, ...] = quantity("m^2", above=0, about="area of each working face")
+    firing: tuple[float, ...] = quantity("rad", about="crank angle at which each chamber fires")
+    p_back: float = quantity("Pa", default=101325.0, low=0, about="pressure behind the pistons")
+
+    def __post_init__(self) -> None:
+        _check_lists(self)
+        for side, fires in zip(self.sides, self.firing, strict=True):
+            if side not in DEAD_CENTRES:
+                raise BadInput(f"side {side!r} is not an option; options are {', '.join(DEAD_CENTRES)}")
+            late = math.remainder(fires - DEAD_CENTRES[side], 2 * math.pi)
+            if abs(late) > 1e-9:
+                centre = math.degrees(DEAD_CENTRES[side])
+                raise BadInput(
+                    f"firing = {math.degrees(fires):g} deg is no dead centre of side {side}; "
+                    f"give {centre:g} deg or {centre + 360:g} deg"
+                )
+
+
+def _check_lists(record: RodlessChambers) -> None:
+    lengths = {name: len(getattr(record, name)) for name in ("sides", "areas", "firing")}
+    if len(set(lengths.values())) != 1 or not record.sides:
+        raise BadInput(f"sides, areas and firing need one value a chamber; found {lengths}")
+    check(record)
+
+
+def axis_forces(
+    chambers: RodlessChambers, pressure: Callable[[np.ndarray], np.ndarray], alpha: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    r"""Net gas forces on the two axes, positive outwards.
+
+    .. math:: F = \mp \sum (p(\alpha - \alpha_{fire}) - p_{back})\,A
+
+    Parameters
+    ----------
+    chambers : RodlessChambers
+        The working faces
+    pressure : callable
+        Absolute pressure by the angle after the firing dead centre, ndarray to ndarray [Pa]
+    alpha : ndarray, shape (n,)
+        Crank angles [rad]
+
+    Returns
+    -------
+    F_a, F_b : ndarray, shape (n,)
+        Forces along the outward travel of the sliders [N]
+    """
+    forces = {"a": np.zeros_like(alpha), "b": np.zeros_like(alpha)}
+    for side, area, fires in zip(chambers.sides, chambers.areas, chambers.firing, strict=True):
+        sign = -1.0 if side[1] == "+" else 1.0
+        forces[side[0]] += sign * (pressure(alpha - fires) - chambers.p_back) * area
+    return forces["a"], forces["b"]

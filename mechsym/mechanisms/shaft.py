@@ -1,0 +1,91 @@
+"""Matrices of a torsionally elastic shaft, for torsional analysis: inertia, stiffness, damping."""
+
+import dataclasses
+
+import casadi as ca
+import numpy as np
+
+from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.crank_train import CrankTrainParameters, build, each
+from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
+from mechsym.mechanisms.crankshaft_flywheel import build as build_two
+
+_POINTS = 720
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ShaftMatrices:
+    """Linear torsional model of a shaft.
+
+    Parameters
+    ----------
+    coordinates : tuple of str
+        Angles, in the order of rows and columns
+    inertia : ndarray, shape (n, n)
+        Discs alone (bare) [kg*m^2]
+    inertia_mean : ndarray, shape (n, n)
+        Discs with the mean over a turn of what reciprocates [kg*m^2]
+    stiffness : ndarray, shape (n, n)
+        Stiffness; rows sum to zero, the shaft turns freely [N*m/rad]
+    damping : ndarray, shape (n, n)
+        Damping [N*m*s/rad]
+    """
+
+    coordinates: tuple[str, ...]
+    inertia: np.ndarray
+    inertia_mean: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+
+def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) -> ShaftMatrices:
+    """Matrices of a crank train or of the crankshaft with flywheel.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters or CrankshaftFlywheelParameters
+        Data
+
+    Returns
+    -------
+    matrices : ShaftMatrices
+        One row a coordinate
+    """
+    if isinstance(parameters, CrankTrainParameters):
+        mechanism = build(parameters)
+        discs, k, c = [*each(parameters, "I0"), parameters.I_f], each(parameters, "k"), each(parameters, "c")
+    else:
+        mechanism = build_two(parameters)
+        discs, k, c = [parameters.I0, parameters.I2], (parameters.k1,), (parameters.c1,)
+    return ShaftMatrices(
+        coordinates=mechanism.coordinates,
+        inertia=np.diag(discs),
+        inertia_mean=_mean_mass(mechanism),
+        stiffness=chain(k),
+        damping=chain(c),
+    )
+
+
+def chain(values: tuple[float, ...]) -> np.ndarray:
+    """Matrix of springs (or dampers) between neighbours of a free chain.
+
+    Parameters
+    ----------
+    values : tuple of float
+        Stiffness or damping from each disc to the next
+
+    Returns
+    -------
+    matrix : ndarray, shape (n + 1, n + 1)
+        Symmetric, rows sum to zero [N*m/rad] or [N*m*s/rad]
+    """
+    differences = np.diff(np.eye(len(values) + 1), axis=0)
+    return differences.T @ np.diag(values) @ differences
+
+
+def _mean_mass(mechanism: Mechanism) -> np.ndarray:
+    dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
+    angles = ca.DM(np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)).T
+    given = [angles] * n + [ca.DM.zeros(1, _POINTS)] * (dynamics.n_in() - n)
+    mass = np.asarray(dynamics.call(given)[0])
+    return mass.reshape(n, _POINTS, n).mean(axis=1)

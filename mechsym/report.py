@@ -1,0 +1,144 @@
+"""The report of a hinge design: one HTML file that opens offline, with equations, figures and a moving picture."""
+
+import dataclasses
+import json
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsym import plots
+from mechsym.design import Design
+from mechsym.files import to_json, write_csv, write_text
+from mechsym.mechanism import curves, listing
+from mechsym.rollers import parallel
+from mechsym.summary import guide_columns, guide_turn, hinge_columns, summary
+
+_FRAMES = 180
+
+
+def write(design: Design, folder: Path) -> list[Path]:
+    """Write report, tables, summary and pictures of a design.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+    folder : Path
+        Where to write; made when missing
+
+    Returns
+    -------
+    files : list of Path
+        report.html first
+    """
+    numbers, figures = summary(design), _figures(design)
+    files = [write_text(folder / "report.html", html(design, numbers, figures))]
+    files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
+    files.append(write_csv(folder / "hinge.csv", hinge_columns(design)))
+    if design.guide.rho is not None:
+        files.append(write_csv(folder / "guide.csv", guide_columns(design, guide_turn(design, 3601))))
+    return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
+
+
+def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> str:
+    """The report as text.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+    numbers : dict
+        From `summary`
+    figures : dict of str to str
+        SVG by name
+
+    Returns
+    -------
+    text : str
+        HTML without any outside reference
+    """
+    import jinja2
+
+    source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
+    environment.filters["sig"] = significant
+    return environment.from_string(source).render(
+        case=design.assembly.case,
+        design=design,
+        numbers=numbers,
+        figures=figures,
+        parameters=_parameters(design),
+        equations=listing(design.assembly.mechanism.name)["equations"],
+        motion=json.dumps(_motion(design)),
+        degrees=180 / np.pi,
+    )
+
+
+def significant(value: float | None, digits: int = 4) -> str:
+    """A number with a few significant digits, or a dash.
+
+    Parameters
+    ----------
+    value : float or None
+        Number [-]
+    digits : int
+        Significant digits
+
+    Returns
+    -------
+    text : str
+        Without an exponent between 1e-3 and 1e6
+    """
+    if value is None:
+        return "–"
+    if value != 0 and not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits - 1}e}"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e" in text else text
+
+
+def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
+    rows = []
+    for section, record in design.assembly.case.sections.items():
+        for field in dataclasses.fields(record):
+            value = getattr(record, field.name)
+            if "unit" in field.metadata and isinstance(value, float):
+                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
+    return rows
+
+
+def _figures(design: Design) -> dict[str, str]:
+    figures = {"pressure": plots.pressure(design), "torque": plots.torque(design), "speeds": plots.speeds(design)}
+    if design.guide.rho is not None:
+        turn = guide_turn(design)
+        radius = design.assembly.case.need("rollers").radius
+        figures |= {"track": plots.track(design, turn, radius), "contact": plots.contact(turn)}
+    if design.retuned is not None:
+        figures["retuning"] = plots.retuning(design)
+    return {name: plots.svg(figure) for name, figure in figures.items()}
+
+
+def _motion(design: Design) -> dict[str, Any]:
+    """Positions for the moving picture, rounded to a tenth of a millimetre."""
+    p = design.assembly.case.need("parameters")
+    r, l = p.r1 + p.r2, p.l1 + p.l2
+    phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
+    found = curves(design.assembly.mechanism, phi)
+    motion = {
+        "r": r, "l": l, "bore": design.assembly.cylinder.bore, "phi": np.round(phi, 5).tolist(),
+        "crosshead": np.round(r + l - found["x"], 4).tolist(),
+        "torque": np.round(design.hinge.torque(phi) / 1e3, 2).tolist(), "rho": [], "profile": [], "rollers": 0,
+        "radius": 0.0, "ratio": 1.0,
+    }  # fmt: skip
+    if design.guide.rho is not None:
+        turn, radius = guide_turn(design), design.assembly.case.need("rollers").radius
+        x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
+        ratio = design.guide.parameters.shaft_ratio
+        rho = np.interp(ratio * phi % (2 * np.pi), turn.theta, turn.rho)
+        motion |= {
+            "rho": np.round(rho, 4).tolist(), "profile": np.round(np.column_stack([x, y])[::3], 4).tolist(),
+            "rollers": design.guide.rollers, "radius": radius, "ratio": ratio,
+        }  # fmt: skip
+    return motion

@@ -1,0 +1,142 @@
+r"""Speed ripple that missing work leaves, exactly and without simulation.
+
+If the hinge gives less than the torque M_h that keeps the speed at omega, the missing torque works on
+E = I (phid^2 - omega^2) / 2. With w(phi) the work that is wanted and missing,
+
+.. math:: \frac{dE}{d\varphi} = -\frac{dw}{d\varphi} - \left(M_\mathrm{load} - M_r\right)
+
+Constant load: the bracket is zero and E = c - w; every c is a motion, and c is chosen for the mean speed omega.
+Propeller load, M_r (phid/omega)^2: the bracket is a E with a = 2 M_r / (I omega^2), the equation is linear and has one
+periodic solution. All arrays are over even crank angles of one period without its end.
+"""
+
+from itertools import accumulate
+
+import numpy as np
+from scipy.optimize import brentq
+
+
+def even_angles(period: float, count: int = 4096) -> np.ndarray:
+    """Even crank angles over a period, without its end.
+
+    Parameters
+    ----------
+    period : float
+        Period [rad]
+    count : int
+        Number of angles
+
+    Returns
+    -------
+    phi : ndarray, shape (count,)
+        Angles [rad]
+    """
+    return np.arange(count) * period / count
+
+
+def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) -> np.ndarray | None:
+    """Crank speed around a period at constant load, for a given mean speed.
+
+    Parameters
+    ----------
+    missing : ndarray, shape (n,)
+        Work that is wanted and missing [J]
+    inertia : ndarray, shape (n,)
+        Reduced inertia [kg*m^2]
+    omega : float
+        Mean speed in time [rad/s]
+
+    Returns
+    -------
+    phid : ndarray, shape (n,), or None
+        Speed [rad/s]; None if no motion with that mean speed exists: the crank would stop
+
+    Notes
+    -----
+    Neutrally stable: a run that starts elsewhere keeps another c and another ripple.
+    """
+
+    def phid(c: float) -> np.ndarray:
+        return np.sqrt(omega**2 + 2 * (c - missing) / inertia)
+
+    def excess(c: float) -> float:
+        return mean_speed(phid(c)) - omega
+
+    swing, energy = float(np.ptp(missing)), float(inertia.max()) * omega**2 / 2
+    if swing <= 1e-12 * energy:
+        return np.full_like(missing, omega)
+    slowest = float(np.max(missing - inertia * omega**2 / 2)) + 1e-9 * swing
+    if excess(slowest) > 0:
+        return None
+    return phid(brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
+
+
+def propeller_load_speed(
+    missing: np.ndarray, inertia: np.ndarray, omega: float, load_torque: float, period: float
+) -> np.ndarray | None:
+    r"""Crank speed around a period when the load grows with the square of the speed.
+
+    .. math:: E = g - w, \qquad g' = a\,(w - g), \qquad a = \frac{2 M_r}{I \omega^2}
+
+    Parameters
+    ----------
+    missing : ndarray, shape (n,)
+        Work w that is wanted and missing [J]
+    inertia : ndarray, shape (n,)
+        Reduced inertia I [kg*m^2]
+    omega : float
+        Speed at which the load takes the load torque [rad/s]
+    load_torque : float
+        M_r, positive [N*m]
+    period : float
+        Period [rad]
+
+    Returns
+    -------
+    phid : ndarray, shape (n,), or None
+        Speed of the periodic motion, to which every run settles [rad/s]; None if the crank would stop
+    """
+    rate = 2 * load_torque / (inertia * omega**2)
+    step = period / missing.size * (rate + np.roll(rate, -1)) / 2
+    decay = np.exp(-step)
+    # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
+    gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
+    *forced, end = accumulate(zip(decay, gain, strict=True), lambda g, s: s[0] * g + s[1], initial=0.0)
+    faded = np.exp(-np.concatenate([[0.0], np.cumsum(step)]))
+    g = np.array(forced) + faded[:-1] * end / (1 - faded[-1])
+    squares = omega**2 + 2 * (g - missing) / inertia
+    return None if squares.min() <= 0 else np.sqrt(squares)
+
+
+def mean_speed(phid: np.ndarray) -> float:
+    """Mean in time of a speed given over even angles.
+
+    Parameters
+    ----------
+    phid : ndarray, shape (n,)
+        Speed, positive [rad/s]
+
+    Returns
+    -------
+    mean : float
+        Angle over time of a period [rad/s]
+    """
+    return 1 / float(np.mean(1 / phid))
+
+
+def ripple(phid: np.ndarray | None) -> float | None:
+    r"""Speed ripple.
+
+    .. math:: \delta = \frac{\omega_{max} - \omega_{min}}{\omega_{mean}}
+
+    Parameters
+    ----------
+    phid : ndarray, shape (n,), or None
+        Speed over even angles [rad/s]; None for a crank that stops
+
+    Returns
+    -------
+    delta : float or None
+        Ripple [-]
+    """
+    return None if phid is None else float(np.ptp(phid)) / mean_speed(phid)

@@ -1,0 +1,186 @@
+"""First-order equations of a problem: motion, the work of every part, and what the dampers take.
+
+    y = (q, u, work of each part, dissipation),   dy/dt = f(t, y, w)
+
+w holds the values that no formula gives: the steps, constant in a phase, and the plain callables. f is one CasADi
+function, so that any backend can take it; scipy calls it through a buffer (0.5 microseconds a call).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.mechanism import acceleration_function, velocities
+from mechsym.simulate.problem import Formula, Problem, Steps
+
+
+@dataclass(frozen=True, kw_only=True)
+class System:
+    """The equations of a problem.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        (t, y, w) to dy/dt
+    columns : tuple of str
+        Names of the states y
+    units : tuple of str
+        Their units
+    values : tuple of Steps or callable
+        What gives each entry of w
+    size : int
+        Number of coordinates
+    audited : bool
+        Whether the mechanism has energies; without them dissipation stays 0
+    """
+
+    function: ca.Function
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    values: tuple[Steps | Callable[..., float], ...]
+    size: int
+    audited: bool
+
+
+def system(problem: Problem) -> System:
+    r"""The equations of a problem, with the power balance beside the motion.
+
+    .. math:: \dot W_j = w_j\, v_j,\quad v_j = \sum_i \frac{\partial Q_i}{\partial w_j} u_i,\qquad
+              \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
+
+    Parameters
+    ----------
+    problem : Problem
+        Mechanism and parts
+
+    Returns
+    -------
+    system : System
+        Functions and names
+
+    Raises
+    ------
+    BadInput
+        The mechanism has constraints, which need multipliers
+    """
+    mechanism = problem.mechanism
+    if "constraints" in mechanism.functions:
+        raise BadInput(f"{mechanism.name} has constraints; simulate a form with independent coordinates")
+    n, names = len(mechanism.coordinates), velocities(mechanism)
+    t, y = ca.SX.sym("t"), ca.SX.sym("y", 2 * n + len(problem.parts) + 1)
+    q, u = ca.vertsplit(y[:n]), ca.vertsplit(y[n : 2 * n])
+    outer = tuple(p.value for p in problem.parts if not isinstance(p.value, Formula))
+    w = ca.SX.sym("w", len(outer))
+    values = _values(problem, t, q, u, w)
+    inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
+    qdd = acceleration_function(mechanism)(*q, *u, *inputs)
+    rates, loss = _power(problem, q, u)
+    powers = [value * rates[part.input] for part, value in values]
+    works = tuple(f"work_{p.name}" for p in problem.parts)
+    return System(
+        function=ca.Function("system", [t, y, w], [ca.vertcat(*u, qdd, *powers, loss)], ["t", "y", "w"], ["ydot"]),
+        columns=(*mechanism.coordinates, *names, *works, "dissipation"),
+        units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1),
+        values=outer,
+        size=n,
+        audited="energy" in mechanism.functions,
+    )
+
+
+def _values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any) -> list[tuple[Any, Any]]:
+    """Each part with the symbol or the formula of its value."""
+    found, next_w = [], 0
+    for part in problem.parts:
+        if isinstance(part.value, Formula):
+            found.append((part, ca.SX(part.value.function(t, q, u))))
+        else:
+            found.append((part, w[next_w]))
+            next_w += 1
+    return found
+
+
+def _power(problem: Problem, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
+    """The speed conjugate to each input, and the power that is lost inside the mechanism."""
+    mechanism = problem.mechanism
+    inputs = ca.SX.sym("inputs", len(mechanism.inputs))
+    force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs))[2]
+    speeds = ca.jacobian(force, inputs).T @ ca.vertcat(*u)
+    rates = dict(zip(mechanism.inputs, ca.vertsplit(speeds), strict=True))
+    if "energy" not in mechanism.functions:
+        return rates, ca.SX(0)
+    potential = mechanism.functions["energy"](*q, *u)[1]
+    passive = ca.substitute(force, inputs, ca.SX.zeros(inputs.shape))
+    return rates, -ca.dot(ca.vertcat(*u), passive + ca.gradient(potential, ca.vertcat(*q)))
+
+
+def held(system: System, t: float) -> np.ndarray:
+    """The values w at a time, right of any jump; a callable's place stays 0.
+
+    Parameters
+    ----------
+    system : System
+        Equations
+    t : float
+        Start of a phase [s]
+
+    Returns
+    -------
+    w : ndarray, shape (k,)
+        In the units of the inputs [N*m or N]
+    """
+    return np.array([_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values], dtype=float)
+
+
+def _step(steps: Steps, t: float) -> float:
+    return steps.values[int(np.searchsorted(steps.times, t, side="right"))]
+
+
+def right_side(
+    system: System, w: np.ndarray, t_end: float, spans: Sequence[Any] = ()
+) -> Callable[[float, np.ndarray], np.ndarray]:
+    """The equations as a fast Python function, for one phase.
+
+    Parameters
+    ----------
+    system : System
+        Equations
+    w : ndarray, shape (k,)
+        Held values of the phase [N*m or N]
+    t_end : float
+        End of the phase; callables are asked just before it, so that a jump there belongs to the next phase [s]
+    spans : sequence of Span
+        Intervals of coordinates beyond which callables are not asked, for the same reason
+
+    Returns
+    -------
+    f : callable
+        (t, y) to dy/dt, a new array each time
+    """
+    buffer: Any
+    buffer, call = system.function.buffer()
+    t_now, y_now, w_now = np.zeros(1), np.zeros(len(system.columns)), np.array(w)
+    out = np.zeros(len(system.columns))
+    for i, array in enumerate((t_now, y_now, w_now)):
+        buffer.set_arg(i, array.data)
+    buffer.set_res(0, out.data)
+    sampled = [(i, v) for i, v in enumerate(system.values) if not isinstance(v, Steps)]
+    n, last = system.size, float(np.nextafter(t_end, -np.inf))
+
+    # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory
+    def f(t: float, y: np.ndarray, _alive: Any = buffer) -> np.ndarray:
+        y_now[:] = y
+        t_now[0] = now = t if t < last else last
+        if sampled:
+            q, u = y[:n].tolist(), y[n : 2 * n].tolist()
+            for s in spans:
+                q[s.state] = min(max(q[s.state], s.low), s.high)
+            for i, value in sampled:
+                w_now[i] = value(now, q, u)
+        call()
+        return out.copy()
+
+    return f

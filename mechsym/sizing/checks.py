@@ -1,0 +1,189 @@
+"""What every sizing rule shares: refusing input outside its validity, and the record of one check."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import allowed
+
+
+def require(
+    name: str,
+    value: Any,
+    unit: str,
+    *,
+    above: float | None = None,
+    low: float | None = None,
+    below: float | None = None,
+    high: float | None = None,
+    hint: str = "",
+) -> None:
+    """Refuse a value outside the validity of a rule.
+
+    Parameters
+    ----------
+    name : str
+        Name of the quantity, for the message
+    value : float or ndarray
+        Value in SI; every element is checked
+    unit : str
+        Its SI unit, `"-"` for a pure number
+    above, low, below, high : float, optional
+        Bounds; `above` and `below` must not be reached
+    hint : str
+        Why the bound is there and what to do instead
+
+    Raises
+    ------
+    BadInput
+        Names the quantity, its worst value, its unit, what is allowed and the hint
+
+    Examples
+    --------
+    >>> require("face width b", 0.039, "m", above=0, high=1.02)
+    """
+    values = np.atleast_1d(np.asarray(value, dtype=float))
+    inside = np.isfinite(values)
+    for bound, keeps in ((above, np.greater), (low, np.greater_equal), (below, np.less), (high, np.less_equal)):
+        if bound is not None:
+            inside &= keeps(values, bound)
+    if not inside.all():
+        shown = "" if unit == "-" else f" {unit}"
+        bounds = allowed({"above": above, "low": low, "below": below, "high": high})
+        text = f"{name} = {values[~inside][0]:g}{shown} is out of range; it must be {bounds or 'finite'}{shown}"
+        raise BadInput(f"{text}; {hint}" if hint else text)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """One rule applied to one part.
+
+    Parameters
+    ----------
+    component, quantity : str
+        What was checked
+    value, limit : float
+        The part's value and what it is held against [unit]
+    unit : str
+        SI unit of both
+    safety_factor : float
+        How far the value is on the safe side: 1 at the limit
+    wanted : float
+        Safety factor asked for
+    rule, source : str
+        Name of the rule and where it is printed
+    note : str
+        Where the worst case is, or what was assumed
+    """
+
+    component: str
+    quantity: str
+    value: float
+    limit: float
+    unit: str
+    safety_factor: float
+    wanted: float
+    rule: str
+    source: str
+    note: str = ""
+
+
+def at_most(
+    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: float, rule: str, **more: str
+) -> Check:
+    """A check of a load, stress or speed that must stay below a limit.
+
+    Parameters
+    ----------
+    component, quantity, unit, rule : str
+        As in `Check`
+    value, limit : float
+        Load and what the part stands [unit]
+    wanted : float
+        Safety factor asked for
+    **more : str
+        `source` and `note`
+
+    Returns
+    -------
+    check : Check
+        Its factor is limit / value
+
+    Examples
+    --------
+    >>> at_most("rod", "stress", 50e6, 75e6, "Pa", wanted=1.5, rule="axial stress", source="").safety_factor
+    1.5
+    """
+    factor = float(limit) / float(value) if value > 0 else float("inf")
+    return Check(
+        component=component, quantity=quantity, value=float(value), limit=float(limit), unit=unit,
+        safety_factor=factor, wanted=wanted, rule=rule, source=more.get("source", ""), note=more.get("note", ""),
+    )  # fmt: skip
+
+
+def at_least(
+    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: float, rule: str, **more: str
+) -> Check:
+    """A check of a size or life that must reach what is needed.
+
+    Parameters
+    ----------
+    component, quantity, unit, rule : str
+        As in `Check`
+    value, limit : float
+        What the part has and what it needs [unit]
+    wanted : float
+        Safety factor asked for
+    **more : str
+        `source` and `note`
+
+    Returns
+    -------
+    check : Check
+        Its factor is value / limit
+
+    Examples
+    --------
+    >>> at_least("cylinder", "length", 0.170, 0.1698, "m", wanted=1.0, rule="length", source="").safety_factor > 1
+    True
+    """
+    factor = float(value) / float(limit) if limit > 0 else float("inf")
+    return Check(
+        component=component, quantity=quantity, value=float(value), limit=float(limit), unit=unit,
+        safety_factor=factor, wanted=wanted, rule=rule, source=more.get("source", ""), note=more.get("note", ""),
+    )  # fmt: skip
+
+
+def holds(check: Check) -> bool:
+    """Whether a part reaches the wanted factor.
+
+    Parameters
+    ----------
+    check : Check
+        One check
+
+    Returns
+    -------
+    holds : bool
+        True when the factor is at least the wanted one, up to rounding in the last digits of a float
+    """
+    return check.safety_factor >= check.wanted * (1 - 1e-9)
+
+
+def unsafe(checks: Iterable[Check]) -> list[Check]:
+    """The checks whose factor is below the wanted one.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        Checks of a design
+
+    Returns
+    -------
+    failing : list of Check
+        In the order given
+    """
+    return [check for check in checks if not holds(check)]

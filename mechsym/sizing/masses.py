@@ -1,0 +1,134 @@
+"""Masses: volumes of simple bodies, roll-up of an engine, power to weight.
+
+Source: Nunes (2017), ch. 4.2, 4.10 and 5.1.2.
+"""
+
+import numpy as np
+
+from mechsym.sizing.checks import require
+
+
+def cylinder_mass(density, d, length, bore=0.0):
+    r"""Mass of a round bar or tube.
+
+    .. math:: m = \rho\,\tfrac{\pi}{4}(d^2 - d_i^2)\,l
+
+    Parameters
+    ----------
+    density : float
+        Density [kg/m^3]
+    d, length : float
+        Outer diameter and length [m]
+    bore : float
+        Inner diameter [m]
+
+    Returns
+    -------
+    m : float
+        Mass [kg]
+
+    Notes
+    -----
+    Source: geometry; the shaft of table 4.15 (15 mm, 77 mm, 6675 kg/m3) has 90.8 g.
+
+    Examples
+    --------
+    >>> f"{cylinder_mass(6675.0, 0.015, 0.077) * 1e3:.1f}"
+    '90.8'
+    """
+    require("diameter and length", [d, length], "m", low=0)
+    require("bore", bore, "m", low=0, high=d, hint="the bore cannot be larger than the bar")
+    return density * np.pi / 4 * (d**2 - bore**2) * length
+
+
+def web_area(d_1, d_2, e):
+    r"""Area of the outline of two circles, the leanest crank web.
+
+    .. math:: A = R_1^2(\tfrac{\pi}{2} + \beta) + R_2^2(\tfrac{\pi}{2} - \beta) + (R_1 + R_2) e\cos\beta,
+              \qquad \sin\beta = (R_1 - R_2)/e
+
+    Parameters
+    ----------
+    d_1, d_2 : float
+        Diameters of the circles around crankpin and shaft [m]
+    e : float
+        Distance of their centres [m]
+
+    Returns
+    -------
+    A : float
+        Area [m^2]
+
+    Notes
+    -----
+    Source: geometry. Print: the masses of table 4.14 leave 614 mm2 for each web; the outline of pin and shaft has 613
+    mm2, the printed disc of 65 mm has 3318.
+
+    Examples
+    --------
+    >>> f"{web_area(0.025, 0.015, 0.013) * 1e6:.0f}"
+    '613'
+    """
+    require("diameters", [d_1, d_2], "m", above=0)
+    require("distance e", e, "m", low=abs(d_1 - d_2) / 2, hint="one circle would lie inside the other")
+    R_1, R_2 = d_1 / 2, d_2 / 2
+    beta = np.arcsin((R_1 - R_2) / e)
+    return R_1**2 * (np.pi / 2 + beta) + R_2**2 * (np.pi / 2 - beta) + (R_1 + R_2) * e * np.cos(beta)
+
+
+def roll_up(parts):
+    r"""Mass of an assembly.
+
+    .. math:: m = \sum n_i m_i
+
+    Parameters
+    ----------
+    parts : mapping of str to (float, int)
+        Part to its mass [kg] and how many there are [-]
+
+    Returns
+    -------
+    m : float
+        Mass [kg]
+
+    Notes
+    -----
+    Source: Nunes (2017), ch. 5.1.2.
+
+    Examples
+    --------
+    >>> f"{roll_up({'piston': (0.2947, 2), 'cylinder': (1.9024, 1)}):.4f}"
+    '2.4918'
+    """
+    require("masses", [mass for mass, _ in parts.values()], "kg", low=0)
+    return float(sum(mass * count for mass, count in parts.values()))
+
+
+def power_to_weight(power, mass):
+    r"""Power per mass.
+
+    .. math:: P/m
+
+    Parameters
+    ----------
+    power : float or ndarray
+        Power [W]
+    mass : float
+        Mass [kg]
+
+    Returns
+    -------
+    ratio : float or ndarray
+        Power to weight [W/kg]
+
+    Notes
+    -----
+    Source: Nunes (2017), fig. 5.13.
+
+    Examples
+    --------
+    >>> f"{power_to_weight(31.009e3, 13.4066) / 1e3:.3f}"
+    '2.313'
+    """
+    require("mass", mass, "kg", above=0)
+    return power / mass

@@ -1,0 +1,284 @@
+"""Spring laws of the elastic hinge: force, stored energy and its inverse against the closing z.
+
+         |<------ H ------>|
+         |<- z ->|<- H-z ->|           z = 0: the spring has its free height H
+    =====|-------|#########|=====      z > 0: it is shorter, F pushes the rollers outwards
+
+A law is data: `law` turns a parameter record into a record of functions, all of them of z alone. Three laws, by name:
+`air_gauge` (the paper's, which takes the excess pressure for the whole pressure), `air_absolute` (a real gas spring
+with the atmosphere outside) and `coil`.
+
+Source: Zotov et al. (2024), eq. (9).
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mechsym.quantities import check, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class AirGauge:
+    """Air spring as the paper prints it: the gauge pressure alone follows the polytrope.
+
+    Parameters
+    ----------
+    A : float
+        Piston area [m^2]
+    H : float
+        Free height of the gas column [m]
+    p0 : float
+        Excess pressure at z = 0 [Pa]
+    n : float
+        Polytropic index [-]
+    """
+
+    A: float = quantity("m^2", above=0, about="piston area")
+    H: float = quantity("m", above=0, about="free height of the gas column")
+    p0: float = quantity("Pa", above=0, about="excess pressure at free height")
+    n: float = quantity("-", low=1, high=2, about="polytropic index")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class AirAbsolute:
+    """Air spring with the absolute pressure on the polytrope and the atmosphere on the other side of the piston.
+
+    Parameters
+    ----------
+    A : float
+        Piston area [m^2]
+    H : float
+        Free height of the gas column [m]
+    p0 : float
+        Excess pressure at z = 0 [Pa]
+    n : float
+        Polytropic index [-]
+    pa : float
+        Pressure outside, absolute [Pa]
+    """
+
+    A: float = quantity("m^2", above=0, about="piston area")
+    H: float = quantity("m", above=0, about="free height of the gas column")
+    p0: float = quantity("Pa", above=0, about="excess pressure at free height")
+    n: float = quantity("-", low=1, high=2, about="polytropic index")
+    pa: float = quantity("Pa", default=101325.0, above=0, about="pressure outside")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Coil:
+    """Linear coil spring.
+
+    Parameters
+    ----------
+    k : float
+        Stiffness [N/m]
+    F0 : float
+        Preload at z = 0 [N]
+    H : float
+        Closing at which the coils touch [m]
+    """
+
+    k: float = quantity("N/m", above=0, about="stiffness")
+    F0: float = quantity("N", low=0, about="preload at z = 0")
+    H: float = quantity("m", above=0, about="closing at which the coils touch")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SpringLaw:
+    """Functions of one spring. They take floats and arrays; `force` on a float stays plain Python and is fast.
+
+    Parameters
+    ----------
+    force : callable
+        Closing z [m] to force, positive outwards [N]
+    energy : callable
+        Closing z [m] to stored energy, 0 at z = 0 [J]
+    closing : callable
+        Stored energy [J] to closing z [m], the inverse of `energy`
+    pressure : callable or None
+        Closing z [m] to excess pressure [Pa]; None for a spring without gas
+    z_low, z_high : float
+        The law holds strictly between these closings; -inf where there is no bound [m]
+    energy_low, energy_high : float
+        Stored energy at these bounds; +-inf where there is no bound [J]
+    """
+
+    force: Callable[[Any], Any]
+    energy: Callable[[Any], Any]
+    closing: Callable[[Any], Any]
+    pressure: Callable[[Any], Any] | None
+    z_low: float
+    z_high: float
+    energy_low: float
+    energy_high: float
+
+
+def law(spring: AirGauge | AirAbsolute | Coil) -> SpringLaw:
+    """The functions of a spring.
+
+    Parameters
+    ----------
+    spring : AirGauge, AirAbsolute or Coil
+        Its parameters
+
+    Returns
+    -------
+    law : SpringLaw
+        Force, energy and inverse
+    """
+    match spring:
+        case AirGauge():
+            return air_gauge(spring)
+        case AirAbsolute():
+            return air_absolute(spring)
+        case Coil():
+            return coil(spring)
+
+
+def air_gauge(spring: AirGauge) -> SpringLaw:
+    r"""Law of the paper: only the excess pressure counts.
+
+    .. math:: F = A p_0 \left(\frac{H}{H - z}\right)^n, \qquad
+              U = \frac{A p_0 H}{n - 1}\left[\left(\frac{H}{H - z}\right)^{n - 1} - 1\right]
+
+    Parameters
+    ----------
+    spring : AirGauge
+        Its parameters
+
+    Returns
+    -------
+    law : SpringLaw
+        With the inverse in closed form
+
+    Notes
+    -----
+    Source: Zotov et al. (2024), eq. (9) and the left side of (10). At n = 1 the energy is the logarithm it tends to.
+    """
+    A, H, p0, n = spring.A, spring.H, spring.p0, spring.n
+    full = A * p0 * H
+
+    def energy(z: Any) -> Any:
+        return full * _power_integral(-np.log1p(-np.asarray(z) / H), n - 1)
+
+    def closing(U: Any) -> Any:
+        return -H * np.expm1(-_inverse_power_integral(np.asarray(U) / full, n - 1))
+
+    return SpringLaw(
+        force=lambda z: A * p0 * (H / (H - z)) ** n,
+        energy=energy,
+        closing=closing,
+        pressure=lambda z: p0 * (H / (H - z)) ** n,
+        z_low=-math.inf,
+        z_high=H,
+        energy_low=-full / (n - 1) if n > 1 else -math.inf,
+        energy_high=math.inf,
+    )
+
+
+def air_absolute(spring: AirAbsolute) -> SpringLaw:
+    r"""Law of a real gas spring: absolute pressure inside, the atmosphere outside.
+
+    .. math:: F = A\left[(p_0 + p_a)\left(\frac{H}{H - z}\right)^n - p_a\right], \qquad
+              U = A\left\{\frac{(p_0 + p_a) H}{n - 1}\left[\left(\frac{H}{H - z}\right)^{n - 1} - 1\right]
+              - p_a z\right\}
+
+    Parameters
+    ----------
+    spring : AirAbsolute
+        Its parameters
+
+    Returns
+    -------
+    law : SpringLaw
+        With the inverse found by Newton's method
+
+    Notes
+    -----
+    Below `z_low` the gas would pull. With s = -ln(1 - z/H) the energy is convex and increasing in s; dropping the work
+    against the atmosphere, at most pa A H, gives a start to the right of the root, from where Newton's method
+    falls onto it without overshooting.
+    """
+    A, H, p0, n, pa = spring.A, spring.H, spring.p0, spring.n, spring.pa
+    full = A * (p0 + pa) * H
+    s_low = -math.log1p(p0 / pa) / n
+
+    def energy_of(s: Any) -> Any:
+        return full * _power_integral(s, n - 1) + A * pa * H * np.expm1(-s)
+
+    def closing(U: Any) -> Any:
+        U = np.asarray(U, dtype=float)
+        s = _inverse_power_integral((U + A * pa * H) / full, n - 1)
+        for _ in range(60):
+            step = (energy_of(s) - U) / (full * np.exp((n - 1) * s) - A * pa * H * np.exp(-s))
+            s = s - step
+            if np.all(np.abs(step) <= 4e-16 * (1 + np.abs(s))):
+                break
+        return -H * np.expm1(-s)
+
+    return SpringLaw(
+        force=lambda z: A * ((p0 + pa) * (H / (H - z)) ** n - pa),
+        energy=lambda z: energy_of(-np.log1p(-np.asarray(z) / H)),
+        closing=closing,
+        pressure=lambda z: (p0 + pa) * (H / (H - z)) ** n - pa,
+        z_low=-H * math.expm1(-s_low),
+        z_high=H,
+        energy_low=float(energy_of(s_low)),
+        energy_high=math.inf,
+    )
+
+
+def coil(spring: Coil) -> SpringLaw:
+    r"""Law of a linear spring.
+
+    .. math:: F = F_0 + k z, \qquad U = F_0 z + \tfrac12 k z^2
+
+    Parameters
+    ----------
+    spring : Coil
+        Its parameters
+
+    Returns
+    -------
+    law : SpringLaw
+        With the inverse in closed form
+    """
+    k, F0, H = spring.k, spring.F0, spring.H
+
+    def closing(U: Any) -> Any:
+        # 2 U / (F0 + root) keeps its digits where (root - F0) / k would lose them; at F0 = U = 0 both are 0
+        root = np.sqrt(F0**2 + 2 * k * np.asarray(U))
+        return (root - F0) / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
+
+    return SpringLaw(
+        force=lambda z: F0 + k * z,
+        energy=lambda z: F0 * z + k * z**2 / 2,
+        closing=closing,
+        pressure=None,
+        z_low=-F0 / k,
+        z_high=H,
+        energy_low=-(F0**2) / (2 * k),
+        energy_high=F0 * H + k * H**2 / 2,
+    )
+
+
+def _power_integral(s: Any, e: float) -> Any:
+    """Integral of exp(e s) from 0 to s: (exp(e s) - 1) / e, and s at e = 0."""
+    return np.expm1(e * s) / e if e > 0 else s
+
+
+def _inverse_power_integral(q: Any, e: float) -> Any:
+    return np.log1p(e * q) / e if e > 0 else q

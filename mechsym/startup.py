@@ -1,0 +1,310 @@
+"""Start-up of an elastic shaft by a weak drive: which resonances it passes, which hold it, and what to think of it.
+
+speed |            . rigid            The mean speed follows the rigid shaft until an order k of the excitation
+      |         .      ___,----       meets a natural frequency. There the drive feeds the vibration instead of
+      |      ,--------'  released     the speed: the shaft is held ("captured") at omega_n / k, the twist grows.
+      |   .    captured
+      | .
+      +---------------------------- t
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mechsym import mechanisms, torsion
+from mechsym.cases import Case
+from mechsym.quantities import check, quantity
+from mechsym.runs import problem_of, settings_of
+from mechsym.simulate import Result, simulate
+from mechsym.torsion import Critical
+
+_BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
+_LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
+_AVERAGE = 1.0  # the mean speed is taken over this time [s]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StartUpClaim:
+    """Section `[startup]`: what the source says of a start-up, and what the model can bear.
+
+    Parameters
+    ----------
+    claim_speed : float or None
+        Speed that the source reports [rad/s]
+    claim_time : float or None
+        Time from which it is said to hold [s]
+    twist_limit : float
+        Twist beyond which a linear spring is no model of the shaft [rad]
+    """
+
+    claim_speed: float | None = quantity("rad/s", default=None, above=0, about="speed that the source reports")
+    claim_time: float | None = quantity("s", default=None, above=0, about="time from which it is said to hold")
+    twist_limit: float = quantity("rad", default=0.1, above=0, about="largest twist of the linear shaft")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capture:
+    """A stay at a critical speed.
+
+    Parameters
+    ----------
+    critical : Critical
+        Order and speed
+    t_start, t_end : float
+        From when until when the mean speed is at it [s]
+    released : bool
+        Whether the shaft left it within the run
+    """
+
+    critical: Critical
+    t_start: float
+    t_end: float
+    released: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class StartUp:
+    """A start-up, explained.
+
+    Parameters
+    ----------
+    c1 : float
+        Torsional damping of the run [N*m*s/rad]
+    result : Result
+        The run
+    t, speed_mean : ndarray, shape (m,)
+        Times and mean speed of the crank over a second [s, rad/s]
+    twist_amplitude : ndarray, shape (m,)
+        Largest twist within that second [rad]
+    natural_bare, natural : float
+        Natural frequency without and with the mean reciprocating inertia [rad/s]
+    criticals : tuple of Critical
+        Where the orders meet the latter
+    holding_damping : tuple of float
+        For each of them: with a weaker damper the drive is held there [N*m*s/rad]
+    rigid_rate : float
+        Acceleration of a rigid shaft [rad/s^2]
+    captures : tuple of Capture
+        Critical speeds that held the shaft
+    twist_peak, torque_peak : float
+        Largest twist and torque of the shaft [rad, N*m]
+    speed_min, speed_max : float
+        Extreme speeds of the crank [rad/s]
+    findings : tuple of str
+        What happens and whether the model bears it, in sentences with numbers
+    """
+
+    c1: float
+    result: Result
+    t: np.ndarray
+    speed_mean: np.ndarray
+    twist_amplitude: np.ndarray
+    natural_bare: float
+    natural: float
+    criticals: tuple[Critical, ...]
+    holding_damping: tuple[float, ...]
+    rigid_rate: float
+    captures: tuple[Capture, ...]
+    twist_peak: float
+    torque_peak: float
+    speed_min: float
+    speed_max: float
+    findings: tuple[str, ...]
+
+
+def start_up(case: Case, result: Result | None = None) -> StartUp:
+    """Run a start-up case, or take its finished run, and explain it.
+
+    Parameters
+    ----------
+    case : Case
+        Mechanism `crankshaft_flywheel` with `[drive]` and `[simulation]`
+    result : Result, optional
+        Its run, when there is one already
+
+    Returns
+    -------
+    start_up : StartUp
+        Natural frequencies, critical speeds, captures, findings
+    """
+    if result is None:
+        result = simulate(problem_of(case), settings_of(case))
+    parameters, drive = case.need("parameters"), case.need("drive")
+    linear = _linear(case.mechanism, parameters)
+    modes = torsion.modes(linear.mass, linear.stiffness)
+    bare = _linear(case.mechanism, replace(parameters, m0=0.0))
+    excitation = torsion.orders(mechanisms.build(case.mechanism, parameters))
+    criticals = torsion.critical_speeds(modes, excitation, linear.damping)
+    unit = float(
+        modes.shapes[:, -1] @ _linear(case.mechanism, replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1]
+    )
+    rate = drive.torque / float(linear.mass.sum())
+    t, speed, twist = series(result)
+    peak = float(np.abs(result.columns["phi0"] - result.columns["phi2"]).max())
+    found = StartUp(
+        c1=parameters.c1,
+        result=result,
+        t=t,
+        speed_mean=speed,
+        twist_amplitude=twist,
+        natural_bare=float(torsion.modes(bare.mass, bare.stiffness).frequencies[-1]),
+        natural=float(modes.frequencies[-1]),
+        criticals=criticals,
+        holding_damping=tuple(torsion.holding_damping(c, drive.torque, unit) for c in criticals),
+        rigid_rate=rate,
+        captures=find_captures(t, speed, criticals, rate),
+        twist_peak=peak,
+        torque_peak=peak * parameters.k1,
+        speed_min=float(result.columns["phi0d"].min()),
+        speed_max=float(result.columns["phi0d"].max()),
+        findings=(),
+    )
+    return replace(found, findings=_findings(found, drive, case.sections.get("startup", StartUpClaim())))
+
+
+def _linear(mechanism: str, parameters: Any) -> torsion.Matrices:
+    return torsion.matrices(mechanisms.build(mechanism, parameters))
+
+
+def start_up_map(case: Case, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:
+    """The same start-up with several dampers.
+
+    Parameters
+    ----------
+    case : Case
+        As for `start_up`
+    dampings : tuple of float
+        Values of c1 [N*m*s/rad]
+
+    Returns
+    -------
+    start_ups : tuple of StartUp
+        One for each
+    """
+    runs = []
+    for c1 in dampings:
+        parameters = replace(case.need("parameters"), c1=c1)
+        runs.append(start_up(replace(case, sections={**case.sections, "parameters": parameters})))
+    return tuple(runs)
+
+
+def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean speed of the crank and largest twist, each over a second.
+
+    Parameters
+    ----------
+    result : Result
+        A run longer than a second
+
+    Returns
+    -------
+    t, speed_mean, twist_amplitude : ndarray, shape (m,)
+        Every tenth of a second, from half a second after the start to half a second before the end
+        [s, rad/s, rad]
+    """
+    half = _AVERAGE / 2
+    count = int((result.t[-1] - result.t[0] - _AVERAGE) / 0.1 + 1e-9)
+    t = result.t[0] + half + 0.1 * np.arange(count + 1)
+    phi = np.interp(np.stack([t - half, t + half]), result.t, result.columns["phi0"])
+    twist = np.abs(result.columns["phi0"] - result.columns["phi2"])
+    first, last = np.searchsorted(result.t, [t - half, t + half])
+    largest = np.array([twist[a:b].max() for a, b in zip(first, np.maximum(last, first + 1), strict=True)])
+    return t, (phi[1] - phi[0]) / _AVERAGE, largest
+
+
+def find_captures(
+    t: np.ndarray, speed: np.ndarray, criticals: tuple[Critical, ...], rate: float
+) -> tuple[Capture, ...]:
+    """Critical speeds at which the mean speed stays much longer than a rigid shaft would.
+
+    Parameters
+    ----------
+    t, speed : ndarray, shape (m,)
+        Times and mean speed [s, rad/s]
+    criticals : tuple of Critical
+        Critical speeds
+    rate : float
+        Acceleration of the rigid shaft [rad/s^2]
+
+    Returns
+    -------
+    captures : tuple of Capture
+        In the order of time
+    """
+    found = []
+    for critical in criticals:
+        near = np.abs(speed - critical.speed) <= _BAND * critical.speed
+        jumps = np.flatnonzero(np.diff(np.concatenate([[False], near, [False]]).astype(int)))
+        for a, b in zip(jumps[::2], jumps[1::2], strict=True):
+            usual = 2 * _BAND * critical.speed / rate
+            if t[b - 1] - t[a] > _LONGER * usual:
+                released = bool(b < len(t))
+                found.append(Capture(critical=critical, t_start=float(t[a]), t_end=float(t[b - 1]), released=released))
+    return tuple(sorted(found, key=lambda c: c.t_start))
+
+
+def _findings(found: StartUp, drive: Any, claim: StartUpClaim) -> tuple[str, ...]:
+    end = float(found.result.t[-1])
+    bound = found.rigid_rate * (end - drive.time)
+    lines = [
+        f"natural frequency {found.natural_bare:.3f} rad/s bare, {found.natural:.3f} rad/s with the mean "
+        f"reciprocating inertia",
+        f"a rigid shaft would gain {found.rigid_rate:.4f} rad/s^2 and reach {bound:.2f} rad/s at {end:g} s at most",
+        *_passages(found, drive.torque),
+        *_validity(found, drive.torque, claim.twist_limit),
+    ]
+    if claim.claim_speed is not None and claim.claim_time is not None:
+        lines.append(_claim(found, drive, claim.claim_speed, claim.claim_time))
+    return tuple(lines)
+
+
+def _passages(found: StartUp, torque: float) -> list[str]:
+    lines = []
+    held = {c.critical.order for c in found.captures}
+    for critical, damping in zip(found.criticals, found.holding_damping, strict=True):
+        if critical.order not in held and critical.speed < float(found.speed_mean.max()) and critical.order <= 4:
+            lines.append(f"order {critical.order:g} at {critical.speed:.2f} rad/s is passed")
+        elif critical.order in held:
+            lines.append(
+                f"order {critical.order:g} can hold a drive of {torque:g} N*m at {critical.speed:.2f} rad/s while "
+                f"c1 < {damping:.3f} N*m*s/rad (c1 = {found.c1:g})"
+            )
+    for c in found.captures:
+        left = "then leaves it" if c.released else "and is still held at the end"
+        lines.append(
+            f"from {c.t_start:.1f} s to {c.t_end:.1f} s the shaft is held at order {c.critical.order:g}, "
+            f"{c.critical.speed:.2f} rad/s: the drive feeds the vibration, not the speed; {left}"
+        )
+    return lines or ["no resonance holds the shaft"]
+
+
+def _validity(found: StartUp, torque: float, limit: float) -> list[str]:
+    lines = [
+        f"largest twist {found.twist_peak:.4f} rad ({np.degrees(found.twist_peak):.1f} deg), shaft torque "
+        f"{found.torque_peak:.0f} N*m, {found.torque_peak / torque:.0f} times the drive's"
+    ]
+    if found.twist_peak > limit:
+        lines.append(f"the model does not hold: the twist is beyond {limit:g} rad, no linear spring nor a whole shaft")
+    if found.speed_min < -1e-3 * found.speed_max:
+        lines.append(f"the crank runs backwards within a turn (down to {found.speed_min:.1f} rad/s)")
+    return lines
+
+
+def _claim(found: StartUp, drive: Any, speed: float, since: float) -> str:
+    end = float(found.result.t[-1])
+    bounds = [found.rigid_rate * (t - drive.time) for t in (since, end)]
+    after = found.t >= since
+    mean = (
+        f"{found.speed_mean[after].min():.2f} to {found.speed_mean[after].max():.2f} rad/s" if after.any() else "none"
+    )
+    possible = "is beyond" if speed > bounds[1] else "is within"
+    return (
+        f"the source's {speed:g} rad/s from {since:g} s on {possible} what the drive's work allows "
+        f"({bounds[0]:.1f} rad/s then, {bounds[1]:.1f} rad/s at {end:g} s); the mean speed found there is {mean}, "
+        f"with peaks of the crank up to {found.speed_max:.1f} rad/s in the whole run"
+    )

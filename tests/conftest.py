@@ -1,0 +1,46 @@
+"""Shared fixtures: seeded random numbers, the built-in parameters, hypothesis settings."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
+from mechsym.mechanisms.crosshead import CrossheadParameters
+
+settings.register_profile("mechsym", deadline=None, derandomize=True, max_examples=30)
+settings.load_profile("mechsym")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--update", action="store_true", help="rewrite the golden files instead of comparing with them")
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(20240615)
+
+
+@pytest.fixture
+def zotov():
+    """Data of Zotov et al. (2024), caption of Fig. 4."""
+    return CrossheadParameters(
+        r1=0.2, r2=0.3, l1=0.8, l2=0.75, m1=80, m2=150, m3=150, m4=200, m5=110, I01=30, IC2=50, g=9.81
+    )
+
+
+@pytest.fixture
+def chmielewski():
+    """Data of Chmielewski et al. (2015)."""
+    return CrankshaftFlywheelParameters(I0=0.26, I2=0.58, r=0.06, l=0.26, m0=1.1, k1=6500)
+
+
+@pytest.fixture(scope="session")
+def measured_data():
+    """Folder with measured diagrams, which are no part of the project."""
+    folder = os.environ.get("MECHSYM_TEST_DATA")
+    if not folder:
+        pytest.skip("measured data: set MECHSYM_TEST_DATA to the folder that holds them")
+    return Path(folder)
