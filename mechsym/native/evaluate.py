@@ -37,7 +37,7 @@ class Compiled:
     scalar : callable
         Floats -> float, or tuple of floats where there are several outputs
     batch : callable
-        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n)
+        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
     route : str
         `C` or `numpy`
     reason : str
@@ -98,7 +98,9 @@ def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -
         loaded = library.load(source.evaluation(programs), mode)
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
-        made = [fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)]
+        made = [
+            fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)
+        ]
     else:
         made = [_record(loaded, number, p) for number, p in enumerate(programs)]
     return dict(zip(functions, made, strict=True))
@@ -142,16 +144,21 @@ def _point(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
 
 def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., np.ndarray]:
     nx, ny, name = len(program.tape.inputs), len(program.tape.outputs), program.tape.name
-    call, inputs, outputs, flags = loaded[f"{name}_batch"], ctypes.c_void_p * nx, ctypes.c_void_p * ny, ctypes.c_char * nx
+    call, inputs, outputs, flags = (
+        loaded[f"{name}_batch"],
+        ctypes.c_void_p * nx,
+        ctypes.c_void_p * ny,
+        ctypes.c_bool * nx,
+    )
     call.restype, call.argtypes = ctypes.c_int, [ctypes.c_long, *[ctypes.c_void_p] * 4]
     table = constants.ctypes.data
 
-    def batch(*values: Any) -> np.ndarray:
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
         columns = fallback.columns(name, nx, values)
         n = max((c.size for c in columns), default=1)
-        result = np.empty((ny, n))
+        result = fallback.target(name, (ny, n), out)
         start = result.ctypes.data
-        moving = flags(*(int(c.size > 1) for c in columns))
+        moving = flags(*(c.size > 1 for c in columns))
         places = inputs(*(c.ctypes.data for c in columns))
         if call(n, table, places, moving, outputs(*range(start, start + 8 * n * ny, 8 * n))):
             raise MemoryError(f"{name}: no memory for a batch of {n} points")
