@@ -216,6 +216,8 @@ def _override(sections: dict[str, Any], mechanism: str, key: str, value: Any) ->
     section, dot, name = key.partition(".")
     if not dot:
         homes = [s for s, t in sections.items() if isinstance(t, dict) and key in _keys(mechanism, s, t)]
+        # a key that the file gives in one section only is meant, although others may know it too
+        homes = [s for s in homes if {key, key.rpartition("_")[0]} & sections[s].keys()] or homes
         if len(homes) != 1:
             raise BadInput(f"--set {key} {_why_not_one(sections, mechanism, key, homes)}")
         section, name = homes[0], key
