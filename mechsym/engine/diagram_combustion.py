@@ -1,7 +1,7 @@
 r"""A measured diagram taken apart: combustion of every cycle and of the mean one, and how sure all of it is.
 
-    measured cycles --> heat release, burn points, exponents of each --> weak cycles
-                   \--> mean cycle: Wiebe functions, compression line, trapped mass, what a degree of dead centre costs
+measured cycles --> heat release, burn points, exponents of each --> weak cycles
+               \--> mean cycle: Wiebe functions, compression line, trapped mass, what a degree of dead centre costs
 """
 
 import dataclasses

@@ -75,10 +75,7 @@ def least_squares_fit(
     centred = left - left.mean()
     power = float(centred @ centred)
     r = min(max(float(centred[:-1] @ centred[1:]) / power, 0.0), 0.999) if power > 0 else 0.0
-    _, singular, vt = np.linalg.svd(found.jac, full_matrices=False)
-    known = singular > 1e-12 * singular[0]
-    variance = np.where(known.all(), np.sum((vt.T[:, known] / singular[known]) ** 2, axis=1), np.inf)
-    spread = np.sqrt(variance * (left @ left) / freedom * (1 + r) / (1 - r))
+    spread = np.sqrt(_variances(found.jac) * (left @ left) / freedom * (1 + r) / (1 - r))
     return Fit(
         names=tuple(names), values=tuple(float(v) for v in found.x), rms=float(np.sqrt(np.mean(left**2))),
         confidence=tuple(float(_Z * s) for s in spread),
@@ -187,7 +184,7 @@ def fit_wiebe(phi: np.ndarray, burnt: np.ndarray, a: float = 5.0) -> Fit:
 def fit_double_wiebe(phi: np.ndarray, burnt: np.ndarray, a_p: float = 5.0, a_d: float = 5.0) -> Fit:
     r"""Double Wiebe function through a burnt fraction.
 
-    .. math:: X = (1-b)\{1 - e^{-a_p y_p^{m_p+1}}\} + b\{1 - e^{-a_d y_d^{m_d+1}}\}, \quad y = (\varphi-\varphi_s)/\Delta
+    .. math:: X = (1-b)\{1 - e^{-a_p y_p^{m_p+1}}\} + b\{1 - e^{-a_d y_d^{m_d+1}}\}, \; y = (\varphi-\varphi_s)/\Delta
 
     Parameters
     ----------
@@ -218,3 +215,14 @@ def fit_double_wiebe(phi: np.ndarray, burnt: np.ndarray, a_p: float = 5.0, a_d: 
         for b, m_p, m_d in _DOUBLE_STARTS
     ]
     return min(tries, key=lambda fit: fit.rms)
+
+
+def _variances(jacobian: np.ndarray) -> np.ndarray:
+    # diagonal of (J'J)^-1 by the singular values of J with columns of length one, so that units do not matter
+    size = np.linalg.norm(jacobian, axis=0)
+    if not np.all(size > 0):
+        return np.full(size.size, np.inf)
+    _, singular, vt = np.linalg.svd(jacobian / size, full_matrices=False)
+    if singular[-1] < 1e-7 * singular[0]:
+        return np.full(size.size, np.inf)
+    return np.sum((vt.T / singular) ** 2, axis=1) / size**2
