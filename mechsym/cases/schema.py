@@ -23,6 +23,7 @@ _SECTIONS: dict[str, Any] = {
             "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
+    "combustion": "mechsym.engine.diagram_combustion:Analysis",
     "gas": (
         "model",
         {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
