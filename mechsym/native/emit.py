@@ -110,10 +110,7 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
     text : str
         C function `<name>_rows<lanes>(k, x, y)` with x[input * lanes + lane]
     """
-    head = (
-        f"MS_INLINE void {name}_rows{lanes}"
-        "(const double *restrict k, const double *restrict x, double *restrict y)"
-    )
+    head = f"MS_INLINE void {name}_rows{lanes}(const double *restrict k, const double *restrict x, double *restrict y)"
     lines = [f"enum {{ m = {lanes}, s = {lanes}, move = 1 }};"]
     lines += _loops(kernels, name, lambda i: f"x + {i} * m", lambda i: f"y + {i} * m")
     return _function(head, lines)
@@ -151,7 +148,9 @@ def _loops(kernels: tuple[Kernel, ...], name: str, source: Place, target: Place)
 
 def _loop(kernel: Kernel, name: str, source: Place, target: Place) -> str:
     single = len(kernel.inputs) == 1
-    inputs = [str(i) for i in kernel.inputs[0]] if single else [f"{name}_in[i][{j}]" for j in range(len(kernel.inputs[0]))]
+    inputs = (
+        [str(i) for i in kernel.inputs[0]] if single else [f"{name}_in[i][{j}]" for j in range(len(kernel.inputs[0]))]
+    )
     outputs = (
         [str(o) for o in kernel.outputs[0]] if single else [f"{name}_out[i][{j}]" for j in range(len(kernel.results))]
     )

@@ -98,7 +98,9 @@ def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -
         loaded = library.load(source.evaluation(programs), mode)
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
-        made = [fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)]
+        made = [
+            fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)
+        ]
     else:
         made = [_record(loaded, number, p) for number, p in enumerate(programs)]
     return dict(zip(functions, made, strict=True))
@@ -142,7 +144,12 @@ def _point(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
 
 def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., np.ndarray]:
     nx, ny, name = len(program.tape.inputs), len(program.tape.outputs), program.tape.name
-    call, inputs, outputs, flags = loaded[f"{name}_batch"], ctypes.c_void_p * nx, ctypes.c_void_p * ny, ctypes.c_char * nx
+    call, inputs, outputs, flags = (
+        loaded[f"{name}_batch"],
+        ctypes.c_void_p * nx,
+        ctypes.c_void_p * ny,
+        ctypes.c_char * nx,
+    )
     call.restype, call.argtypes = ctypes.c_int, [ctypes.c_long, *[ctypes.c_void_p] * 4]
     table = constants.ctypes.data
 

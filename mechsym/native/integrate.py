@@ -148,9 +148,7 @@ def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
     families: dict[str, list[int]] = {}
     for index, text in enumerate(texts):
         families.setdefault(text, []).append(index)
-    return [
-        (text, members[i : i + lanes]) for text, members in families.items() for i in range(0, len(members), lanes)
-    ]
+    return [(text, members[i : i + lanes]) for text, members in families.items() for i in range(0, len(members), lanes)]
 
 
 def _empty(count: int, n: int, times: int) -> dict[str, np.ndarray]:
@@ -159,9 +157,7 @@ def _empty(count: int, n: int, times: int) -> dict[str, np.ndarray]:
     return {**whole, "t": np.zeros(count), "y": np.zeros((count, n)), "samples": samples, "last_step": np.zeros(count)}
 
 
-def _run_block(
-    advance: Any, batch: _Batch, members: list[int], lanes: int, result: dict[str, np.ndarray]
-) -> None:
+def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, result: dict[str, np.ndarray]) -> None:
     # an incomplete block is filled up with copies of its last run
     chosen = np.array(members + [members[-1]] * (lanes - len(members)))
     arrays = _arrays(batch, chosen)
