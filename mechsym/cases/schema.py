@@ -8,6 +8,13 @@ from mechsym.errors import BadInput
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
+    "sizing": "mechsym.sizing.wants:Wants",
+    "part_piston": "mechsym.sizing.parts:PistonPart",
+    "part_cylinder": "mechsym.sizing.parts:CylinderPart",
+    "part_gears": "mechsym.sizing.parts:GearPart",
+    "part_crank": "mechsym.sizing.parts:CrankPart",
+    "part_bearings": "mechsym.sizing.parts:BearingPart",
+    "part_masses": "mechsym.sizing.parts:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
