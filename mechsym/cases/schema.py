@@ -12,6 +12,7 @@ _SECTIONS: dict[str, Any] = {
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
     "speeds": "mechsym.cases.settings:Speeds",
+    "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
         "kind",
@@ -51,8 +52,8 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.loads:TableLoad",
         },
     ),
-    "drive": "mechsym.simulate.case:StepTorque",
-    "simulation": "mechsym.simulate.case:Simulation",
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
     "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",
