@@ -174,6 +174,31 @@ def undercut_radius(curvature: np.ndarray) -> float | None:
     return -1 / lowest if lowest < 0 else None
 
 
+def highest(theta: np.ndarray, values: np.ndarray) -> float:
+    """Highest value of a curve given by points, at the top of the parabola through the three points around it.
+
+    Parameters
+    ----------
+    theta : ndarray, shape (n,)
+        Angles, not decreasing; an angle that stands twice is a kink [rad]
+    values : ndarray, shape (n,)
+        Values [any unit]
+
+    Returns
+    -------
+    highest : float
+        Never below the highest point [unit of the values]
+    """
+    i = int(values.argmax())
+    before, after = np.diff(theta[max(i - 1, 0) : i + 2]) if 0 < i < theta.size - 1 else (0.0, 0.0)
+    if before <= 0 or after <= 0 or not np.isfinite(values[i]):
+        return float(values[i])
+    rise, fall = (values[i] - values[i - 1]) / before, (values[i + 1] - values[i]) / after
+    bend = (fall - rise) / (before + after)
+    slope = rise + bend * before
+    return float(values[i] - slope**2 / (4 * bend)) if bend < 0 else float(values[i])
+
+
 def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
     rho_min, _, rho_max, _ = periodic.extremes(path(guide))
     z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
@@ -186,13 +211,13 @@ def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
         # all laws rise with z
         "spring_force_max": float(functions.force(z_max)),
         "spring_pressure_max": None if functions.pressure is None else float(functions.pressure(z_max)),
-        "pressure_angle_max": float(np.abs(turn.pressure_angle).max()),
-        "curvature_radius_min": float(1 / np.abs(turn.curvature).max()),
+        "pressure_angle_max": highest(turn.theta, np.abs(turn.pressure_angle)),
+        "curvature_radius_min": 1 / highest(turn.theta, np.abs(turn.curvature)),
         "undercut_radius": undercut_radius(turn.curvature),
-        "roller_reaction_max": float(turn.reaction_1.max()),
-        "hertz_stress_max": float(turn.hertz_stress.max()),
-        "tilting_couple_max": float(turn.tilting_couple.max()),
-        "inertia_force_max": float(np.abs(turn.inertia_force).max()),
+        "roller_reaction_max": highest(turn.theta, turn.reaction_1),
+        "hertz_stress_max": highest(turn.theta, turn.hertz_stress),
+        "tilting_couple_max": highest(turn.theta, turn.tilting_couple),
+        "inertia_force_max": highest(turn.theta, np.abs(turn.inertia_force)),
         "loss_torque_mean": float(np.trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
         "closure": guide.closure,
     }

@@ -229,7 +229,7 @@ def harmonics(torque: PPoly, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
     n = 4096
     period = torque.x[-1]
     amplitudes = np.abs(np.fft.rfft(torque(np.arange(n) * period / n))) * 2 / n
-    return np.arange(1, count + 1) * 2 * math.pi / period, amplitudes[1 : count + 1]
+    return np.arange(1, count + 1) * (2 * math.pi / period), amplitudes[1 : count + 1]
 
 
 def odd_share(torque: PPoly) -> float:

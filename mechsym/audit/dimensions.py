@@ -1,4 +1,4 @@
-"""Dimensions without dimension algebra: a formula must rescale with mass, length, time and temperature as its quantity does."""
+"""Dimensions without dimension algebra: a formula must rescale with mass, length, time as its quantity does."""
 
 import random
 from typing import Any

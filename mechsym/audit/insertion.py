@@ -102,7 +102,9 @@ def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
     vocabulary : Vocabulary
         No word is a product of powers of others
     """
-    kept, logs, signs = [], [np.ones(len(asked.expected))], []
+    kept: list[Node] = []
+    signs: list[np.ndarray] = []
+    logs = [np.ones(len(asked.expected))]
     for word in words:
         if len(kept) >= min(MAX_WORDS, len(asked.expected) - 4):
             break
@@ -198,7 +200,7 @@ def simple(constants: np.ndarray) -> Fraction | None:
     middle = float(np.median(constants))
     if not middle or np.max(np.abs(constants / middle - 1)) > _CLOSE:
         return None
-    for unit in (1, *UNITS, *(Fraction(1, u) for u in UNITS)):
+    for unit in (Fraction(1), *map(Fraction, UNITS), *(Fraction(1, u) for u in UNITS)):
         found = Fraction(middle / float(unit)).limit_denominator(MAX_INTEGER)
         if found and abs(found.numerator) <= MAX_INTEGER and abs(float(found * unit) / middle - 1) < _CLOSE:
             return found * unit

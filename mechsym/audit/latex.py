@@ -11,8 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from mechsym.audit.limits import MAX_DEPTH
 from mechsym.audit.spelling import plain
-from mechsym.audit.tree import MAX_DEPTH, Node, binary, call, name, negative, number
+from mechsym.audit.tree import Node, binary, call, name, negative, number
 from mechsym.errors import BadInput
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:(?:\.|,|\{,\})\d+)?|[A-Za-z]|\S")
@@ -283,8 +284,8 @@ def _run(cursor: _Cursor, function: str) -> Node:
         factor = _factor(cursor)
         if cursor.peek() == "^":
             raise BadInput(
-                f"LaTeX: it is not clear whether the power belongs to the argument or to \\{function} {_place(cursor)}; "
-                f"write \\{function}^2 x or \\{function}(x^2)"
+                f"LaTeX: does the power belong to the argument or to \\{function}, {_place(cursor)}? "
+                f"Write \\{function}^2 x or \\{function}(x^2)"
             )
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:

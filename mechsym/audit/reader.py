@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from mechsym.audit import limits
 from mechsym.audit import tree as trees
 from mechsym.audit.latex import read_latex
 from mechsym.audit.printer import to_latex, to_python
@@ -99,7 +100,7 @@ def read_expression(text: str, known: Iterable[str]) -> tuple[Node, dict[str, st
     if not text.strip():
         raise BadInput("the formula is empty; write an expression such as r*sin(phi)")
     tree, spelled = read_latex(text) if is_latex(text) else (_read_python(text), {})
-    trees.check(tree)
+    limits.check(tree)
     meant = {written: _known_letter(written, known) for written in trees.letters(tree)}
     tree = trees.substitute(tree, lambda n: trees.name(meant[n.id]) if isinstance(n, ast.Name) else None)
     return tree, {meant[plain]: latex for plain, latex in spelled.items() if plain in meant}
@@ -198,7 +199,7 @@ def _known_letter(written: str, known: list[str]) -> str:
     found = resolve(written, known)
     if found is None:
         raise BadInput(
-            f"unknown letter {written[:40]!r}; known letters are {', '.join(known)}; name others with --letters 'R=r1+r2'"
+            f"unknown letter {written[:40]!r}; letters are {', '.join(known)}; name others with --letters 'R=r1+r2'"
         )
     return found
 
@@ -213,7 +214,7 @@ def _read_python(text: str) -> Node:
         raise BadInput(f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {hint}".rstrip(" .")) from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
-    trees.check_size(tree)
+    limits.check_size(tree)
     return trees.substitute(tree, _tidy)
 
 

@@ -1,4 +1,4 @@
-"""The repair search: which single edit of the printed formula makes it right? Found by search, never entered by hand."""
+"""The repair search: which single edit makes the formula right? Found by search, never entered by hand."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

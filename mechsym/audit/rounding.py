@@ -30,14 +30,15 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
     note : str
         Which number is rounded; empty when there is none
     """
-    asked, memo = search_bench(exam, "exact"), {}
+    asked = search_bench(exam, "exact")
+    memo: dict[Node, Any] = {}
     value(asked, tree, memo)
     wishes = required(asked, tree, memo)
     for place in places(tree):
         if isinstance(place.node, ast.Constant) and place.path in wishes:
             wish = _constant(wishes[place.path])
             if wish is not None and _rounds_to(wish, place.node.value):
-                return f"the constant {place.node.value} is {wish:.9g} rounded"
+                return f"the constant {place.node.value!r} is {wish:.9g} rounded"
     return ""
 
 

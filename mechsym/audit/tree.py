@@ -8,18 +8,9 @@ import ast
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
-from mechsym.errors import BadInput
-
 Node = ast.expr
 Path = tuple[str, ...]  # steps from the root: left, right, operand, argument
 
-FUNCTIONS = (
-    "sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sum",
-)  # fmt: skip
-OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
-MAX_NODES = 2000
-MAX_DEPTH = 100
-LEAST, LARGEST = 1e-30, 1e30
 _STEPS = {ast.BinOp: ("left", "right"), ast.UnaryOp: ("operand",), ast.Call: ("argument",)}
 
 
@@ -104,7 +95,7 @@ def call(function: str, argument: Node) -> ast.Call:
     Parameters
     ----------
     function : str
-        One of FUNCTIONS
+        One of `limits.FUNCTIONS`
     argument : Node
         Its argument
 
@@ -318,60 +309,3 @@ def same(first: Node, second: Node) -> bool:
         True when every node agrees
     """
     return first is second or ast.dump(first) == ast.dump(second)
-
-
-def check_size(tree: Node) -> None:
-    """Refuse a tree that is too large or too deep to work with.
-
-    Parameters
-    ----------
-    tree : Node
-        What a reader made
-
-    Raises
-    ------
-    BadInput
-        Says what is allowed
-    """
-    for count, (path, _) in enumerate(walk(tree)):
-        if count >= MAX_NODES:
-            raise BadInput(f"the formula has more than {MAX_NODES} parts; split it and check the parts")
-        if len(path) > MAX_DEPTH:
-            raise BadInput(f"the formula is nested more than {MAX_DEPTH} deep; split it and check the parts")
-
-
-def check(tree: Node) -> None:
-    """Refuse a tree that is too large, too deep, or holds anything but arithmetic on letters.
-
-    Parameters
-    ----------
-    tree : Node
-        What a reader made
-
-    Raises
-    ------
-    BadInput
-        Names what is not allowed and what is
-    """
-    check_size(tree)
-    for _, node in walk(tree):
-        _check_node(node)
-
-
-def _check_node(node: Node) -> None:
-    if isinstance(node, ast.Constant):
-        if type(node.value) not in (int, float) or not (node.value == 0 or LEAST < node.value < LARGEST):
-            raise BadInput(f"{repr(node.value)[:40]} is not a number between {LEAST:g} and {LARGEST:g}, like 2 or 0.25")
-    elif isinstance(node, ast.UnaryOp):
-        if not isinstance(node.op, ast.USub):
-            raise BadInput("only the signs + and - may stand before a term")
-    elif isinstance(node, ast.BinOp):
-        if not isinstance(node.op, OPERATORS):
-            raise BadInput("operators are + - * / and ** (or ^)")
-    elif isinstance(node, ast.Call):
-        if not isinstance(node.func, ast.Name) or node.func.id not in FUNCTIONS:
-            raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; there are {', '.join(FUNCTIONS)}")
-        if len(node.args) != 1 or node.keywords:
-            raise BadInput(f"{node.func.id} takes one argument")
-    elif not isinstance(node, ast.Name):
-        raise BadInput(f"{type(node).__name__} is not arithmetic; use + - * / **, numbers, letters and functions")

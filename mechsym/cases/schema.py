@@ -12,6 +12,7 @@ _SECTIONS: dict[str, Any] = {
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
     "speeds": "mechsym.cases.settings:Speeds",
+    "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
         "kind",
@@ -19,6 +20,7 @@ _SECTIONS: dict[str, Any] = {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+            "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
     "gas": (
@@ -50,8 +52,8 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.loads:TableLoad",
         },
     ),
-    "drive": "mechsym.simulate.case:StepTorque",
-    "simulation": "mechsym.simulate.case:Simulation",
+    "drive": "mechsym.runs:StepTorque",
+    "simulation": "mechsym.runs:Simulation",
     "startup": "mechsym.startup:StartUpClaim",
     "spring": (
         "law",
@@ -64,6 +66,7 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",
         {

@@ -14,7 +14,7 @@ from mechsym.quantities import check, quantity
 
 UNIVERSAL = 8.31446261815324  # [J/(mol K)], CODATA 2018, exact
 T_REFERENCE = 298.15  # zero of the sensible energies [K]
-_T_SPLIT = 1000.0
+_T_SPLIT, _T_BLEND = 1000.0, 100.0
 
 # NASA seven-coefficient fits cp/R = a1 + a2 T + ... + a5 T^4 of GRI-Mech 3.0 (thermo30.dat): (below, above 1000 K)
 _NASA = {
@@ -191,17 +191,32 @@ def _gas_constant(species: str) -> float:
 
 
 def _heat_capacity(species: str, t: Any) -> Any:
-    low, high = (_polynomial(a, t) - 1 for a in _NASA[species])
-    return _gas_constant(species) * ca.if_else(t < _T_SPLIT, low, high)
+    w, dw = _blend(t)
+    low, high = _NASA[species]
+    u_low, u_high = _ranges(species, t)
+    slopes = (1 - w) * (_polynomial(low, t) - 1) + w * (_polynomial(high, t) - 1)
+    return _gas_constant(species) * (slopes + dw * (u_high - u_low))
 
 
 def _energy(species: str, t: Any) -> Any:
+    w, _ = _blend(t)
+    u_low, u_high = _ranges(species, t)
+    return _gas_constant(species) * ((1 - w) * u_low + w * u_high)
+
+
+def _blend(t: Any) -> tuple[Any, Any]:
+    # a switch at 1000 K would leave a kink in c_v, at which an integrator loses its order; the ranges agree to 1e-4
+    # over the width of the blend, and c_v is the derivative of the blended u to the last bit
+    s = ca.tanh((t - _T_SPLIT) / _T_BLEND)
+    return (1 + s) / 2, (1 - s**2) / (2 * _T_BLEND)
+
+
+def _ranges(species: str, t: Any) -> tuple[Any, Any]:
+    # u/R of both ranges, zero at the reference and continuous at 1000 K, which the fit's rounded constants are not
     low, high = _NASA[species]
-    # the integration constant of the upper range is chosen so that u is continuous at 1000 K to the last bit,
-    # which the rounded sixth coefficients of the fit are not
-    below = _integral(low, t) - t - (_integral(low, T_REFERENCE) - T_REFERENCE)
-    step = _integral(low, _T_SPLIT) - _integral(high, _T_SPLIT) - (_integral(low, T_REFERENCE) - T_REFERENCE)
-    return _gas_constant(species) * ca.if_else(t < _T_SPLIT, below, _integral(high, t) - t + step)
+    zero = _integral(low, T_REFERENCE) - T_REFERENCE
+    step = _integral(low, _T_SPLIT) - _integral(high, _T_SPLIT) - zero
+    return _integral(low, t) - t - zero, _integral(high, t) - t + step
 
 
 def _polynomial(a: tuple[float, ...], t: Any) -> Any:

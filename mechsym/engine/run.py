@@ -14,6 +14,7 @@ from mechsym.engine.closed import NODES, Closed, closed_function
 from mechsym.errors import BadInput
 
 _STEPS, _MOST_STEPS = 120, 7680
+_SAME = 1e-12  # angles closer than this are one [rad]
 TOLERANCE = 1e-10  # first-law residual of a cycle over the fuel's energy
 
 
@@ -129,7 +130,7 @@ def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarr
     u = np.arange(parts) / parts
     h = np.diff(result.phi, axis=1)[..., None]
     phi = _close(result.phi[:, :-1, None] + u * h, result.phi)
-    once = np.append(np.any(np.diff(phi, axis=1) > 0, axis=0), True)
+    once = np.append(np.any(np.diff(phi, axis=1) > _SAME, axis=0), True)
     p, t = _hermite(result.p, result.dp_dphi, h, u), _hermite(result.t, result.dt_dphi, h, u)
     return phi[:, once], p[:, once], t[:, once]
 
@@ -155,7 +156,7 @@ def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndar
     """
     from scipy.interpolate import CubicHermiteSpline
 
-    once = np.append(np.diff(result.phi[0]) > 0, True)
+    once = np.append(np.diff(result.phi[0]) > _SAME, True)
     nodes = result.phi[0, once]
     phi = np.linspace(nodes[0], nodes[-1], round((nodes[-1] - nodes[0]) / step) + 1)
     curves = ((result.p, result.dp_dphi), (result.t, result.dt_dphi))

@@ -130,7 +130,7 @@ def held(system: System, t: float) -> np.ndarray:
     Returns
     -------
     w : ndarray, shape (k,)
-        In the units of the inputs
+        In the units of the inputs [N*m or N]
     """
     return np.array([_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values], dtype=float)
 
@@ -139,7 +139,9 @@ def _step(steps: Steps, t: float) -> float:
     return steps.values[int(np.searchsorted(steps.times, t, side="right"))]
 
 
-def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, np.ndarray], np.ndarray]:
+def right_side(
+    system: System, w: np.ndarray, t_end: float, spans: Sequence[Any] = ()
+) -> Callable[[float, np.ndarray], np.ndarray]:
     """The equations as a fast Python function, for one phase.
 
     Parameters
@@ -147,9 +149,11 @@ def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, 
     system : System
         Equations
     w : ndarray, shape (k,)
-        Held values of the phase
+        Held values of the phase [N*m or N]
     t_end : float
         End of the phase; callables are asked just before it, so that a jump there belongs to the next phase [s]
+    spans : sequence of Span
+        Intervals of coordinates beyond which callables are not asked, for the same reason
 
     Returns
     -------
@@ -172,6 +176,8 @@ def right_side(system: System, w: np.ndarray, t_end: float) -> Callable[[float, 
         t_now[0] = now = t if t < last else last
         if sampled:
             q, u = y[:n].tolist(), y[n : 2 * n].tolist()
+            for s in spans:
+                q[s.state] = min(max(q[s.state], s.low), s.high)
             for i, value in sampled:
                 w_now[i] = value(now, q, u)
         call()

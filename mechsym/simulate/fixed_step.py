@@ -34,7 +34,7 @@ def fixed_step(problem: Problem, step: float, order: int) -> tuple[np.ndarray, n
     t : ndarray, shape (n,)
         Times [s]
     y : ndarray, shape (n, m)
-        States as in `equations.system`; rows after an overflow are left out
+        States as in `equations.system`; rows after an overflow are left out [SI, by column]
 
     Raises
     ------

@@ -27,6 +27,23 @@ class Surface:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Span:
+    """An interval of one coordinate beyond which callables must not be asked in a phase.
+
+    Parameters
+    ----------
+    state : int
+        Index of the coordinate
+    low, high : float
+        Its ends, just inside the kinks
+    """
+
+    state: int
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Phase:
     """A stretch of time in which the equations are smooth.
 
@@ -42,6 +59,8 @@ class Phase:
         Held values
     surfaces : tuple of Surface
         The first that is met ends the phase
+    spans : tuple of Span
+        Where callables may be asked
     times : ndarray, shape (n,)
         Wanted times in (t_start, t_end] [s]
     tolerance : float
@@ -58,6 +77,7 @@ class Phase:
     y: np.ndarray
     w: np.ndarray
     surfaces: tuple[Surface, ...] = ()
+    spans: tuple[Span, ...] = ()
     times: np.ndarray
     tolerance: float
     first_step: float | None = None

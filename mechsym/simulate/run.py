@@ -10,11 +10,11 @@ from mechsym.simulate.audit import energies, energy_audit, speed_difference, ver
 from mechsym.simulate.backends import backend
 from mechsym.simulate.equations import System, held, system
 from mechsym.simulate.phase import Phase, Surface
-from mechsym.simulate.problem import Kinks, Problem, Steps
+from mechsym.simulate.problem import Problem, Steps
 from mechsym.simulate.result import Event, Result
 from mechsym.simulate.settings import Settings
+from mechsym.simulate.watch import watch
 
-_DIRECTION = {"falling": -1, "rising": 1, "either": 0}
 _TIGHTEST = 3e-14  # below that a double-precision step cannot be controlled
 
 
@@ -83,26 +83,35 @@ def _integrate(problem: Problem, equations: System, settings: Settings) -> _Raw:
     t, step, steps, end, failure = problem.t_start, None, 0, "t_end", ""
     times, states = [np.array([t])], [y[None]]
     while ends and not failure:
-        surfaces, names = _surfaces(problem, equations, y)
+        around = watch(problem, equations.columns, y)
         phase = Phase(
-            system=equations, t_start=t, t_end=ends[0], y=y, w=held(equations, t), surfaces=surfaces,
-            times=wanted[(wanted > t) & (wanted <= ends[0])], tolerance=settings.tolerance, first_step=step,
-            max_steps=settings.max_steps,
+            system=equations, t_start=t, t_end=ends[0], y=y, w=held(equations, t), surfaces=around.surfaces,
+            spans=around.spans, times=wanted[(wanted > t) & (wanted <= ends[0])],
+            tolerance=settings.tolerance, first_step=step, max_steps=settings.max_steps,
         )  # fmt: skip
         leg = advance(phase)
         times.append(phase.times[: len(leg.samples)])
         states.append(leg.samples)
         t, y, step, steps, failure = leg.t, leg.y, leg.step, steps + leg.steps, leg.failure
-        if leg.met is not None and names[leg.met]:
-            end = names[leg.met]
-            break
         if leg.met is None:
             ends.pop(0)
             step = None
+        elif around.ends[leg.met]:
+            end = around.ends[leg.met]
+            break
+        else:
+            y = _beyond(around.surfaces[leg.met], y)
     found, values = np.concatenate(times), np.concatenate(states)
     if found[-1] < t:
         found, values = np.append(found, t), np.vstack([values, y])
     return _Raw(t=found, y=values, steps=steps, end="failure" if failure else end, failure=failure)
+
+
+def _beyond(surface: Surface, y: np.ndarray) -> np.ndarray:
+    """The state moved by less than the tolerance, so that it lies on the surface to the last digit."""
+    moved = y.copy()
+    moved[surface.state] = surface.level
+    return moved
 
 
 def _times(problem: Problem) -> np.ndarray:
@@ -115,33 +124,6 @@ def _times(problem: Problem) -> np.ndarray:
 def _breaks(problem: Problem) -> list[float]:
     jumps = [t for p in problem.parts if isinstance(p.value, Steps) for t in p.value.times]
     return sorted(t for t in {*problem.breaks, *jumps} if problem.t_start < t < problem.t_end)
-
-
-def _surfaces(problem: Problem, equations: System, y: np.ndarray) -> tuple[tuple[Surface, ...], list[str]]:
-    """The surfaces to watch from a state on, and the name of the end that each means; empty for a kink."""
-    found, names = [], []
-    for stop in problem.stops:
-        state = equations.columns.index(stop.of)
-        found.append(Surface(state=state, level=stop.level, direction=_DIRECTION[stop.direction]))
-        names.append(stop.name)
-    if problem.turns is not None:
-        found.append(Surface(state=0, level=problem.q0[0] + 2 * np.pi * problem.turns, direction=1))
-        names.append("turns")
-    for kinks in problem.kinks:
-        state = equations.columns.index(kinks.coordinate)
-        near = _near(kinks, float(y[state]))
-        found += [Surface(state=state, level=level, direction=direction) for level, direction in near]
-        names += [""] * len(near)
-    return tuple(found), names
-
-
-def _near(kinks: Kinks, angle: float) -> list[tuple[float, int]]:
-    """The next kink above an angle, and the two at or below it, where it may just have been met from above."""
-    turn = np.floor(angle / kinks.period)
-    levels = np.array(sorted(a % kinks.period for a in kinks.angles))
-    levels = np.concatenate([levels + kinks.period * (turn + k) for k in (-2, -1, 0, 1)]) if len(levels) else levels
-    above = int(np.searchsorted(levels, angle + 1e-12 * max(1.0, abs(angle)), side="right"))
-    return [(float(x), 1) for x in levels[above : above + 1]] + [(float(x), -1) for x in levels[above - 2 : above]]
 
 
 def _result(problem: Problem, equations: System, raw: _Raw, wall_s: float) -> Result:

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 
 from mechsym.simulate.equations import right_side
-from mechsym.simulate.phase import Leg, Phase, Surface
+from mechsym.simulate.phase import Leg, Phase, Span, Surface
+
+_CLOSE = 0.02  # a kink nearer than this share of a usual step is met by the next step, others by a step to just before
 
 
 def advance(phase: Phase, method: str) -> Leg:
@@ -28,11 +30,12 @@ def advance(phase: Phase, method: str) -> Leg:
     leg : Leg
         Result
     """
-    f = right_side(phase.system, phase.w, phase.t_end)
+    f = right_side(phase.system, phase.w, phase.t_end, phase.spans)
     solver = _solver(phase, method, f, (phase.t_start, phase.y), phase.t_end, phase.first_step)
     wanted, samples, steps, step, met, failure = phase.times, [phase.y[None][:0]], 0, phase.first_step, None, ""
     while solver.status == "running" and not failure:
         start = solver.t, solver.y
+        limited = met is None and _slow_down(phase, solver, step)
         message = solver.step()
         steps += 1
         if solver.status == "failed" or steps >= phase.max_steps:
@@ -42,7 +45,7 @@ def advance(phase: Phase, method: str) -> Leg:
             if met is not None:
                 solver = _solver(phase, method, f, start, t_met, t_met - start[0])
                 continue
-        if met is None:
+        if met is None and not limited:
             step = solver.step_size
         if len(wanted) and wanted[0] <= solver.t:
             due = int(np.searchsorted(wanted, solver.t, side="right"))
@@ -60,6 +63,27 @@ def _solver(
     first = None if step is None else min(step, t_end - start[0])
     cls = getattr(scipy.integrate, method)
     return cls(f, *start, t_end, rtol=phase.tolerance, atol=phase.tolerance, first_step=first)
+
+
+def _slow_down(phase: Phase, solver: Any, usual: float | None) -> bool:
+    """Keep the next step from reaching far across a kink, where it would be rejected; whether it was limited."""
+    if not phase.spans or not hasattr(solver, "h_abs"):  # LSODA chooses its steps out of sight
+        return False
+    arrival = min(_arrival(span, solver, phase.system.size) for span in phase.spans)
+    close = usual is not None and arrival < _CLOSE * usual
+    solver.max_step = arrival * (1 + 1e-5 if close else 1 - _CLOSE / 2)
+    return solver.h_abs > solver.max_step
+
+
+def _arrival(span: Span, solver: Any, size: int) -> float:
+    """Estimated time until a coordinate leaves its interval."""
+    speed, rate = float(solver.f[span.state]), float(solver.f[span.state + size])
+    if speed == 0.0:
+        return np.inf
+    way = max(abs((span.high if speed > 0 else span.low) - float(solver.y[span.state])), 1e-12)
+    first = way / abs(speed)
+    mean = abs(speed) + np.sign(speed) * rate * first / 2
+    return way / mean if mean > 0 else np.inf
 
 
 def _first_crossing(surfaces: tuple[Surface, ...], solver: Any, before: np.ndarray) -> tuple[int | None, float]:

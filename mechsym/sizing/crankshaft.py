@@ -133,7 +133,7 @@ def web_stress(R, arm, l_pin, t, w):
     Notes
     -----
     Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65 mm; the printed mass of the
-    crankshaft leaves webs of 614 mm2, which is the outline of pin and shaft (613 mm2, `masses.web_area`), not a disc of 65 mm.
+    crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm.
 
     Examples
     --------

@@ -41,11 +41,10 @@ def cylinder_mass(density, d, length, bore=0.0):
     return density * np.pi / 4 * (d**2 - bore**2) * length
 
 
-def web_area(d_1, d_2, e):
-    r"""Area of the outline of two circles, the leanest crank web.
+def web_outline(d_1, d_2, e, points=256):
+    r"""Outline of the leanest crank web: two circles and their outer tangents.
 
-    .. math:: A = R_1^2(\tfrac{\pi}{2} + \beta) + R_2^2(\tfrac{\pi}{2} - \beta) + (R_1 + R_2) e\cos\beta,
-              \qquad \sin\beta = (R_1 - R_2)/e
+    .. math:: \sin\beta = (R_1 - R_2)/e
 
     Parameters
     ----------
@@ -53,27 +52,65 @@ def web_area(d_1, d_2, e):
         Diameters of the circles around crankpin and shaft [m]
     e : float
         Distance of their centres [m]
+    points : int
+        Points of the polygon
 
     Returns
     -------
-    A : float
-        Area [m^2]
+    x, y : ndarray, shape (points,)
+        Points, the crankpin at the origin, the shaft at (e, 0) [m]
 
     Notes
     -----
-    Source: geometry. Print: the masses of table 4.14 leave 614 mm2 for each web; the outline of pin and shaft has 613
-    mm2, the printed disc of 65 mm has 3318.
+    Source: geometry.
 
     Examples
     --------
-    >>> f"{web_area(0.025, 0.015, 0.013) * 1e6:.0f}"
-    '613'
+    >>> x, y = web_outline(0.025, 0.015, 0.013)
+    >>> f"{x.max() * 1e3:.2f}"
+    '20.50'
     """
     require("diameters", [d_1, d_2], "m", above=0)
     require("distance e", e, "m", low=abs(d_1 - d_2) / 2, hint="one circle would lie inside the other")
-    R_1, R_2 = d_1 / 2, d_2 / 2
-    beta = np.arcsin((R_1 - R_2) / e)
-    return R_1**2 * (np.pi / 2 + beta) + R_2**2 * (np.pi / 2 - beta) + (R_1 + R_2) * e * np.cos(beta)
+    touch = np.pi / 2 - np.arcsin((d_1 - d_2) / 2 / e)  # where the tangents touch, from the line of centres
+    far = np.linspace(touch, 2 * np.pi - touch, points // 2)
+    near = np.linspace(-touch, touch, points - points // 2)
+    x = np.concatenate([d_1 / 2 * np.cos(far), e + d_2 / 2 * np.cos(near)])
+    return x, np.concatenate([d_1 / 2 * np.sin(far), d_2 / 2 * np.sin(near)])
+
+
+def area_and_centre(x, y):
+    r"""Area of a polygon and where its centre lies along x.
+
+    .. math:: A = \tfrac12\sum (x_i y_{i+1} - x_{i+1} y_i)
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Corners in order [m]
+
+    Returns
+    -------
+    area : float
+        Area [m^2]
+    centre : float
+        x of the centre [m]
+
+    Notes
+    -----
+    Source: geometry. Print: the masses of table 4.14 of Nunes (2017) leave 614 mm2 for each web; the outline of bare
+    pin and shaft has 613 mm2, the printed disc of 65 mm has 3318.
+
+    Examples
+    --------
+    >>> area, centre = area_and_centre(*web_outline(0.025, 0.015, 0.013))
+    >>> f"{area * 1e6:.0f} {centre * 1e3:.1f}"
+    '613 3.0'
+    """
+    u, v = np.roll(x, -1), np.roll(y, -1)
+    cross = x * v - u * y
+    area = float(cross.sum() / 2)
+    return abs(area), float(((x + u) * cross).sum() / (6 * area))
 
 
 def roll_up(parts):

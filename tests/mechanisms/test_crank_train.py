@@ -193,7 +193,7 @@ def two_rods(p: CrankTrainParameters, s) -> System:
         centre = ca.vertcat(X[0], X[1]) - arm * U
         for j, i in enumerate((1, 2)):
             rod, piston = X[3 + 6 * j : 6 + 6 * j], X[6 + 6 * j : 9 + 6 * j]
-            along, across = out[i][5], out[i][6]
+            across = out[i][6]
             turn = a + sense * p.phase[i]
             A = centre + p.r[i] * ca.vertcat(ca.cos(turn), ca.sin(turn))
             direction = ca.vertcat(ca.cos(rod[2]), ca.sin(rod[2]))

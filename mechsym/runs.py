@@ -1,25 +1,20 @@
-"""From a case file to a problem: sections `[simulation]`, `[drive]`, `[load]`, and `[cycle]` for an engine."""
+"""From a case to a run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from mechsym import mechanisms
+from mechsym import balance, guide, hinge, mechanisms
+from mechsym.assembly import assemble, load_of, running
 from mechsym.cases import Case
-from mechsym.engine.cylinder import piston_area
-from mechsym.engine.kinds import back_pressure, cylinder_pressure
-from mechsym.engine.pressure import piston_force
 from mechsym.errors import BadInput
-from mechsym.loads import ConstantLoad, settle
 from mechsym.quantities import check, choice, quantity
 from mechsym.simulate import engine as engines
 from mechsym.simulate.backends import BACKENDS, DEFAULT
-from mechsym.simulate.engine import AngleForce, Engine
-from mechsym.simulate.machine import tabulate
+from mechsym.simulate.engine import Engine
 from mechsym.simulate.problem import Part, Problem, Steps
 from mechsym.simulate.settings import Settings
-from mechsym.simulate.steady import mean_torque
 
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
@@ -47,6 +42,8 @@ class Simulation:
         Spacing of the results in a run to t_end [s]
     window : float or None
         Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
+    hinge : str
+        `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
     difference_allowed : float
         Largest relative difference to the run at the tighter tolerance that counts as converged [-]
     """
@@ -59,6 +56,7 @@ class Simulation:
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
     output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
     window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
+    hinge: str = choice("designed", "none", default="designed", about="hinge of an engine")
     difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")
 
     def __post_init__(self) -> None:
@@ -106,15 +104,13 @@ def settings_of(case: Case) -> Settings:
     return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
 
 
-def problem_of(case: Case, torques: tuple[AngleForce, ...] = ()) -> Problem:
+def problem_of(case: Case) -> Problem:
     """The run that a case describes.
 
     Parameters
     ----------
     case : Case
         With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine)
-    torques : tuple of AngleForce
-        What acts on an engine besides the gas, for example its hinge
 
     Returns
     -------
@@ -129,39 +125,41 @@ def problem_of(case: Case, torques: tuple[AngleForce, ...] = ()) -> Problem:
     wanted: Simulation = case.need("simulation")
     if "drive" in case.sections:
         return _driven(case, wanted)
-    engine = engine_of(case, torques)
+    engine = engine_of(case)
     speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
     if wanted.turns is None or speed <= 0:
         raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
     return engines.problem(engine, speed, wanted.turns, wanted.phi_start)
 
 
-def engine_of(case: Case, torques: tuple[AngleForce, ...] = ()) -> Engine:
-    """The engine of a case: mechanism, gas force of its cycle, load law.
+def engine_of(case: Case) -> Engine:
+    """The engine of a case with its hinge, as far as the case has one.
 
     Parameters
     ----------
     case : Case
-        With `[cycle]` and `[operation]`; `[load]` if it is not constant at the mean torque
-    torques : tuple of AngleForce
-        What acts on it besides the gas; a periodic part must not change the mean torque
+        With `[cycle]` and `[operation]`; the hinge needs `[spring]` and `[guide]`
 
     Returns
     -------
     engine : Engine
-        A blank in the load law is filled with the mean torque of the gas and the speed of operation
+        The hinge's torque comes from guide and spring
+
+    Raises
+    ------
+    BadInput
+        The guide that the case asks for cannot be cut
     """
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
-    cycle = case.need("cycle")
-    pressure, cylinder = cylinder_pressure(cycle, mechanism.functions["kinematics"])
-    area, p_back = piston_area(cylinder.bore), back_pressure(cycle)
-    gas = AngleForce(name="gas", input="F", value=lambda phi: piston_force(pressure, p_back, area, phi))
-    engine = Engine(
-        mechanism=mechanism, forces=(gas,), load=ConstantLoad(torque=0.0), period=pressure.period, kinks=pressure.kinks
-    )
-    mean = mean_torque(tabulate(engines.machine(engine)))
-    load = settle(case.sections.get("load", ConstantLoad()), mean, case.need("operation").speed)
-    return replace(engine, forces=(gas, *torques), load=load)
+    engine = assemble(case)
+    wanted = hinge.build(engine.torques, engine.omega)
+    simulation: Simulation = case.need("simulation")
+    if simulation.hinge == "none" or not {"spring", "guide"} <= set(case.sections):
+        return running(engine, wanted, load_of(case))
+    choices = case.need("guide")
+    cut = guide.build(balance.build(wanted, choices.balance), case.need("spring"), choices)
+    if cut.rho is None:
+        raise BadInput(f"{case.file}: no guide can be cut ({cut.reason}); set simulation.hinge=none to run without")
+    return running(engine, wanted, load_of(case), cut)
 
 
 def window_of(case: Case, problem: Problem) -> float | None:

@@ -1,0 +1,188 @@
+/* Step control of DOP853 in all lanes.
+ *
+ * A step ends at each time where held values jump, and at each kink and surface that it meets: one that crosses such a
+ * level is thrown away and made again so that it ends there, and no step uses the equations of both sides.
+ */
+static void ms_finish(const ms_run *run, ms_work *w, int l, long status)
+{
+    run->status[l] = status;
+    run->last_step[l] = w->h[l];
+    w->active[l] = 0;
+    w->step[l] = 0.0;
+}
+
+static double ms_until(const ms_run *run, const ms_work *w, int l)
+{
+    return run->until[w->segment[l] * MS_L + l];
+}
+
+static int ms_begin(const ms_run *run, ms_work *w)
+{
+    int fresh[MS_L], count = 0;
+    memset(w, 0, sizeof *w);
+    for (int l = 0; l < MS_L; l++) {
+        for (int i = 0; i < MS_N; i++)
+            w->y[i][l] = run->y[i * MS_L + l];
+        w->t[l] = run->t[l];
+        fresh[l] = 1;
+        run->steps[l] = run->rejected[l] = run->sampled[l] = 0;
+        run->met[l] = -1;
+        w->active[l] = 1;
+        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], 0.0);
+        if (ms_hold(run, &w->segment[l], w->t[l], w->x, l))
+            count++;
+        else
+            ms_finish(run, w, l, MS_DONE);
+    }
+    ms_first_rates(run, w);
+    for (int l = 0; l < MS_L && run->kinks; l++)
+        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], w->q[0][run->kink_state][l]);
+    ms_guess_step(run, w, fresh);
+    return count;
+}
+
+static void ms_choose_steps(const ms_run *run, ms_work *w)
+{
+    for (int l = 0; l < MS_L; l++) {
+        if (!w->active[l])
+            continue;
+        const double left = ms_until(run, w, l) - w->t[l];
+        w->step[l] = w->forced[l] > 0.0 ? w->forced[l] : w->h[l] * 1.01 >= left ? left : w->h[l];
+        if (!(w->h[l] > 4e-16 * fabs(w->t[l])))
+            ms_finish(run, w, l, MS_TOO_SMALL);
+        else if (run->steps[l] + run->rejected[l] >= run->max_steps)
+            ms_finish(run, w, l, MS_TOO_MANY);
+    }
+}
+
+/* Does the step just tried cross a level? With dense output also which one first, and at what share of the step. */
+static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, double *share, long *target)
+{
+    int found = 0;
+    *share = INFINITY;
+    for (long i = run->kinks ? -1 : 0; i < run->surfaces; i++) {
+        const int state = i < 0 ? run->kink_state : run->surface[i].state;
+        const double before = w->y[state][l], after = w->next[state][l];
+        const double below = w->window.below[l], above = w->window.above[l];
+        /* a run may start on a kink and come back to it within a step */
+        const double level = i >= 0 ? run->surface[i].level[l] : after > above ? above : below;
+        if (i < 0 ? below <= after && after <= above : !ms_crosses(run->surface[i].direction, before, after, level))
+            continue;
+        found = 1;
+        const double u = dense ? ms_passing(w, state, l, level) : 1.0;
+        if (u < *share)
+            *share = u, *target = i < 0 ? -1 : 1 + i;
+    }
+    return found;
+}
+
+static void ms_reject(const ms_run *run, ms_work *w, int l)
+{
+    const double error = w->error[l], factor = 0.8 / sqrt(sqrt(sqrt(error)));
+    w->h[l] = w->step[l] * (error < INFINITY ? ms_fmax(factor, 1.0 / 3.0) : 0.1);
+    w->forced[l] = 0.0;
+    w->target[l] = 0;
+    run->rejected[l]++;
+}
+
+static void ms_sample(const ms_run *run, ms_work *w, int l, double end)
+{
+    for (; run->sampled[l] < run->times && run->grid[run->sampled[l]] <= end; run->sampled[l]++) {
+        const double u = (run->grid[run->sampled[l]] - w->t[l]) / w->step[l];
+        double *to = run->samples + run->sampled[l] * MS_N * MS_L + l;
+        for (int i = 0; i < MS_N; i++)
+            to[i * MS_L] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
+    }
+}
+
+/* Take a step over. Returns 2 when the lane enters another segment, 1 when it passes a kink, else 0. */
+static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
+{
+    const double proposed = w->step[l] * ms_fmin(6.0, 0.8 / sqrt(sqrt(sqrt(w->error[l]))));
+    const int last = end == ms_until(run, w, l), cut = last || w->target[l];
+    ms_sample(run, w, l, end);
+    w->t[l] = end;
+    for (int i = 0; i < MS_N; i++) {
+        w->y[i][l] = w->next[i][l];
+        w->q[0][i][l] = w->q[12][i][l];
+    }
+    w->h[l] = cut ? ms_fmax(w->h[l], proposed) : proposed;
+    w->forced[l] = 0.0;
+    run->steps[l]++;
+    const long target = w->target[l];
+    w->target[l] = 0;
+    if (target > 0) {
+        run->met[l] = target - 1;
+        ms_finish(run, w, l, MS_MET);
+        return 0;
+    }
+    if (target < 0)
+        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], w->q[0][run->kink_state][l]);
+    if (last && !ms_hold(run, &w->segment[l], end, w->x, l)) {
+        ms_finish(run, w, l, MS_DONE);
+        return 0;
+    }
+    return last ? 2 : target < 0;
+}
+
+static double ms_end(const ms_run *run, const ms_work *w, int l)
+{
+    const double until = ms_until(run, w, l), end = w->t[l] + w->step[l];
+    return w->step[l] == until - w->t[l] || end > until ? until : end;
+}
+
+/* After a try: reject, force a shorter step, or accept, lane by lane. */
+static void ms_settle(const ms_run *run, ms_work *w)
+{
+    int dense = 0, crosses[MS_L], fresh[MS_L] = {0}, again = 0, guess = 0;
+    double share;
+    long target = 0;
+    for (int l = 0; l < MS_L; l++) {
+        crosses[l] = 0;
+        if (!w->active[l] || !(w->error[l] <= 1.0))
+            continue;
+        crosses[l] = !w->target[l] && ms_crossed(run, w, l, 0, &share, &target);
+        const long due = run->sampled[l];
+        dense |= crosses[l] || (due < run->times && run->grid[due] <= ms_end(run, w, l));
+    }
+    if (dense)
+        ms_make_dense(run, w);
+    for (int l = 0; l < MS_L; l++) {
+        if (!w->active[l])
+            continue;
+        if (!(w->error[l] <= 1.0)) {
+            ms_reject(run, w, l);
+        } else if (crosses[l] && ms_crossed(run, w, l, 1, &share, &target) && share < 1.0) {
+            w->forced[l] = share * w->step[l];
+            w->target[l] = target;
+        } else {
+            w->target[l] = crosses[l] ? target : w->target[l];
+            const int entered = ms_accept(run, w, l, ms_end(run, w, l));
+            fresh[l] = entered == 2;
+            guess |= fresh[l];
+            again |= entered > 0;
+        }
+    }
+    if (again)
+        ms_first_rates(run, w);
+    if (guess)
+        ms_guess_step(run, w, fresh);
+}
+
+MS_EXPORT void ms_dop853(const ms_run *run)
+{
+    ms_work work, *w = &work;
+    for (int left = ms_begin(run, w); left;) {
+        ms_choose_steps(run, w);
+        ms_try(run, w);
+        ms_settle(run, w);
+        left = 0;
+        for (int l = 0; l < MS_L; l++)
+            left += w->active[l];
+    }
+    for (int l = 0; l < MS_L; l++) {
+        run->t[l] = w->t[l];
+        for (int i = 0; i < MS_N; i++)
+            run->y[i * MS_L + l] = w->y[i][l];
+    }
+}

@@ -1,0 +1,48 @@
+/* What the shared object exports for the function MS_NAME with MS_NX inputs and MS_NY outputs. */
+
+MS_EXPORT void MS_(_point)(const double *k, const double *x, double *y)
+{
+    MS_(_rows1)(k, x, y);
+}
+
+/* n points; where moving[i] is 0, x[i] points to one number for all of them. Returns 0, or -1 without memory. */
+MS_EXPORT int MS_(_batch)(long n, const double *k, const double *const *x, const _Bool *moving, double *const *y)
+{
+    enum { chunk = 256, nx = MS_NX > 0 ? MS_NX : 1 };
+    const double *in[nx];
+    double *out[MS_NY], *held = malloc(sizeof(double) * nx * chunk);
+    if (!held)
+        return -1;
+    for (int i = 0; i < MS_NX; i++)
+        for (int p = 0; p < chunk && !moving[i]; p++)
+            held[i * chunk + p] = *x[i];
+    for (long start = 0; start < n; start += chunk) {
+        for (int i = 0; i < MS_NX; i++)
+            in[i] = moving[i] ? x[i] + start : held + i * chunk;
+        for (int i = 0; i < MS_NY; i++)
+            out[i] = y[i] + start;
+        MS_(_block)(n - start < chunk ? n - start : chunk, k, in, out);
+    }
+    free(held);
+    return 0;
+}
+
+#ifdef MS_PYTHON
+/* Called from Python with MS_NX floats; self holds the constants. */
+static PyObject *MS_(_call)(PyObject *self, PyObject *const *arguments, Py_ssize_t count)
+{
+    double x[MS_NX > 0 ? MS_NX : 1], y[MS_NY];
+    if (count != MS_NX)
+        return PyErr_Format(PyExc_TypeError, "%s takes %d numbers, not %zd", MS_TEXT, MS_NX, count);
+    for (int i = 0; i < MS_NX; i++) {
+        PyObject *a = arguments[i];
+        x[i] = PyFloat_CheckExact(a) ? PyFloat_AS_DOUBLE(a) : PyFloat_AsDouble(a);
+        if (x[i] == -1.0 && PyErr_Occurred())
+            return NULL;
+    }
+    MS_(_point)((const double *)PyBytes_AS_STRING(self), x, y);
+    return ms_floats(y, MS_NY);
+}
+
+static PyMethodDef MS_(_method) = {MS_TEXT, (PyCFunction)(void (*)(void))MS_(_call), METH_FASTCALL, NULL};
+#endif

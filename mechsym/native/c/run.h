@@ -1,0 +1,112 @@
+/* What every integrator shares: the description of its runs, tables of periodic values, levels that end a step.
+ *
+ * MS_N states, MS_P held values, MS_L lanes; each lane is a run of its own. Arrays of lanes lie side by side,
+ * y[state][lane]. The right-hand side MS_RATES(k, x, ydot) reads the rows x = (t, y[0].., p[0]..).
+ */
+enum { MS_DONE, MS_MET, MS_TOO_MANY, MS_TOO_SMALL, MS_NOT_FINITE, MS_NO_SOLUTION };
+enum { MS_X = 1 + MS_N + MS_P };
+#define MS_EACH MS_LANES for (int l = 0; l < MS_L; l++)
+#define MS_STATES for (int i = 0; i < MS_N; i++) MS_EACH
+typedef double ms_row[MS_L];
+
+/* Held value `slot` follows state `state` as a periodic piecewise polynomial; coefficients by falling powers. */
+typedef struct {
+    long slot, state, pieces, terms, per_lane;
+    double start, period;
+    const double *breaks, *coefficients; /* [pieces + 1], [lane][piece][term] */
+} ms_table;
+
+/* A level of a state at which a run ends; direction 1 rising, -1 falling, 0 either. */
+typedef struct {
+    long state, direction;
+    const double *level; /* [lane] */
+} ms_surface;
+
+typedef struct {
+    long segments, times, tables, surfaces, kinks, kink_state, max_steps;
+    double rtol, atol, first_step, kink_period;
+    const double *constants;   /* [constant][lane] */
+    const double *until;       /* [segment][lane] */
+    const double *held;        /* [segment][held value][lane] */
+    const double *grid;        /* [time], ascending, after the start */
+    const double *kink_angles; /* [kink], in [0, period) */
+    const ms_table *table;
+    const ms_surface *surface;
+    double *t, *y;       /* [lane], [state][lane]: the start, then the end */
+    double *samples;     /* [time][state][lane] */
+    double *last_step;   /* [lane] */
+    long *steps, *rejected, *sampled, *met, *status; /* [lane] */
+} ms_run;
+
+/* The kinks on both sides of a run. A table is read on this side of them, also by a stage that reaches beyond. */
+typedef struct {
+    double below[MS_L], above[MS_L], low[MS_L], high[MS_L];
+} ms_window;
+
+static double ms_periodic(const ms_table *table, double angle, int lane)
+{
+    const double a = angle - table->period * floor((angle - table->start) / table->period);
+    const double *c = table->coefficients + lane * table->per_lane;
+    long piece = 0;
+    for (long high = table->pieces; high - piece > 1;) {
+        const long middle = (piece + high) / 2;
+        if (table->breaks[middle] <= a)
+            piece = middle;
+        else
+            high = middle;
+    }
+    const double u = a - table->breaks[piece];
+    double y = 0.0;
+    for (long i = 0; i < table->terms; i++)
+        y = y * u + c[piece * table->terms + i];
+    return y;
+}
+
+static __attribute__((noinline)) void ms_rates(const ms_run *run, const ms_window *window, ms_row *x, ms_row *rate)
+{
+    for (long i = 0; i < run->tables; i++) {
+        const ms_table *table = run->table + i;
+        for (int l = 0; l < MS_L; l++) {
+            double a = x[1 + table->state][l];
+            if (table->state == run->kink_state && run->kinks)
+                a = ms_fmin(ms_fmax(a, window->low[l]), window->high[l]);
+            x[1 + MS_N + table->slot][l] = ms_periodic(table, a, l);
+        }
+    }
+    MS_RATES(run->constants, x[0], rate[0]);
+}
+
+/* A run that stands on a kink goes on, on the side to which it moves. */
+static void ms_look_around(const ms_run *run, ms_window *window, int l, double angle, double speed)
+{
+    const double tiny = 1e-12 * ms_fmax(fabs(angle), 1.0), here = angle + (speed < 0.0 ? -2.0 : 2.0) * tiny;
+    const double turn = run->kinks ? floor(here / run->kink_period) : 0.0;
+    window->below[l] = -INFINITY, window->above[l] = INFINITY;
+    for (int shift = -1; shift <= 1; shift++)
+        for (long i = 0; i < run->kinks; i++) {
+            const double kink = run->kink_angles[i] + run->kink_period * (turn + shift);
+            if (kink > here)
+                window->above[l] = ms_fmin(window->above[l], kink);
+            else
+                window->below[l] = ms_fmax(window->below[l], kink);
+        }
+    window->low[l] = window->below[l] + tiny;
+    window->high[l] = window->above[l] - tiny;
+}
+
+static int ms_crosses(long direction, double before, double after, double level)
+{
+    return (direction >= 0 && before < level && level <= after) || (direction <= 0 && before > level && level >= after);
+}
+
+/* The held values of the segment in which a time lies; returns 0 when all segments are over. */
+static int ms_hold(const ms_run *run, long *segment, double t, ms_row *x, int l)
+{
+    while (*segment < run->segments && !(run->until[*segment * MS_L + l] > t))
+        ++*segment;
+    if (*segment == run->segments)
+        return 0;
+    for (int j = 0; j < MS_P; j++)
+        x[1 + MS_N + j][l] = run->held[(*segment * MS_P + j) * MS_L + l];
+    return 1;
+}

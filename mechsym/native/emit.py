@@ -1,0 +1,176 @@
+"""C text of a program: one body for each kernel, and loops of that body over points or lanes.
+
+    body      f_0(k, s, x0, x1, .., *y0, ..)   one instance at one point; constants k[j * s]
+    rows      f_rows8(k, x, y)                 8 lanes; row i of x holds input i of all lanes; constants per lane
+    block     f_block(m, k, x, y)              m points; x[i] and y[i] point to columns
+    entries   f_point, f_batch                 what the shared object exports
+
+No value of a parameter is in the text: constants are read from a table.
+"""
+
+from collections.abc import Callable
+
+from mechsym.native import dialects
+from mechsym.native.kernels import Kernel
+
+Place = Callable[[str], str]
+
+
+def bodies(kernels: tuple[Kernel, ...], name: str) -> str:
+    """The bodies of a program, and the places of its repeated kernels.
+
+    Parameters
+    ----------
+    kernels : tuple of Kernel
+        The program
+    name : str
+        Name of the program
+
+    Returns
+    -------
+    text : str
+        C functions `<name>_0`, `<name>_1`, ..
+    """
+    text = []
+    for number, kernel in enumerate(kernels):
+        text.append(body(kernel, f"{name}_{number}"))
+        if len(kernel.inputs) > 1:
+            text.append(_tables(kernel, f"{name}_{number}"))
+    return "\n".join(text)
+
+
+def body(kernel: Kernel, name: str) -> str:
+    """A kernel as an inline function of scalars.
+
+    Parameters
+    ----------
+    kernel : Kernel
+        Straight-line code
+    name : str
+        Name of the C function
+
+    Returns
+    -------
+    text : str
+        C function
+    """
+    count = len(kernel.inputs[0])
+    arguments = [
+        "const double *restrict k",
+        "const long s",
+        *(f"const double x{i}" for i in range(count)),
+        *(f"double *restrict y{i}" for i in range(len(kernel.results))),
+    ]
+    names: list[str] = []
+    lines: list[str] = []
+    angles: set[int] = set()
+    for i, (op, args) in enumerate(kernel.nodes):
+        text, declared = _value(kernel, names, op, args)
+        if op in ("sin", "cos") and args[0] not in angles:
+            a = args[0]
+            angles.add(a)
+            lines.append(f"double s{a}, c{a};\n    ms_sincos({names[a]}, &s{a}, &c{a});")
+        if declared:
+            lines.append(f"const double t{i} = {text};")
+        names.append(f"t{i}" if declared else text)
+    lines += [f"*y{i} = {names[r]};" for i, r in enumerate(kernel.results)]
+    return _function(f"MS_INLINE void {name}({', '.join(arguments)})", lines)
+
+
+def _value(kernel: Kernel, names: list[str], op: str, args: tuple) -> tuple[str, bool]:
+    # text of a node, and whether it needs a variable of its own
+    match op:
+        case "input":
+            return f"x{args[0]}", False
+        case "literal":
+            return str(dialects.literal(args[0])), False
+        case "constant":
+            return f"k[{args[0]} * s]", False
+        case "sin" | "cos":
+            return f"{op[0]}{args[0]}", False
+    kind, value = kernel.nodes[args[-1]][0], kernel.nodes[args[-1]][1]
+    exponent = value[0] if kind == "literal" else None
+    return dialects.expression(dialects.C, op, [names[a] for a in args], exponent), True
+
+
+def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
+    """A function over a fixed number of lanes.
+
+    Parameters
+    ----------
+    kernels : tuple of Kernel
+        The program
+    name : str
+        Name of the program
+    lanes : int
+        Number of lanes; 1 gives the function at one point
+
+    Returns
+    -------
+    text : str
+        C function `<name>_rows<lanes>(k, x, y)` with x[input * lanes + lane]
+    """
+    head = f"MS_INLINE void {name}_rows{lanes}(const double *restrict k, const double *restrict x, double *restrict y)"
+    lines = [f"enum {{ m = {lanes}, s = {lanes}, move = 1 }};"]
+    lines += _loops(kernels, name, lambda i: f"x + {i} * m", lambda i: f"y + {i} * m")
+    return _function(head, lines)
+
+
+def block(kernels: tuple[Kernel, ...], name: str) -> str:
+    """A function over m points in columns, with the same constants at all of them.
+
+    Parameters
+    ----------
+    kernels : tuple of Kernel
+        The program
+    name : str
+        Name of the program
+
+    Returns
+    -------
+    text : str
+        C function `<name>_block(m, k, x, y)`
+    """
+    head = f"static void {name}_block(const long m, const double *restrict k, const double **x, double **y)"
+    lines = ["enum { s = 1, move = 0 };"]
+    lines += _loops(kernels, name, lambda i: f"x[{i}]", lambda i: f"y[{i}]")
+    return _function(head, lines)
+
+
+def _loops(kernels: tuple[Kernel, ...], name: str, source: Place, target: Place) -> list[str]:
+    lines = []
+    for number, kernel in enumerate(kernels):
+        lines.append(_loop(kernel, f"{name}_{number}", source, target))
+        if number < len(kernels) - 1:
+            lines.append(f"k += {len(kernel.constants[0]) * len(kernel.inputs)} * s;")
+    return lines
+
+
+def _loop(kernel: Kernel, name: str, source: Place, target: Place) -> str:
+    single = len(kernel.inputs) == 1
+    inputs = (
+        [str(i) for i in kernel.inputs[0]] if single else [f"{name}_in[i][{j}]" for j in range(len(kernel.inputs[0]))]
+    )
+    outputs = (
+        [str(o) for o in kernel.outputs[0]] if single else [f"{name}_out[i][{j}]" for j in range(len(kernel.results))]
+    )
+    constants = "k" if single else f"k + i * {len(kernel.constants[0])} * s"
+    lines = [f"const double *restrict x{j} = {source(i)};" for j, i in enumerate(inputs)]
+    lines += [f"double *restrict y{j} = {target(o)};" for j, o in enumerate(outputs)]
+    lines.append(f"const double *restrict c = {constants};")
+    points = [*(f"x{j}[p]" for j in range(len(inputs))), *(f"y{j} + p" for j in range(len(outputs)))]
+    lines += ["MS_LANES", "for (long p = 0; p < m; p++)", f"    {name}({', '.join(['c + move * p', 's', *points])});"]
+    head = "{" if single else f"for (int i = 0; i < {len(kernel.inputs)}; i++) {{"
+    return "\n    ".join([head, *("    " + line for line in lines), "}"])
+
+
+def _tables(kernel: Kernel, name: str) -> str:
+    text = ""
+    for suffix, table in (("in", kernel.inputs), ("out", kernel.outputs)):
+        places = ",\n    ".join("{" + ", ".join(map(str, row or (0,))) + "}" for row in table)
+        text += f"static const short {name}_{suffix}[{len(table)}][{max(len(table[0]), 1)}] = {{\n    {places}}};\n"
+    return text
+
+
+def _function(head: str, lines: list[str]) -> str:
+    return "\n".join([head, "{", *("    " + line for line in lines), "}", ""])

@@ -1,0 +1,168 @@
+"""CasADi functions as fast functions of numbers: compiled C where there is a compiler, otherwise numpy and CasADi.
+
+    compiled(f).scalar(0.1, 2.0)        floats in, float or tuple of floats out: about 0.1 microseconds in C
+    compiled(f).batch(phi, 2.0)         arrays and numbers in, array (outputs, n) out: nanoseconds a point in C
+
+Both routes take the same arguments and agree with the interpreted function to 1e-12 in mode `strict` and 1e-10 in mode
+`fast` (relative; tests/native/test_evaluate.py).
+"""
+
+import ctypes
+import dataclasses
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import casadi
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.native import fallback, library, source
+from mechsym.native.compiler import NoCompiler
+from mechsym.native.kernels import constant_table
+
+_LOG = logging.getLogger("mechsym.native")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Compiled:
+    """A function of scalars in two forms.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function
+    inputs, outputs : tuple of str
+        Scalar inputs and outputs in order; the elements of a vector y are `y[0]`, `y[1]`, a matrix goes by columns
+    scalar : callable
+        Floats -> float, or tuple of floats where there are several outputs
+    batch : callable
+        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
+    route : str
+        `C` or `numpy`
+    reason : str
+        Why it is not C, else empty
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    scalar: Callable[..., Any]
+    batch: Callable[..., np.ndarray]
+    route: str
+    reason: str
+
+
+def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
+    """One CasADi function as fast functions.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        SX function, or an MX function that can be expanded
+    mode : str
+        `strict` (IEEE arithmetic as written) or `fast` (contracted products, reciprocals)
+
+    Returns
+    -------
+    compiled : Compiled
+        Scalar and batch form
+
+    Examples
+    --------
+    >>> x = casadi.SX.sym("x")
+    >>> compiled(casadi.Function("square", [x], [x * x])).scalar(3.0)
+    9.0
+    """
+    return compiled_all({function.name(): function}, mode)[function.name()]
+
+
+def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -> dict[str, Compiled]:
+    """Several CasADi functions compiled into one file.
+
+    Parameters
+    ----------
+    functions : mapping of str to casadi.Function
+        For example the functions of a mechanism; their names differ
+    mode : str
+        `strict` or `fast`
+
+    Returns
+    -------
+    compiled : dict of str to Compiled
+        By the same keys
+    """
+    programs = [source.program(f, mode) for f in functions.values()]
+    try:
+        _check(programs)
+        loaded = library.load(source.evaluation(programs), mode)
+    except NoCompiler as error:
+        _LOG.warning("numpy instead of C: %s", error)
+        made = [
+            fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)
+        ]
+    else:
+        made = [_record(loaded, number, p) for number, p in enumerate(programs)]
+    return dict(zip(functions, made, strict=True))
+
+
+def _check(programs: Sequence[source.Program]) -> None:
+    names = [p.tape.name for p in programs]
+    if len(set(names)) < len(names):
+        raise BadInput(f"functions share a name ({', '.join(names)}); give each its own")
+
+
+def _record(loaded: ctypes.CDLL, number: int, program: source.Program) -> Compiled:
+    tape, constants = program.tape, constant_table(program.kernels)
+    found = library.module(loaded._name)
+    scalar = found.bind(number, constants.tobytes()) if found else _point(loaded, program, constants)
+    return Compiled(
+        name=tape.name,
+        inputs=tape.inputs,
+        outputs=tape.outputs,
+        scalar=scalar,
+        batch=_batch(loaded, program, constants),
+        route="C",
+        reason="",
+    )
+
+
+def _point(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., Any]:
+    nx, ny = len(program.tape.inputs), len(program.tape.outputs)
+    call, inputs, outputs = loaded[f"{program.tape.name}_point"], ctypes.c_double * nx, ctypes.c_double * ny
+    call.restype, call.argtypes = None, [ctypes.c_void_p] * 3
+
+    def scalar(*values: float) -> Any:
+        if len(values) != nx:
+            raise TypeError(f"{program.tape.name} takes {nx} numbers, not {len(values)}")
+        result = outputs()
+        call(constants.ctypes.data, inputs(*values), result)
+        return result[0] if ny == 1 else tuple(result)
+
+    return scalar
+
+
+def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., np.ndarray]:
+    nx, ny, name = len(program.tape.inputs), len(program.tape.outputs), program.tape.name
+    call, inputs, outputs, flags = (
+        loaded[f"{name}_batch"],
+        ctypes.c_void_p * nx,
+        ctypes.c_void_p * ny,
+        ctypes.c_bool * nx,
+    )
+    call.restype, call.argtypes = ctypes.c_int, [ctypes.c_long, *[ctypes.c_void_p] * 4]
+    table = constants.ctypes.data
+
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
+        columns = fallback.columns(name, nx, values)
+        n = max((c.size for c in columns), default=1)
+        result = fallback.target(name, (ny, n), out)
+        start = result.ctypes.data
+        moving = flags(*(c.size > 1 for c in columns))
+        places = inputs(*(c.ctypes.data for c in columns))
+        if call(n, table, places, moving, outputs(*range(start, start + 8 * n * ny, 8 * n))):
+            raise MemoryError(f"{name}: no memory for a batch of {n} points")
+        return result
+
+    batch.__dict__["constants"] = constants
+    return batch

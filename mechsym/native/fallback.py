@@ -1,0 +1,205 @@
+"""Without a compiler: the same program as numpy text over chunks that fit the cache, and CasADi for single points."""
+
+import threading
+from collections.abc import Callable
+from itertools import accumulate
+from typing import Any, TypeVar
+
+import casadi
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.native.dialects import NUMPY, expression, unknown
+from mechsym.native.tape import Tape
+
+_CHUNK = 2048
+T = TypeVar("T")
+
+
+def columns(name: str, count: int, values: tuple[Any, ...]) -> list[np.ndarray]:
+    """Arguments of a batch as contiguous arrays of one length or of length 1.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function, for messages
+    count : int
+        Number of arguments that it takes
+    values : tuple
+        Arrays of shape (n,) and numbers
+
+    Returns
+    -------
+    columns : list of ndarray
+        Of shape (n,) or (1,)
+
+    Raises
+    ------
+    BadInput
+        Wrong number of arguments, or lengths that do not fit
+    """
+    if len(values) != count:
+        raise BadInput(f"{name} takes {count} arrays or numbers, not {len(values)}")
+    found = [np.ascontiguousarray(v, dtype=float).reshape(-1) for v in values]
+    sizes = sorted({c.size for c in found} - {1})
+    if len(sizes) > 1:
+        raise BadInput(f"{name}: arrays have lengths {', '.join(map(str, sizes))}; they must be equal or 1")
+    return found
+
+
+def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndarray:
+    """Where a batch is written to.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function, for messages
+    shape : tuple of int
+        Outputs and points
+    out : ndarray or None
+        The caller's own array
+
+    Returns
+    -------
+    target : ndarray, shape `shape`
+        New unless the caller has one
+
+    Raises
+    ------
+    BadInput
+        The caller's array has another shape or type
+    """
+    if out is None:
+        return np.empty(shape)
+    if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
+        raise BadInput(
+            f"{name}: out must be a contiguous array of floats of shape {shape}, not {out.dtype} {out.shape}"
+        )
+    return out
+
+
+def record(kind: Callable[..., T], function: casadi.Function, tape: Tape, reason: str) -> T:
+    """The two forms of a function without a compiler.
+
+    Parameters
+    ----------
+    kind : type
+        Record to fill
+    function : casadi.Function
+        The function
+    tape : Tape
+        Its program
+    reason : str
+        Why it is not compiled
+
+    Returns
+    -------
+    record : kind
+        Route `numpy`
+    """
+    return kind(
+        name=tape.name,
+        inputs=tape.inputs,
+        outputs=tape.outputs,
+        scalar=_scalar(function, tape),
+        batch=_batch(function, tape),
+        route="numpy",
+        reason=reason,
+    )
+
+
+def numpy_text(tape: Tape) -> str:
+    """The program as a Python function of arrays.
+
+    Parameters
+    ----------
+    tape : Tape
+        The program
+
+    Returns
+    -------
+    text : str
+        Defines `function(x, y)`: lists of columns to read and to write
+    """
+    names: list[str] = []
+    lines = []
+    for i, (op, args) in enumerate(tape.nodes):
+        if op == "input":
+            names.append(f"x[{args[0]}]")
+        elif op == "constant":
+            names.append(f"({args[0]!r})")
+        else:
+            exponent = tape.nodes[args[-1]][1][0] if tape.nodes[args[-1]][0] == "constant" else None
+            lines.append(f"t{i} = {expression(NUMPY, op, [names[a] for a in args], exponent)}")
+            names.append(f"t{i}")
+    lines += [f"y[{i}][:] = {names[r]}" for i, r in enumerate(tape.results)]
+    return "\n".join(["def function(x, y):", *("    " + line for line in lines)])
+
+
+def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
+    if unknown(tape, NUMPY):
+        return _mapped(function, tape)
+    scope: dict[str, Any] = {"np": np, "inf": np.inf, "nan": np.nan}
+    exec(compile(numpy_text(tape), f"<numpy {tape.name}>", "exec"), scope)
+    run = scope["function"]
+
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
+        found = columns(tape.name, len(tape.inputs), values)
+        n = max((c.size for c in found), default=1)
+        result = target(tape.name, (len(tape.outputs), n), out)
+        with np.errstate(all="ignore"):
+            for start in range(0, n, _CHUNK):
+                piece = slice(start, start + _CHUNK)
+                run([c[piece] if c.size > 1 else c for c in found], result[:, piece])
+        return result
+
+    return batch
+
+
+def _mapped(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
+        found = columns(tape.name, len(tape.inputs), values)
+        n = max((c.size for c in found), default=1)
+        table = np.array([np.broadcast_to(c, n) for c in found])
+        result = target(tape.name, (len(tape.outputs), n), out)
+        point = _scalar(function, tape)
+        result[:] = np.array([np.atleast_1d(point(*row)) for row in table.T]).T
+        return result
+
+    return batch
+
+
+def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
+    # one buffer for each thread: it is written to and must outlive the call
+    local = threading.local()
+    sizes = [function.numel_in(i) for i in range(function.n_in())]
+    results = [function.numel_out(i) for i in range(function.n_out())]
+
+    def prepare() -> tuple[Any, ...]:
+        buffer: Any
+        buffer, call = _full(function).buffer()
+        x, y = np.zeros(max(sum(sizes), 1)), np.zeros(len(tape.outputs))
+        for i, end in enumerate(accumulate(sizes)):
+            buffer.set_arg(i, x[end - sizes[i] : end].data)
+        for i, end in enumerate(accumulate(results)):
+            buffer.set_res(i, y[end - results[i] : end].data)
+        return buffer, call, x, y
+
+    def scalar(*values: float) -> Any:
+        if len(values) != len(tape.inputs):
+            raise TypeError(f"{tape.name} takes {len(tape.inputs)} numbers, not {len(values)}")
+        if not hasattr(local, "held"):
+            local.held = prepare()
+        _, call, x, y = local.held
+        x[: len(values)] = values
+        call()
+        return float(y[0]) if y.size == 1 else tuple(y.tolist())
+
+    return scalar
+
+
+def _full(function: casadi.Function) -> casadi.Function:
+    # a buffer holds stored elements only; here every element is stored
+    symbols = [casadi.SX.sym(function.name_in(i), *function.size_in(i)) for i in range(function.n_in())]
+    outputs = [casadi.densify(o) for o in function.call(symbols)]
+    return casadi.Function(function.name(), symbols, outputs)

@@ -1,0 +1,228 @@
+"""Integration in C: one run, or many side by side in the lanes of the processor and on its cores."""
+
+import ctypes
+import dataclasses
+import os
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import casadi
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.native import integrators, library
+from mechsym.native.kernels import constant_table
+from mechsym.native.runs import Outcome, Runs, Surface, Table
+from mechsym.native.source import Program, program
+
+# runs in one block of an ensemble; the width of one or two vector registers
+LANES = 8
+
+_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kink_state", "max_steps")
+_DOUBLES = ("rtol", "atol", "first_step", "kink_period")
+_ARRAYS = (
+    "constants", "until", "held", "grid", "kink_angles", "table", "surface", "t", "y", "samples", "last_step",
+    "steps", "rejected", "sampled", "met", "status",
+)  # fmt: skip
+
+
+class _Table(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_long) for name in ("slot", "state", "pieces", "terms", "per_lane")),
+        *((name, ctypes.c_double) for name in ("start", "period")),
+        *((name, ctypes.c_void_p) for name in ("breaks", "coefficients")),
+    ]
+
+
+class _Surface(ctypes.Structure):
+    _fields_ = [("state", ctypes.c_long), ("direction", ctypes.c_long), ("level", ctypes.c_void_p)]
+
+
+class _Run(ctypes.Structure):
+    # the same fields in the same order as ms_run in c/run.h
+    _fields_ = [
+        *((name, ctypes.c_long) for name in _LONGS),
+        *((name, ctypes.c_double) for name in _DOUBLES),
+        *((name, ctypes.c_void_p) for name in _ARRAYS),
+    ]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class _Batch:
+    """Runs with every array spread to shape (runs, ..), and the program of each."""
+
+    runs: Runs
+    programs: list[Program]
+    constants: list[np.ndarray]
+    start: np.ndarray
+    until: np.ndarray
+    held: np.ndarray
+
+
+def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome:
+    """Integrate runs in C.
+
+    Parameters
+    ----------
+    runs : Runs
+        What to run
+    method : str
+        `dop853`: adaptive steps of order 8 in each lane. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at
+        most `first_step`, for conservative runs without kinks and surfaces
+    mode : str
+        `fast` or `strict`
+
+    Returns
+    -------
+    outcome : Outcome
+        One row for each run; a failure is a status
+
+    Raises
+    ------
+    BadInput
+        Arrays that do not fit together, or what the method cannot do
+    mechsym.native.compiler.NoCompiler
+        No compiler; `mechsym.simulate` then goes on with scipy
+    """
+    batch = _spread(runs, mode)
+    count = len(batch.start)
+    if method == "gauss":
+        _check_gauss(batch)
+    elif method != "dop853":
+        raise BadInput(f"method = {method!r} is not an option; options are dop853, gauss")
+    lanes = 1 if count == 1 else LANES
+    texts = [getattr(integrators, method)(p, lanes) for p in batch.programs]
+    loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
+    blocks = _blocks(texts if len(texts) > 1 else texts * count, lanes)
+    result = _empty(count, batch.start.shape[1], len(runs.times))
+
+    def work(block: tuple[str, list[int]]) -> None:
+        _run_block(loaded[block[0]][f"ms_{method}"], batch, block[1], lanes, result)
+
+    if len(blocks) == 1:
+        work(blocks[0])
+    else:
+        with ThreadPoolExecutor(max_workers=min(len(blocks), os.cpu_count() or 1)) as pool:
+            list(pool.map(work, blocks))
+    return Outcome(**result)
+
+
+def _check_gauss(batch: _Batch) -> None:
+    runs = batch.runs
+    if runs.surfaces or runs.kinks:
+        raise BadInput("method 'gauss' knows no surfaces and kinks; use dop853")
+    if not runs.first_step > 0:
+        raise BadInput("method 'gauss' needs first_step, its constant step in s")
+    if not (batch.until == batch.until[0]).all():
+        raise BadInput("method 'gauss' takes one list of segment ends for all runs; use dop853")
+
+
+def _spread(runs: Runs, mode: str) -> _Batch:
+    single = isinstance(runs.rhs, casadi.Function)
+    functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
+    programs = [program(f, mode) for f in functions]
+    n, p = integrators.sizes(programs[0])
+    start, until, held = np.asarray(runs.start, float), np.asarray(runs.until, float), np.asarray(runs.held, float)
+    counts = {len(a) for a, alone in ((start, 1), (until, 1), (held, 2)) if a.ndim > alone}
+    counts |= set() if single else {len(functions)}
+    if len(counts) > 1:
+        raise BadInput(f"start, until, held and rhs are for {sorted(counts)} runs; they must agree")
+    count = counts.pop() if counts else 1
+    segments = until.shape[-1]
+    if start.shape[-1] != n or held.shape[-1] != p or (p and held.shape[-2] != segments):
+        raise BadInput(
+            f"{programs[0].tape.name} has {n} states and {p} held values in {segments} segments; start has shape "
+            f"{start.shape}, held {held.shape}"
+        )
+    return _Batch(
+        runs=runs,
+        programs=programs,
+        constants=[constant_table(q.kernels) for q in programs],
+        start=np.broadcast_to(start, (count, n)),
+        until=np.broadcast_to(until, (count, segments)),
+        held=np.broadcast_to(held if p else np.zeros((segments, 0)), (count, segments, p)),
+    )
+
+
+def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
+    families: dict[str, list[int]] = {}
+    for index, text in enumerate(texts):
+        families.setdefault(text, []).append(index)
+    return [(text, members[i : i + lanes]) for text, members in families.items() for i in range(0, len(members), lanes)]
+
+
+def _empty(count: int, n: int, times: int) -> dict[str, np.ndarray]:
+    whole = {name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "met", "status")}
+    samples = np.full((count, times, n), np.nan)
+    return {**whole, "t": np.zeros(count), "y": np.zeros((count, n)), "samples": samples, "last_step": np.zeros(count)}
+
+
+def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, result: dict[str, np.ndarray]) -> None:
+    # an incomplete block is filled up with copies of its last run
+    chosen = np.array(members + [members[-1]] * (lanes - len(members)))
+    arrays = _arrays(batch, chosen)
+    structure, alive = _structure(batch.runs, arrays, chosen)
+    advance(ctypes.byref(structure))
+    del alive
+    used = slice(0, len(members))
+    result["y"][members] = arrays["y"].T[used]
+    result["samples"][members] = np.moveaxis(arrays["samples"], 2, 0)[used]
+    for name in ("t", "last_step", "steps", "rejected", "met", "status"):
+        result[name][members] = arrays[name][used]
+
+
+def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
+    lanes, n, times = len(chosen), batch.start.shape[1], len(batch.runs.times)
+    constants = batch.constants if len(batch.constants) > 1 else batch.constants * len(batch.start)
+    kinks = batch.runs.kinks
+    counters = {name: np.zeros(lanes, ctypes.c_long) for name in ("steps", "rejected", "sampled", "met", "status")}
+    floats = {
+        "constants": np.stack([constants[c] for c in chosen], axis=1),
+        "until": batch.until[chosen].T,
+        "held": np.moveaxis(batch.held[chosen], 0, 2),
+        "grid": batch.runs.times,
+        "kink_angles": np.mod(kinks.angles, kinks.period) if kinks else (),
+        "t": np.full(lanes, float(batch.runs.t)),
+        "y": batch.start[chosen].T,
+        "samples": np.full((times, n, lanes), np.nan),
+        "last_step": np.zeros(lanes),
+    }
+    # always a copy: the runs are written into t, y and samples
+    return {name: np.array(a, dtype=float, order="C") for name, a in floats.items()} | counters
+
+
+def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[_Run, list[Any]]:
+    """The argument of the C function, and what must stay alive as long as it is used."""
+    alive: list[Any] = [arrays]
+    tables = (_Table * len(runs.tables))(*(_table(t, chosen, alive) for t in runs.tables))
+    surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
+    alive += [tables, surfaces]
+    kinks = runs.kinks
+    structure = _Run(
+        segments=len(arrays["until"]), times=len(arrays["grid"]), tables=len(runs.tables),
+        surfaces=len(runs.surfaces), kinks=len(kinks.angles) if kinks else 0, kink_state=kinks.state if kinks else 0,
+        max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
+        kink_period=kinks.period if kinks else 1.0, table=ctypes.addressof(tables),
+        surface=ctypes.addressof(surfaces), **{name: a.ctypes.data for name, a in arrays.items()},
+    )  # fmt: skip
+    return structure, alive
+
+
+def _table(table: Table, chosen: np.ndarray, alive: list[Any]) -> _Table:
+    breaks = np.ascontiguousarray(table.breaks, dtype=float)
+    shared = table.coefficients.ndim == 2
+    rows = table.coefficients[None] if shared else table.coefficients[chosen]
+    # one polynomial after another, as the C code reads them
+    coefficients = np.array(np.swapaxes(rows, 1, 2), dtype=float, order="C")
+    alive += [breaks, coefficients]
+    return _Table(
+        slot=table.held, state=table.state, pieces=len(breaks) - 1, terms=coefficients.shape[2],
+        per_lane=0 if shared else coefficients[0].size, start=breaks[0], period=breaks[-1] - breaks[0],
+        breaks=breaks.ctypes.data, coefficients=coefficients.ctypes.data,
+    )  # fmt: skip
+
+
+def _surface(surface: Surface, chosen: np.ndarray, alive: list[Any]) -> _Surface:
+    level = np.array(np.take(np.atleast_1d(surface.level), chosen, mode="clip"), dtype=float)
+    alive.append(level)
+    return _Surface(state=surface.state, direction=surface.direction, level=level.ctypes.data)

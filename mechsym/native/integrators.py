@@ -1,0 +1,148 @@
+"""C files that integrate y' = f(t, y, p) in lanes: the emitted right-hand side, a method, its step control."""
+
+import functools
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.native import dop853_table as table
+from mechsym.native import emit
+from mechsym.native.source import Program, header, preamble
+
+
+def sizes(program: Program) -> tuple[int, int]:
+    """Numbers of states and of held values of a right-hand side.
+
+    Parameters
+    ----------
+    program : Program
+        Inputs t, y and p in this order, one output of the shape of y
+
+    Returns
+    -------
+    n, p : int
+        States and held values
+
+    Raises
+    ------
+    BadInput
+        The inputs are not t, y, p
+    """
+    n = len(program.tape.outputs)
+    if len(program.tape.inputs) < 1 + n:
+        raise BadInput(
+            f"{program.tape.name}: a right-hand side takes t, y and p and returns the derivative of y; it has "
+            f"{len(program.tape.inputs)} inputs and {n} outputs"
+        )
+    return n, len(program.tape.inputs) - 1 - n
+
+
+def dop853(program: Program, lanes: int) -> str:
+    """A file that exports `ms_dop853`, see `c/run.h` for its argument.
+
+    Parameters
+    ----------
+    program : Program
+        Right-hand side
+    lanes : int
+        Runs side by side
+
+    Returns
+    -------
+    text : str
+        C text
+    """
+    return "\n".join([_system(program, lanes), _dop853_numbers(), header("dop853.h"), header("advance.h")])
+
+
+def _system(program: Program, lanes: int) -> str:
+    name, (n, p) = program.tape.name, sizes(program)
+    return "\n".join(
+        [
+            preamble(),
+            emit.bodies(program.kernels, name),
+            emit.rows(program.kernels, name, lanes),
+            f"enum {{ MS_N = {n}, MS_P = {p}, MS_L = {lanes} }};",
+            f"#define MS_RATES(k, x, y) {name}_rows{lanes}(k, x, y)",
+            header("run.h"),
+        ]
+    )
+
+
+def _sum(weights: dict[int, float], letter: str = "MS_Q") -> str:
+    return " + ".join(f"{value!r} * {letter}({stage})" for stage, value in weights.items())
+
+
+@functools.cache
+def _dop853_numbers() -> str:
+    lower = {stage: table.A[13].get(stage, 0.0) - table.WEIGHTS_3.get(stage, 0.0) for stage in table.A[13]}
+    stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {_sum(table.A[s])})" for s in table.A if s != 13}
+    first = " \\\n    ".join(text for s, text in stages.items() if s < 13)
+    extra = " \\\n    ".join(text for s, text in stages.items() if s > 13)
+    lines = [
+        f"#define MS_STAGES(F) \\\n    {first}",
+        f"#define MS_EXTRA_STAGES(F) \\\n    {extra}",
+        f"#define MS_WEIGHTS {_sum(table.A[13])}",
+        f"#define MS_ERROR_5 {_sum(table.ERROR_5)}",
+        f"#define MS_ERROR_3 {_sum(lower)}",
+        *(f"#define MS_DENSE_{i} {_sum(row)}" for i, row in enumerate(table.DENSE, 1)),
+    ]
+    return "\n".join(lines)
+
+
+def gauss(program: Program, lanes: int, stages: int = 4) -> str:
+    """A file that exports `ms_gauss`, see `c/run.h` for its argument.
+
+    Parameters
+    ----------
+    program : Program
+        Right-hand side
+    lanes : int
+        Runs side by side
+    stages : int
+        Order is twice the number of stages
+
+    Returns
+    -------
+    text : str
+        C text
+    """
+    return "\n".join([_system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
+
+
+def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    r"""Numbers of the Gauss-Legendre method.
+
+    .. math:: a_{ij} = \int_0^{c_i} \ell_j(x)\,dx, \qquad b_j = \int_0^1 \ell_j(x)\,dx, \qquad e_{ij} = \ell_j(1 + c_i)
+
+    Parameters
+    ----------
+    stages : int
+        Number of stages s
+
+    Returns
+    -------
+    a, b, c, ahead : ndarray
+        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial
+
+    Notes
+    -----
+    Source: E. Hairer, Ch. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Springer 2006, section II.1.3.
+    """
+    roots, weights = np.polynomial.legendre.leggauss(stages)
+    nodes = (1 + roots) / 2
+    basis = [np.poly1d(np.delete(nodes, j), r=True) / np.prod(nodes[j] - np.delete(nodes, j)) for j in range(stages)]
+    a = np.array([[np.polyint(p)(c) for p in basis] for c in nodes])
+    ahead = np.array([[p(1 + c) for p in basis] for c in nodes])
+    return a, weights / 2, nodes, ahead
+
+
+def _gauss_numbers(stages: int) -> str:
+    a, b, c, ahead = gauss_tableau(stages)
+    lines = [f"enum {{ MS_S = {stages} }};"]
+    for name, values in (("b", b), ("c", c), ("a", a), ("ahead", ahead)):
+        shape = "".join(f"[{n}]" for n in values.shape)
+        rows = ["{" + ", ".join(map(repr, row)) + "}" for row in np.atleast_2d(values).tolist()]
+        text = rows[0] if values.ndim == 1 else "{" + ", ".join(rows) + "}"
+        lines.append(f"static const double ms_gauss_{name}{shape} = {text};")
+    return "\n".join(lines)

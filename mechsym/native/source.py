@@ -1,0 +1,123 @@
+"""One C file: elementary functions, the bodies of some functions, their entries, and perhaps an integrator."""
+
+import dataclasses
+import functools
+from collections.abc import Sequence
+from importlib import resources
+
+import casadi
+
+from mechsym.native import emit
+from mechsym.native.kernels import Kernel, kernels
+from mechsym.native.rewrite import fewer_divisions
+from mechsym.native.tape import Tape, read
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Program:
+    """A function ready to be written as C.
+
+    Parameters
+    ----------
+    tape : Tape
+        Its straight-line program
+    kernels : tuple of Kernel
+        The same with equal parts rolled
+    """
+
+    tape: Tape
+    kernels: tuple[Kernel, ...]
+
+
+def program(function: casadi.Function, mode: str = "fast") -> Program:
+    """Read a CasADi function and roll its equal parts.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        Function of scalars or small vectors
+    mode : str
+        `fast` shares reciprocals, `strict` leaves every operation as it is
+
+    Returns
+    -------
+    program : Program
+        What the emitter takes
+    """
+    tape = fewer_divisions(read(function)) if mode == "fast" else read(function)
+    return Program(tape=tape, kernels=kernels(tape))
+
+
+@functools.cache
+def header(name: str) -> str:
+    """A C file of the package.
+
+    Parameters
+    ----------
+    name : str
+        File name in `mechsym/native/c`
+
+    Returns
+    -------
+    text : str
+        Its text
+    """
+    return (resources.files("mechsym.native") / "c" / name).read_text(encoding="utf-8")
+
+
+def preamble() -> str:
+    """What every emitted file starts with.
+
+    Returns
+    -------
+    text : str
+        C text
+    """
+    includes = "#ifdef MS_PYTHON\n#define PY_SSIZE_T_CLEAN\n#include <Python.h>\n#endif\n#include <stdlib.h>\n"
+    return includes + header("elementary.h") + header("prelude.h")
+
+
+def evaluation(programs: Sequence[Program]) -> str:
+    """A file that evaluates functions at one point and in batches.
+
+    Parameters
+    ----------
+    programs : sequence of Program
+        Functions with different names
+
+    Returns
+    -------
+    text : str
+        C text
+    """
+    parts = [preamble()]
+    for p in programs:
+        name = p.tape.name
+        parts += [
+            f"/* {signature(p.tape)} */",
+            emit.bodies(p.kernels, name),
+            emit.rows(p.kernels, name, 1),
+            emit.block(p.kernels, name),
+            f"#define MS_NAME {name}\n#define MS_NX {len(p.tape.inputs)}\n#define MS_NY {len(p.tape.outputs)}",
+            header("entries.h"),
+            "#undef MS_NAME\n#undef MS_NX\n#undef MS_NY",
+        ]
+    methods = ", ".join(f"&{p.tape.name}_method" for p in programs)
+    parts += [f"#ifdef MS_PYTHON\nstatic PyMethodDef *const ms_methods[] = {{{methods}}};\n#endif", header("module.h")]
+    return "\n".join(parts)
+
+
+def signature(tape: Tape) -> str:
+    """Inputs and outputs in one line.
+
+    Parameters
+    ----------
+    tape : Tape
+        A program
+
+    Returns
+    -------
+    text : str
+        name(inputs) -> outputs
+    """
+    return f"{tape.name}({', '.join(tape.inputs)}) -> {', '.join(tape.outputs)}"

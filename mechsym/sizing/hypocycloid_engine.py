@@ -1,0 +1,231 @@
+"""The hypocycloid engine as a whole: axial places, loads on every part, and all checks.
+
+Forces come from outside as arrays over speed and angle (`hypocycloid_parts.Forces`).
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mechsym.sizing.bearing_design import Choice, Seat, check_bearing
+from mechsym.sizing.checks import Check, at_least
+from mechsym.sizing.crank_design import CrankLoads, check_crank, check_output
+from mechsym.sizing.fatigue import endurance_limit
+from mechsym.sizing.gear_checks import check_gears
+from mechsym.sizing.gear_design import ToothLoads
+from mechsym.sizing.hypocycloid_parts import Forces, Parts, Stock, chosen
+from mechsym.sizing.loads import Spans, side_loads, tooth_share_one_end
+from mechsym.sizing.materials import get
+from mechsym.sizing.piston_design import CylinderLoads, check_cylinder, check_piston
+from mechsym.sizing.rounding import at_speed
+from mechsym.sizing.turning_shaft import Section, fatigue_factor
+from mechsym.sizing.wants import Wants
+
+_GAP = 2e-3  # between web, bearings and housing, as in the source's sizes [m]
+_END_WALL = 5e-3  # carrier between shaft end and outboard bearing, assumed [m]
+
+
+def spans(parts: Parts, stock: Stock) -> Spans:
+    """Axial places of one side; with the source's sizes they give its 43 mm and its 77 mm of shaft.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    spans : Spans
+        From the middle of the crankpin
+    """
+    places = chosen(parts.bearings, stock)
+    width = {name: choice.count * choice.bearing.width for name, choice in places.items()}
+    stack = max(width["inner"], width["main"])
+    inner = parts.crank.pin_length / 2 + parts.crank.web + _GAP + stack / 2
+    gear = inner + stack / 2 + parts.gears.face / 2
+    outer = gear + parts.gears.face / 2 + width["outer"] / 2
+    end = outer + width["outer"] / 2 + _GAP
+    return Spans(inner=inner, gear=gear, outer=outer, outboard=end + _END_WALL + width["outboard"] / 2)
+
+
+def shaft_length(parts: Parts, stock: Stock) -> float:
+    """Length of the shaft from web to end.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    length : float
+        Length [m]
+    """
+    choice = chosen(parts.bearings, stock)["outer"]
+    end = spans(parts, stock).outer + choice.count * choice.bearing.width / 2 + _GAP
+    return end - parts.crank.pin_length / 2 - parts.crank.web
+
+
+def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> ToothLoads:
+    """Tooth loads of the harder loaded pair.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    wants : Wants
+        Where the torque leaves
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    loads : ToothLoads
+        Half of the crank's tooth load, or what one driving end makes of it
+    """
+    one_end = wants.take_off == "one_end"
+    share = tooth_share_one_end(spans(parts, stock), wants.stiffness_ratio) if one_end else 0.5
+    return ToothLoads(omega=forces.omega, tooth=share * forces.tooth)
+
+
+def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
+    """Loads and speeds of the bearings.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    seats : dict of str to Seat
+        `rod`, `inner`, `outer`, `main`, `outboard`
+    """
+    loads = side_loads(forces.net, forces.tooth, forces.radial, forces.spin, forces.theta, spans(parts, stock))
+    w = forces.omega
+    # the planet turns backwards at the crank's speed: once against the rod, twice against the carrier
+    places = {
+        "rod": ("rod bearing", np.abs(forces.rod), w),
+        "inner": ("inner journal", loads["inner_journal"], 2 * w),
+        "outer": ("outer journal", loads["outer_journal"], 2 * w),
+        "main": ("main bearing", loads["main"], w),
+        "outboard": ("outboard bearing", loads["outboard"], w),
+    }
+    return {key: Seat(name=name, omega=w, load=load, turning=turning) for key, (name, load, turning) in places.items()}
+
+
+def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> CrankLoads:
+    """Loads of crankpin, web and shafts.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    wants : Wants
+        Where the torque leaves
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    loads : CrankLoads
+        The output shaft carries both cranks' torque: its own and, through the belt, the other one's
+    """
+    pair = tooth_loads(parts, forces, wants, stock)
+    return CrankLoads(
+        omega=forces.omega, F_x=-forces.net, F_y=np.zeros_like(forces.net), turn=-forces.theta,
+        along_web=forces.net * np.cos(forces.theta), shaft_torque=forces.e * pair.tooth,
+        output_torque=2 * forces.torque, arm=spans(parts, stock).inner,
+    )  # fmt: skip
+
+
+def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
+    """Every check of the engine.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    wants : Wants
+        Wanted factors
+    stock : Stock
+        Materials and bearings
+
+    Returns
+    -------
+    checks : list of Check
+        From the piston to the bearings
+    """
+    used = {place: get(dict(stock.materials), getattr(wants, place))
+            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
+    cylinder = cylinder_loads(forces)
+    crank = crank_loads(parts, forces, wants, stock)
+    teeth = tooth_loads(parts, forces, wants, stock)
+    places = chosen(parts.bearings, stock)
+    return [
+        *check_piston(parts.piston, cylinder, wants, used["piston"]),
+        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *check_gears(parts.gears, teeth, wants, used["gears"]),
+        *check_crank(parts.crank, crank, wants, used["crankshaft"]),
+        *_check_pinion_shaft(parts, forces, wants, stock),
+        *check_output(parts.crank.output, crank, wants, used["shaft"]),
+        *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
+        _check_room(parts, wants, forces.e, places),
+    ]
+
+
+def cylinder_loads(forces: Forces) -> CylinderLoads:
+    """Loads of piston and cylinder.
+
+    Parameters
+    ----------
+    forces : Forces
+        Forces over the speeds
+
+    Returns
+    -------
+    loads : CylinderLoads
+        For `piston_design`
+    """
+    return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
+                         bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
+
+
+def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choice]) -> Check:
+    largest = max(places["inner"].bearing.outside, places["outer"].bearing.outside)
+    wall = places["main"].bearing.bore / 2 - e - largest / 2
+    return at_least("carrier", "wall between journal and main bearing", wall, wants.carrier_wall, "m", wanted=1.0,
+                    rule="room in the main bearing's bore", source="geometry")  # fmt: skip
+
+
+def _check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
+    """Shaft under the pinion: the tooth load between two journals, and the tooth's torque."""
+    z, d, material = spans(parts, stock), parts.gears.pinion_bore, get(dict(stock.materials), wants.crankshaft)
+    if d <= 0:
+        return []
+    lever = (z.gear - z.inner) * (z.outer - z.gear) / (z.outer - z.inner)
+    scale = tooth_loads(parts, forces, wants, stock).tooth, forces.radial / 2
+    s, c = np.sin(forces.theta), np.cos(forces.theta)
+    M_x, M_y = lever * (-scale[0] * s - scale[1] * c), lever * (scale[0] * c - scale[1] * s)
+    section = Section(d=d, S_e=endurance_limit(material.ultimate, d, wants.surface), S_ut=material.ultimate)
+    factor = fatigue_factor(section, M_x, M_y, -forces.theta, forces.e * scale[0])
+    k = int(np.argmin(factor))
+    return [
+        Check(component="shaft, under the pinion", quantity="fatigue factor", value=float(factor[k]), limit=1.0,
+              unit="-", safety_factor=float(factor[k]), wanted=wants.fatigue, rule="Goodman, fibre by fibre",
+              source="Shigley eq. 7-7", note=at_speed(forces.omega, k))
+    ]  # fmt: skip

@@ -1,0 +1,263 @@
+"""Loads on the parts: from the forces of a mechanism to gears, pins and bearings, over the cycle and over the speeds.
+
+Arrays have shape (k, n): k speeds, n equal steps over a four-stroke period of 4 pi. The hypocycloid's planet carries a
+crankpin in the middle and, on each side, a pinion between two journals; the carrier turns in a main bearing around the
+inner journal and in a small outboard bearing:
+
+      middle   inner journal       gear       outer journal   outboard
+        |   web   | z_inner          | z_gear    | z_outer       | z_outboard
+    ----+---------+------------------+-----------+               |
+        F       main bearing        tooth                    shaft end
+
+Source: Nunes (2017), ch. 2.6.3 and 4.5 to 4.8. The distances are read from his sizes (86 mm between bearings, crankpin
+34 mm, webs 15 mm, shaft 77 mm, needles 16 mm, pinion 39 mm), which close to the millimetre.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.quantities import check, quantity
+from mechsym.sizing.checks import require
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spans:
+    """Axial places of one side of the crank, from the middle of the crankpin.
+
+    Parameters
+    ----------
+    inner, gear, outer, outboard : float
+        Inner journal and main bearing, middle of the pinion, outer journal, outboard bearing [m]
+    """
+
+    inner: float = quantity("m", above=0, about="inner journal")
+    gear: float = quantity("m", above=0, about="middle of the pinion")
+    outer: float = quantity("m", above=0, about="outer journal")
+    outboard: float = quantity("m", above=0, about="outboard bearing")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if not self.inner < self.gear < self.outer < self.outboard:
+            raise BadInput(
+                f"spans {self.inner:g}, {self.gear:g}, {self.outer:g}, {self.outboard:g} m must grow outwards"
+            )
+
+
+def over_period(theta, phi, p, rest):
+    r"""Pressure over the four-stroke period from the closed part of the cycle.
+
+    .. math:: p(\theta) = p_{closed}(\theta) \text{ for } |\theta| \le \pi, \quad p_{rest} \text{ else}
+
+    Parameters
+    ----------
+    theta : ndarray, shape (n,)
+        Angles over a period, 0 at firing top dead centre [rad]
+    phi : ndarray, shape (k, m)
+        Angles of the closed period at each speed, rising, inside -pi .. pi [rad]
+    p : ndarray, shape (k, m)
+        Pressure there [Pa]
+    rest : float
+        Pressure during the gas exchange [Pa]
+
+    Returns
+    -------
+    p : ndarray, shape (k, n)
+        Absolute pressure [Pa]
+
+    Notes
+    -----
+    Source: Nunes (2017), ch. 3.4.1, which knows only the closed cycle; the exchange is ideal.
+
+    Examples
+    --------
+    >>> phi, p = np.array([[-np.pi, 0.0, np.pi]]), np.array([[1.0, 9.0, 3.0]])
+    >>> [float(x) for x in over_period(np.array([0.0, 2 * np.pi]), phi, p, 1.0)[0]]
+    [9.0, 1.0]
+    """
+    turn = np.mod(np.asarray(theta) + 2 * np.pi, 4 * np.pi) - 2 * np.pi
+    return np.array([np.interp(turn, a, b, left=rest, right=rest) for a, b in zip(phi, p, strict=True)])
+
+
+def tooth_load_printed(F, theta):
+    r"""Tangential tooth load of all gears on one crank, for a planet without mass.
+
+    .. math:: W = F\sin\theta
+
+    Parameters
+    ----------
+    F : ndarray, shape (k, n)
+        Force on the piston [N]
+    theta : ndarray, shape (n,)
+        Crank angle from top dead centre [rad]
+
+    Returns
+    -------
+    W : ndarray, shape (k, n)
+        Load [N]
+
+    Notes
+    -----
+    Source: Nunes (2017), eq. 2.75; exact for a balanced moment on the planet at constant speed.
+
+    Examples
+    --------
+    >>> round(float(tooth_load_printed(np.array([27140.0]), np.radians([20.0]))[0]))
+    9282
+    """
+    return np.asarray(F) * np.sin(theta)
+
+
+def journal_load_massless(F, theta):
+    r"""Load of the planet's journals, both sides together, without mass and without separating force.
+
+    .. math:: J = |F|\sqrt{1 + 3\sin^2\theta}
+
+    Parameters
+    ----------
+    F : ndarray, shape (k, n)
+        Force on the piston [N]
+    theta : ndarray, shape (n,)
+        Crank angle from top dead centre [rad]
+
+    Returns
+    -------
+    J : ndarray, shape (k, n)
+        Load [N]
+
+    Notes
+    -----
+    Source: balance of the planet (erratum E21). Print: Nunes (2017), ch. 4.8, assumes no more than F.
+
+    Examples
+    --------
+    >>> round(float(journal_load_massless(np.array([9000.0]), np.array([np.pi / 2]))[0]))
+    18000
+    """
+    return np.abs(F) * np.sqrt(1 + 3 * np.sin(theta) ** 2)
+
+
+def side_loads(F, tooth, radial, spin, theta, spans):
+    r"""Loads of the bearings of one side, half of the crank's loads, as magnitudes.
+
+    .. math::
+        T &= \tfrac12 (W\,\hat t - N\,\hat r), \quad c = \tfrac12 m_2 e\omega^2, \quad
+        \lambda = \frac{z_g - z_i}{z_o - z_i} \\
+        J_{outer} &= -\lambda (T + c\,\hat r), \quad J_{inner} = \tfrac12 F\,\hat x - (1 - \lambda)(T + c\,\hat r) \\
+        B_{outboard} &= T\,\frac{z_g - z_i}{z_b - z_i}, \quad B_{main} = -\tfrac12 F\,\hat x + T - B_{outboard}
+
+    Parameters
+    ----------
+    F : ndarray, shape (k, n)
+        Net force on the crankpin with all reciprocating mass, positive away from the head [N]
+    tooth, radial : ndarray, shape (k, n)
+        Tangential tooth load (positive in the crank's sense) and separating force of both sides together [N]
+    spin : ndarray, shape (k,)
+        Centrifugal force m_2 e omega^2 of both sides' shafts and pinions [N]
+    theta : ndarray, shape (n,)
+        Crank angle from top dead centre [rad]
+    spans : Spans
+        Axial places
+
+    Returns
+    -------
+    loads : dict of str to ndarray, shape (k, n)
+        `inner_journal`, `outer_journal`, `main`, `outboard` [N]
+
+    Notes
+    -----
+    Source: statics; the shaft counts as hinged at the inner journal, which is the safe side for that journal. The
+    carrier's counterweight takes the centrifugal force. Valid: torque taken off at both ends alike
+    (`tooth_share_one_end` says what a single end does).
+
+    Examples
+    --------
+    >>> spans = Spans(inner=0.043, gear=0.0715, outer=0.1, outboard=0.114)
+    >>> zero = np.zeros((1, 1))
+    >>> loads = side_loads(np.full((1, 1), 27140.0), zero, zero, np.zeros(1), np.zeros(1), spans)
+    >>> {name: round(float(load[0, 0])) for name, load in loads.items()}
+    {'inner_journal': 13570, 'outer_journal': 0, 'main': 13570, 'outboard': 0}
+    """
+    s, c = np.sin(theta), np.cos(theta)
+    F_x = np.asarray(F) / 2
+    T = np.array([-tooth * s - radial * c, tooth * c - radial * s]) / 2
+    pull = T + np.asarray(spin)[:, None] / 2 * np.array([c, s])[:, None, :]
+    lever = spans.gear - spans.inner
+    share, far = lever / (spans.outer - spans.inner), lever / (spans.outboard - spans.inner)
+    F_side = np.array([F_x, np.zeros_like(F_x)])
+    vectors = {
+        "inner_journal": F_side - (1 - share) * pull,
+        "outer_journal": share * pull,
+        "main": -F_side + (1 - far) * T,
+        "outboard": far * T,
+    }
+    return {name: np.hypot(*vector) for name, vector in vectors.items()}
+
+
+def tooth_share_one_end(spans, stiffness_ratio):
+    r"""Share of the tooth load that the driving side's gear takes when the torque leaves at that end only.
+
+    .. math:: \frac{W_1}{W} = \frac12 + \left[1 + \frac{k_j}{k_g}\frac{(z_o - z_i)^2}{2 z_g^2}\right]^{-1}
+
+    Parameters
+    ----------
+    spans : Spans
+        Axial places
+    stiffness_ratio : float
+        Stiffness of a journal over that of a gear mesh [-]
+
+    Returns
+    -------
+    share : float
+        Share of one gear; 0.5 would be an equal share, above 1 the other gear works against it [-]
+
+    Notes
+    -----
+    Source: balance of a rigid planet on springs, inner and outer journals alike and the pinion midway: the carrier that
+    gives no torque can take no tangential force but only a couple, so the gears are left to balance the driving
+    journals. Print: Nunes (2017), ch. 4.4.3, halves the load. Valid: z_gear midway between the journals.
+
+    Examples
+    --------
+    >>> spans = Spans(inner=0.043, gear=0.0715, outer=0.1, outboard=0.114)
+    >>> [f"{tooth_share_one_end(spans, k):.2f}" for k in (1.0, 5.0)]
+    ['1.26', '0.89']
+    """
+    require("stiffness ratio", stiffness_ratio, "-", low=0)
+    lever = (spans.outer - spans.inner) ** 2 / (2 * spans.gear**2)
+    return 0.5 + 1 / (1 + stiffness_ratio * lever)
+
+
+def reversed_tooth_load(W, returns):
+    r"""Load on a tooth root that bends it as much as its own load history, loads of the other flank included.
+
+    .. math:: W_{eq} = \max_\theta\left(A + \tfrac37 B\right)
+
+    Parameters
+    ----------
+    W : ndarray, shape (k, n)
+        Tooth load over the period; n divisible by `returns` [N]
+    returns : int
+        How often the same tooth comes into mesh in a period: 4 for the planet, 2 for the ring [-]
+
+    Returns
+    -------
+    W_eq : ndarray, shape (k,)
+        Equivalent one-sided load; A is the larger load on one tooth in one sense, B the largest in the other [N]
+
+    Notes
+    -----
+    Source: `gear_life.reversed_bending_factor` solved for the load. The teeth numbers are in a whole ratio, so each
+    tooth always meets the same crank angles.
+
+    Examples
+    --------
+    >>> float(reversed_tooth_load(np.array([[9.0, 1.0, -7.0, 0.0]]), 2)[0])
+    12.0
+    """
+    W = np.asarray(W)
+    visits = W.reshape(W.shape[0], returns, -1)
+    high, low = np.maximum(visits.max(axis=1), 0), np.maximum(-visits.min(axis=1), 0)
+    larger, smaller = np.maximum(high, low), np.minimum(high, low)
+    return (larger + 3 / 7 * smaller).max(axis=1)
