@@ -57,12 +57,12 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
     shape : tuple of int
         Outputs and points
     out : ndarray or None
-        The caller's own array
+        The caller's own array [SI]
 
     Returns
     -------
     target : ndarray, shape `shape`
-        New unless the caller has one
+        New unless the caller has one [SI]
 
     Raises
     ------

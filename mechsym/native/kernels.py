@@ -177,7 +177,7 @@ def constant_table(found: tuple[Kernel, ...]) -> np.ndarray:
     Returns
     -------
     table : ndarray, shape (n,)
-        Instance after instance, kernel after kernel; never empty
+        Instance after instance, kernel after kernel; never empty [SI]
     """
     values = [v for kernel in found for row in kernel.constants for v in row]
     return np.array(values or [0.0])
