@@ -84,6 +84,31 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
     return _save(figure, path)
 
 
+def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, against: str) -> Path:
+    """Front of two figures, and the design along it.
+
+    Parameters
+    ----------
+    path : Path
+        SVG file to write
+    columns : mapping of str to sequence
+        Both figures and the design variables, point by point
+    objective, against : str
+        Names of the two figures
+
+    Returns
+    -------
+    path : Path
+        The same path
+    """
+    variables = [name for name in columns if name not in (objective, against)]
+    figure, axes = plt.subplots(1, 1 + len(variables), figsize=(3.2 * (1 + len(variables)), 3.2), layout="constrained")
+    for axis, name in zip(np.atleast_1d(axes), [objective, *variables], strict=True):
+        axis.plot(columns[against], columns[name], "o-", markersize=4)
+        _label(axis, against, name)
+    return _save(figure, path)
+
+
 def _without_start(engines: Mapping[str, Mapping[str, Any]], key: str) -> tuple[float, float]:
     # at a few rpm all heat goes into the walls and the consumption leaves the picture
     values = np.concatenate([found[key] for found in engines.values()])

@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from mechsym.plots import BLUE, GREEN, GREY, ORANGE, RED
 from mechsym.startup import StartUp
 
-_INK, _QUIET, _ACCENT = "#1b2a41", "#8a94a6", "#c8553d"
-_SERIES = ("#c8553d", "#2f6690", "#3a7d44", "#8d6a9f", "#b08900")
+_INK = "#1b2a41"
+_SERIES = (RED, BLUE, GREEN, ORANGE, _INK)
 
 
 def campbell(found: StartUp) -> Figure:
@@ -35,9 +36,9 @@ def campbell(found: StartUp) -> Figure:
     held = {c.critical.order for c in found.captures}
     for critical in shown:
         end = min(top, 1.3 * critical.speed)
-        axes.plot([0, end], [0, critical.order * end], color=_QUIET, lw=1.0)
+        axes.plot([0, end], [0, critical.order * end], color=GREY, lw=1.0)
         axes.text(end, critical.order * end, f" order {critical.order:g}", color=_INK, va="bottom")
-        color = _ACCENT if critical.order in held else "white"
+        color = RED if critical.order in held else "white"
         axes.plot(critical.speed, found.natural, "o", mec=_INK, mfc=color, ms=7)
         axes.annotate(
             f"{critical.speed:.1f}", (critical.speed, found.natural), (0, -16), textcoords="offset points", ha="center"
@@ -66,9 +67,8 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
     figure = Figure(figsize=(7.5, 6.5), layout="constrained")
     speed, twist = figure.subplots(2, 1, sharex=True)
     first = runs[0]
-    onset = _onset(first)
-    end = float(first.result.t[-1])
-    speed.plot([onset, end], [0, first.rigid_rate * (end - onset)], "--", color=_QUIET, label="rigid shaft")
+    onset, end = first.drive.time, float(first.result.t[-1])
+    speed.plot([onset, end], [0, first.rigid_rate * (end - onset)], "--", color=GREY, label="rigid shaft")
     for run, color in zip(runs, _SERIES, strict=False):
         speed.plot(run.t, run.speed_mean, color=color, lw=1.6, label=f"c1 = {run.c1:g} N m s/rad")
         twist.semilogy(run.t, np.maximum(run.twist_amplitude, 1e-5), color=color, lw=1.2)
@@ -78,7 +78,7 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
         speed.set_ylim(top=1.12 * claim_speed)
     for critical in first.criticals:
         if critical.order <= 4 and critical.speed < speed.get_ylim()[1]:
-            speed.axhline(critical.speed, color=_QUIET, lw=0.7, ls=":")
+            speed.axhline(critical.speed, color=GREY, lw=0.7, ls=":")
             speed.text(end, critical.speed, f" order {critical.order:g}", va="center", color=_INK, fontsize=8)
     speed.set(ylabel="mean crank speed [rad/s]", title="Start-up by a constant torque")
     speed.legend(loc="upper left", bbox_to_anchor=(0.0, 0.9), frameon=False, fontsize=8)
@@ -88,12 +88,7 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
     return figure
 
 
-def _onset(run: StartUp) -> float:
-    """When the drive begins to work."""
-    work = run.result.columns["work_drive"]
-    moving = np.flatnonzero(work > 0)
-    return float(run.result.t[max(int(moving[0]) - 1, 0)]) if len(moving) else float(run.result.t[0])
-
-
 def _bare(axes: Any) -> None:
+    axes.grid(True, color="#e3e6ea", linewidth=0.7)
+    axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)

@@ -16,13 +16,13 @@ import numpy as np
 from mechsym import mechanisms, torsion
 from mechsym.cases import Case
 from mechsym.quantities import check, quantity
-from mechsym.runs import problem_of, settings_of
+from mechsym.runs import StepTorque, problem_of, settings_of
 from mechsym.simulate import Result, simulate
 from mechsym.torsion import Critical
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
-_AVERAGE = 1.0  # the mean speed is taken over this time [s]
+AVERAGE = 1.0  # the mean speed is taken over this time [s]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +75,10 @@ class StartUp:
     ----------
     c1 : float
         Torsional damping of the run [N*m*s/rad]
+    drive : StepTorque
+        What drives it
+    claim : StartUpClaim
+        What the source says, and the limit of the model
     result : Result
         The run
     t, speed_mean : ndarray, shape (m,)
@@ -95,11 +99,11 @@ class StartUp:
         Largest twist and torque of the shaft [rad, N*m]
     speed_min, speed_max : float
         Extreme speeds of the crank [rad/s]
-    findings : tuple of str
-        What happens and whether the model bears it, in sentences with numbers
     """
 
     c1: float
+    drive: StepTorque
+    claim: StartUpClaim
     result: Result
     t: np.ndarray
     speed_mean: np.ndarray
@@ -114,7 +118,6 @@ class StartUp:
     torque_peak: float
     speed_min: float
     speed_max: float
-    findings: tuple[str, ...]
 
 
 def start_up(case: Case, result: Result | None = None) -> StartUp:
@@ -130,7 +133,7 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
     Returns
     -------
     start_up : StartUp
-        Natural frequencies, critical speeds, captures, findings
+        Natural frequencies, critical speeds, captures
     """
     if result is None:
         result = simulate(problem_of(case), settings_of(case))
@@ -146,8 +149,10 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
     rate = drive.torque / float(linear.mass.sum())
     t, speed, twist = series(result)
     peak = float(np.abs(result.columns["phi0"] - result.columns["phi2"]).max())
-    found = StartUp(
+    return StartUp(
         c1=parameters.c1,
+        drive=drive,
+        claim=case.sections.get("startup", StartUpClaim()),
         result=result,
         t=t,
         speed_mean=speed,
@@ -162,9 +167,7 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
         torque_peak=peak * parameters.k1,
         speed_min=float(result.columns["phi0d"].min()),
         speed_max=float(result.columns["phi0d"].max()),
-        findings=(),
     )
-    return replace(found, findings=_findings(found, drive, case.sections.get("startup", StartUpClaim())))
 
 
 def _linear(mechanism: str, parameters: Any) -> torsion.Matrices:
@@ -207,14 +210,14 @@ def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         Every tenth of a second, from half a second after the start to half a second before the end
         [s, rad/s, rad]
     """
-    half = _AVERAGE / 2
-    count = int((result.t[-1] - result.t[0] - _AVERAGE) / 0.1 + 1e-9)
+    half = AVERAGE / 2
+    count = int((result.t[-1] - result.t[0] - AVERAGE) / 0.1 + 1e-9)
     t = result.t[0] + half + 0.1 * np.arange(count + 1)
     phi = np.interp(np.stack([t - half, t + half]), result.t, result.columns["phi0"])
     twist = np.abs(result.columns["phi0"] - result.columns["phi2"])
     first, last = np.searchsorted(result.t, [t - half, t + half])
     largest = np.array([twist[a:b].max() for a, b in zip(first, np.maximum(last, first + 1), strict=True)])
-    return t, (phi[1] - phi[0]) / _AVERAGE, largest
+    return t, (phi[1] - phi[0]) / AVERAGE, largest
 
 
 def find_captures(
@@ -246,65 +249,3 @@ def find_captures(
                 released = bool(b < len(t))
                 found.append(Capture(critical=critical, t_start=float(t[a]), t_end=float(t[b - 1]), released=released))
     return tuple(sorted(found, key=lambda c: c.t_start))
-
-
-def _findings(found: StartUp, drive: Any, claim: StartUpClaim) -> tuple[str, ...]:
-    end = float(found.result.t[-1])
-    bound = found.rigid_rate * (end - drive.time)
-    lines = [
-        f"natural frequency {found.natural_bare:.3f} rad/s bare, {found.natural:.3f} rad/s with the mean "
-        f"reciprocating inertia",
-        f"a rigid shaft would gain {found.rigid_rate:.4f} rad/s^2 and reach {bound:.2f} rad/s at {end:g} s at most",
-        *_passages(found, drive.torque),
-        *_validity(found, drive.torque, claim.twist_limit),
-    ]
-    if claim.claim_speed is not None and claim.claim_time is not None:
-        lines.append(_claim(found, drive, claim.claim_speed, claim.claim_time))
-    return tuple(lines)
-
-
-def _passages(found: StartUp, torque: float) -> list[str]:
-    lines = []
-    held = {c.critical.order for c in found.captures}
-    for critical, damping in zip(found.criticals, found.holding_damping, strict=True):
-        if critical.order not in held and critical.speed < float(found.speed_mean.max()) and critical.order <= 4:
-            lines.append(f"order {critical.order:g} at {critical.speed:.2f} rad/s is passed")
-        elif critical.order in held:
-            lines.append(
-                f"order {critical.order:g} can hold a drive of {torque:g} N*m at {critical.speed:.2f} rad/s while "
-                f"c1 < {damping:.3f} N*m*s/rad (c1 = {found.c1:g})"
-            )
-    for c in found.captures:
-        left = "then leaves it" if c.released else "and is still held at the end"
-        lines.append(
-            f"from {c.t_start:.1f} s to {c.t_end:.1f} s the shaft is held at order {c.critical.order:g}, "
-            f"{c.critical.speed:.2f} rad/s: the drive feeds the vibration, not the speed; {left}"
-        )
-    return lines or ["no resonance holds the shaft"]
-
-
-def _validity(found: StartUp, torque: float, limit: float) -> list[str]:
-    lines = [
-        f"largest twist {found.twist_peak:.4f} rad ({np.degrees(found.twist_peak):.1f} deg), shaft torque "
-        f"{found.torque_peak:.0f} N*m, {found.torque_peak / torque:.0f} times the drive's"
-    ]
-    if found.twist_peak > limit:
-        lines.append(f"the model does not hold: the twist is beyond {limit:g} rad, no linear spring nor a whole shaft")
-    if found.speed_min < -1e-3 * found.speed_max:
-        lines.append(f"the crank runs backwards within a turn (down to {found.speed_min:.1f} rad/s)")
-    return lines
-
-
-def _claim(found: StartUp, drive: Any, speed: float, since: float) -> str:
-    end = float(found.result.t[-1])
-    bounds = [found.rigid_rate * (t - drive.time) for t in (since, end)]
-    after = found.t >= since
-    mean = (
-        f"{found.speed_mean[after].min():.2f} to {found.speed_mean[after].max():.2f} rad/s" if after.any() else "none"
-    )
-    possible = "is beyond" if speed > bounds[1] else "is within"
-    return (
-        f"the source's {speed:g} rad/s from {since:g} s on {possible} what the drive's work allows "
-        f"({bounds[0]:.1f} rad/s then, {bounds[1]:.1f} rad/s at {end:g} s); the mean speed found there is {mean}, "
-        f"with peaks of the crank up to {found.speed_max:.1f} rad/s in the whole run"
-    )

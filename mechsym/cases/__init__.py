@@ -216,12 +216,10 @@ def _override(sections: dict[str, Any], mechanism: str, key: str, value: Any) ->
     section, dot, name = key.partition(".")
     if not dot:
         homes = [s for s, t in sections.items() if isinstance(t, dict) and key in _keys(mechanism, s, t)]
+        # a key that the file gives in one section only is meant, although others may know it too
+        homes = [s for s in homes if {key, key.rpartition("_")[0]} & sections[s].keys()] or homes
         if len(homes) != 1:
-            known = sorted(
-                {f"{s}.{k}" for s, t in sections.items() if isinstance(t, dict) for k in _keys(mechanism, s, t)}
-            )
-            why = f"is in several sections ({', '.join(homes)}); write section.{key}" if homes else "is not known"
-            raise BadInput(f"--set {key} {why}; {_suggest(key, known)}")
+            raise BadInput(f"--set {key} {_why_not_one(sections, mechanism, key, homes)}")
         section, name = homes[0], key
     table = sections.setdefault(section, {})
     if not isinstance(table, dict):
@@ -231,6 +229,16 @@ def _override(sections: dict[str, Any], mechanism: str, key: str, value: Any) ->
     for other in [k for k in table if k.rpartition("_")[0] == name and k.rpartition("_")[2] in units()]:
         table.pop(other)
     table[name] = value
+
+
+def _why_not_one(sections: dict[str, Any], mechanism: str, key: str, homes: list[str]) -> str:
+    if homes:
+        return f"is in several sections ({', '.join(homes)}); write section.{key}"
+    tables = {s: t for s, t in sections.items() if isinstance(t, dict)}
+    bare = sorted({k for s, t in tables.items() for k in _keys(mechanism, s, t)})
+    near = difflib.get_close_matches(key, bare, n=3)
+    hint = f"did you mean {' or '.join(near)}? " if near else ""
+    return f"is not known; {hint}give section.key, sections here are {', '.join(tables)}"
 
 
 def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:

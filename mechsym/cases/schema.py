@@ -19,6 +19,7 @@ _SECTIONS: dict[str, Any] = {
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
     "speeds": "mechsym.cases.settings:Speeds",
+    "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.engine.chamber:ChamberParameters",
     "cycle": (
         "kind",
@@ -26,8 +27,10 @@ _SECTIONS: dict[str, Any] = {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
+            "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
+    "combustion": "mechsym.engine.diagram_combustion:Analysis",
     "gas": (
         "model",
         {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
@@ -71,6 +74,7 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",
         {

@@ -16,6 +16,7 @@ COMMANDS = {
     "eval": "mechsym.cli.evaluate:evaluate",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
+    "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
     "simulate": "mechsym.cli.simulate:simulate",
 }

@@ -8,6 +8,9 @@ import click
 
 from mechsym import cases
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import write_text
+from mechsym.quantities import parse
 
 
 @click.command()
@@ -15,6 +18,7 @@ from mechsym.cli.common import emit, json_option, out_option, pairs, set_option,
 @click.option("--tolerance", help="Tolerance of a step; the case's, or 1e-10.")
 @click.option("--backend", help="Integrator by name, e.g. scipy-dop853, sundials, heyoka.")
 @click.option("--no-check", is_flag=True, help="Leave out the second run at a hundredth of the tolerance.")
+@click.option("--dampings", metavar="C1,C1..", help="Further values of c1 for a start-up, e.g. 0.2,1,5.")
 @set_option
 @out_option
 @json_option
@@ -25,6 +29,7 @@ def simulate(
     tolerance: str | None,
     backend: str | None,
     no_check: bool,
+    dampings: str | None,
     overrides: tuple[str, ...],
     out: Path | None,
     as_json: bool,
@@ -39,6 +44,7 @@ def simulate(
     from mechsym.runs import problem_of, settings_of, window_of
     from mechsym.simulate import simulate as run
     from mechsym.simulate.summary import summary
+    from mechsym.startup_findings import findings, numbers
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
@@ -48,23 +54,29 @@ def simulate(
     result = run(problem, dataclasses.replace(settings, check="none") if no_check else settings)
     report = {"case": found.name, "backend": settings.backend, "tolerance": settings.tolerance}
     report |= summary(result, problem.mechanism.coordinates, window_of(found, problem))
-    report["findings"] = _findings(found, result)
-    report["files"] = [] if out is None else _write(result, out)
+    starts = _start_ups(found, result, dampings)
+    report["findings"] = list(findings(starts[0])) if starts else []
+    report["start_up"] = [numbers(s) for s in starts]
+    report["files"] = [] if out is None else _write(result, starts, out)
     emit(report, as_json, lambda: _text(report))
     ctx.exit(1 if result.status in ("failed", "not converged", "chaotic") else 0)
 
 
-def _findings(case: cases.Case, result: Any) -> list[str]:
-    """What a start-up shows; other runs have nothing to add to their numbers."""
-    if "startup" not in case.sections or result.status == "failed":
+def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]:
+    """The start-up of the run, and of further dampers; nothing for other runs."""
+    from mechsym.startup import AVERAGE, start_up, start_up_map
+
+    values = tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in dampings.split(",")) if dampings else ()
+    if "startup" not in case.sections:
+        if values:
+            raise BadInput(f"{case.file}: --dampings needs a start-up case, with a section [startup]")
         return []
-    from mechsym.startup import start_up
+    if result.status == "failed" or result.t[-1] - result.t[0] <= AVERAGE:
+        return []
+    return [start_up(case, result), *start_up_map(case, values)]
 
-    return list(start_up(case, result).findings)
 
-
-def _write(result: Any, out: Path) -> list[str]:
-    from mechsym.errors import MissingExtra
+def _write(result: Any, starts: list[Any], out: Path) -> list[str]:
     from mechsym.simulate import write_netcdf, write_series
 
     files = [write_series(result, out / "series.csv")]
@@ -72,6 +84,13 @@ def _write(result: Any, out: Path) -> list[str]:
         files.append(write_netcdf(result, out / "series.nc"))
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
+    if starts:
+        from mechsym import plots_torsion
+        from mechsym.plots import svg
+
+        figures = {"campbell": plots_torsion.campbell(starts[0])}
+        figures["startup"] = plots_torsion.start_up(starts, starts[0].claim.claim_speed)
+        files += [write_text(out / f"{name}.svg", svg(figure)) for name, figure in figures.items()]
     return [str(f) for f in files]
 
 
@@ -83,6 +102,9 @@ def _text(report: dict[str, Any]) -> str:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
     rows = [{"speed over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
     lines += ["", table(rows, ["speed over the last", "of", "mean", "min", "max"])]
+    if len(report["start_up"]) > 1:
+        held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
+        lines += ["", table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"])]
     if report["findings"]:
         lines += ["", *(f"- {line}" for line in report["findings"])]
     return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])

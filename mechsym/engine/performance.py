@@ -185,12 +185,29 @@ def _friction(engine: Engine, design: Mapping[str, Any]) -> Friction:
 
 def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
     rows = [np.broadcast_to(np.asarray(v, float), phi.shape[:1]) for v in design.values()]
-    function = _force_function(engine, tuple(design), phi.shape[1])
+    function = force_function(engine, tuple(design), phi.shape[1])
     values = function.call([np.array(rows), phi.T, p.T])
     return {k: np.asarray(v).T for k, v in zip(function.name_out(), values, strict=True)}
 
 
-def _force_function(engine: Engine, names: tuple[str, ...], points: int) -> ca.Function:
+def force_function(engine: Engine, names: tuple[str, ...], points: int) -> ca.Function:
+    """Force and torque of one piston, and the mechanism's loads, along a cycle as a function of the design.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    names : tuple of str
+        Design variables; must hold `omega`
+    points : int
+        Points of the cycle
+
+    Returns
+    -------
+    function : casadi.Function
+        (design (k,), phi (points,) [rad], p (points,) [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each
+        load, columns of shape (points,)
+    """
     # all points of a cycle in one function: a call for each point would cost more than its arithmetic
     z, phi, p = ca.SX.sym("z", len(names)), ca.SX.sym("phi", points), ca.SX.sym("p", points)
     design = {name: z[k] for k, name in enumerate(names)}

@@ -5,7 +5,6 @@ instructions. What stays a call of the C library is right but is computed one nu
 """
 
 import math
-from collections.abc import Callable
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Tape
@@ -18,7 +17,7 @@ C = {
     "neg": "-{0}", "inv": "1.0 / {0}", "sq": "{0} * {0}", "twice": "{0} + {0}",
     "sqrt": "sqrt({0})", "fabs": "fabs({0})", "floor": "floor({0})", "ceil": "ceil({0})",
     "exp": "ms_exp({0})", "log": "ms_log({0})", "pow": "ms_pow({0}, {1})",
-    "asin": "ms_asin({0})", "acos": "ms_acos({0})", "atan": "ms_atan({0})", "tan": "ms_tan({0})",
+    "asin": "ms_asin({0})", "acos": "acos({0})", "atan": "atan({0})", "tan": "ms_tan({0})",
     "lt": "({0} < {1} ? 1.0 : 0.0)", "le": "({0} <= {1} ? 1.0 : 0.0)",
     "eq": "({0} == {1} ? 1.0 : 0.0)", "ne": "({0} != {1} ? 1.0 : 0.0)",
     "not": "({0} == 0.0 ? 1.0 : 0.0)",
@@ -118,25 +117,3 @@ def literal(value: float) -> str | None:
     """
     small = math.isfinite(value) and abs(value) <= 16 and value * 2 == int(value * 2)
     return f"{value!r}" if small and value >= 0 else f"({value!r})" if small else None
-
-
-def lines(tape: Tape, dialect: dict[str, str], leaf: Callable[[str, int], str], statement: str) -> list[str]:
-    """The program as assignments; a sine and a cosine of one angle are separate calls.
-
-    Parameters
-    ----------
-    tape : Tape
-        The program
-    dialect : dict of str to str
-        `C` or `NUMPY`
-    leaf : callable
-        (kind, number) -> text, kind `input` or `constant`, the constants numbered as in `constants`
-    statement : str
-        Form of one assignment with places `name` and `value`
-
-    Returns
-    -------
-    lines : list of str
-        One assignment each, the values named `t<node>`
-    """
-    raise NotImplementedError

@@ -37,7 +37,7 @@ class Compiled:
     scalar : callable
         Floats -> float, or tuple of floats where there are several outputs
     batch : callable
-        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n)
+        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
     route : str
         `C` or `numpy`
     reason : str
@@ -148,17 +148,17 @@ def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
         loaded[f"{name}_batch"],
         ctypes.c_void_p * nx,
         ctypes.c_void_p * ny,
-        ctypes.c_char * nx,
+        ctypes.c_bool * nx,
     )
     call.restype, call.argtypes = ctypes.c_int, [ctypes.c_long, *[ctypes.c_void_p] * 4]
     table = constants.ctypes.data
 
-    def batch(*values: Any) -> np.ndarray:
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
         columns = fallback.columns(name, nx, values)
         n = max((c.size for c in columns), default=1)
-        result = np.empty((ny, n))
+        result = fallback.target(name, (ny, n), out)
         start = result.ctypes.data
-        moving = flags(*(int(c.size > 1) for c in columns))
+        moving = flags(*(c.size > 1 for c in columns))
         places = inputs(*(c.ctypes.data for c in columns))
         if call(n, table, places, moving, outputs(*range(start, start + 8 * n * ny, 8 * n))):
             raise MemoryError(f"{name}: no memory for a batch of {n} points")

@@ -1,7 +1,8 @@
-"""Without a compiler: the same program as numpy text over chunks that stay in the cache, and CasADi for single points."""
+"""Without a compiler: the same program as numpy text over chunks that fit the cache, and CasADi for single points."""
 
 import threading
 from collections.abc import Callable
+from itertools import accumulate
 from typing import Any, TypeVar
 
 import casadi
@@ -44,6 +45,37 @@ def columns(name: str, count: int, values: tuple[Any, ...]) -> list[np.ndarray]:
     if len(sizes) > 1:
         raise BadInput(f"{name}: arrays have lengths {', '.join(map(str, sizes))}; they must be equal or 1")
     return found
+
+
+def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndarray:
+    """Where a batch is written to.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function, for messages
+    shape : tuple of int
+        Outputs and points
+    out : ndarray or None
+        The caller's own array
+
+    Returns
+    -------
+    target : ndarray, shape `shape`
+        New unless the caller has one
+
+    Raises
+    ------
+    BadInput
+        The caller's array has another shape or type
+    """
+    if out is None:
+        return np.empty(shape)
+    if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
+        raise BadInput(
+            f"{name}: out must be a contiguous array of floats of shape {shape}, not {out.dtype} {out.shape}"
+        )
+    return out
 
 
 def record(kind: Callable[..., T], function: casadi.Function, tape: Tape, reason: str) -> T:
@@ -111,10 +143,10 @@ def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
     exec(compile(numpy_text(tape), f"<numpy {tape.name}>", "exec"), scope)
     run = scope["function"]
 
-    def batch(*values: Any) -> np.ndarray:
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
         found = columns(tape.name, len(tape.inputs), values)
         n = max((c.size for c in found), default=1)
-        result = np.empty((len(tape.outputs), n))
+        result = target(tape.name, (len(tape.outputs), n), out)
         with np.errstate(all="ignore"):
             for start in range(0, n, _CHUNK):
                 piece = slice(start, start + _CHUNK)
@@ -125,12 +157,14 @@ def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
 
 
 def _mapped(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
-    def batch(*values: Any) -> np.ndarray:
+    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
         found = columns(tape.name, len(tape.inputs), values)
         n = max((c.size for c in found), default=1)
         table = np.array([np.broadcast_to(c, n) for c in found])
+        result = target(tape.name, (len(tape.outputs), n), out)
         point = _scalar(function, tape)
-        return np.array([np.atleast_1d(point(*row)) for row in table.T]).T
+        result[:] = np.array([np.atleast_1d(point(*row)) for row in table.T]).T
+        return result
 
     return batch
 
@@ -139,18 +173,16 @@ def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
     # one buffer for each thread: it is written to and must outlive the call
     local = threading.local()
     sizes = [function.numel_in(i) for i in range(function.n_in())]
+    results = [function.numel_out(i) for i in range(function.n_out())]
 
-    def prepare() -> tuple[Any, Callable[[], None], np.ndarray, np.ndarray]:
-        buffer, call = function.buffer()
+    def prepare() -> tuple[Any, ...]:
+        buffer: Any
+        buffer, call = _full(function).buffer()
         x, y = np.zeros(max(sum(sizes), 1)), np.zeros(len(tape.outputs))
-        start = 0
-        for i, size in enumerate(sizes):
-            buffer.set_arg(i, memoryview(x[start : start + size]))
-            start += size
-        start = 0
-        for i in range(function.n_out()):
-            buffer.set_res(i, memoryview(y[start : start + function.numel_out(i)]))
-            start += function.numel_out(i)
+        for i, end in enumerate(accumulate(sizes)):
+            buffer.set_arg(i, x[end - sizes[i] : end].data)
+        for i, end in enumerate(accumulate(results)):
+            buffer.set_res(i, y[end - results[i] : end].data)
         return buffer, call, x, y
 
     def scalar(*values: float) -> Any:
@@ -164,3 +196,10 @@ def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
         return float(y[0]) if y.size == 1 else tuple(y.tolist())
 
     return scalar
+
+
+def _full(function: casadi.Function) -> casadi.Function:
+    # a buffer holds stored elements only; here every element is stored
+    symbols = [casadi.SX.sym(function.name_in(i), *function.size_in(i)) for i in range(function.n_in())]
+    outputs = [casadi.densify(o) for o in function.call(symbols)]
+    return casadi.Function(function.name(), symbols, outputs)

@@ -1,4 +1,4 @@
-"""C files that integrate y' = f(t, y, p) in lanes: the emitted right-hand side, a method's numbers, its step control."""
+"""C files that integrate y' = f(t, y, p) in lanes: the emitted right-hand side, a method, its step control."""
 
 import functools
 

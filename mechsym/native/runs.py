@@ -103,7 +103,7 @@ class Runs:
     rtol, atol : float
         Relative and absolute tolerance of a step [-]
     first_step : float
-        First step; 0 lets the integrator choose [s]
+        First step of every segment; 0 lets the integrator choose [s]
     max_steps : int
         Limit of tries for each run
     """

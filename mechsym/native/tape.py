@@ -88,20 +88,28 @@ def read(function: casadi.Function) -> Tape:
         The function calls something that is not made of elementary operations
     """
     if not function.is_a("SXFunction"):
-        try:
-            function = function.expand()
-        except RuntimeError as error:
-            reason = str(error).strip().splitlines()[-1]
-            raise BadInput(
-                f"function {function.name()}: cannot be written as elementary operations ({reason}); "
-                "build it from SX expressions"
-            ) from None
+        function = _expanded(function)
     ins, outs = _slots(function, "in"), _slots(function, "out")
     nodes, results = _rename(function, _offsets(ins), _offsets(outs))
     nodes, results = prune(nodes, results)
     return Tape(
         name=function.name(), inputs=_names(ins), outputs=_names(outs), nodes=tuple(nodes), results=tuple(results)
     )
+
+
+def _expanded(function: casadi.Function) -> casadi.Function:
+    try:
+        found = function.expand()
+        calls = [k for k in range(found.n_instructions()) if found.instruction_id(k) == casadi.OP_CALL]
+        reason = "it calls another function"
+    except RuntimeError as error:
+        calls, reason = [-1], str(error).strip().splitlines()[-1]
+    if calls:
+        raise BadInput(
+            f"function {function.name()} cannot be written as elementary operations ({reason}); "
+            "build it from SX expressions"
+        )
+    return found
 
 
 def _dense(function: casadi.Function, side: str, index: int) -> list[int]:
@@ -161,7 +169,7 @@ def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tupl
         if i in needed and nodes[i][0] not in ("input", "constant"):
             needed.update(nodes[i][1])
     place: dict[int, int] = {}
-    kept = []
+    kept: list[tuple[str, tuple]] = []
     for i, (op, args) in enumerate(nodes):
         if i in needed:
             place[i] = len(kept)

@@ -123,7 +123,8 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
         Torque or inertia is not finite, or the inertia not positive
     """
     kinks = [phi_start + (k - phi_start) % machine.period for k in machine.kinks]
-    ends = np.unique(np.round([phi_start, *kinks, phi_start + machine.period], 12))
+    ends = np.unique([phi_start, *kinks, phi_start + machine.period])
+    ends = ends[np.append(True, np.diff(ends) > 1e-12)]
     even = [np.linspace(a, b, int(np.ceil((b - a) / _WIDEST)) + 1)[:-1] for a, b in zip(ends, ends[1:], strict=False)]
     edges = np.append(np.concatenate(even), phi_start + machine.period)
     x = _gauss()[0]

@@ -93,7 +93,7 @@ def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
     for _ in range(50):
         found = turn(panels, flywheel, energy)
         gain = float(found.energy_edges[-1]) - energy
-        step = gain / max(1.0 - found.multiplier, 1e-6)
+        step = gain / _away_from_zero(1.0 - found.multiplier)
         if abs(step) <= 1e-12 * abs(energy) or energy < 1e-9 * abs(gain):
             break
         energy = max(energy + step, 0.1 * energy)
@@ -103,6 +103,10 @@ def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
         return _stopped(panels, speed, flywheel)
     status = "steady" if abs(found.multiplier) < 1 else "unstable"
     return _steady(panels, flywheel, found, status, "the motion repeats every period")
+
+
+def _away_from_zero(difference: float) -> float:
+    return float(np.copysign(max(abs(difference), 1e-6), difference))
 
 
 def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:

@@ -19,7 +19,7 @@ from mechsym.mechanism import curves, state
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.hypocycloid import build as build_hypocycloid
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses, build, closed
-from mechsym.mechanisms.rodless_chambers import RodlessChambers, axis_forces
+from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
 
 SAMPLE = RodlessParameters(r=0.05, I1=0.04, u1=0.02, m_link=1.3, I_link=2e-3, m_a=2.4, m_b=1.9)
 STATE = {"alpha": 0.8, "alphad": 210.0, "F_a": -2.1e4, "F_b": 700.0, "M": 35.0}
@@ -278,14 +278,13 @@ def four_stroke(**changes):
         "sides": ("a+", "b+", "a-", "b-"),
         "areas": (0.01, 0.01, 0.008, 0.008),
         "firing": tuple(math.radians(d) for d in (0, 450, 180, 630)),
-        "p_back": 1e5,
     }
-    return RodlessChambers(**(values | changes))
+    return RodlessFaces(**(values | changes))
 
 
-def test_chambers_push_away_from_their_own_end():
+def test_faces_are_pushed_away_from_their_own_end():
     def pressure(phi):
-        return 1e5 + 1e6 * (np.cos(phi / 2) > 0.999)  # a pulse at its firing dead centre, period 4 pi
+        return 1e6 * (np.cos(phi / 2) > 0.999)  # a pulse at its firing dead centre, period 4 pi
 
     alpha = np.radians([0.0, 90.0, 180.0, 450.0, 630.0])
     F_a, F_b = axis_forces(four_stroke(), pressure, alpha)
@@ -298,11 +297,11 @@ def test_chambers_push_away_from_their_own_end():
     [
         ({"sides": ("a+", "b+", "a-", "c")}, "side 'c'"),
         ({"firing": (0.0, 0.0, 0.0, 0.0)}, "no dead centre of side b\\+; give 90 deg or 450 deg"),
-        ({"areas": (0.01,)}, "one value a chamber"),
+        ({"areas": (0.01,)}, "one value a face"),
         ({"areas": (0.01, 0.01, 0.0, 0.01)}, "areas = 0 m\\^2"),
     ],
 )
-def test_impossible_chambers_are_refused(wrong, message):
+def test_impossible_faces_are_refused(wrong, message):
     with pytest.raises(BadInput, match=message):
         four_stroke(**wrong)
 

@@ -24,8 +24,7 @@ static int ms_begin(const ms_run *run, ms_work *w)
         for (int i = 0; i < MS_N; i++)
             w->y[i][l] = run->y[i * MS_L + l];
         w->t[l] = run->t[l];
-        w->h[l] = run->first_step;
-        fresh[l] = !(run->first_step > 0.0);
+        fresh[l] = 1;
         run->steps[l] = run->rejected[l] = run->sampled[l] = 0;
         run->met[l] = -1;
         w->active[l] = 1;
@@ -61,12 +60,13 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
 {
     int found = 0;
     *share = INFINITY;
-    for (long i = -1; i < run->surfaces; i++) {
+    for (long i = run->kinks ? -1 : 0; i < run->surfaces; i++) {
         const int state = i < 0 ? run->kink_state : run->surface[i].state;
         const double before = w->y[state][l], after = w->next[state][l];
-        const double kink = after > before ? w->window.above[l] : w->window.below[l];
-        const double level = i < 0 ? kink : run->surface[i].level[l];
-        if (!ms_crosses(i < 0 ? 0 : run->surface[i].direction, before, after, level))
+        const double below = w->window.below[l], above = w->window.above[l];
+        /* a run may start on a kink and come back to it within a step */
+        const double level = i >= 0 ? run->surface[i].level[l] : after > above ? above : below;
+        if (i < 0 ? below <= after && after <= above : !ms_crosses(run->surface[i].direction, before, after, level))
             continue;
         found = 1;
         const double u = dense ? ms_passing(w, state, l, level) : 1.0;

@@ -67,7 +67,7 @@ static double ms_inside(const ms_work *w, int i, int l, double u)
 /* Share of the step at which a state passes a level, by bisection of the dense output. */
 static double ms_passing(const ms_work *w, int i, int l, double level)
 {
-    const int falls = w->y[i][l] > level;
+    const int falls = w->next[i][l] < level;
     double low = 0.0, high = 1.0;
     for (double middle = 0.5; low < middle && middle < high; middle = 0.5 * (low + high))
         if ((ms_inside(w, i, l, middle) < level) != falls)
@@ -84,9 +84,13 @@ static void ms_first_rates(const ms_run *run, ms_work *w)
     ms_rates(run, &w->window, w->x, w->q[0]);
 }
 
-/* A first step for the lanes that are fresh (Hairer, Norsett, Wanner, section II.4). */
+/* A first step for the lanes that enter a segment (Hairer, Norsett, Wanner, section II.4). */
 static void ms_guess_step(const ms_run *run, ms_work *w, const int *fresh)
 {
+    if (run->first_step > 0.0) {
+        MS_EACH w->h[l] = fresh[l] ? run->first_step : w->h[l];
+        return;
+    }
     ms_row size = {0}, slope = {0}, bend = {0}, first, rate[MS_N], scale[MS_N];
     MS_STATES
     {

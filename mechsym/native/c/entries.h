@@ -6,7 +6,7 @@ MS_EXPORT void MS_(_point)(const double *k, const double *x, double *y)
 }
 
 /* n points; where moving[i] is 0, x[i] points to one number for all of them. Returns 0, or -1 without memory. */
-MS_EXPORT int MS_(_batch)(long n, const double *k, const double *const *x, const char *moving, double *const *y)
+MS_EXPORT int MS_(_batch)(long n, const double *k, const double *const *x, const _Bool *moving, double *const *y)
 {
     enum { chunk = 256, nx = MS_NX > 0 ? MS_NX : 1 };
     const double *in[nx];

@@ -1,8 +1,8 @@
-"""Which cylinders drive a rodless engine: any number, single or double acting, two-stroke or four-stroke.
+"""Which working faces drive a rodless engine: any number, single or double acting, two-stroke or four-stroke.
 
-Each working face is a chamber. Side "a+" is the face that the outward travel of slider a compresses (dead centre at
-alpha = 0); "b+" has its dead centre at pi/2, "a-" at pi, "b-" at 3 pi/2. An opposite piston on the same rod and the
-inner face of a double-acting piston are both a "-" chamber.
+Each face of a piston that closes a chamber counts. Side "a+" is the face whose chamber the outward travel of slider a
+compresses (dead centre at alpha = 0); "b+" has its dead centre at pi/2, "a-" at pi, "b-" at 3 pi/2. An opposite piston
+on the same rod and the inner face of a double-acting piston both have a "-" side.
 """
 
 import dataclasses
@@ -18,25 +18,22 @@ DEAD_CENTRES = {"a+": 0.0, "b+": math.pi / 2, "a-": math.pi, "b-": 3 * math.pi /
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class RodlessChambers:
-    """The chambers of one link.
+class RodlessFaces:
+    """Section `[faces]`: the working faces of one link.
 
     Parameters
     ----------
     sides : tuple of str
-        Side of each chamber, of a+, a-, b+, b-
+        Side of each face, of a+, a-, b+, b-
     areas : tuple of float
         Area of each working face; less by the rod's where a rod passes through [m^2]
     firing : tuple of float
-        Crank angle at which each chamber fires, a dead centre of its side, within one cycle [rad]
-    p_back : float
-        Pressure on the other side of the pistons [Pa]
+        Crank angle at which the chamber of each face fires, a dead centre of its side, within one cycle [rad]
     """
 
     sides: tuple[str, ...]
     areas: tuple[float, ...] = quantity("m^2", above=0, about="area of each working face")
-    firing: tuple[float, ...] = quantity("rad", about="crank angle at which each chamber fires")
-    p_back: float = quantity("Pa", default=101325.0, low=0, about="pressure behind the pistons")
+    firing: tuple[float, ...] = quantity("rad", about="crank angle at which each face's chamber fires")
 
     def __post_init__(self) -> None:
         _check_lists(self)
@@ -52,15 +49,15 @@ class RodlessChambers:
                 )
 
 
-def _check_lists(record: RodlessChambers) -> None:
+def _check_lists(record: RodlessFaces) -> None:
     lengths = {name: len(getattr(record, name)) for name in ("sides", "areas", "firing")}
     if len(set(lengths.values())) != 1 or not record.sides:
-        raise BadInput(f"sides, areas and firing need one value a chamber; found {lengths}")
+        raise BadInput(f"sides, areas and firing need one value a face; found {lengths}")
     check(record)
 
 
 def axis_forces(
-    chambers: RodlessChambers, pressure: Callable[[np.ndarray], np.ndarray], alpha: np.ndarray
+    faces: RodlessFaces, net_pressure: Callable[[np.ndarray], np.ndarray], alpha: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     r"""Net gas forces on the two axes, positive outwards.
 
@@ -68,10 +65,10 @@ def axis_forces(
 
     Parameters
     ----------
-    chambers : RodlessChambers
+    faces : RodlessFaces
         The working faces
-    pressure : callable
-        Absolute pressure by the angle after the firing dead centre, ndarray to ndarray [Pa]
+    net_pressure : callable
+        p - p_back by the angle after the firing dead centre, ndarray to ndarray [Pa]
     alpha : ndarray, shape (n,)
         Crank angles [rad]
 
@@ -81,7 +78,7 @@ def axis_forces(
         Forces along the outward travel of the sliders [N]
     """
     forces = {"a": np.zeros_like(alpha), "b": np.zeros_like(alpha)}
-    for side, area, fires in zip(chambers.sides, chambers.areas, chambers.firing, strict=True):
+    for side, area, fires in zip(faces.sides, faces.areas, faces.firing, strict=True):
         sign = -1.0 if side[1] == "+" else 1.0
-        forces[side[0]] += sign * (pressure(alpha - fires) - chambers.p_back) * area
+        forces[side[0]] += sign * net_pressure(alpha - fires) * area
     return forces["a"], forces["b"]

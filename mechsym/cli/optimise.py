@@ -1,0 +1,75 @@
+"""`mechsym optimise`: design optimisation declared in a case."""
+
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+
+
+@click.command()
+@click.argument("case")
+@json_option
+@out_option
+@set_option
+def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+    """Best design of CASE under its limits, as its section [optimise] declares it; what each active limit costs.
+
+    \b
+    Examples: mechsym optimise nunes-hypocycloid
+              mechsym optimise nunes-hypocycloid --set optimise.against=p_max --out front
+    Exit status 1: no feasible design, or the solver did not converge.
+    """
+    from mechsym.cases import load
+    from mechsym.cycle import engine
+    from mechsym.optimise.problem import problem
+    from mechsym.optimise.solver import pareto, solve
+
+    loaded = load(case, pairs(overrides))
+    section = loaded.need("optimise")
+    task = problem(engine(loaded), loaded.need("operation").speed, section)
+    front = pareto(task, section.against, section.against_goal, int(section.points)) if section.against else []
+    found = front[0] if front else solve(task)
+    result = asdict(found) | {"goal": section.goal, "objective_name": section.objective}
+    result |= {"pareto": [_point(p, section) for p in front]} if front else {}
+    files = _write(out, result, section) if out else []
+    emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))
+    if any(point.status != "optimal" for point in (found, *front)):
+        sys.exit(1)
+
+
+def _point(optimum: Any, section: Any) -> dict[str, Any]:
+    figures = {name: optimum.figures[name] for name in (section.objective, section.against)}
+    return {"status": optimum.status, **figures, "variables": dict(optimum.variables)}
+
+
+def _text(result: dict[str, Any]) -> str:
+    lines = [
+        f"{result['status']} ({result['reason']}) after {result['iterations']} iterations: "
+        f"{result['objective_name']} = {result['objective']:.6g}",
+        *(f"{name} = {value:.6g}" for name, value in result["variables"].items()),
+    ]
+    lines += ["active limits:" if result["active"] else "no limit is active"]
+    lines += [f"  {row['name']} {row['side']} {row['limit']:.6g}: {row['meaning']}" for row in result["active"]]
+    if "pareto" in result:
+        rows = [{k: v for k, v in p.items() if k != "variables"} | p["variables"] for p in result["pareto"]]
+        lines += ["Pareto front:", table(rows, list(rows[0]))]
+    return "\n".join(lines)
+
+
+def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
+    from mechsym.files import to_json, write_csv, write_text
+
+    files = [write_text(out / "optimum.json", to_json(result) + "\n")]
+    if "pareto" in result:
+        from mechsym.engine_plots import pareto_picture
+
+        points = result["pareto"]
+        columns = {name: [p[name] for p in points] for name in (section.objective, section.against)}
+        columns |= {name: [p["variables"][name] for p in points] for name in points[0]["variables"]}
+        files.append(write_csv(out / "pareto.csv", columns))
+        files.append(pareto_picture(out / "pareto.svg", columns, section.objective, section.against))
+    return files

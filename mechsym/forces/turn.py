@@ -1,0 +1,244 @@
+r"""A case over one cycle at constant speed: gas forces, exact reactions, and the power that they must balance.
+
+At constant speed the load must take, at every angle, what gas and weight give and the moving masses do not store:
+
+.. math:: M_\mathrm{load}\,\omega = P_\mathrm{gas} - \frac{d}{dt}(T + V)
+
+The same torque follows from the forces on the crank alone; their difference is the power residual.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+
+import casadi as ca
+import numpy as np
+
+from mechsym import mechanisms
+from mechsym.cases import Case
+from mechsym.engine.schmidt import Schmidt
+from mechsym.errors import BadInput
+from mechsym.forces.gas import Gas, gas
+from mechsym.mechanism import Mechanism
+from mechsym.mechanisms import crank_train, rodless
+from mechsym.mechanisms.firing import gas_forces
+from mechsym.mechanisms.rodless_faces import axis_forces
+
+_STEPS_PER_TURN = 1440
+_SUPPORTED = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Turn:
+    """One cycle at constant speed, evenly spaced angles without the last.
+
+    Parameters
+    ----------
+    case : Case
+        Data
+    mechanism : Mechanism
+        With one coordinate and all reactions
+    gas : Gas or None
+        Pressure on one piston
+    omega, period : float
+        Crank speed [rad/s], period of the cycle [rad]
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+    inputs : mapping of str to ndarray, shape (n,)
+        Gas forces by the mechanism's input [N]
+    kinematics, reactions, momentum : mapping of str to ndarray, shape (n,)
+        Outputs of the mechanism at these angles
+    torque : ndarray, shape (n,)
+        Torque for the load, from the energies [N*m]
+    gas_power : ndarray, shape (n,)
+        Power of the gas forces [W]
+    """
+
+    case: Case
+    mechanism: Mechanism
+    gas: Gas | None
+    omega: float
+    period: float
+    phi: np.ndarray
+    inputs: Mapping[str, np.ndarray]
+    kinematics: Mapping[str, np.ndarray]
+    reactions: Mapping[str, np.ndarray]
+    momentum: Mapping[str, np.ndarray]
+    torque: np.ndarray
+    gas_power: np.ndarray
+
+
+def turn(case: Case) -> Turn:
+    """One cycle of a case.
+
+    Parameters
+    ----------
+    case : Case
+        With `[operation]`; `[cycle]` gives the gas, `[faces]` and `[closing]` belong to a rodless engine
+
+    Returns
+    -------
+    turn : Turn
+        Forces over the cycle
+
+    Raises
+    ------
+    BadInput
+        Another mechanism, or a section is missing
+    """
+    omega, found = case.need("operation").speed, gas(case)
+    period = found.period if found else 2 * math.pi
+    mechanism, steps = one_coordinate(case), round(_STEPS_PER_TURN * period / (2 * math.pi))
+    phi = np.arange(steps) * period / steps
+    return at(case, mechanism, found, omega, phi)
+
+
+def one_coordinate(case: Case) -> Mechanism:
+    """The mechanism of a case with one coordinate and every reaction determined.
+
+    Parameters
+    ----------
+    case : Case
+        Data
+
+    Returns
+    -------
+    mechanism : Mechanism
+        A crank train on a rigid shaft, a rodless engine with its closing rule
+
+    Raises
+    ------
+    BadInput
+        A mechanism without forces over a turn
+    """
+    parameters = case.need("parameters")
+    if case.mechanism not in _SUPPORTED:
+        raise BadInput(f"{case.file}: forces of {case.mechanism} are not known; there are {', '.join(_SUPPORTED)}")
+    if case.mechanism == "crank_train":
+        return crank_train.build_rigid(parameters)
+    if case.mechanism == "rodless":
+        return rodless.closed(rodless.build(parameters), case.need("closing"))
+    return mechanisms.build(case.mechanism, parameters)
+
+
+def at(case: Case, mechanism: Mechanism, found: Gas | None, omega: float, phi: np.ndarray) -> Turn:
+    """Forces of a mechanism at given angles.
+
+    Parameters
+    ----------
+    case : Case
+        Data
+    mechanism : Mechanism
+        Of `one_coordinate`
+    found : Gas or None
+        Pressure on one piston
+    omega : float
+        Crank speed [rad/s]
+    phi : ndarray, shape (n,)
+        Crank angles, evenly spaced over a period [rad]
+
+    Returns
+    -------
+    turn : Turn
+        Forces at these angles
+    """
+    inputs = _inputs(case, found, phi)
+    letters = _letters(mechanism, omega, phi) | inputs
+    kinematics, reactions, momentum = (
+        evaluate(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
+    )
+    force = evaluate(_virtual_work(mechanism), letters)
+    return Turn(
+        case=case,
+        mechanism=mechanism,
+        gas=found,
+        omega=omega,
+        period=found.period if found else 2 * math.pi,
+        phi=phi,
+        inputs=inputs,
+        kinematics=kinematics,
+        reactions=reactions,
+        momentum=momentum,
+        torque=force["gas"] - evaluate(_energy_slope(mechanism), letters)["slope"],
+        gas_power=force["gas"] * omega,
+    )
+
+
+def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, np.ndarray]:
+    q = mechanism.coordinates[0]
+    none = np.zeros_like(phi)
+    return {q: phi, f"{q}d": none + omega, f"{q}dd": none} | dict.fromkeys(mechanism.inputs, none)
+
+
+def _inputs(case: Case, found: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
+    if found is None:
+        return {}
+
+    def net(angle: np.ndarray) -> np.ndarray:
+        return found.absolute(angle) - found.p_back
+
+    if case.mechanism == "rodless":
+        return dict(zip(("F_a", "F_b"), axis_forces(case.need("faces"), net, phi), strict=True))
+    if isinstance(case.sections["cycle"], Schmidt):  # one gas for all pistons, known over the shaft angle
+        return {f"F{i + 1}": net(phi) * found.area for i in range(len(case.need("parameters").throw))}
+    if case.mechanism == "crank_train":
+        forces = gas_forces(case.need("parameters"), net, found.area, phi)
+        return {f"F{i + 1}": force for i, force in enumerate(forces)}
+    return {"F": net(phi) * found.area}
+
+
+def evaluate(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """A function of scalars at many points.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        Named scalar inputs and outputs
+    letters : mapping of str to ndarray, shape (n,)
+        At least its inputs
+
+    Returns
+    -------
+    values : dict of str to ndarray, shape (n,)
+        By output name
+    """
+    n = max(len(v) for v in letters.values())
+    found = function.call([ca.DM(letters[name]).T for name in function.name_in()])
+    return {k: np.broadcast_to(np.asarray(v).ravel(), n) for k, v in zip(function.name_out(), found, strict=True)}
+
+
+def _virtual_work(mechanism: Mechanism) -> ca.Function:
+    """Torque of the gas forces alone: generalised force with them less without them."""
+    dynamics = mechanism.functions["dynamics"]
+    letters = {n: ca.SX.sym(n) for n in dynamics.name_in()}
+    force = dynamics(**letters)["generalized_force"]
+    loads = [n for n in mechanism.inputs if n not in gas_inputs(mechanism)]
+    given = ca.substitute(force, ca.vertcat(*(letters[n] for n in loads)), ca.DM.zeros(len(loads)))
+    names = gas_inputs(mechanism)
+    idle = ca.substitute(given, ca.vertcat(*(letters[n] for n in names)), ca.DM.zeros(len(names)))
+    return ca.Function("work", list(letters.values()), [given - idle], list(letters), ["gas"])
+
+
+def _energy_slope(mechanism: Mechanism) -> ca.Function:
+    """d(T + V)/dphi at constant speed."""
+    energy = mechanism.functions["energy"]
+    letters = {n: ca.SX.sym(n) for n in energy.name_in()}
+    found = energy(**letters)
+    slope = ca.gradient(found["kinetic_energy"] + found["potential_energy"], letters[mechanism.coordinates[0]])
+    return ca.Function("slope", list(letters.values()), [slope], list(letters), ["slope"])
+
+
+def gas_inputs(mechanism: Mechanism) -> list[str]:
+    """Inputs of a mechanism that are gas forces.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Of `one_coordinate`
+
+    Returns
+    -------
+    names : list of str
+        All inputs that start with F
+    """
+    return [n for n in mechanism.inputs if n.startswith("F")]

@@ -1,0 +1,185 @@
+"""A design problem: what `[optimise]` of a case says, checked against the engine and turned into numbers.
+
+    maximise (or minimise) J(z)   subject to   low <= z <= high,  low_i <= g_i(z) <= high_i
+
+z are values of the engine (`cycle.ignition`, `chamber.compression_ratio`, `parameters.e`, ..), J and g_i figures of
+its cycle at one speed (`efficiency`, `p_max`, `tooth_force`, ..).
+"""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from mechsym import mechanisms
+from mechsym.engine.differentiable import PEAK_UNITS, SCALAR_UNITS
+from mechsym.engine.model import Engine, design_names
+from mechsym.errors import BadInput
+from mechsym.quantities import check, choice, parse, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Optimise:
+    """Section `[optimise]` of a case.
+
+    Parameters
+    ----------
+    objective : str
+        Figure to make large or small
+    goal : str
+        `maximise` or `minimise`
+    variables : dict
+        Dotted name of an engine's value to `{low = .., high = ..}`
+    constraints : dict
+        Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
+    against : str
+        Second figure of a Pareto front, empty for none
+    against_goal : str
+        `maximise` or `minimise`
+    points : float
+        Points of the front [-]
+    """
+
+    objective: str = "efficiency"
+    goal: str = choice("maximise", "minimise", default="maximise")
+    variables: dict[str, Any] = dataclasses.field(default_factory=dict)
+    constraints: dict[str, Any] = dataclasses.field(default_factory=dict)
+    against: str = ""
+    against_goal: str = choice("maximise", "minimise", default="minimise")
+    points: float = quantity("-", default=9, low=3, high=101, about="points of the front")
+
+    def __post_init__(self) -> None:
+        check(self)
+        for name in ("variables", "constraints"):
+            if not isinstance(getattr(self, name), dict):
+                raise BadInput(f"{name} = {getattr(self, name)!r} is no table; write [optimise.{name}] in a case file")
+        if not self.variables:
+            raise BadInput("variables is empty; name at least one, for example "
+                           '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }')  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Limit:
+    """Bounds of a variable or a figure.
+
+    Parameters
+    ----------
+    name, unit : str
+        Dotted name of a variable or name of a figure, and its SI unit
+    low, high : float
+        Bounds in that unit; an infinite bound is none
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Problem:
+    """A design problem with numbers.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine to start from
+    omega : float
+        Crank speed [rad/s]
+    objective : str
+        Figure to make large or small
+    sign : float
+        1 to maximise, -1 to minimise [-]
+    variables, constraints : tuple of Limit
+        What may change, and what must hold
+    """
+
+    engine: Engine
+    omega: float
+    objective: str
+    sign: float
+    variables: tuple[Limit, ...]
+    constraints: tuple[Limit, ...]
+
+
+def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
+    """Check a section against the engine and turn its texts into numbers.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine to start from
+    omega : float
+        Crank speed [rad/s]
+    section : Optimise
+        Variables, objective, constraints
+
+    Returns
+    -------
+    problem : Problem
+        Ready for `solve`
+
+    Raises
+    ------
+    BadInput
+        Unknown names, wrong units, empty ranges
+    """
+    units = _design_units(engine)
+    figures = figure_units(engine)
+    for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
+        if name not in figures:
+            raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
+    return Problem(
+        engine=engine,
+        omega=omega,
+        objective=section.objective,
+        sign=1.0 if section.goal == "maximise" else -1.0,
+        variables=tuple(_limit("variables", name, spec, units) for name, spec in section.variables.items()),
+        constraints=tuple(_limit("constraints", name, spec, figures) for name, spec in section.constraints.items()),
+    )
+
+
+def figure_units(engine: Engine) -> dict[str, str]:
+    """Figures that may be an objective or a constraint.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+
+    Returns
+    -------
+    units : dict of str to str
+        Name to SI unit
+    """
+    loads = engine.motion.loads.name_out() if engine.motion.loads is not None else []
+    return SCALAR_UNITS | PEAK_UNITS | dict.fromkeys(loads, "N")
+
+
+def _design_units(engine: Engine) -> dict[str, str]:
+    records = {s: getattr(engine, s) for s in ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")}
+    units = {
+        f"{section}.{f.name}": f.metadata["unit"]
+        for section, record in records.items()
+        for f in dataclasses.fields(record)
+        if "unit" in f.metadata
+    }
+    fields = dataclasses.fields(mechanisms.parameters_class(engine.motion.name))
+    units |= {f"parameters.{f.name}": f.metadata["unit"] for f in fields if "unit" in f.metadata}
+    return {name: units.get(name, "rad/s") for name in design_names(engine)}
+
+
+def _limit(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
+    key = f"optimise.{table}.{name}"
+    if name not in units:
+        raise BadInput(f"{key} is not known; names are {', '.join(units)}")
+    allowed = {"low", "high"} if table == "variables" else {"low", "high", "equal"}
+    if not isinstance(spec, dict) or not spec or set(spec) - allowed:
+        raise BadInput(f"{key} = {spec!r} is no limit; write {{ {', '.join(f'{a} = ..' for a in sorted(allowed))} }}")
+    found = {side: parse(value, units[name], f"{key}.{side}") for side, value in spec.items()}
+    low, high = (found.get("equal", found.get(side, end)) for side, end in (("low", -np.inf), ("high", np.inf)))
+    if not low <= high or (table == "variables" and not (np.isfinite([low, high]).all() and low < high)):
+        raise BadInput(f"{key} = {spec!r} leaves no room; low must be below high, and a variable needs both")
+    if table == "constraints" and name not in SCALAR_UNITS and np.isfinite(low):
+        raise BadInput(f"{key}: {name} is a peak over the cycle and can only be bounded from above; give high alone")
+    return Limit(name=name, unit=units[name], low=low, high=high)

@@ -1,0 +1,143 @@
+"""Compiled files: found again, rebuilt when damaged, made by several processes at once, done without."""
+
+import hashlib
+import os
+import shutil
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import casadi as ca
+import pytest
+
+from mechsym import native
+from mechsym.native import cache, compiler, library
+from mechsym.native.compiler import NoCompiler
+
+needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
+SOURCE = '__attribute__((visibility("default"))) int answer(void)\n{\n    return 42;\n}\n'
+SCRIPT = """
+import casadi as ca
+from mechsym import native
+x = ca.SX.sym("x")
+f = ca.Function("square_root", [x], [ca.sqrt(x)])
+made = native.compiled(f)
+print(made.route, made.scalar(16.0), made.batch([4.0, 9.0]).tolist(), made.reason)
+"""
+
+
+@pytest.fixture(autouse=True)
+def home(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    library.load.cache_clear()
+    return tmp_path / "mechsym" / "native"
+
+
+def sound(folder: Path) -> list[Path]:
+    """Shared objects whose name tells the checksum of their bytes."""
+    files = list(folder.glob("*.so"))
+    return [f for f in files if hashlib.sha256(f.read_bytes()).hexdigest().startswith(f.stem.split("-")[1])]
+
+
+@needs_compiler
+def test_second_call_takes_the_file_of_the_first(monkeypatch):
+    first = cache.shared_object(SOURCE, "strict")
+    monkeypatch.setattr(compiler, "compile_file", lambda *_: pytest.fail("compiled again"))
+    assert cache.shared_object(SOURCE, "strict") == first
+    assert cache.shared_object.__module__ == "mechsym.native.cache"
+
+
+@needs_compiler
+@pytest.mark.parametrize("damage", ["truncated", "changed", "empty"])
+def test_damaged_file_is_made_again(home, damage):
+    path = cache.shared_object(SOURCE, "strict")
+    content = path.read_bytes()
+    middle = len(content) // 2
+    broken = {
+        "truncated": content[:middle],
+        "changed": content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :],
+        "empty": b"",
+    }
+    path.write_bytes(broken[damage])
+    again = cache.shared_object(SOURCE, "strict")
+    assert sound(home) == [again]
+    assert library.load(SOURCE, "strict").answer() == 42
+
+
+@needs_compiler
+def test_key_depends_on_all_that_decides_the_contents(monkeypatch):
+    keys = {cache.key(SOURCE, compiler.flags(mode), "a") for mode in compiler.MODES}
+    keys |= {cache.key(SOURCE + " ", compiler.flags("fast"), "a"), cache.key(SOURCE, compiler.flags("fast"), "b")}
+    monkeypatch.setattr(compiler, "processor", lambda: "another")
+    keys.add(cache.key(SOURCE, compiler.flags("fast"), "a"))
+    assert len(keys) == 5
+
+
+@needs_compiler
+def test_processes_that_compile_at_once(home):
+    runs = [subprocess.Popen([sys.executable, "-c", SCRIPT], stdout=subprocess.PIPE, text=True) for _ in range(4)]
+    printed = {run.communicate(timeout=120)[0].strip() for run in runs}
+    assert printed == {"C 4.0 [[2.0, 3.0]]"}
+    assert len(sound(home)) == len(list(home.glob("*.so"))) >= 1
+    assert not [p for p in home.iterdir() if p.is_dir()]
+
+
+def test_without_a_compiler_in_the_path(tmp_path):
+    environment = {k: v for k, v in os.environ.items() if k != "CC"} | {"PATH": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", SCRIPT], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("numpy 4.0 [[2.0, 3.0]]")
+    assert "no C compiler found (tried gcc, clang, cc); install gcc or clang" in done.stderr
+
+
+def test_compiler_that_fails_is_named(monkeypatch):
+    monkeypatch.setenv("CC", "false")
+    with pytest.raises(NoCompiler, match="false failed"):
+        cache.shared_object(SOURCE, "strict")
+
+
+def test_named_compiler_that_is_missing(monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler -O2")
+    with pytest.raises(NoCompiler, match="tried no-such-compiler"):
+        compiler.find()
+
+
+@needs_compiler
+def test_cache_directory_that_cannot_be_used(monkeypatch, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(file))
+    assert library.load(SOURCE, "strict").answer() == 42
+
+
+@needs_compiler
+def test_code_is_not_loaded_from_a_directory_that_others_write(home):
+    home.mkdir(parents=True)
+    home.chmod(0o777)
+    assert home not in cache.shared_object(SOURCE, "strict").parents
+    assert stat.S_IMODE(home.stat().st_mode) == 0o777
+
+
+def test_relative_cache_directory_is_ignored(monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", "here")
+    assert cache.directory().is_absolute()
+    assert "here" not in cache.directory().parts
+
+
+@needs_compiler
+def test_clear(home):
+    cache.shared_object(SOURCE, "strict")
+    assert cache.clear() == 2
+    assert cache.contents() == []
+    assert cache.clear() == 0
+
+
+@needs_compiler
+def test_without_python_headers_calls_go_through_ctypes(monkeypatch):
+    monkeypatch.setattr(compiler, "python_header", lambda: None)
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    made = native.compiled(ca.Function("two", [x, y], [x + y, x * y]))
+    assert made.route == "C"
+    assert made.scalar(2.0, 3.0) == (5.0, 6.0)
+    with pytest.raises(TypeError, match="takes 2 numbers, not 1"):
+        made.scalar(2.0)

@@ -1,0 +1,95 @@
+"""Reading the tape, rolling equal throws, sharing reciprocals."""
+
+import math
+
+import casadi as ca
+import numpy as np
+import pytest
+from native.models import agree, chain, functions, interpreted
+
+from mechsym import native
+from mechsym.native import source
+from mechsym.native.kernels import constant_table, kernels
+from mechsym.native.rewrite import fewer_divisions
+from mechsym.native.tape import operation_counts, read
+
+# operations of the generated functions; a change of the derivations or of CasADi that makes them dearer must be seen
+BASELINE = {
+    ("crosshead", "kinematics"): {"strict": 54, "fast": 56},
+    ("crosshead", "acceleration"): {"strict": 68, "fast": 70},
+    ("crosshead", "energy"): {"strict": 46, "fast": 46},
+    ("crosshead", "reactions"): {"strict": 93, "fast": 95},
+    ("crankshaft_flywheel", "kinematics"): {"strict": 27, "fast": 29},
+    ("crankshaft_flywheel", "acceleration"): {"strict": 36, "fast": 38},
+}
+
+
+@pytest.mark.parametrize(("name", "function"), BASELINE)
+def test_operation_counts_do_not_grow(name, function):
+    tape = read(functions(name)[function])
+    found = {"strict": operation_counts(tape)["total"], "fast": operation_counts(fewer_divisions(tape))["total"]}
+    assert found == BASELINE[name, function]
+
+
+def test_equal_instructions_are_merged_and_dead_ones_dropped():
+    x = ca.SX.sym("x")
+    tape = read(ca.Function("f", [x], [ca.sin(x) * x + ca.sin(x) * x]))
+    assert operation_counts(tape) == {"mul": 1, "sincos": 1, "twice": 1, "total": 3} or operation_counts(tape) == {
+        "add": 1, "mul": 1, "sincos": 1, "total": 3,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("throws", [2, 3, 6, 12])
+def test_throws_become_instances_of_few_kernels(throws):
+    f = chain(throws)
+    found = kernels(read(f))
+    assert len(found) <= 4
+    assert sorted(o for k in found for row in k.outputs for o in row) == list(range(throws + 1))
+    x = np.random.default_rng(2).uniform(-3, 3, (f.size1_in(0) + f.size1_in(1) + f.size1_in(2), 300))
+    made = native.compiled(f, "strict")
+    grouped = [x[: throws + 1], x[throws + 1 : 2 * throws + 2], x[2 * throws + 2 :]]
+    wanted = np.asarray(f.map(300)(*grouped))
+    assert agree(made.batch(*x), wanted) < 1e-12
+    np.testing.assert_array_equal([made.scalar(*column) for column in x[:, :20].T], made.batch(*x[:, :20]).T)
+
+
+def test_text_grows_only_by_places_with_the_number_of_throws():
+    sizes = {n: len(source.evaluation([source.program(chain(n))])) for n in (4, 12, 24)}
+    assert sizes[12] < 1.1 * sizes[4]
+    assert sizes[24] < 1.2 * sizes[4]
+
+
+def test_functions_that_share_nothing_costly_stay_one_kernel_when_small():
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    found = kernels(read(ca.Function("f", [x, y], [ca.sin(x), ca.sin(y)])))
+    assert len(found) == 1
+    assert len(found[0].inputs) == 1
+
+
+def test_constants_are_data():
+    x = ca.SX.sym("x")
+
+    def made(a: float) -> tuple:
+        return kernels(read(ca.Function("f", [x], [a * ca.sin(x) + 0.5])))
+
+    assert made(3.7)[0].nodes == made(4.9)[0].nodes
+    assert constant_table(made(3.7)).tolist() == [3.7]
+
+
+def test_division_rules():
+    x, y, z = (ca.SX.sym(n) for n in "xyz")
+    root = ca.sqrt(z)
+    f = ca.Function("f", [x, y, z], [x / z, y / root, x / 3, 1 / root, y / ca.sin(x)])
+    tape = fewer_divisions(read(f))
+    counts = operation_counts(tape)
+    assert counts["div"] == 1
+    assert counts["inv"] == 1
+    assert counts["sqrt"] == 1
+    made = native.compiled(f, "fast").batch(*(v := np.random.default_rng(0).uniform(0.5, 2, (3, 100))))
+    np.testing.assert_allclose(made, interpreted(f, list(v)), rtol=1e-15 * 8)
+
+
+def test_division_by_zero_constant_is_infinite():
+    x = ca.SX.sym("x")
+    made = native.compiled(ca.Function("f", [x], [x / ca.SX(0)]), "fast")
+    assert made.scalar(2.0) == math.inf
