@@ -242,7 +242,7 @@ def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[
         *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
         *check_gears(parts.gears, teeth, wants, used["gears"]),
         *check_crank(parts.crank, crank, wants, used["crankshaft"]),
-        *_check_pinion_shaft(parts, forces, wants, stock),
+        *check_pinion_shaft(parts, forces, wants, stock),
         *check_output(parts.crank.output, crank, wants, used["shaft"]),
         *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
         _check_room(parts, wants, forces.e, places),
@@ -273,8 +273,25 @@ def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choic
                     rule="room in the main bearing's bore", source="geometry")  # fmt: skip
 
 
-def _check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
-    """Shaft under the pinion: bending between two journals, and the tooth's torque."""
+def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
+    """Shaft under the pinion: bending between two journals, and the tooth's torque.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    wants : Wants
+        Wanted factors
+    stock : Stock
+        Materials and bearings
+
+    Returns
+    -------
+    checks : list of Check
+        One, or none when the pinion has no bore
+    """
     d, material = parts.gears.pinion_bore, get(dict(stock.materials), wants.crankshaft)
     if d <= 0:
         return []
