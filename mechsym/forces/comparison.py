@@ -1,5 +1,7 @@
 """Slider crank, hypocycloid and rodless at equal stroke, reciprocating mass and gas force: loads, shaking, friction.
 
+Equal gas force means the same indicator diagram: equal pressure at equal travel of the piston, so that every mechanism
+gets the same work from the gas. Equal pressure at equal crank angle would not: the pistons move differently.
 Rods, planets, links and cranks have no mass here, so that only the arrangement differs. The rodless mechanism stands
 there with one piston and with four (two on each axis), each under both closing rules: what the guides carry depends on
 how the parts give way.
@@ -14,7 +16,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.forces.friction import Friction, losses, pistons
-from mechsym.forces.gas import Gas
+from mechsym.forces.gas import Gas, at_same_travel, one_cylinder, travel
 from mechsym.forces.harmonics import whole
 from mechsym.forces.loads import loads, power_residual
 from mechsym.forces.rings import Rings
@@ -139,7 +141,8 @@ def _case(mechanism: str, parameters: Any, **sections: Any) -> Case:
 
 
 def _row(name: str, turn: Turn, case: Case, friction: Friction | None, rings: Rings) -> dict[str, Any]:
-    machine = at(case, one_coordinate(case), turn.gas, turn.omega, turn.phi)
+    gas = at_same_travel(turn.gas, *(travel(one_cylinder(c)) for c in (turn.case, case))) if turn.gas else None
+    machine = at(case, one_coordinate(case), gas, turn.omega, turn.phi)
     found, shake, count = loads(machine), shaking(machine), len(pistons(machine))
     pin = np.hypot(found.pins[0].x, found.pins[0].y)
     main = np.hypot(*found.bearings["main_bearing"])

@@ -113,7 +113,7 @@ def summary(found: Forces) -> dict[str, Any]:
     -------
     summary : dict
         `max`, `min`, `power_residual`, `angle_of_max_deg`, `torque_orders`, `shaking`, `friction`, `two_mass`,
-        `rodless`, `unbalanced`, `comparison`, `facts`; what a mechanism does not have is null
+        `weight`, `rodless`, `unbalanced`, `comparison`, `facts`; what a mechanism does not have is null
     """
     one = found.turn
     largest, smallest = extremes(found.columns)
@@ -131,6 +131,7 @@ def summary(found: Forces) -> dict[str, Any]:
         "shaking": _shaking(found.shaking),
         "friction": None if found.losses is None else _friction(found.losses),
         "two_mass": _two_mass(found) or None,
+        "weight": textbook.weight_shares(one) if found.chains else None,
         "rodless": _rodless(one) if one.case.mechanism == "rodless" else None,
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
@@ -162,7 +163,7 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
-    return {name: textbook.errors(found.turn, found.loads, chain) for name, chain in found.chains.items()}
+    return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
 
 
 def _rodless(one: Turn) -> dict[str, Any]:

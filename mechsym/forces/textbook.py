@@ -16,8 +16,8 @@ import math
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.forces.loads import Loads, radial, tangential
-from mechsym.forces.turn import Turn
+from mechsym.forces.loads import loads, radial, tangential
+from mechsym.forces.turn import Turn, at, one_coordinate
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -34,6 +34,8 @@ class SliderCrank:
         Mass of the rod [kg] and its inertia about the centre of mass [kg*m^2]
     m_p : float
         Mass that moves with the piston: piston, piston rod, crosshead [kg]
+    u_c : float
+        Unbalance of the crank on the pin's side [kg*m]
     """
 
     R: float
@@ -42,6 +44,7 @@ class SliderCrank:
     m_b: float
     I_b: float
     m_p: float
+    u_c: float
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -125,10 +128,10 @@ def slider_crank(turn: Turn) -> SliderCrank:
     p = turn.mechanism.parameters
     if turn.case.mechanism == "crosshead":
         return SliderCrank(R=p["r1"] + p["r2"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m2"], I_b=p["IC2"],
-                           m_p=p["m3"] + p["m4"] + p["m5"])  # fmt: skip
+                           m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
     if turn.case.mechanism == "crank_throw":
         return SliderCrank(R=p["r"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m_rod"], I_b=p["I_rod"],
-                           m_p=p["m_piston"])  # fmt: skip
+                           m_p=p["m_piston"], u_c=p["u0"])  # fmt: skip
     raise BadInput(f"{turn.case.file}: the chain of Moroianu is that of a slider crank, not of {turn.case.mechanism}")
 
 
@@ -167,31 +170,81 @@ def chain(turn: Turn, ratio: float) -> Chain:
     return Chain(F_p=F_p, F_it=F_it, F=F, B=B, N=F * np.tan(beta), Z_B=Z_B, T=T, F_ibm=F_ibm, Z=Z_B + F_ibm, M=T * s.R)
 
 
-def errors(turn: Turn, found: Loads, approximate: Chain) -> dict[str, float]:
-    """How far a chain is from the exact rigid-body forces.
+def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
+    """How far a chain is from the exact rigid-body forces without weight, which the chain leaves out.
 
     Parameters
     ----------
     turn : Turn
-        Exact forces
-    found : Loads
-        Their loads
+        Cycle
     approximate : Chain
         Of `chain`
 
     Returns
     -------
     errors : dict of str to float
-        For N, Z, T, M: largest difference over the largest exact value [-]
+        For N, Z, T, M and the loads of crank pin and main bearing: largest difference over the largest exact value [-]
     """
+    exact = _exact(weightless(turn))
+    return _shares(_approximate(turn, approximate), exact)
+
+
+def weight_shares(turn: Turn) -> dict[str, float]:
+    """What the weights do to the forces, which the chain leaves out.
+
+    Parameters
+    ----------
+    turn : Turn
+        Cycle
+
+    Returns
+    -------
+    shares : dict of str to float
+        For the same quantities as `errors`: largest change by the weights over the largest value without [-]
+    """
+    return _shares(_exact(turn), _exact(weightless(turn)))
+
+
+def weightless(turn: Turn) -> Turn:
+    """The same cycle without weight.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crosshead or crank_throw
+
+    Returns
+    -------
+    turn : Turn
+        With g = 0
+    """
+    parameters = dataclasses.replace(turn.case.need("parameters"), g=0.0)
+    case = dataclasses.replace(turn.case, sections={**turn.case.sections, "parameters": parameters})
+    return at(case, one_coordinate(case), turn.gas, turn.omega, turn.phi)
+
+
+def _exact(turn: Turn) -> dict[str, np.ndarray]:
+    found = loads(turn)
     pin = found.pins[0]
-    exact = {
+    return {
         "N": found.guides["side_force"],
         "Z": -radial(pin),
         "T": tangential(pin),
-        "M": pin.radius * tangential(pin),
+        "M": turn.torque,
+        "crank_pin": np.hypot(pin.x, pin.y),
+        "main_bearing": np.hypot(*found.bearings["main_bearing"]),
     }
-    return {n: float(np.abs(getattr(approximate, n) - v).max() / np.abs(v).max()) for n, v in exact.items()}
+
+
+def _approximate(turn: Turn, chain: Chain) -> dict[str, np.ndarray]:
+    # the crank's own unbalance pulls the main bearing outwards, against Z
+    pull = slider_crank(turn).u_c * turn.omega**2
+    loads = {"crank_pin": np.hypot(chain.Z, chain.T), "main_bearing": np.hypot(chain.Z - pull, chain.T)}
+    return {n: getattr(chain, n) for n in "NZTM"} | loads
+
+
+def _shares(found: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[str, float]:
+    return {n: float(np.abs(found[n] - v).max() / np.abs(v).max()) for n, v in exact.items()}
 
 
 def piston_inertia_printed(turn: Turn) -> np.ndarray:
