@@ -19,6 +19,7 @@ COMMANDS = {
     "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
     "simulate": "mechsym.cli.simulate:simulate",
+    "size": "mechsym.cli.size:size",
 }
 
 
