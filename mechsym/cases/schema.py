@@ -3,7 +3,7 @@
 import importlib
 from typing import Any
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, shown, suggest
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
@@ -144,8 +144,10 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
     entry = _SECTIONS[section]
     if isinstance(entry, tuple):
         key, variants = entry
-        if table.get(key) not in variants:
-            raise BadInput(f"{key} = {table.get(key)!r} is not an option; options are {', '.join(variants)}")
-        entry = variants[table[key]]
+        name = table.get(key)
+        if not isinstance(name, str) or name not in variants:
+            found = f"{key} = {shown(name)} is not known" if key in table else f"key {key} is missing"
+            raise BadInput(f"{found}; {suggest(str(name), variants)}")
+        entry = variants[name]
     module, _, name = entry.partition(":")
     return getattr(importlib.import_module(module), name)

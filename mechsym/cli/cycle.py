@@ -39,7 +39,7 @@ def cycle(
         _measured(loaded, diagram, as_json, out)
         return
     machine = engine(loaded)
-    omega = parse_speeds(speeds) if speeds else [loaded.need("operation").speed]
+    omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
     found = columns(over_speeds(machine, _array(omega)))
     files = _write(out, machine, found, loaded.need("operation").speed) if out else []
     emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
