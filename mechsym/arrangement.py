@@ -57,6 +57,24 @@ class GuideParameters:
         check(self)
 
 
+def closing_ratio(arrangement: str, period: float) -> float:
+    """The fastest shaft on which a track closes after one turn.
+
+    Parameters
+    ----------
+    arrangement : str
+        Name of the arrangement
+    period : float
+        Period of the torque over the crank angle [rad]
+
+    Returns
+    -------
+    shaft_ratio : float
+        Turns of the guide's shaft per turn of the crank [-]
+    """
+    return 2 * math.pi / (period * _PERIODS_MULTIPLE_OF[arrangement])
+
+
 def refuse_open_track(parameters: GuideParameters, period: float) -> None:
     """Refuse a shaft ratio with which the track would not close.
 
@@ -78,5 +96,5 @@ def refuse_open_track(parameters: GuideParameters, period: float) -> None:
         raise BadInput(
             f"guide.shaft_ratio = {parameters.shaft_ratio:g}: the {parameters.arrangement} track does not close, since "
             f"the torque repeats every {period / (2 * math.pi):g} turns of the crank; "
-            f"use {2 * math.pi / (period * multiple):g}"
+            f"use {closing_ratio(parameters.arrangement, period):g}"
         )
