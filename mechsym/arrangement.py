@@ -48,7 +48,7 @@ class GuideParameters:
 
     arrangement: str = choice(*ROLLERS, about="how the track carries the spring")
     start: str = choice("placed", "as_printed", default="placed", about="where the turn starts on the spring's curve")
-    rho0: float = quantity("m", above=0, about="roller centre to shaft axis at free height")
+    rho0: float = quantity("m", above=0, high=100, about="roller centre to shaft axis at free height")
     z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
     shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
     balance: str = choice(*KINDS, default="whole_cycle", about="part of the torque to balance")

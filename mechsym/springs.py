@@ -39,7 +39,7 @@ class AirGauge:
 
     A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
     H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
-    p0: float = quantity("Pa", above=0, high=1e12, about="excess pressure at free height")
+    p0: float = quantity("Pa", low=1, high=1e12, about="excess pressure at free height")
     n: float = quantity("-", low=1, high=2, about="polytropic index")
 
     def __post_init__(self) -> None:
@@ -66,7 +66,7 @@ class AirAbsolute:
 
     A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
     H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
-    p0: float = quantity("Pa", above=0, high=1e12, about="excess pressure at free height")
+    p0: float = quantity("Pa", low=1, high=1e12, about="excess pressure at free height")
     n: float = quantity("-", low=1, high=2, about="polytropic index")
     pa: float = quantity("Pa", default=101325.0, above=0, about="pressure outside")
 

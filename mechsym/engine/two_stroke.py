@@ -90,7 +90,7 @@ class TwoStrokeMarine:
     c_v: float = quantity("J/kg/K", default=900.0, above=0, about="mean specific heat between 1000 and 2500 K")
     lhv: float = quantity("J/kg", default=42.7e6, above=0, about="lower heating value of the fuel")
     crank_side: str = choice("atmosphere", "scavenge", default="atmosphere", about="what is under the piston")
-    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
+    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
         check(self)
