@@ -8,6 +8,13 @@ from mechsym.errors import BadInput, shown, suggest
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
+    "sizing": "mechsym.sizing.wants:Wants",
+    "part_piston": "mechsym.sizing.parts:PistonPart",
+    "part_cylinder": "mechsym.sizing.parts:CylinderPart",
+    "part_gears": "mechsym.sizing.parts:GearPart",
+    "part_crank": "mechsym.sizing.parts:CrankPart",
+    "part_bearings": "mechsym.sizing.parts:BearingPart",
+    "part_masses": "mechsym.sizing.parts:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
@@ -23,6 +30,7 @@ _SECTIONS: dict[str, Any] = {
             "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
+    "combustion": "mechsym.engine.diagram_combustion:Analysis",
     "gas": (
         "model",
         {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
@@ -66,6 +74,17 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "friction": "mechsym.forces.friction:Friction",
+    "rings": (
+        "law",
+        {
+            "none": "mechsym.forces.rings:NoRings",
+            "patton1989": "mechsym.forces.rings:Patton1989",
+            "contact_pressure": "mechsym.forces.rings:ContactPressure",
+        },
+    ),
+    "shaking": "mechsym.forces.shaking:BalanceWanted",
+    "comparison": "mechsym.forces.comparison:ComparisonSettings",
     "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",
