@@ -1,6 +1,6 @@
 """Moroianu (2017): the printed chain against the exact forces, and what its two-mass rod leaves out.
 
-The paper prints curves without numbers and no data; its relations are tested on the marine engine of the built-in cases.
+The paper prints curves without numbers and no data; its relations are tested on the engine of Zotov et al. (2024).
 """
 
 import dataclasses
