@@ -12,6 +12,7 @@ from mechsym.cases.settings import TrialSettings
 from mechsym.feasibility import Verdict
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
+from mechsym.loads import Load
 from mechsym.trials import Flywheels, Retuned, Sensitivity, Trial
 
 STEPS = 6  # how often `design` calls `progress`
@@ -82,7 +83,7 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     spring, choices = case.need("spring"), case.need("guide")
     rollers, limits, load = case.need("rollers"), case.need("limits"), load_of(case)
     turns = case.sections.get("trials", TrialSettings()).turns
-    engine = assemble(case, diagram)
+    engine, other = assemble(case, diagram), _other(case)
     progress()
     wanted = hinge.build(engine.torques, engine.omega)
     part = balance.build(wanted, choices.balance)
@@ -96,7 +97,7 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     progress()
     errors = trials.sensitivities(engine, wanted, usable, load) if usable else []
     progress()
-    again = _retuned(case, usable, turns) if usable else None
+    again = _retuned(other, usable, load, turns) if usable and other else None
     progress()
     return Design(
         assembly=engine,
@@ -112,9 +113,11 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     )
 
 
-def _retuned(case: Case, cut: Guide, turns: float) -> Retuned | None:
+def _other(case: Case) -> Assembly | None:
+    """The engine at the other speed, if the case names one."""
     section = case.sections.get("retune")
-    if section is None:
-        return None
-    other = assemble(cases.load(section.case))
-    return trials.retuned(other, hinge.build(other.torques, other.omega), cut, load_of(case), turns)
+    return None if section is None else assemble(cases.load(section.case))
+
+
+def _retuned(other: Assembly, cut: Guide, load: Load, turns: float) -> Retuned:
+    return trials.retuned(other, hinge.build(other.torques, other.omega), cut, load, turns)

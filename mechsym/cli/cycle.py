@@ -15,22 +15,31 @@ _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g
 @click.command()
 @click.argument("case")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
+@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram: combustion from pressure.")
 @json_option
 @out_option
 @set_option
-def cycle(case: str, speeds: str | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+def cycle(
+    case: str, speeds: str | None, diagram: str | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]
+) -> None:
     """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
+
+    With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle.
 
     \b
     Examples: mechsym cycle nunes-slider-crank --speeds 500:8000:500
               mechsym cycle nunes-hypocycloid --set cycle.method=nunes2017_printed --speeds 10:8000:10 --json
+              mechsym cycle generator --diagram measured.csv
     """
     from mechsym.cases import load
     from mechsym.cycle import columns, engine, over_speeds
 
     loaded = load(case, pairs(overrides))
+    if diagram or hasattr(loaded.need("cycle"), "alignment"):
+        _measured(loaded, diagram, as_json, out)
+        return
     machine = engine(loaded)
-    omega = parse_speeds(speeds) if speeds else [loaded.need("operation").speed]
+    omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
     found = columns(over_speeds(machine, _array(omega)))
     files = _write(out, machine, found, loaded.need("operation").speed) if out else []
     emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
@@ -69,6 +78,34 @@ def parse_speeds(text: str) -> list[float]:
     if min(rpm) <= 0:
         raise BadInput(f"--speeds {text}: speeds must be > 0 rpm")
     return [parse(f"{value!r} rpm", "rad/s") for value in rpm]
+
+
+def _measured(case: Any, diagram: str | None, as_json: bool, out: Path | None) -> None:
+    from mechsym.files import write_csv
+    from mechsym.measured import measured_combustion, summary
+
+    found = summary(measured_combustion(case, diagram))
+    rows = found["cycles"]
+    files = [write_csv(out / "combustion.csv", {k: [row[k] for row in rows] for k in rows[0]})] if out else []
+    emit(found, as_json, lambda: "\n".join([_measured_text(found), *(f"written: {file}" for file in files)]))
+
+
+def _measured_text(found: dict[str, Any]) -> str:
+    weak = ", ".join(map(str, found["weak_cycles"])) or "none"
+    spread = found["tdc_uncertainty_deg"]
+    known = "not estimated" if spread is None else f"+- {spread:.2f} deg"
+    fits = [
+        f"{name}: " + ", ".join(f"{k} {v['value']:.4g} +- {v['confidence']:.2g}" for k, v in fit.items() if k != "rms")
+        for name, fit in ((n, found[n]) for n in ("wiebe", "double_wiebe", "compression_line"))
+    ]
+    lines = [
+        table(found["cycles"], list(found["cycles"][0])),
+        f"nearly misfired (less than 0.7 of the median work): cycle {weak}",
+        f"trapped mass {found['trapped_mass']:.4g} kg",
+        f"dead centre {known}; one degree later changes work by {100 * found['per_degree']['work']:+.2f} % and heat "
+        f"by {100 * found['per_degree']['heat']:+.2f} %",
+    ]
+    return "\n".join([*lines, *fits])
 
 
 def _array(values: list[float]) -> Any:

@@ -24,9 +24,12 @@ def hinge(case_name: str, diagram: str | None, out: Path | None, overrides: tupl
     Example: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
     """
     from mechsym import cases, design
+    from mechsym.files import make_folder
     from mechsym.summary import summary
 
     case = cases.load(case_name, pairs(overrides))
+    if out is not None:
+        make_folder(out)
     with progress(design.STEPS + bool(out), f"hinge of {case.name}") as bar:
         found = design.design(case, diagram, lambda: bar.update(1))
         files: list[Path] = []

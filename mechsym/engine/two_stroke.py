@@ -71,7 +71,7 @@ class TwoStrokeMarine:
 
     bore: float = quantity("m", above=0, about="diameter of the piston")
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
-    mean_indicated_pressure: float = quantity("Pa", above=0, about="wanted mean indicated pressure")
+    mean_indicated_pressure: float = quantity("Pa", above=0, high=1e8, about="wanted mean indicated pressure")
     p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
     T_evc: float = quantity("K", above=200, below=800, about="temperature when the exhaust closes")
     evc: float = quantity("rad", above=-math.pi, below=0, about="exhaust closes")

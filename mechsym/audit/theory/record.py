@@ -2,7 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import reduce
 from typing import Any
@@ -12,6 +12,7 @@ import sympy
 from sympy import Expr
 
 from mechsym.audit.algebra import Algebra, evaluate
+from mechsym.audit.reader import CONSTANTS, read_expression
 from mechsym.audit.tree import Node, binary, call, children, function_of, letters, name, number
 from mechsym.errors import BadInput
 
@@ -242,3 +243,38 @@ def need_result(theory: Theory, quantity: str) -> None:
     """
     if quantity not in theory.tape:
         raise BadInput(f"{theory.name} has no quantity {quantity!r}; it has {', '.join(theory.results)}")
+
+
+def extended(
+    theory: Theory, new_name: str, more_letters: Mapping[str, Letter], expressions: Mapping[str, tuple[str, str]]
+) -> Theory:
+    """A theory with further letters and expressions.
+
+    Parameters
+    ----------
+    theory : Theory
+        What there is
+    new_name : str
+        Name of the result
+    more_letters : mapping of str to Letter
+        Letters to add
+    expressions : mapping of str to (str, str)
+        Name to expression in letters and names, and its unit; in the order of definition
+
+    Returns
+    -------
+    theory : Theory
+        Both together
+    """
+    letters_now = {**theory.letters, **more_letters}
+    tape = dict(theory.tape)
+    for new, (text, _) in expressions.items():
+        tape[new] = read_expression(text, [*letters_now, *tape, *CONSTANTS])[0]
+    return replace(
+        theory,
+        name=new_name,
+        letters=letters_now,
+        tape=tape,
+        results=(*theory.results, *expressions),
+        units={**theory.units, **{k: unit for k, (_, unit) in expressions.items()}},
+    )
