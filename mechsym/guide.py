@@ -31,6 +31,8 @@ from mechsym.springs import AirAbsolute, AirGauge, Coil, law
 
 Spring = AirGauge | AirAbsolute | Coil
 
+_FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Guide:
@@ -225,10 +227,10 @@ def _status(
     functions = law(spring)
     if not exists(balance.torque):
         return "takes_work", f"the torque has a mean of {periodic.mean(balance.torque):.6g} N*m; no spring gives that"
-    if energy_max >= functions.energy_high:
+    if energy_max >= functions.energy_high or functions.closing(energy_max) >= _FULL * functions.z_high:
         return "spring_bottoms", (
-            f"the spring would have to store {energy_max:.6g} J and holds {functions.energy_high:.6g} J at its full "
-            f"closing of {functions.z_high:.6g} m; make it stiffer or longer"
+            f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
+            "make it stiffer or longer"
         )
     if energy_min <= functions.energy_low:
         return "spring_pulls", (

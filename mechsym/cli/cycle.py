@@ -41,7 +41,7 @@ def cycle(case: str, speeds: str | None, diagram: str | None, loop: float | None
     elif loop:
         cycle_loop.show(loaded, loop, as_json, out)
     else:
-        omega = parse_speeds(speeds) if speeds else [loaded.need("operation").speed]
+        omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
         _show_map(loaded, omega, as_json, out)
 
 

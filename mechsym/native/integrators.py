@@ -123,7 +123,7 @@ def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.n
     Returns
     -------
     a, b, c, ahead : ndarray
-        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial
+        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial [-]
 
     Notes
     -----
