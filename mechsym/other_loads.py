@@ -7,13 +7,14 @@ anew for that load takes part of the rest away.
 import dataclasses
 from collections.abc import Sequence
 
-from mechsym import balance, guide, hinge, trials
+from mechsym import balance, guide, hinge
 from mechsym.assembly import assemble, load_of
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.retune import retune
 from mechsym.setting import with_setting
 from mechsym.simulate.steady import Steady
+from mechsym.steadiness import with_spring
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -75,5 +76,5 @@ def _at(case: Case, cut: guide.Guide, load: float) -> AtLoad:
     wanted = hinge.build(other.torques, other.omega)
     setting = retune(cut, wanted, "least_squares_work").setting
     springs = (cut.spring, with_setting(cut.spring, setting))
-    as_cut, reset = (trials.with_spring(other, wanted, cut, load_of(case), spring) for spring in springs)
+    as_cut, reset = (with_spring(other, wanted, cut, load_of(case), spring) for spring in springs)
     return AtLoad(mean_indicated_pressure=load, as_cut=as_cut, reset=reset, setting=setting)
