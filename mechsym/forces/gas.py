@@ -227,7 +227,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
 
     def absolute(theta: np.ndarray) -> np.ndarray:
         theta = np.asarray(theta, dtype=float)
-        half = np.floor(theta / math.pi)
+        half = np.ceil(theta / math.pi) - 1  # a valve that opens at the dead centre opens after it
         outwards = half % 2 == 0
         angle = _angle_at(own, _travelled(other, theta))
         return found.absolute(np.where(outwards, half * math.pi + angle, (half + 1) * math.pi - angle))
