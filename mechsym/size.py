@@ -18,6 +18,7 @@ from mechsym.engine.model import Engine, closed_period
 from mechsym.engine.performance import Performance
 from mechsym.engine.run import dense, run
 from mechsym.errors import BadInput
+from mechsym.mechanism import bind, curves
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
 from mechsym.sizing import bearing_data, materials
 from mechsym.sizing.cylinder import tdc_gap
@@ -25,9 +26,10 @@ from mechsym.sizing.hypocycloid_masses import Moving, Printed
 from mechsym.sizing.hypocycloid_parts import Forces, Parts, Stock
 from mechsym.sizing.loads import over_period
 from mechsym.sizing.piston import head_heat
+from mechsym.sizing.slider_crank_parts import SliderForces
 from mechsym.sizing.wants import Wants
 
-_STEPS = 1440  # angles over a period of 4 pi; divisible by 4 for the teeth's returns
+_STEPS = 720  # angles over a period of 4 pi; divisible by 4 for the teeth's returns
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -256,3 +258,36 @@ def _setting(text: str, file: str) -> tuple[str, str]:
     if not sign or not key.strip() or not value.strip():
         raise BadInput(f"{file}: sizing.settings {text!r} is not KEY=VALUE")
     return key.strip(), value.strip()
+
+
+def slider_crank_forces(found: Job, gas: Pressures) -> Callable[[float], SliderForces]:
+    """Forces of the derived crank mechanism for a given reciprocating mass.
+
+    Parameters
+    ----------
+    found : Job
+        The case; mechanism `crosshead` without offset
+    gas : Pressures
+        Pressure over the period
+
+    Returns
+    -------
+    forces_of : callable
+        Reciprocating mass [kg] -> forces over the speeds
+    """
+    room = chamber(found.machine.chamber, found.machine.motion)
+    parameters = found.case.need("parameters")
+    moved = curves(bind("crosshead", dataclasses.asdict(parameters)), gas.theta)
+    net = (gas.p - gas.back) * float(room.area)
+    heat = head_heat(fuel_flow(found, gas.omega.max()) / 2, found.machine.cycle.heating_value, found.wants.heat_share)
+
+    def forces_of(mass: float) -> SliderForces:
+        force = net - mass * moved["d2x_dphi2"] * gas.omega[:, None] ** 2
+        return SliderForces(
+            omega=gas.omega, theta=gas.theta, dp_max=gas.p.max(axis=1) - found.machine.cycle.intake_pressure,
+            net=force, torque=force * moved["dx_dphi"], r=parameters.r1 + parameters.r2,
+            l=parameters.l1 + parameters.l2, bore=float(room.bore), stroke=float(room.stroke), head_heat=heat,
+            gap=tdc_gap(float(room.clearance), float(room.area)),
+        )  # fmt: skip
+
+    return forces_of

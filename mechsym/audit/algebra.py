@@ -99,9 +99,12 @@ def _float_power(base: Any, exponent: Any) -> Any:
 
 
 def _total(value: Any) -> Any:
-    if np.ndim(value) < 2:
-        raise BadInput("sum() needs a letter that has one value per part, such as the force on each journal")
-    return np.sum(value, axis=0)
+    # a letter with parts has a first axis for them; anything else has no sum
+    return np.sum(value, axis=0) if np.ndim(value) >= 2 else _nowhere(value)
+
+
+def _nowhere(value: Any) -> Any:
+    return np.full(np.shape(value), mpmath.nan if np.asarray(value).dtype == object else np.nan)
 
 
 def _cot(value: Any) -> Any:
@@ -179,7 +182,7 @@ SYMBOLS = Algebra(
     functions={
         name: _symbolic(getattr(sympy, name if name != "abs" else "Abs"))
         for name in ("sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs")
-    } | {"sum": _total},
+    } | {"sum": lambda value: np.sum(value) if np.ndim(value) else sympy.nan},
     pi=lambda: sympy.pi,
 )  # fmt: skip
 

@@ -174,7 +174,7 @@ def _better(exam: Examination, start: Repair, listed: list[Edit], insert: bool) 
         asked = search_bench(exam, group.name) if insert else group.fine
         edits = matching_edits(exam.question, asked, start.tree, listed, insert)
         distinct = _distinct(exam, start.tree, edits)
-        nearer = [e for e in distinct if max_rel_error(exam.turn, apply(start.tree, e)) < start.max_rel_error]
+        nearer = [e for e in distinct if not max_rel_error(exam.turn, apply(start.tree, e)) > start.max_rel_error]
         candidates = [standing(exam, apply(start.tree, e), (*start.edits, e)) for e in nearer]
         improved = [c for c in candidates if _improves(c, start)]
         if improved:
@@ -246,7 +246,7 @@ def _search_bench(exam: Examination, group: str) -> Bench:
 def _improves(candidate: Repair, start: Repair) -> bool:
     pairs = [(candidate.orders[g], start.orders[g]) for g in start.orders]
     higher = all(new >= old for new, old in pairs) and any(new > old for new, old in pairs)
-    return higher and candidate.max_rel_error < start.max_rel_error
+    return higher and candidate.max_rel_error <= start.max_rel_error
 
 
 def _distinct(exam: Examination, tree: Node, edits: list[Edit]) -> list[Edit]:

@@ -9,6 +9,7 @@ from mechsym.errors import BadInput
 
 # command: "module:function"
 COMMANDS = {
+    "audit": "mechsym.cli.audit:audit",
     "cases": "mechsym.cli.catalogue:cases",
     "compare": "mechsym.cli.compare:compare",
     "cycle": "mechsym.cli.cycle:cycle",
@@ -19,7 +20,9 @@ COMMANDS = {
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
+    "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
+    "size": "mechsym.cli.size:size",
 }
 
 

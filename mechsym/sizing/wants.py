@@ -72,7 +72,7 @@ class Wants:
     """
 
     settings: tuple[str, ...] = ()
-    speed_step: float = quantity("rad/s", default=100 * np.pi / 30, above=0, about="step of the speeds")
+    speed_step: float = quantity("rad/s", default=50 * np.pi / 30, above=0, about="step of the speeds")
     rival: str = ""
     head: float = quantity("-", default=1.5, low=1, about="piston head")
     rod: float = quantity("-", default=1.5, low=1, about="piston rod")

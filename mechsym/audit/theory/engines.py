@@ -102,20 +102,19 @@ def otto(values: Mapping[str, float], data: str) -> Theory:
         "QHV": Letter(unit="J/kg", value=43.5e6), "C_p": Letter(unit="J/kg/K", value=1005.2),
     }  # fmt: skip
     p1, T1, V1, V2, C_v, gamma, Q, V_d, AFR, eta_c, QHV, C_p = (Symbol(k, positive=True) for k in letters)
-    R, V, p = (gamma - 1) * C_v, Symbol("V", positive=True), Symbol("p2", positive=True)
-    m1, m_air = p1 * V1 / (R * T1), p1 * V_d / (R * T1)
-    T2 = p * V2 / (m1 * R)
-    T3 = T2 + Q / (m1 * C_v)
-    p3 = m1 * R * T3 / V2
-    p4 = p3 * (V2 / V1) ** gamma
-    T4 = p4 * V1 / (m1 * R)
+    R, m1, m_air, m_fuel, p2, T2, p3, T3, p4, T4, V = (
+        Symbol(k, positive=True) for k in "R m1 m_air m_fuel p2 T2 p3 T3 p4 T4 V".split()
+    )
     compressed, expanded = (generic(integrate(c * V**-gamma, V)) for c in (p1 * V1**gamma, p3 * V2**gamma))
+    # p V^gamma is constant from 1 to 2 and from 3 to 4, p V = m R T everywhere, the volume is constant from 2 to 3
     expressions = {
-        "R": R, "CR": V1 / V2, "p2": p1 * (V1 / V2) ** gamma, "m1": m1, "m_air": m_air, "m_fuel": m_air / AFR,
-        "fuel_heat": eta_c * m_air / AFR * QHV, "T2": T2, "T3": T3, "p3": p3, "p4": p4, "T4": T4,
-        "W_12": compressed.subs(V, V2) - compressed.subs(V, V1), "W_34": expanded.subs(V, V1) - expanded.subs(V, V2),
-        "U_12": m1 * C_v * (T2 - T1), "U_23": m1 * C_v * (T3 - T2), "U_34": m1 * C_v * (T4 - T3),
-        "Q_41": m1 * C_v * (T1 - T4), "heat_capacity_ratio": C_p / C_v,
+        "R": (gamma - 1) * C_v, "CR": V1 / V2, "m1": p1 * V1 / (R * T1), "m_air": p1 * V_d / (R * T1),
+        "m_fuel": m_air / AFR, "fuel_heat": eta_c * m_fuel * QHV, "p2": p1 * (V1 / V2) ** gamma,
+        "T2": p2 * V2 / (m1 * R), "T3": T2 + Q / (m1 * C_v), "p3": m1 * R * T3 / V2, "p4": p3 * (V2 / V1) ** gamma,
+        "T4": p4 * V1 / (m1 * R), "W_12": compressed.subs(V, V2) - compressed.subs(V, V1),
+        "W_34": expanded.subs(V, V1) - expanded.subs(V, V2), "U_12": m1 * C_v * (T2 - T1),
+        "U_23": m1 * C_v * (T3 - T2), "U_34": m1 * C_v * (T4 - T3), "Q_41": m1 * C_v * (T1 - T4),
+        "heat_capacity_ratio": C_p / C_v,
     }  # fmt: skip
     expressions["efficiency"] = (Symbol("W_12") + Symbol("W_34")) / Q
     units = {"R": "J/kg/K", "CR": "-"} | {k: "Pa" for k in ("p2", "p3", "p4")}

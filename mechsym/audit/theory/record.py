@@ -13,7 +13,7 @@ from sympy import Expr
 
 from mechsym.audit.algebra import Algebra, evaluate
 from mechsym.audit.reader import CONSTANTS, read_expression
-from mechsym.audit.tree import Node, binary, call, children, function_of, letters, name, number
+from mechsym.audit.tree import Node, binary, call, children, function_of, letters, name, number, walk
 from mechsym.errors import BadInput
 
 _FUNCTIONS = {
@@ -208,6 +208,30 @@ def parts(theory: Theory, tree: Node) -> bool:
     if isinstance(tree, ast.Name):
         return isinstance(theory.tape.get(tree.id), tuple)
     return function_of(tree) != "sum" and any(parts(theory, child) for _, child in children(tree))
+
+
+def check_sums(theory: Theory, tree: Node) -> None:
+    """Refuse a letter with parts outside sum(), and a sum() without one.
+
+    Parameters
+    ----------
+    theory : Theory
+        Letters and tape
+    tree : Node
+        Expression
+
+    Raises
+    ------
+    BadInput
+        Says which letters have parts
+    """
+    letters_with_parts = [k for k, entry in theory.tape.items() if isinstance(entry, tuple)]
+    hint = f"letters of {theory.name} with one value per part: {', '.join(letters_with_parts) or 'none'}"
+    if parts(theory, tree):
+        raise BadInput(f"a letter that has one value per part stands outside sum(); {hint}")
+    for _, node in walk(tree):
+        if function_of(node) == "sum" and not parts(theory, dict(children(node))["argument"]):
+            raise BadInput(f"sum() is over nothing that has parts; {hint}")
 
 
 def known(theory: Theory) -> list[str]:
