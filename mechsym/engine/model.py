@@ -105,7 +105,7 @@ def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
         numbers = np.asarray(values, float)
         if name == "omega" and not np.all(numbers > 0):
             raise BadInput(f"omega = {numbers.min():g} rad/s is out of range; it must be > 0 rad/s")
-        record = getattr(engine, section, None)
+        record: Any = getattr(engine, section, None)
         if section in _SECTIONS and hasattr(record, key):
             for value in (numbers.min(), numbers.max()):
                 dataclasses.replace(record, **{key: float(value)})

@@ -139,7 +139,7 @@ def test_speed_range_of_a_case():
 def test_a_map_over_another_value_than_the_speed():
     found = run_json(cycle, "nunes-slider-crank", "--over", "cycle.ignition=-30 deg:0 deg:10 deg", "--speeds", "4000")
     assert found["cycle.ignition"] == pytest.approx(np.radians([-30, -20, -10, 0]))
-    assert np.argmax(found["efficiency"]) == 1 and np.all(np.diff(found["p_max_mpa"]) < 0)
+    assert np.argmax(found["efficiency"]) == 2 and np.all(np.diff(found["p_max_mpa"]) < 0)
 
 
 @pytest.mark.parametrize(
