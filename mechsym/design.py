@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
-from mechsym import balance, cases, feasibility, guide, hinge, trials
+from mechsym import cases, hinge, steadiness, trials
 from mechsym.assembly import Assembly, assemble, kept_flywheel, load_of
 from mechsym.balance import Balance
 from mechsym.cases import Case
@@ -13,7 +13,9 @@ from mechsym.feasibility import Verdict
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
 from mechsym.loads import Load
-from mechsym.trials import Flywheels, Retuned, Sensitivity, Trial
+from mechsym.offers import Offer, offers
+from mechsym.steadiness import Flywheels, Retuned, Sensitivity
+from mechsym.trials import Trial
 
 STEPS = 6  # how often `design` calls `progress`
 
@@ -34,6 +36,8 @@ class Design:
         Guide, or why there is none
     verdict : Verdict
         Whether it can be built
+    instead : tuple of Offer
+        The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
     trials : tuple of Trial
         Runs side by side
     flywheels : Flywheels
@@ -51,6 +55,7 @@ class Design:
     balance: Balance
     guide: Guide
     verdict: Verdict
+    instead: tuple[Offer, ...]
     trials: tuple[Trial, ...]
     flywheels: Flywheels
     sensitivities: tuple[Sensitivity, ...]
@@ -86,25 +91,24 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     engine, other = assemble(case, diagram), _other(case)
     progress()
     wanted = hinge.build(engine.torques, engine.omega)
-    part = balance.build(wanted, choices.balance)
-    cut = guide.build(part, spring, choices)
-    verdict = feasibility.judge(cut, spring, rollers, limits)
-    usable = cut if cut.rho is not None else None
+    chosen, *instead = offers(wanted, spring, choices, rollers, limits)
+    usable = chosen.guide if chosen.guide.rho is not None else None
     progress()
     runs = trials.side_by_side(engine, wanted, usable, load, turns)
     progress()
-    wheels = trials.flywheels(engine, wanted, usable, load)
+    wheels = steadiness.flywheels(engine, wanted, usable, load)
     progress()
-    errors = trials.sensitivities(engine, wanted, usable, load) if usable else []
+    errors = steadiness.sensitivities(engine, wanted, usable, load) if usable else []
     progress()
     again = _retuned(other, usable, load, turns) if usable and other else None
     progress()
     return Design(
         assembly=engine,
         hinge=wanted,
-        balance=part,
-        guide=cut,
-        verdict=verdict,
+        balance=chosen.balance,
+        guide=chosen.guide,
+        verdict=chosen.verdict,
+        instead=tuple(instead),
         trials=tuple(runs),
         flywheels=wheels,
         sensitivities=tuple(errors),
@@ -120,4 +124,4 @@ def _other(case: Case) -> Assembly | None:
 
 
 def _retuned(other: Assembly, cut: Guide, load: Load, turns: float) -> Retuned:
-    return trials.retuned(other, hinge.build(other.torques, other.omega), cut, load, turns)
+    return steadiness.retuned(other, hinge.build(other.torques, other.omega), cut, load, turns)

@@ -1,4 +1,4 @@
-"""Bad input through the command line: exit status 2, one line on standard error that names the value and the way out."""
+"""Bad input through the command line: exit status 2, one line on standard error with the value and the way out."""
 
 import subprocess
 import sys

@@ -25,6 +25,7 @@ _SECTIONS: dict[str, Any] = {
         "kind",
         {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "two-stroke-zone": "mechsym.engine.two_stroke_zone:TwoStrokeZone",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
             "schmidt": "mechsym.engine.schmidt:Schmidt",
@@ -74,6 +75,17 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "friction": "mechsym.forces.friction:Friction",
+    "rings": (
+        "law",
+        {
+            "none": "mechsym.forces.rings:NoRings",
+            "patton1989": "mechsym.forces.rings:Patton1989",
+            "contact_pressure": "mechsym.forces.rings:ContactPressure",
+        },
+    ),
+    "shaking": "mechsym.forces.shaking:BalanceWanted",
+    "comparison": "mechsym.forces.comparison:ComparisonSettings",
     "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",

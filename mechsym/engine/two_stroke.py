@@ -69,7 +69,7 @@ class TwoStrokeMarine:
         Absolute pressure under the piston for `crank_side = "atmosphere"` [Pa]
     """
 
-    bore: float = quantity("m", above=0, about="diameter of the piston")
+    bore: float = quantity("m", low=1e-3, high=10, about="diameter of the piston")
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
     mean_indicated_pressure: float = quantity("Pa", above=0, high=1e8, about="wanted mean indicated pressure")
     p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
@@ -77,20 +77,20 @@ class TwoStrokeMarine:
     evc: float = quantity("rad", above=-math.pi, below=0, about="exhaust closes")
     soc: float = quantity("rad", default=0.0, above=-math.pi / 3, below=math.pi / 3, about="combustion starts")
     duration: float = quantity("rad", above=0, below=math.pi, about="duration of combustion")
-    evo: float = quantity("rad", above=0, below=math.pi, about="exhaust opens")
+    evo: float = quantity("rad", above=math.pi / 6, below=math.pi, about="exhaust opens")
     spo: float = quantity("rad", above=0, below=math.pi, about="scavenge ports open")
     n_c: float = quantity("-", above=1, below=1.67, about="exponent of compression")
     n_e: float = quantity("-", above=1, below=1.67, about="exponent of expansion")
-    a_p: float = quantity("-", above=0, about="Wiebe completeness of the share 1 - b")
-    m_p: float = quantity("-", low=0, about="Wiebe form of the share 1 - b")
-    a_d: float = quantity("-", above=0, about="Wiebe completeness of the share b")
-    m_d: float = quantity("-", low=0, about="Wiebe form of the share b")
+    a_p: float = quantity("-", above=0, high=1000, about="Wiebe completeness of the share 1 - b")
+    m_p: float = quantity("-", low=0, high=20, about="Wiebe form of the share 1 - b")
+    a_d: float = quantity("-", above=0, high=1000, about="Wiebe completeness of the share b")
+    m_d: float = quantity("-", low=0, high=20, about="Wiebe form of the share b")
     b: float = quantity("-", low=0, high=1, about="share of the second Wiebe function")
     R: float = quantity("J/kg/K", default=287.0, above=0, about="gas constant")
     c_v: float = quantity("J/kg/K", default=900.0, above=0, about="mean specific heat between 1000 and 2500 K")
     lhv: float = quantity("J/kg", default=42.7e6, above=0, about="lower heating value of the fuel")
     crank_side: str = choice("atmosphere", "scavenge", default="atmosphere", about="what is under the piston")
-    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
+    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
         check(self)

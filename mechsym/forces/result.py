@@ -149,6 +149,7 @@ def _shaking(found: Shaking) -> dict[str, Any]:
     return {
         "orders": {name: _order_table(values) for name, values in found.orders.items()},
         "counterweight": counterweight | {"angle_deg": math.degrees(angle)},
+        "planes": [{"z": p.z, "unbalance": p.unbalance, "angle_deg": math.degrees(p.angle)} for p in found.planes],
     }
 
 
@@ -170,10 +171,10 @@ def _rodless(one: Turn) -> dict[str, Any]:
     p = one.case.need("parameters")
     rigid = mechanisms.build("rodless_constraints", p)
     solution = constraints.solve(rigid, constraints.close(rigid, {"alpha": 0.6, "alphad": one.omega}))
-    x, y = (one.momentum[f"momentum_rate_{axis}"] for axis in "xy")
-    size = np.hypot(x, y)
-    turned = np.angle((x + 1j * y) * np.exp(-1j * one.phi)) - math.pi  # inertia force against the crank
-    wandering = np.abs(np.angle(np.exp(1j * turned))).max() if size.max() > 0 else 0.0
+    # of link, sliders and pistons; the crank's own unbalance is there to balance it
+    rate = one.momentum["momentum_rate_x"] + 1j * one.momentum["momentum_rate_y"]
+    in_crank = -rate * np.exp(-1j * one.phi) - p.u1 * one.omega**2
+    size, wandering = np.abs(in_crank), np.abs(np.angle(in_crank)).max()
     rule = one.case.need("closing")
     return {
         "constraint_rank": solution.rank,
