@@ -230,6 +230,6 @@ def _rodless_advice(p: RodlessParameters) -> str:
             "counterweight on it takes that; make the two axes equally heavy"
         )
     return (
-        f"the resultant turns with the crank: an unbalance u1 = {-(2 * p.m_a + p.m_link) * p.r:.4g} kg m on the crank "
-        f"takes all of it, the case has {p.u1:.4g} kg m"
+        f"the resultant turns with the crank: a counterweight of u1 = {-(2 * p.m_a + p.m_link) * p.r:.4g} kg m on the "
+        f"crank takes all of it, the case has {p.u1:.4g} kg m"
     )
