@@ -73,6 +73,7 @@ def polar_diagrams(found: Forces) -> Figure:
         chosen = [(n, v) for n, v in curves.items() if (n in of_pins) == is_pin][:_MOST_CURVES]
         for (name, (across, up)), color in zip(chosen, _SERIES, strict=False):
             axis.plot(_closed(across) / 1e3, _closed(up) / 1e3, color=color, lw=1.2, label=_label(name))
+            _mark_angles(axis, found.turn.phi, across / 1e3, up / 1e3, color, named=len(chosen) == 1)
         axis.plot(0, 0, "+", color=_INK)
         axis.set(xlabel=x, ylabel=y)
         axis.set_aspect("equal", adjustable="datalim")
@@ -81,6 +82,20 @@ def polar_diagrams(found: Forces) -> Figure:
             axis.legend(fontsize=7, frameon=False)
         _bare(axis)
     return figure
+
+
+def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color: str, named: bool) -> None:
+    """Dots every 30 degrees of the crank, numbers every 60; over two turns every 60 and 120."""
+    turns = round((phi[-1] + phi[1]) / (2 * np.pi))
+    every = len(phi) // 12
+    axis.plot(x[::every], y[::every], ".", color=color, ms=4)
+    if not named:
+        return
+    for i in range(0, len(phi), 2 * every):
+        text = f"{round(np.degrees(phi[i]))}"
+        axis.annotate(text, (x[i], y[i]), (3, 3), textcoords="offset points", fontsize=7, color=_INK)
+    axis.annotate(f"numbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}", (0.02, 0.02), fontsize=7,
+                  xycoords="axes fraction", color=_QUIET)  # fmt: skip
 
 
 def orders(found: Forces) -> Figure:
@@ -109,7 +124,9 @@ def orders(found: Forces) -> Figure:
         label = f"{_label(name)} [{unit}]"
         right.bar(place, values.amplitude[whole], width=0.7 / len(shown), color=_SERIES[i], label=label)
     right.set(xlabel="order", ylabel="on the frame")
-    right.set_ylim(0, max(right.get_ylim()[1], 1.0))  # what is balanced looks balanced
+    if right.get_ylim()[1] < 1:  # round-off of what is balanced is no picture
+        right.set_ylim(0, 1)
+        right.text(0.5, 0.5, "balanced: below 1 N and 1 N m", transform=right.transAxes, ha="center", color=_QUIET)
     right.legend(fontsize=7, frameon=False)
     for axis in (left, right):
         _bare(axis)

@@ -22,6 +22,7 @@ COMMANDS = {
     "optimise": "mechsym.cli.optimise:optimise",
     "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
+    "size": "mechsym.cli.size:size",
 }
 
 

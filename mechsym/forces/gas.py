@@ -11,6 +11,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.polynomial import Chebyshev
 
 from mechsym import mechanisms
 from mechsym.cases import Case
@@ -26,6 +27,7 @@ from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import RodlessParameters
 
 _STEP = math.radians(0.25)  # of the tabulated cycle
+_DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -225,12 +227,14 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         Over the motion `other`
     """
 
+    # travel is even in the angle, so one cosine is a smooth function of the other: a polynomial found once
+    cosine = Chebyshev.interpolate(lambda c: np.cos(_angle_at(own, _travelled(other, np.arccos(c)))), _DEGREE)
+
     def absolute(theta: np.ndarray) -> np.ndarray:
         theta = np.asarray(theta, dtype=float)
-        half = np.floor(theta / math.pi)
-        outwards = half % 2 == 0
-        angle = _angle_at(own, _travelled(other, theta))
-        return found.absolute(np.where(outwards, half * math.pi + angle, (half + 1) * math.pi - angle))
+        half = np.ceil(theta / math.pi) - 1  # a valve that opens at the dead centre opens after it
+        angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
+        return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
     return dataclasses.replace(found, absolute=absolute)
 

@@ -149,6 +149,7 @@ def _shaking(found: Shaking) -> dict[str, Any]:
     return {
         "orders": {name: _order_table(values) for name, values in found.orders.items()},
         "counterweight": counterweight | {"angle_deg": math.degrees(angle)},
+        "planes": [{"z": p.z, "unbalance": p.unbalance, "angle_deg": math.degrees(p.angle)} for p in found.planes],
     }
 
 

@@ -6,7 +6,8 @@ one that turns against it,
 .. math:: S_x + i S_y = c_+ e^{i\varphi} + c_- e^{-i\varphi} + \dots
 
 A counterweight on the crank only has the first: the one that leaves the least mean square cancels c_+ exactly. For a
-single slider crank that is half of the reciprocating mass.
+single slider crank that is half of the reciprocating mass. On a shaft of several throws two counterweights, one at each
+end, cancel the part of force and couple that turns with the crank, and so leave the least mean square of both.
 """
 
 import cmath
@@ -18,6 +19,8 @@ import numpy as np
 from mechsym.forces.harmonics import Orders, orders, whole
 from mechsym.forces.loads import roll_sense
 from mechsym.forces.turn import Turn
+from mechsym.mechanisms.crank_train import CrankTrainParameters, each
+from mechsym.mechanisms.rodless import RodlessParameters
 from mechsym.quantities import check, quantity
 
 _NAMES = {
@@ -68,6 +71,25 @@ class Counterweight:
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
+class PlaneWeight:
+    """One of two counterweights that balance force and couple together.
+
+    Parameters
+    ----------
+    z : float
+        Place along the shaft [m]
+    unbalance : float
+        Mass times radius [kg*m]
+    angle : float
+        Where it stands at shaft angle 0, in the sense of rotation [rad]
+    """
+
+    z: float
+    unbalance: float
+    angle: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class Shaking:
     """Forces and moments on the frame at constant speed.
 
@@ -79,11 +101,14 @@ class Shaking:
         Harmonics of each
     counterweight : Counterweight
         Best one on the crank
+    planes : tuple of PlaneWeight
+        Best pair at the ends of a shaft whose throws all turn one way; empty for a single throw
     """
 
     curves: dict[str, np.ndarray]
     orders: dict[str, Orders]
     counterweight: Counterweight
+    planes: tuple[PlaneWeight, ...]
 
 
 def shaking(turn: Turn) -> Shaking:
@@ -102,7 +127,8 @@ def shaking(turn: Turn) -> Shaking:
     curves = {name: -turn.momentum[key] for name, key in _NAMES.items() if key in turn.momentum}
     curves["roll"] = -(turn.momentum["angular_momentum_rate"] + roll_sense(turn) * turn.torque)
     found = {name: orders(values, turn.period) for name, values in curves.items()}
-    return Shaking(curves=curves, orders=found, counterweight=_counterweight(turn, curves))
+    counterweight, planes = _counterweight(turn, curves), _planes(turn, curves)
+    return Shaking(curves=curves, orders=found, counterweight=counterweight, planes=planes)
 
 
 def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
@@ -115,6 +141,22 @@ def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
         angle=float(cmath.phase(-with_crank) % (2 * math.pi)) if with_crank != 0 else 0.0,
         rms_before=float(np.sqrt(np.mean(np.abs(force) ** 2))),
         rms_after=float(np.sqrt(np.mean(np.abs(rest) ** 2))),
+    )
+
+
+def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...]:
+    train = turn.case.need("parameters")
+    if not isinstance(train, CrankTrainParameters) or set(each(train, "sense")) != {1.0}:
+        return ()
+    z = np.array([min(each(train, "z")), max(each(train, "z"))])
+    if z[0] == z[1]:
+        return ()
+    force, couple = (curves[f"force_{n}"] for n in "xy"), (curves["rocking_y"], -curves["rocking_x"])
+    turning = [np.mean((x + 1j * y) * np.exp(-1j * turn.phi)) for x, y in (tuple(force), couple)]
+    found = np.linalg.solve(np.array([[1.0, 1.0], z]), -np.array(turning) / turn.omega**2)
+    return tuple(
+        PlaneWeight(z=float(place), unbalance=float(abs(u)), angle=cmath.phase(u) % (2 * math.pi))
+        for place, u in zip(z, found.tolist(), strict=True)
     )
 
 
@@ -151,35 +193,43 @@ def verdict(turn: Turn, found: Shaking, wanted: BalanceWanted) -> list[str]:
 
 def _scale(turn: Turn, name: str) -> float:
     """Force of one cylinder's reciprocating mass, for a couple times the length of the shaft."""
-    p = turn.mechanism.parameters
+    p, train = turn.mechanism.parameters, turn.case.need("parameters")
+    if isinstance(train, CrankTrainParameters):
+        force = max(m * r for m, r in zip(each(train, "m_piston"), each(train, "r"), strict=True)) * turn.omega**2
+        return force * (np.ptp(each(train, "z")) if name.startswith("rocking") else 1.0)
     masses = {
         "crosshead": ("m3", "m4", "m5"),
         "crank_throw": ("m_piston",),
         "hypocycloid": ("m3",),
         "rodless": ("m_a",),
     }
-    if turn.case.mechanism == "crank_train":
-        from mechsym.mechanisms.crank_train import each
-
-        train = turn.case.need("parameters")
-        force = max(m * r for m, r in zip(each(train, "m_piston"), each(train, "r"), strict=True)) * turn.omega**2
-        return force * (np.ptp(each(train, "z")) if name.startswith("rocking") else 1.0)
     stroke = np.ptp(turn.kinematics["x_a" if turn.case.mechanism == "rodless" else "x"])
     return sum(p[m] for m in masses[turn.case.mechanism]) * stroke / 2 * turn.omega**2
 
 
 def _advice(turn: Turn, name: str, order: int) -> str:
-    if turn.case.mechanism != "crank_train":
+    parameters = turn.case.need("parameters")
+    if isinstance(parameters, RodlessParameters):
+        return _rodless_advice(parameters)
+    if not isinstance(parameters, CrankTrainParameters):
         return "one cylinder cannot balance itself; a counterweight takes at most the part that turns with the crank"
-    from mechsym.mechanisms.crank_train import each
-
-    train = turn.case.need("parameters")
-    phases = each(train, "phase")
-    names = ", ".join(f"{math.degrees(a) % 360:g}" for a in phases)
-    n = len(set(train.throw))
+    names = ", ".join(f"{math.degrees(a) % 360:g}" for a in each(parameters, "phase"))
+    n = len(set(parameters.throw))
     if name.startswith("rocking"):
         return f"cranks at {names} deg are no mirror image about the middle of the shaft; order them symmetrically"
     return (
         f"cranks at {names} deg: the arrows exp(i {order} phase) do not add up to zero; {n} equal throws "
         f"{360 / n:g} deg apart cancel every order that is no multiple of {n}"
+    )
+
+
+def _rodless_advice(p: RodlessParameters) -> str:
+    if p.m_a != p.m_b:
+        return (
+            f"m_a = {p.m_a:g} kg and m_b = {p.m_b:g} kg: a force (m_a - m_b) r omega^2 turns against the crank, and no "
+            "counterweight on it takes that; make the two axes equally heavy"
+        )
+    return (
+        f"the resultant turns with the crank: a counterweight of u1 = {-(2 * p.m_a + p.m_link) * p.r:.4g} kg m on the "
+        f"crank takes all of it, the case has {p.u1:.4g} kg m"
     )

@@ -10,9 +10,8 @@ from mechsym.sizing.bearing_design import Choice, check_bearing, choices, choose
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.crank_design import check_crank, size_output
 from mechsym.sizing.gear_design import candidates, face_width
+from mechsym.sizing.hypocycloid_checks import check_all, check_pinion_shaft
 from mechsym.sizing.hypocycloid_engine import (
-    check_all,
-    check_pinion_shaft,
     crank_loads,
     cylinder_loads,
     seats,

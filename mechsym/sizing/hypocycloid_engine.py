@@ -1,25 +1,19 @@
-"""The hypocycloid engine as a whole: axial places, loads on every part, and all checks.
+"""The hypocycloid engine as a whole: axial places and loads on every part.
 
 Forces come from outside as arrays over speed and angle (`hypocycloid_parts.Forces`).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 
-from mechsym.sizing.bearing_design import Choice, Seat, check_bearing
-from mechsym.sizing.checks import Check, at_least
-from mechsym.sizing.crank_design import CrankLoads, check_crank, check_output
-from mechsym.sizing.fatigue import endurance_limit
-from mechsym.sizing.gear_checks import check_gears
+from mechsym.sizing.bearing_design import Seat
+from mechsym.sizing.crank_design import CrankLoads
 from mechsym.sizing.gear_design import ToothLoads
 from mechsym.sizing.hypocycloid_parts import Forces, Parts, Stock, chosen
 from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
-from mechsym.sizing.materials import get
-from mechsym.sizing.piston_design import CylinderLoads, check_cylinder, check_piston
-from mechsym.sizing.rounding import at_speed
+from mechsym.sizing.piston_design import CylinderLoads
 from mechsym.sizing.shaft_beam import Shaft, moment, outer_shares
-from mechsym.sizing.turning_shaft import Section, fatigue_factor
 from mechsym.sizing.wants import Wants
 
 _GAP = 2e-3  # between web, bearings and housing, as in the source's sizes [m]
@@ -212,43 +206,6 @@ def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Cra
     )  # fmt: skip
 
 
-def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
-    """Every check of the engine.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
-    Returns
-    -------
-    checks : list of Check
-        From the piston to the bearings
-    """
-    used = {place: get(dict(stock.materials), getattr(wants, place))
-            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
-    cylinder = cylinder_loads(forces)
-    crank = crank_loads(parts, forces, wants, stock)
-    teeth = tooth_loads(parts, forces, wants, stock)
-    places = chosen(parts.bearings, stock)
-    return [
-        *check_piston(parts.piston, cylinder, wants, used["piston"]),
-        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
-        *check_gears(parts.gears, teeth, wants, used["gears"]),
-        *check_crank(parts.crank, crank, wants, used["crankshaft"]),
-        *check_pinion_shaft(parts, forces, wants, stock),
-        *check_output(parts.crank.output, crank, wants, used["shaft"]),
-        *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
-        _check_room(parts, wants, forces.e, places),
-    ]
-
-
 def cylinder_loads(forces: Forces) -> CylinderLoads:
     """Loads of piston and cylinder.
 
@@ -264,44 +221,3 @@ def cylinder_loads(forces: Forces) -> CylinderLoads:
     """
     return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
                          bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
-
-
-def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choice]) -> Check:
-    largest = max(places["inner"].bearing.outside, places["outer"].bearing.outside)
-    wall = places["main"].bearing.bore / 2 - e - largest / 2
-    return at_least("carrier", "wall between journal and main bearing", wall, wants.carrier_wall, "m", wanted=1.0,
-                    rule="room in the main bearing's bore", source="geometry")  # fmt: skip
-
-
-def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
-    """Shaft under the pinion: bending between two journals, and the tooth's torque.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
-    Returns
-    -------
-    checks : list of Check
-        One, or none when the pinion has no bore
-    """
-    d, material = parts.gears.pinion_bore, get(dict(stock.materials), wants.crankshaft)
-    if d <= 0:
-        return []
-    M_x, M_y = bending_moment(parts, forces, stock)(spans(parts, stock).gear)
-    torque = forces.e * tooth_loads(parts, forces, wants, stock).tooth
-    section = Section(d=d, S_e=endurance_limit(material.ultimate, d, wants.surface), S_ut=material.ultimate)
-    factor = fatigue_factor(section, M_x, M_y, -forces.theta, torque)
-    k = int(np.argmin(factor))
-    return [
-        Check(component="shaft, under the pinion", quantity="fatigue factor", value=float(factor[k]), limit=1.0,
-              unit="-", safety_factor=float(factor[k]), wanted=wants.fatigue, rule="Goodman, fibre by fibre",
-              source="Shigley eq. 7-7", note=at_speed(forces.omega, k))
-    ]  # fmt: skip
