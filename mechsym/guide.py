@@ -227,18 +227,23 @@ def _status(
     functions = law(spring)
     if not exists(balance.torque):
         return "takes_work", f"the torque has a mean of {periodic.mean(balance.torque):.6g} N*m; no spring gives that"
-    if energy_max >= functions.energy_high or functions.closing(energy_max) >= _FULL * functions.z_high:
+    if energy_max >= functions.energy_high:
         return "spring_bottoms", (
-            f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
-            "make it stiffer or longer"
+            f"the spring would have to store {energy_max:.6g} J and holds {functions.energy_high:.6g} J at its full "
+            f"closing of {functions.z_high:.6g} m; make it stiffer or longer"
         )
     if energy_min <= functions.energy_low:
         return "spring_pulls", (
             f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at "
             f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
         )
-    rollers = ROLLERS[parameters.arrangement]
-    rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers
+    z_max = float(functions.closing(energy_max))
+    if z_max >= _FULL * functions.z_high:
+        return "spring_bottoms", (
+            f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
+            "make it stiffer or longer"
+        )
+    rho_min = parameters.rho0 - z_max / ROLLERS[parameters.arrangement]
     if rho_min <= 0:
         return "crosses_axis", (
             f"the path crosses the shaft axis: its smallest rho would be {rho_min * 1e3:.4g} mm; "

@@ -1,4 +1,4 @@
-"""The hinge of a four-stroke engine from its measured diagram: on a half-speed shaft, or for what repeats every turn."""
+"""The hinge of a four-stroke engine from its measured diagram: on a half-speed shaft, or for what repeats each turn."""
 
 import json
 import math

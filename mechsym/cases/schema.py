@@ -25,6 +25,7 @@ _SECTIONS: dict[str, Any] = {
         "kind",
         {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "two-stroke-zone": "mechsym.engine.two_stroke_zone:TwoStrokeZone",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
             "schmidt": "mechsym.engine.schmidt:Schmidt",

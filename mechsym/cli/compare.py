@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
-from mechsym.cli.cycle import parse_speeds
+from mechsym.cli.speeds import parse_speeds
 
 
 @click.command()

@@ -11,6 +11,7 @@ the dead centre does not have to pay for it, as it does where the compression li
 
 from collections.abc import Mapping
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +64,7 @@ def identify(
             f"{np.degrees(low):.1f} to {np.degrees(high):.1f} deg; cut the diagram"
         )
     origin, size = (np.array([values[n] for n in names]) for values in (start, scale))
-    traces = partial(_traces, engine, omega, phi, names)
+    traces = partial(_traces, partial(closed_period, engine), omega, phi, names)
 
     def residuals(x: np.ndarray) -> np.ndarray:
         return traces((origin + size * x)[:, None])[0] - p
@@ -86,11 +87,11 @@ def identify(
     )
 
 
-def _traces(engine: Engine, omega: float, phi: np.ndarray, names: tuple[str, ...], columns: np.ndarray) -> np.ndarray:
+def _traces(build: Any, omega: float, phi: np.ndarray, names: tuple[str, ...], columns: np.ndarray) -> np.ndarray:
     values = dict(zip(names, columns, strict=True))
     zero = np.zeros(columns.shape[1])
     tdc, offset = (values.pop(name, zero) for name in FAULTS)
-    result = run(partial(closed_period, engine), {"omega": omega + zero, **values})
+    result = run(build, {"omega": omega + zero, **values})
     return np.array([
         _at(result.phi[k], result.p[k], result.dp_dphi[k], phi - tdc[k]) + offset[k] for k in range(tdc.size)
     ])  # fmt: skip

@@ -101,7 +101,10 @@ def test_the_compared_machines_have_equal_gas_and_mass(rows, slider):
     four = rows["rodless, four pistons, crank free radially"]
     assert four["torque_mean"] == pytest.approx(4 * rows["hypocycloid"]["torque_mean"], rel=1e-9)
     base = losses(slider, loads(slider), slider.case.need("friction"), NoRings())
-    assert rows["slider crank"]["friction_per_piston"] == pytest.approx(sum(base.places.values()), rel=1e-9)
+    # the blow-down is a step at bottom dead centre: the angle that stands there may take either side of it
+    assert rows["slider crank"]["friction_per_piston"] == pytest.approx(sum(base.places.values()), rel=1e-4)
+    per_piston = [row["torque_mean"] / row["pistons"] for row in rows.values()]
+    assert per_piston == pytest.approx([per_piston[0]] * len(rows), rel=1e-3)
 
 
 def test_no_side_force_has_its_price(rows, planet):
