@@ -84,11 +84,12 @@ def unburnt() -> Decided:
         By the first law
     """
     found = errata.unburnt_share()
+    closes = "closes" if found["first_law_residual"] < 1e-12 else "does not close"
     return against(found["remainder_max"], found["unburnt_max"], (
         f"0.141 to 0.144 is what the other shares leave; 1 - Q_R/E_f is {found['unburnt_min']:.4f} to "
-        f"{found['unburnt_max']:.4f} (the first law closes to {found['first_law_residual']:.0e}); the rest, "
-        f"{found['excess_min']:.4f} to {found['excess_max']:.4f}, is the internal energy with which fuel vapour is "
-        f"never charged, {found['vapour_energy']:.4f}"
+        f"{found['unburnt_max']:.4f} (the first law of the march {closes}); the rest, {found['excess_min']:.4f} to "
+        f"{found['excess_max']:.4f}, is the internal energy that fuel vapour takes from the gas, "
+        f"{found['vapour_energy']:.4f} at most"
     ))  # fmt: skip
 
 

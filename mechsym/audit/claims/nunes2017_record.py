@@ -43,7 +43,7 @@ def right(item: str) -> float:
     Returns
     -------
     value : float
-        Corrected where the source slipped, else computed, in the unit of the item
+        Corrected where the source slipped, else computed [unit of the item]
     """
     row = items()[item]
     return float(row["computed"] if row["corrected"] is None else row["corrected"])
@@ -55,7 +55,7 @@ def against(claimed: float, correct: float, note: str, within: float = 5e-3) -> 
     Parameters
     ----------
     claimed, correct : float
-        Both values, in the same unit [any]
+        Both values, in the same unit [unit of the claim]
     note : str
         The numbers and their consequence
     within : float

@@ -11,7 +11,8 @@ MODEL: tuple[Entry, ...] = (
               decide=claims.combustion_columns),
     TextClaim(equation="table 3.2", claim="the piston's area is 0.02827 m^2", decide=parts.piston_area),
     TextClaim(equation="text 3.4.3", claim="the largest pressure is 9.604 MPa", decide=claims.vapour_charge),
-    TextClaim(equation="2.64", claim="p A_piston with the absolute p is the net pressure force", decide=claims.net_pressure),
+    TextClaim(equation="2.64", claim="p A_piston with the absolute p is the net pressure force",
+              decide=claims.net_pressure),
     TextClaim(equation="text 3.4", claim="the engines' largest torques are 276.255 and 243.6 N m",
               decide=claims.peak_torque),
 )  # fmt: skip
