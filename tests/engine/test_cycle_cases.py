@@ -164,3 +164,13 @@ def test_large_maps_are_made_in_blocks():
     found = over_speeds(machine, omega, done.append)
     assert done == [1000, 1000, 300] and found.loads["tooth_force"].shape == omega.shape
     assert found.torque_avg[1500] == pytest.approx(over_speeds(machine, omega[1500:1501]).torque_avg[0], rel=1e-14)
+
+
+def test_friction_of_the_mechanism_makes_brake_figures():
+    case = {"friction_pressure.law": "mechanism"}
+    rod, planet = (engine(load(f"nunes-{name}", case)) for name in ("slider-crank", "hypocycloid"))
+    found = [over_speeds(machine, np.array([2000.0, 8000.0]) * RPM) for machine in (rod, planet)]
+    for one in found:
+        assert np.all((0.5e4 < one.friction_mep) & (one.friction_mep < 3e5))
+        assert one.brake_torque == pytest.approx(one.torque_avg - one.friction_mep * 2.94053e-4 / (4 * np.pi), rel=1e-5)
+    assert np.all(found[0].brake_efficiency < found[0].efficiency)
