@@ -43,9 +43,9 @@ def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
     Returns
     -------
     comparison : dict
-        `crossover_rpm` (of the mean torque), `brake_crossover_rpm` (after friction), `at_crossover` (figures of the first engine there) and `table`, rows of
-        `quantity`, `speed_rpm`, `a`, `b`, `difference` (b/a - 1); first the largest value of each quantity with its
-        speed for either engine, then values at a few speeds
+        `crossover_rpm` (of the mean torque), `brake_crossover_rpm` (after friction), `at_crossover` (figures of the
+        first engine there) and `table`, rows of `quantity`, `speed_rpm`, `a`, `b`, `difference` (b/a - 1); first the
+        largest value of each quantity with its speed for either engine, then values at a few speeds
     """
     speed = np.asarray(a["speed_rpm"])
     flat_a, flat_b = _flat(a), _flat(b)
