@@ -8,5 +8,7 @@ harmonics.py    orders of torque and shaking forces
 shaking.py      what shakes the frame, the counterweight that shakes it least, balance that was asked for
 friction.py     first-order losses from the frictionless reactions
 comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force
+friction_law.py the mechanism's friction as a law of the engine cycle
+claims.py       what the sources claim about friction and loads, judged by the comparison
 result.py       the whole job: case -> result record
 """

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym import constraints, mechanisms
 from mechsym.cases import Case
-from mechsym.forces import textbook
+from mechsym.forces import claims, textbook
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Losses, losses
 from mechsym.forces.harmonics import Orders, orders
@@ -113,7 +113,7 @@ def summary(found: Forces) -> dict[str, Any]:
     -------
     summary : dict
         `max`, `min`, `power_residual`, `angle_of_max_deg`, `torque_orders`, `shaking`, `friction`, `two_mass`,
-        `weight`, `rodless`, `unbalanced`, `comparison`, `facts`; what a mechanism does not have is null
+        `weight`, `rodless`, `unbalanced`, `comparison`, `claims`, `facts`; what a mechanism does not have is null
     """
     one = found.turn
     largest, smallest = extremes(found.columns)
@@ -135,6 +135,7 @@ def summary(found: Forces) -> dict[str, Any]:
         "rodless": _rodless(one) if one.case.mechanism == "rodless" else None,
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
+        "claims": _claims(found),
         "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
     }
 
@@ -165,6 +166,14 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+
+
+def _claims(found: Forces) -> list[dict[str, str]]:
+    judged = [] if found.comparison is None else claims.claims(found.comparison)
+    if found.chains:
+        efficiency = None if found.losses is None else found.losses.mechanical_efficiency
+        judged.append(claims.left_out(textbook.weight_shares(found.turn), efficiency))
+    return judged
 
 
 def _rodless(one: Turn) -> dict[str, Any]:
