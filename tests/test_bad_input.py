@@ -22,6 +22,12 @@ COMMAND_LINE = [
     ("unknown derivation", ["derive", "--check", "croshead"], ["'croshead'", "crosshead"]),
     ("derivation by path", ["derive", "../generated/crosshead"], ["'../generated/crosshead'", "crosshead"]),
     ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1.5"]),
+    ("engine without a cycle", ["forces", "chmielewski"], ["chmielewski", "[operation]", "mechsym cases"]),
+    ("nothing to optimise", ["optimise", "zotov-89"], ["zotov-89", "[optimise]", "mechsym cases"]),
+    ("cycle of another kind", ["size", "zotov-89"], ["[cycle]", "'spark-ignition'"]),
+    ("unknown source", ["reproduce", "zotov2042"], ["'zotov2042'", "zotov2024"]),
+    ("formula without its theory", ["audit", "--formula", "r*sin(phi)"], ["--against", "crosshead"]),
+    ("formula that would run", ["audit", "--formula", "__import__('os')", "--against", "crosshead.x"], ["__import__"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "A <= B"]),
 ]
 OVERRIDES = [
