@@ -17,6 +17,8 @@ from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
 from mechsym.forces.turn import Turn, turn
 
+_RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Forces:
@@ -138,6 +140,22 @@ def summary(found: Forces) -> dict[str, Any]:
         "claims": _claims(found),
         "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
     }
+
+
+def quantities(numbers: dict[str, Any]) -> list[str]:
+    """Columns that a reader wants to see the extremes of.
+
+    Parameters
+    ----------
+    numbers : dict
+        From `summary`
+
+    Returns
+    -------
+    names : list of str
+        Without motion, raw reactions and the printed chains
+    """
+    return [name for name in numbers["max"] if not name.startswith(_RAW)]
 
 
 def _order_table(found: Orders) -> dict[str, list[float]]:
