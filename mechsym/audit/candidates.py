@@ -5,16 +5,20 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import evaluate
-from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, single_edits, without_double_signs
+from mechsym.audit.bench import Bench, names, part_values, shaped
+from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, without_double_signs
 from mechsym.audit.insertion import Vocabulary, candidate_words, is_unit, product, product_tree, simple, vocabulary
-from mechsym.audit.question import Bench, Question, names, part_values, shaped
+from mechsym.audit.printer import to_python
+from mechsym.audit.question import Question
 from mechsym.audit.required import Required, required
+from mechsym.audit.slips import single_edits
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
 from mechsym.quantities import dimension
 
@@ -60,9 +64,14 @@ def repeated_edits(tree: Node) -> list[Edit]:
     found = []
     for text, node in distinct.items():
         for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
-            changed = substitute(tree, lambda n, text=text, new=new: new if texts.get(n) == text else None)
-            found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed)))
+            changed = substitute(tree, partial(_instead, texts, text, new))
+            about = f"{to_python(node)} becomes {to_python(new)} in {counts[text]} places"
+            found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed), about=about))
     return found
+
+
+def _instead(texts: Mapping[Node, str], text: str, new: Node, node: Node) -> Node | None:
+    return new if texts.get(node) == text else None
 
 
 def confusable(question: Question, letter: str) -> list[str]:

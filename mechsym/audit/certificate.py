@@ -11,7 +11,8 @@ import sympy
 from sympy import Dummy, Expr, Integer, Pow, cos, sin
 
 from mechsym.audit.algebra import SYMBOLS, evaluate
-from mechsym.audit.question import Question, used_names
+from mechsym.audit.bench import used_names
+from mechsym.audit.question import Question
 from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node
 from mechsym.errors import BadInput

@@ -14,7 +14,8 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.question import Bench, Question, value
+from mechsym.audit.bench import Bench, value
+from mechsym.audit.question import Question
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, binary, call, is_operation, letters, name, number, value_of, walk
 
@@ -138,7 +139,7 @@ def logarithm(asked: Bench, values: Any) -> tuple[np.ndarray, np.ndarray]:
     Returns
     -------
     signs, logs : ndarray, shape (n,)
-        Logarithms of absolute values; infinite or nan where there is none
+        Logarithms of absolute values; infinite or nan where there is none [-]
     """
     with np.errstate(all="ignore"):
         if not asked.digits:

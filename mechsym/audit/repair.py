@@ -9,23 +9,13 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS, FLOATS
+from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.edits import RANKS, Edit, apply
 from mechsym.audit.orders import EXACT, FINE, Group, groups, orders, residual
 from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
-from mechsym.audit.question import (
-    Bench,
-    Question,
-    bench,
-    digit_values,
-    float_values,
-    max_rel_error,
-    random_fractions,
-    small_rods,
-    turn,
-    value,
-)
+from mechsym.audit.question import Question, digit_values, float_values, random_fractions, small_rods
 from mechsym.audit.tree import Node
 
 SEARCH_DIGITS = 80

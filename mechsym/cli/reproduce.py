@@ -36,10 +36,10 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | N
             click.echo(str(path), err=True)
     columns = ["source", "item", "published", "computed", "rel_error", "verdict"]
     emit(rows, as_json, lambda: table(rows, columns))
-    package, name = "mechsym.reproduce", ("source", "item")
+    package, identity = "mechsym.reproduce", ("source", "item")
     if write and not source:
-        recorded.write(package, rows, (*name, "verdict"))
-    differences = recorded.differences(package, rows, name, ("verdict",))
+        recorded.write(package, rows, (*identity, "verdict"))
+    differences = recorded.differences(package, rows, identity, ("verdict",))
     for line in differences:
         click.echo(f"differs from the record: {line}", err=True)
     ctx.exit(1 if differences else 0)

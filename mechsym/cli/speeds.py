@@ -1,4 +1,6 @@
-"""Speeds of a performance map, as written on the command line."""
+"""Speeds and other ranges of a performance map, as written on the command line."""
+
+from collections.abc import Mapping
 
 from mechsym.errors import BadInput
 
@@ -38,3 +40,37 @@ def parse_speeds(text: str) -> list[float]:
     if min(rpm) <= 0:
         raise BadInput(f"--speeds {text}: speeds must be > 0 rpm")
     return [parse(f"{value!r} rpm", "rad/s") for value in rpm]
+
+
+def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
+    """A value and its range from NAME=A:B:STEP, with or without units.
+
+    Parameters
+    ----------
+    text : str
+        `chamber.compression_ratio=8:14:0.5` or `cycle.ignition=-30 deg:0 deg:1 deg`
+    units : mapping of str to str
+        Known names and their SI units
+
+    Returns
+    -------
+    name : str
+        Dotted name
+    values : list of float
+        In the SI unit of the name [-]
+
+    Raises
+    ------
+    BadInput
+        Unknown name, or no range
+    """
+    from mechsym.quantities import parse
+
+    name, sign, span = text.partition("=")
+    if name not in units:
+        raise BadInput(f"--over {text}: {name!r} is not known; names are {', '.join(units)}")
+    parts = [parse(part.strip(), units[name], f"--over {name}") for part in span.split(":")]
+    if len(parts) != 3 or parts[2] <= 0 or parts[1] < parts[0] or (parts[1] - parts[0]) / parts[2] > _MOST_SPEEDS:
+        raise BadInput(f"--over {text}: write NAME=A:B:STEP with A <= B and STEP > 0")
+    first, last, step = parts
+    return name, [first + k * step for k in range(int((last - first) / step + 1e-9) + 1)]

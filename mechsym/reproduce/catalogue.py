@@ -12,7 +12,7 @@ _SOURCES: dict[str, tuple[str, str, str]] = {
     "moroianu2017": ("001_a140ef4f7e005dde", "moroianu2017", ""),
     "chmielewski2015": ("002_d7297926d6c52225", "chmielewski2015", "plots:chmielewski2015"),
     "prymak": ("003_8746f5f4ad51b1d1", "prymak", "plots:prymak"),
-    "nunes2017": ("004_e00ef50339108dab", "nunes2017", ""),
+    "nunes2017": ("004_e00ef50339108dab", "nunes2017", "nunes2017_plots:nunes2017"),
 }
 
 

@@ -1,5 +1,7 @@
 """The figures of the sources, drawn as the sources drew them. matplotlib is imported in plot modules only."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -11,9 +13,9 @@ _STYLES = ("-", "--", ":")
 _BLACK = "#222222"
 
 
-def _figure(width: float, height: float, columns: int = 1, **options: object) -> tuple[Figure, np.ndarray]:
+def _figure(width: float, height: float, columns: int = 1, **options: Any) -> tuple[Figure, np.ndarray]:
     figure = Figure(figsize=(width, height), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(1, columns, **options)).ravel()  # type: ignore[arg-type]
+    axes = np.atleast_1d(figure.subplots(options.pop("rows", 1), columns, **options)).ravel()
     for axis in axes:
         axis.grid(True, color="#dddddd", linewidth=0.6)
     return figure, axes
@@ -52,9 +54,7 @@ def _hinges() -> Figure:
 
 
 def _guides() -> Figure:
-    figure, axes = _figure(10, 10.5, 1, subplot_kw={"projection": "polar"})
-    figure.clear()
-    axes = figure.subplots(2, 2, subplot_kw={"projection": "polar"}).ravel()
+    figure, axes = _figure(10, 10.5, 2, rows=2, subplot_kw={"projection": "polar"})
     theta = np.linspace(0, 2 * np.pi, 721)
     printed = [m for m in engine.guides() if m.start == "as_printed" and m.guide.rho is not None]
     for axis, letter in zip(axes, "abcd", strict=True):
@@ -63,7 +63,7 @@ def _guides() -> Figure:
             axis.plot(theta, member.guide.rho(theta), style, color=_BLACK, label=member.label[1])
         axis.set_title(f"Fig. 5 {letter}): ρ [m]")
         axis.set_rmin(0)
-        axis.legend(loc="lower right")
+        axis.legend(loc="upper left", bbox_to_anchor=(-0.12, 1.1))
     return figure
 
 
@@ -96,7 +96,7 @@ def chmielewski2015() -> dict[str, Figure]:
     """
     result = shaft.run("crankshaft_flywheel_printed")
     phi, speed = result.columns["phi0"], result.columns["phi0d"]
-    acceleration = np.gradient(speed, result.t)
+    acceleration = shaft.crank_acceleration(result)
     x, v, a = _piston(phi, speed, acceleration)
     curves = {
         "fig6": (x, "x$_0$ [m]"), "fig7": (v, "v [m/s]"), "fig8": (a, "a [m/s$^2$]"), "fig9": (phi, "φ$_0$ [rad]"),

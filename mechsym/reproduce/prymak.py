@@ -46,11 +46,13 @@ def rows() -> list[dict[str, Any]]:
     return [
         row(SOURCE, "(4) resultant inertia force over m r omega^2", 4.0, float(size.mean()), "reproduced",
             f"constant within {np.ptp(size):.0e} over a turn"),
-        row(SOURCE, "(5) angle of the resultant over the crank angle", 1.0, float((turned[-1] - turned[0]) / (2 * np.pi)),
+        row(SOURCE, "(5) angle of the resultant over the crank angle", 1.0,
+        float((turned[-1] - turned[0]) / (2 * np.pi)),
             "reproduced", "it turns with the crank"),
         row(SOURCE, "conclusion 3: share of the resultant across a rod, at most", 0.0,
             float(np.max(np.abs(across)) / np.max(np.hypot(along, across))), "not reproduced",
-            "the resultant points along a rod at four angles of a turn only; what turns with the crank is not along a rod"),
+            "the resultant points along a rod at four angles of a turn only; what turns with the crank is not along a "
+            "rod"),
         row(SOURCE, "conclusions 1 and 2: losses by friction, wear", None, None, "not computable",
             "the paper gives no loads, no coefficients and no numbers"),
     ]  # fmt: skip

@@ -17,7 +17,7 @@ def row(
     item : str
         What it is, with its unit
     published, computed : float or None
-        None where there is no such number
+        None where there is no such number [unit of the item]
     verdict : str
         One of VERDICTS
     note : str

@@ -1,4 +1,5 @@
-"""Zotov et al. (2024): what its sections 2 and 3 report, with a stated cycle in place of the force that it does not print.
+"""Zotov et al. (2024): what its sections 2 and 3 report,
+with a stated cycle in place of the force that it does not print.
 
 The paper's F(phi) came from measured diagrams that are not printed, so that its torques and guides cannot be computed
 again number by number. The built-in cases `zotov-89` and `zotov-142` carry a typical cycle of such an engine.

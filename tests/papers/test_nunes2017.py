@@ -6,16 +6,17 @@ import pytest
 from mechsym.cases import load
 from mechsym.compare import crossovers
 from mechsym.cycle import RPM, columns, engine, over_speeds, speed_range
-from mechsym.reproduce.nunes2017 import last_digit, rows, verdict
+from mechsym.reproduce.nunes2017 import engine_rows, last_digit, verdict
 from mechsym.reproduce.nunes2017_errata import errata
 from mechsym.reproduce.nunes2017_numbers import Item
+from mechsym.reproduce.nunes2017_plots import nunes2017
 
 UNSETTLED = {"speed of the smallest difference in exhaust [rpm]"}  # the curve is flat to 3e-5 from 2350 to 2730 rpm
 
 
 @pytest.fixture(scope="module")
 def reproduced():
-    return rows()
+    return engine_rows()
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +43,17 @@ def test_chapter_3_gives_all_its_numbers_by_rounding_alone(reproduced):
     speeds = [r for r in chapter if "speed of" in r["item"]]
     slips = [r["item"] for r in speeds if r["computed"] != pytest.approx(float(r["published"]), abs=1e-6)]
     assert slips == ["OPGHE speed of the largest instantaneous torque [rpm]"]
+
+
+def test_items_have_names_of_their_own(reproduced):
+    names = [row["item"] for row in reproduced]
+    assert len(set(names)) == len(names)
+
+
+def test_figures_are_drawn():
+    sheets = nunes2017()
+    assert sum(len(figure.axes) for figure in sheets.values()) == 4 + 8 + 6 + 3
+    assert all(axis.lines for figure in sheets.values() for axis in figure.axes if axis.get_visible())
 
 
 def test_verdicts_know_rounding_truncation_and_slips():
