@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
-from mechsym.cli.cycle import parse_speeds
+from mechsym.cli.speeds import parse_speeds
 
 
 @click.command()
@@ -57,7 +57,7 @@ def _law(case: Any, speeds: str) -> dict[str, Any]:
 
     from mechsym.forces.friction_law import fitted_law
 
-    found = fitted_law(case, parse_speeds(speeds))
+    found = fitted_law(case, parse_speeds(speeds, "--law"))
     return {"law": "chen_flynn", **dataclasses.asdict(found.law), "misfit": found.misfit}
 
 
@@ -68,10 +68,13 @@ def _text(report: dict[str, Any]) -> str:
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]
     lines += [table(rows, ["quantity", "max", "min"]), "", f"power residual {report['power_residual']:.2g}"]
     weight = report["shaking"]["counterweight"]
-    lines.append(
-        f"counterweight {weight['unbalance']:.4g} kg m at {weight['angle_deg']:.4g} deg: "
-        f"shaking force {weight['rms_before']:.4g} -> {weight['rms_after']:.4g} N rms"
-    )
+    if weight["rms_before"] < 1e-6:
+        lines.append("no force shakes the frame")
+    else:
+        lines.append(
+            f"counterweight {weight['unbalance']:.4g} kg m at {weight['angle_deg']:.4g} deg: "
+            f"shaking force {weight['rms_before']:.4g} -> {weight['rms_after']:.4g} N rms"
+        )
     for name, errors in (report["two_mass"] or {}).items():
         found = ", ".join(f"{k} {100 * v:.3g} %" for k, v in errors.items())
         lines.append(f"rod as two masses ({name.replace('_', ' ')}), error of the peak: {found}")

@@ -8,6 +8,7 @@ from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
+from mechsym.errors import BadInput
 
 CASES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid")
 
@@ -88,3 +89,13 @@ def test_friction_as_a_section_of_the_case(tmp_path):
     lost = json.loads(run("nunes-slider-crank", "--json").output)["friction"]
     wanted = lost["mechanical_efficiency"] * cycle["efficiency"][0]
     assert cycle["brake_efficiency"][0] == pytest.approx(wanted, rel=2e-3)
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (("chmielewski",), "forces of crankshaft_flywheel are not known"),
+    (("moroianu", "--set", "l1=0.1", "--set", "l2=0.2"), "rod too short"),
+    (("nunes-slider-crank", "--law", "x"), "--law = 'x'"),
+])  # fmt: skip
+def test_what_cannot_be_done_is_explained(words, message):
+    with pytest.raises(BadInput, match=message):
+        run(*words)
