@@ -83,6 +83,7 @@ def _text(report: dict[str, Any]) -> str:
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
         lines += ["", table(report["comparison"], shown)]
+    lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith("friction")]
     lines += [f"{row['verdict']}: {row['claim']} ({row['source'][:3]}); {row['note']}" for row in report["claims"]]
     return "\n".join(lines + [f"written: {file}" for file in report["files"]])
 

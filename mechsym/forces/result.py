@@ -17,6 +17,7 @@ from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
 from mechsym.forces.turn import Turn, turn
 
+_FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
 _RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
@@ -138,7 +139,7 @@ def summary(found: Forces) -> dict[str, Any]:
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
         "claims": _claims(found),
-        "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
+        "facts": _facts(found),
     }
 
 
@@ -184,6 +185,15 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+
+
+def _facts(found: Forces) -> list[str]:
+    gas, lost = found.turn.gas, found.losses
+    facts = list(gas.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
+        share = 100 * (1 - lost.mechanical_efficiency)
+        facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")
+    return facts
 
 
 def _claims(found: Forces) -> list[dict[str, str]]:

@@ -48,6 +48,11 @@ def test_text_names_what_matters():
     assert "rodless, four pistons, equal stiffnesses" in text
 
 
+def test_much_friction_is_called_first_order():
+    assert "first order only" in run("balandin").output
+    assert "first order only" not in run("moroianu").output
+
+
 def test_moroianu_shows_the_two_mass_error():
     found = json.loads(run("moroianu", "--json").output)["two_mass"]
     assert 0.001 < found["two_mass"]["M"] < 0.05
