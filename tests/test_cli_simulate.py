@@ -81,7 +81,7 @@ def test_text_for_people():
         (["zotov-89", "--backend", "sundials"], "knows no events"),
         (["zotov-89", "--set", "simulation.turns=1", "--dampings", "1"], "needs a start-up case"),
         (["chmielewski", "--set", "t_end=3 s", "--dampings", "1 bar"], "--dampings"),
-        (["nowhere"], "is not built in"),
+        (["nowhere"], "neither built in"),
     ],
 )
 def test_bad_input_is_refused(arguments, words):
