@@ -54,7 +54,7 @@ OVERRIDES = [
     ("compression ratio of one", "compression_ratio=1", ["compression_ratio = 1", "> 1"]),
     ("polytropic index below one", "spring.n=0.9", ["n = 0.9", ">= 1 and <= 2"]),
     ("unknown spring law", "spring.law=air_absolut", ["'air_absolut'", "did you mean 'air_absolute'?", "coil"]),
-    ("another law's keys", "spring.law=coil", ["spring.A", "k, F0, H"]),
+    ("another law without its keys", "spring.law=coil", ["spring.k", "missing", "N/m"]),
     ("unknown arrangement", "guide.arrangement=three_tracks", ["'three_tracks'", "two_tracks", "one_roller"]),
     ("margin beyond the spring", "guide.z_margin=2 m", ["z_margin = 2 m", "H = 1 m"]),
     ("track that does not close", "guide.shaft_ratio=0.7", ["shaft_ratio = 0.7", "does not close", "use 1"]),

@@ -17,6 +17,9 @@ from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
 from mechsym.forces.turn import Turn, turn
 
+_FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
+_RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Forces:
@@ -136,8 +139,24 @@ def summary(found: Forces) -> dict[str, Any]:
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
         "claims": _claims(found),
-        "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
+        "facts": _facts(found),
     }
+
+
+def quantities(numbers: dict[str, Any]) -> list[str]:
+    """Columns that a reader wants to see the extremes of.
+
+    Parameters
+    ----------
+    numbers : dict
+        From `summary`
+
+    Returns
+    -------
+    names : list of str
+        Without motion, raw reactions and the printed chains
+    """
+    return [name for name in numbers["max"] if not name.startswith(_RAW)]
 
 
 def _order_table(found: Orders) -> dict[str, list[float]]:
@@ -166,6 +185,15 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+
+
+def _facts(found: Forces) -> list[str]:
+    gas, lost = found.turn.gas, found.losses
+    facts = list(gas.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
+        share = 100 * (1 - lost.mechanical_efficiency)
+        facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")
+    return facts
 
 
 def _claims(found: Forces) -> list[dict[str, str]]:
