@@ -50,7 +50,7 @@ OVERRIDES = [
     ("negative mass", "m3=-1 kg", ["m3 = -1 kg", ">= 0 kg"]),
     ("rod shorter than crank", "l1=-0.4", ["l1 = -0.4 m", ">= 0"]),
     ("crank longer than rod", "r2=1.5", ["rod too short", "1.7 m", "lengthen"]),
-    ("speed of zero", "operation.speed=0 rpm", ["speed = 0 rad/s", ">= 0.001"]),
+    ("speed of zero", "operation.speed=0 rpm", ["speed = 0 rad/s", ">= 0.1"]),
     ("compression ratio of one", "compression_ratio=1", ["compression_ratio = 1", "> 1"]),
     ("polytropic index below one", "spring.n=0.9", ["n = 0.9", ">= 1 and <= 2"]),
     ("unknown spring law", "spring.law=air_absolut", ["'air_absolut'", "did you mean 'air_absolute'?", "coil"]),
