@@ -22,6 +22,12 @@ COMMAND_LINE = [
     ("unknown derivation", ["derive", "--check", "croshead"], ["'croshead'", "crosshead"]),
     ("derivation by path", ["derive", "../generated/crosshead"], ["'../generated/crosshead'", "crosshead"]),
     ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1.5"]),
+    ("engine without a cycle", ["forces", "chmielewski"], ["chmielewski", "[operation]", "mechsym cases"]),
+    ("nothing to optimise", ["optimise", "zotov-89"], ["zotov-89", "[optimise]", "mechsym cases"]),
+    ("cycle of another kind", ["size", "zotov-89"], ["[cycle]", "'spark-ignition'"]),
+    ("unknown source", ["reproduce", "zotov2042"], ["'zotov2042'", "zotov2024"]),
+    ("formula without its theory", ["audit", "--formula", "r*sin(phi)"], ["--against", "crosshead"]),
+    ("formula that would run", ["audit", "--formula", "__import__('os')", "--against", "crosshead.x"], ["__import__"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "A <= B"]),
 ]
 OVERRIDES = [
@@ -48,7 +54,7 @@ OVERRIDES = [
     ("compression ratio of one", "compression_ratio=1", ["compression_ratio = 1", "> 1"]),
     ("polytropic index below one", "spring.n=0.9", ["n = 0.9", ">= 1 and <= 2"]),
     ("unknown spring law", "spring.law=air_absolut", ["'air_absolut'", "did you mean 'air_absolute'?", "coil"]),
-    ("another law's keys", "spring.law=coil", ["spring.A", "k, F0, H"]),
+    ("another law without its keys", "spring.law=coil", ["spring.k", "missing", "N/m"]),
     ("unknown arrangement", "guide.arrangement=three_tracks", ["'three_tracks'", "two_tracks", "one_roller"]),
     ("margin beyond the spring", "guide.z_margin=2 m", ["z_margin = 2 m", "H = 1 m"]),
     ("track that does not close", "guide.shaft_ratio=0.7", ["shaft_ratio = 0.7", "does not close", "use 1"]),
