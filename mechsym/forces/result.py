@@ -12,9 +12,10 @@ from mechsym.forces import claims, textbook
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Losses, losses
 from mechsym.forces.harmonics import Orders, orders
-from mechsym.forces.loads import Loads, angle_of_largest, columns, extremes, loads, power_residual
+from mechsym.forces.loads import Loads, loads, power_residual
 from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
+from mechsym.forces.table import angle_of_largest, columns, extremes
 from mechsym.forces.turn import Turn, turn
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
