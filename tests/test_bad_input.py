@@ -22,7 +22,7 @@ COMMAND_LINE = [
     ("unknown derivation", ["derive", "--check", "croshead"], ["'croshead'", "crosshead"]),
     ("derivation by path", ["derive", "../generated/crosshead"], ["'../generated/crosshead'", "crosshead"]),
     ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1.5"]),
-    ("engine without a cycle", ["forces", "chmielewski"], ["chmielewski", "[operation]", "mechsym cases"]),
+    ("no engine", ["forces", "chmielewski"], ["crankshaft_flywheel", "crosshead"]),
     ("nothing to optimise", ["optimise", "zotov-89"], ["zotov-89", "[optimise]", "mechsym cases"]),
     ("cycle of another kind", ["size", "zotov-89"], ["[cycle]", "'spark-ignition'"]),
     ("unknown source", ["reproduce", "zotov2042"], ["'zotov2042'", "zotov2024"]),
