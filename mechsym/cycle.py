@@ -1,7 +1,7 @@
 """The engine of a case and what it does over the speeds: case -> motion -> engine -> performance."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from functools import partial
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
 from mechsym.engine.chamber import chamber, piston_force, travel, volume
-from mechsym.engine.friction import NoFriction
+from mechsym.engine.friction import Friction, MechanismFriction, NoFriction
 from mechsym.engine.gas import ConstantGamma
 from mechsym.engine.model import Engine, closed_period
 from mechsym.engine.performance import Performance, performance
@@ -23,6 +23,7 @@ from mechsym.motion import motion
 RPM = np.pi / 30
 Progress = Callable[[int], Any]
 _BLOCK = 1000
+_FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
 
 def engine(case: Case) -> Engine:
@@ -32,7 +33,7 @@ def engine(case: Case) -> Engine:
     ----------
     case : Case
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` and `[friction_pressure]`
-        default to a constant gamma and no friction
+        default to a constant gamma and no friction, the law `mechanism` is fitted to the case's `[friction]`
 
     Returns
     -------
@@ -53,8 +54,19 @@ def engine(case: Case) -> Engine:
         cycle=cycle,
         gas=case.sections.get("gas", ConstantGamma()),
         heat_transfer=case.need("heat_transfer"),
-        friction_pressure=case.sections.get("friction_pressure", NoFriction()),
+        friction_pressure=_friction(case),
     )
+
+
+def _friction(case: Case) -> Friction:
+    law = case.sections.get("friction_pressure", NoFriction())
+    if not isinstance(law, MechanismFriction):
+        return law
+    from mechsym.forces.friction_law import fitted_law
+
+    # the friction hangs on the gas forces, and those not on the friction
+    plain = replace(case, sections={**case.sections, "friction_pressure": NoFriction()})
+    return fitted_law(plain, case.need("operation").speed * np.array(_FRICTION_SPEEDS)).law
 
 
 def over_speeds(engine: Engine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:

@@ -19,6 +19,7 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.required import Required, required
 from mechsym.audit.slips import single_edits
+from mechsym.audit.theory.record import known
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
 from mechsym.quantities import dimension
 
@@ -94,7 +95,7 @@ def confusable(question: Question, letter: str) -> list[str]:
     indexed = [k for k in used if re.sub(r"\d+$", "", k) == stem]
     unit = _unit(question, letter)
     alike = [k for k in used if unit is not None and _unit(question, k) == unit]
-    derived = [k for k in question.theory.results if k[0] == letter[0] and k != question.quantity]
+    derived = [k for k in known(question.theory) if k[0] == letter[0] and k != question.quantity]
     return [k for k in dict.fromkeys([*indexed, *alike, *derived]) if k != letter]
 
 
@@ -185,22 +186,24 @@ def _quotient(asked: Bench, above: Any, below: Any) -> Any:
 
 
 def _insertions(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any], words: Vocabulary) -> Iterator[Edit]:
+    # what is put back must not be more than what stands there, or any formula could be mended
+    most = sum(not children(p.node) for p in places(tree))
     for place in places(tree):
         if place.path not in wishes or value_of(place.node) is not None:
             continue
         wish, old = wishes[place.path], memo[place.node]
         if is_product(place):
-            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times)
+            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times, most)
         if is_term(place):
-            yield from _put_back(asked, place, words, wish - old, _plus)
+            yield from _put_back(asked, place, words, wish - old, _plus, most)
 
 
 Join = Callable[[Node, Any, Any], Node]
 
 
-def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join) -> Iterable[Edit]:
+def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join, most: int) -> Iterable[Edit]:
     found = product(asked, words, missing)
-    if found is not None and found[1]:
+    if found is not None and 1 <= len(found[1]) <= most:
         yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
 
 

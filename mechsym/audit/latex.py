@@ -79,7 +79,7 @@ def _sum(cursor: Cursor) -> Node:
 
 def _signed(tree: Node) -> Node:
     # the sign belongs to the first factor, as Python reads -a*b
-    if isinstance(tree, ast.BinOp) and not isinstance(tree.op, ast.Pow):
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Mult, ast.Div)):
         return binary(type(tree.op), _signed(tree.left), tree.right)
     return negative(tree)
 

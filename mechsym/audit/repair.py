@@ -148,18 +148,26 @@ def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
     better : list of Repair
         Distinct functions; an exact one, or those that mend the worst group that can be mended
     """
-    if insert:
-        return _better(exam, start, [], insert=True)
-    found = _better(exam, start, listed_edits(exam.question, start.tree), insert=False)
-    return found or _better(exam, start, repeated_edits(start.tree), insert=False)
+    lists = [[]] if insert else [listed_edits(exam.question, start.tree), repeated_edits(start.tree)]
+    for listed in lists:
+        if exact := _exact(exam, start, listed, insert):
+            return [exact]
+    for listed in lists:
+        if found := _raised(exam, start, listed, insert):
+            return found
+    return []
 
 
-def _better(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Repair]:
+def _exact(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> Repair | None:
     found = matching_edits(exam.question, search_bench(exam, "exact"), start.tree, listed, insert)
     for edit in _by_simplicity(start.tree, found):
         tree = apply(start.tree, edit)
         if is_exact(exam.judged, tree):
-            return [standing(exam, tree, (*start.edits, edit))]
+            return standing(exam, tree, (*start.edits, edit))
+    return None
+
+
+def _raised(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Repair]:
     for group in _worst_first(exam, start):
         asked = search_bench(exam, group.name) if insert else group.fine
         edits = matching_edits(exam.question, asked, start.tree, listed, insert)

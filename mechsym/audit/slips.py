@@ -93,6 +93,11 @@ def _brackets(node: Node) -> Iterator[tuple[str, Node]]:
         if is_operation(left, ast.Mult, ast.Div):
             assert isinstance(left, ast.BinOp)
             yield "bracket", binary(type(left.op), left.left, binary(type(node.op), left.right, right))
+        if is_operation(left, ast.Add, ast.Sub) and is_operation(left.right, ast.Mult, ast.Div):  # type: ignore[attr-defined]
+            assert isinstance(left, ast.BinOp) and isinstance(left.right, ast.BinOp)
+            inner = left.right
+            bracket = binary(type(inner.op), inner.left, binary(type(node.op), inner.right, right))
+            yield "bracket", binary(type(left.op), left.left, bracket)
         if isinstance(left, ast.Call):
             yield "bracket", call(str(function_of(left)), binary(type(node.op), left.args[0], right))
     if is_operation(node, ast.Mult, ast.Div) and is_operation(right, ast.Add, ast.Sub):

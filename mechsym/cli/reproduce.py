@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
+from mechsym.errors import BadInput
 
 
 @click.command()
@@ -25,6 +26,8 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | N
     from mechsym import recorded
     from mechsym.reproduce import catalogue
 
+    if write and source:
+        raise BadInput("--write records the verdicts of all sources; leave out SOURCE")
     chosen = [catalogue.short_name(source)] if source else catalogue.names()
     rows = []
     with progress(len(chosen), "reproducing") as bar:
@@ -37,7 +40,7 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | N
     columns = ["source", "item", "published", "computed", "rel_error", "verdict"]
     emit(rows, as_json, lambda: table(rows, columns))
     package, identity = "mechsym.reproduce", ("source", "item")
-    if write and not source:
+    if write:
         recorded.write(package, rows, (*identity, "verdict"))
     differences = recorded.differences(package, rows, identity, ("verdict",))
     for line in differences:

@@ -12,10 +12,14 @@ from mechsym.forces import claims, textbook
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Losses, losses
 from mechsym.forces.harmonics import Orders, orders
-from mechsym.forces.loads import Loads, angle_of_largest, columns, extremes, loads, power_residual
+from mechsym.forces.loads import Loads, loads, power_residual
 from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
+from mechsym.forces.table import angle_of_largest, columns, extremes
 from mechsym.forces.turn import Turn, turn
+
+_FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
+_RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -136,8 +140,24 @@ def summary(found: Forces) -> dict[str, Any]:
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
         "claims": _claims(found),
-        "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
+        "facts": _facts(found),
     }
+
+
+def quantities(numbers: dict[str, Any]) -> list[str]:
+    """Columns that a reader wants to see the extremes of.
+
+    Parameters
+    ----------
+    numbers : dict
+        From `summary`
+
+    Returns
+    -------
+    names : list of str
+        Without motion, raw reactions and the printed chains
+    """
+    return [name for name in numbers["max"] if not name.startswith(_RAW)]
 
 
 def _order_table(found: Orders) -> dict[str, list[float]]:
@@ -166,6 +186,15 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+
+
+def _facts(found: Forces) -> list[str]:
+    gas, lost = found.turn.gas, found.losses
+    facts = list(gas.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
+        share = 100 * (1 - lost.mechanical_efficiency)
+        facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")
+    return facts
 
 
 def _claims(found: Forces) -> list[dict[str, str]]:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.reproduce import chmielewski2015 as shaft
+from mechsym.reproduce import chmielewski2015_runs as shaft
 from mechsym.reproduce import prymak as rodless
 from mechsym.reproduce import zotov2024 as engine
 

@@ -164,3 +164,27 @@ def test_large_maps_are_made_in_blocks():
     found = over_speeds(machine, omega, done.append)
     assert done == [1000, 1000, 300] and found.loads["tooth_force"].shape == omega.shape
     assert found.torque_avg[1500] == pytest.approx(over_speeds(machine, omega[1500:1501]).torque_avg[0], rel=1e-14)
+
+
+def test_friction_of_the_mechanism_makes_brake_figures():
+    case = {"friction_pressure.law": "mechanism"}
+    rod, planet = (engine(load(f"nunes-{name}", case)) for name in ("slider-crank", "hypocycloid"))
+    found = [over_speeds(machine, np.array([2000.0, 8000.0]) * RPM) for machine in (rod, planet)]
+    for one in found:
+        assert np.all((0.5e4 < one.friction_mep) & (one.friction_mep < 3e5))
+        assert one.brake_torque == pytest.approx(one.torque_avg - one.friction_mep * 2.94053e-4 / (4 * np.pi), rel=1e-5)
+    assert np.all(found[0].brake_efficiency < found[0].efficiency)
+
+
+@pytest.mark.parametrize("choice", ["heat_transfer.law=woschni", "heat_transfer.law=hohenberg", "gas.model=nasa",
+                                    "friction_pressure.law=chen_flynn"])  # fmt: skip
+def test_another_law_is_one_setting_away(choice):
+    plain, other = (run_json(cycle, "nunes-slider-crank", *more) for more in ([], ["--set", choice]))
+    figure = "brake_efficiency"
+    assert other[figure][0] != pytest.approx(plain[figure][0], rel=1e-3)
+    assert abs(other["energy_residual"][0]) < 1e-10
+
+
+def test_a_setting_of_the_old_law_is_refused_with_the_new_one():
+    with pytest.raises(BadInput, match="heat_transfer.a is not known"):
+        load("nunes-slider-crank", {"heat_transfer.law": "woschni", "heat_transfer.a": "0.3"})

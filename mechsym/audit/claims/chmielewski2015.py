@@ -10,7 +10,7 @@ from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Verdict
 from mechsym.quantities import dimension
-from mechsym.reproduce import chmielewski2015 as computed
+from mechsym.reproduce import chmielewski2015_runs as computed
 
 _LEVER = "sin(phi0) + lam*sin(phi0)*cos(phi0)/sqrt(1 - lam**2*sin(phi0)**2)"
 _MIXED = f"({_LEVER})*r*m0*r*phi0d**2*(cos(phi0) + lam*cos(2*phi0))"
