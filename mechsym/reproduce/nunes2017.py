@@ -17,6 +17,7 @@ from mechsym.compare import crossovers
 from mechsym.cycle import columns, engine, over_speeds, speed_range
 from mechsym.reproduce.nunes2017_facts import FACTS
 from mechsym.reproduce.nunes2017_numbers import CROSSOVER, DIFFERENCES, OVER_SPEEDS, Item
+from mechsym.reproduce.record import last_digit
 
 SOURCE = "004_e00ef50339108dab"
 _ROD_74 = {"parameters.l1": "37 mm", "parameters.l2": "37 mm"}
@@ -99,23 +100,6 @@ def verdict(item: Item, computed: float) -> tuple[str, str]:
     edge = f"{off:.2f} of the last digit off" if 0.5 < off <= 0.55 else ""
     notes = [item.slip, "" if rounded else "truncated in print", edge, "the text says about" if item.about else ""]
     return "reproduced with the source's slip" if item.slip else "reproduced", "; ".join(filter(None, notes))
-
-
-def last_digit(text: str) -> float:
-    """Value of one unit in the last printed digit.
-
-    Parameters
-    ----------
-    text : str
-        A number as printed
-
-    Returns
-    -------
-    unit : float
-        For example 0.001 for `9.188` [-]
-    """
-    mantissa, _, exponent = text.lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
 def facts() -> list[dict[str, Any]]:

@@ -1,0 +1,89 @@
+"""Figs. 5 to 11 of Chmielewski et al. (2015) as the source drew them, for 10 and for 100 s, and the speeds compared."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.plots import BLUE, GREEN, GREY, RED
+from mechsym.reproduce.chmielewski2015 import rigid_speed
+from mechsym.reproduce.chmielewski2015_runs import CLAIM_TIME, FIXED_STEP, Runs, piston, runs
+from mechsym.reproduce.drawing import panels
+
+_FIGURES = (
+    ("6", "x0", "piston displacement [m]"),
+    ("7", "v", "piston velocity [m/s]"),
+    ("8", "a", "piston acceleration [m/s$^2$]"),
+    ("9", "phi0", "crank angle [rad]"),
+    ("10", "phi0d", "crank speed [rad/s]"),
+    ("11", "epsilon", "crank acceleration [rad/s$^2$]"),
+)
+
+
+def figures() -> dict[str, Figure]:
+    """All figures with curves.
+
+    Returns
+    -------
+    figures : dict of str to Figure
+        `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs
+    """
+    found = runs()
+    columns = {**found.exact.columns, **piston(found)}
+    drawn = {"figure_5": _torque(found)}
+    drawn |= {f"figure_{n}": _both_spans(n, found.exact.t, columns[key], label) for n, key, label in _FIGURES}
+    return drawn | {"speeds": _speeds(found)}
+
+
+def _torque(found: Runs) -> Figure:
+    drive = found.case.need("drive")
+    figure, axes = panels(1, 2, (10, 3))
+    for axis, end in zip(axes, (10.0, 100.0), strict=True):
+        axis.step([0, drive.time, end], [0, drive.torque, drive.torque], where="post", color=BLUE)
+        axis.set(xlabel="t [s]", xlim=(0, end))
+    axes[0].set_ylabel("torque [N m]")
+    axes[0].set_title("Fig. 5", loc="left")
+    return figure
+
+
+def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure:
+    figure, axes = panels(1, 2, (10, 3))
+    for axis, end in zip(axes, (10.0, 100.0), strict=True):
+        inside = t <= end
+        if end > 10 and number != "9":
+            _band(axis, t[inside], y[inside])
+        else:
+            axis.plot(t[inside], y[inside], color=BLUE, linewidth=0.8)
+        axis.set(xlabel="t [s]", xlim=(0, end))
+    axes[0].set_ylabel(label)
+    axes[0].set_title(f"Fig. {number}", loc="left")
+    return figure
+
+
+def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25) -> None:
+    """Thousands of turns as the band that they fill: extremes within short stretches."""
+    edges = np.searchsorted(t, np.arange(t[0], t[-1], width))
+    low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
+    axis.fill_between(t[edges], low, high, step="post", color=BLUE, linewidth=0)
+
+
+def _speeds(found: Runs) -> Figure:
+    figure, (axis,) = panels(size=(8, 4.6))
+    end = float(found.exact.t[-1])
+    for t, speed, color, label in (
+        (found.exact.t, found.exact.columns["phi0d"], BLUE, "exact equations, converged"),
+        (found.printed.t, found.printed.columns["phi0d"], GREEN, "(6) with (11) as printed, converged"),
+        (found.t_fixed, found.speed_fixed, RED, f"as printed, fixed step {1e3 * FIXED_STEP:g} ms"),
+    ):
+        axis.plot(*_mean(t, speed), color=color, linewidth=1.4, label=label)
+    axis.plot([1, end], [0, rigid_speed(found.case, end)], "--", color=GREY, label="rigid shaft, hand check")
+    axis.plot([CLAIM_TIME, end], [194, 194], color="black", linewidth=2, label="printed: 194 rad/s")
+    axis.set(xlabel="t [s]", ylabel="mean crank speed over a second [rad/s]", xlim=(0, end))
+    axis.legend(fontsize=8)
+    return figure
+
+
+def _mean(t: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    angle = np.concatenate([[0.0], np.cumsum(np.diff(t) * (speed[1:] + speed[:-1]) / 2)])
+    middle = np.arange(0.5, t[-1] - 0.5, 0.25)
+    return middle, np.interp(middle + 0.5, t, angle) - np.interp(middle - 0.5, t, angle)

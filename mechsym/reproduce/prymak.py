@@ -1,0 +1,120 @@
+"""Numbers and claims of Prymak on rodless mechanisms beside the derived mechanism.
+
+The source prints no data. What follows from geometry is computed with r = 1 m, 1 rad/s and 1 kg at each of the four rod
+journals, two journals to an axis; any other data scale it.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from mechsym import constraints, mechanisms
+from mechsym.mechanism import Mechanism, curves
+from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.reproduce.record import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, row
+
+SOURCE = "003_8746f5f4ad51b1d1"
+_ROUNDING = 1e-12
+PARAMETERS = RodlessParameters(r=1.0, I1=1.0, m_link=0.0, I_link=0.0, m_a=2.0, m_b=2.0)
+
+
+def inertia_forces(alpha: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Inertia forces of all reciprocating masses, by axis, at constant speed.
+
+    Parameters
+    ----------
+    alpha : ndarray, shape (n,)
+        Crank angles [rad]
+
+    Returns
+    -------
+    P_jx, P_jy : ndarray, shape (n,)
+        Sum over the two journals of axis a and of axis b, in units of m r omega^2 [-]
+    """
+    found = curves(mechanisms.build("rodless", PARAMETERS), alpha)
+    return -PARAMETERS.m_a * found["d2x_a_dalpha2"], -PARAMETERS.m_b * found["d2x_b_dalpha2"]
+
+
+def rows() -> list[dict[str, Any]]:
+    """Every number and claim of the source.
+
+    Returns
+    -------
+    rows : list of dict
+        Keys as in `record.row`
+    """
+    alpha = np.linspace(0, 2 * np.pi, 721)
+    return [*_resultant_rows(alpha), *_stroke_rows(alpha), *_reaction_rows(), *_claims_without_data()]
+
+
+def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
+    return row(SOURCE, item, published, computed, verdict, note)
+
+
+def _resultant_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
+    along_x, along_y = inertia_forces(alpha)
+    size = np.hypot(along_x, along_y)
+    # as printed: each of the four journals' forces squared, then summed
+    printed = np.sqrt(2 * (along_x / 2) ** 2 + 2 * (along_y / 2) ** 2)
+    constant = np.ptp(size) < _ROUNDING and abs(size.mean() - 4) < _ROUNDING
+    turned = float(np.abs(np.exp(1j * alpha) - (along_x + 1j * along_y) / size).max())
+    to_rod = np.degrees(np.arctan2(np.abs(along_y), np.abs(along_x)))
+    return [
+        _row(
+            "(4): resultant inertia force over m r omega^2, constant", "4", float(size.mean()),
+            SLIP if constant else NOT_REPRODUCED,
+            f"under the root the sums must be squared; the terms squared, as printed, give {printed.max():.3f}",
+        ),
+        _row(
+            "(5): tan phi = tan alpha, largest difference of the directions [rad]", "0", turned,
+            REPRODUCED if turned < _ROUNDING else NOT_REPRODUCED, "the resultant turns with the crank",
+        ),
+        _row(
+            "conclusion 3: inertia force always along the rod, largest angle to the rod of axis a [deg]", "0",
+            float(to_rod.max()), REPRODUCED if to_rod.max() < 1e-6 else NOT_REPRODUCED,
+            "contradicts (5): the rods stay on their axes while the resultant turns",
+        ),
+    ]  # fmt: skip
+
+
+def _stroke_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
+    found = curves(mechanisms.build("rodless", PARAMETERS), alpha)
+    off = max(
+        float(np.abs(found["x_a"] - 2 * np.cos(alpha)).max()), float(np.abs(found["x_b"] - 2 * np.sin(alpha)).max())
+    )
+    return [
+        _row(
+            "Fig. 3: rods move as 2 r cos alpha and 2 r sin alpha, largest difference over r", "0", off,
+            REPRODUCED if off < _ROUNDING else NOT_REPRODUCED, "harmonic: no second order, unlike (6)",
+        )
+    ]  # fmt: skip
+
+
+def _reaction_rows() -> list[dict[str, Any]]:
+    rank, count = _rank(mechanisms.build("rodless_constraints", PARAMETERS))
+    closed = f"rank {rank} of {count}, determined are X_a cos alpha - X_b sin alpha and the tangential pin force"
+    return [
+        _row(
+            "(1), Fig. 2: guide reactions X_i as functions of alpha", None, None, NOT_COMPUTABLE,
+            f"no closed form is printed, and the rigid mechanism does not determine them: {closed}; mechsym gives them "
+            "with a named closing rule",
+        ),
+        _row(
+            "conclusion 2: no side force on the pistons", "0", None, NOT_COMPUTABLE,
+            "the guides of the sliders take the side force instead, so its size on the piston depends on clearances",
+        ),
+    ]  # fmt: skip
+
+
+def _rank(mechanism: Mechanism) -> tuple[int, int]:
+    solution = constraints.solve(mechanism, constraints.close(mechanism, {mechanism.coordinates[0]: 0.7}))
+    return solution.rank, solution.count
+
+
+def _claims_without_data() -> list[dict[str, Any]]:
+    return [
+        _row(
+            "conclusion 1: smaller losses by friction and inertia than with rods", None, None, NOT_COMPUTABLE,
+            "neither masses nor friction coefficients are printed",
+        )
+    ]  # fmt: skip
