@@ -18,6 +18,7 @@ COMMANDS = {
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
+    "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
 }
 

@@ -10,6 +10,7 @@ from mechsym.reproduce.chmielewski2015 import rigid_speed
 from mechsym.reproduce.chmielewski2015_runs import CLAIM_TIME, FIXED_STEP, Runs, piston, runs
 from mechsym.reproduce.drawing import panels
 
+_SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
 _FIGURES = (
     ("6", "x0", "piston displacement [m]"),
     ("7", "v", "piston velocity [m/s]"),
@@ -51,7 +52,8 @@ def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
         inside = t <= end
         if end > 10 and number != "9":
-            _band(axis, t[inside], y[inside])
+            axis.plot(t[t <= _SLOW], y[t <= _SLOW], color=BLUE, linewidth=0.8)
+            _band(axis, t[t >= _SLOW], y[t >= _SLOW])
         else:
             axis.plot(t[inside], y[inside], color=BLUE, linewidth=0.8)
         axis.set(xlabel="t [s]", xlim=(0, end))
@@ -60,11 +62,11 @@ def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure
     return figure
 
 
-def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25) -> None:
+def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25, **options: Any) -> None:
     """Thousands of turns as the band that they fill: extremes within short stretches."""
     edges = np.searchsorted(t, np.arange(t[0], t[-1], width))
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
-    axis.fill_between(t[edges], low, high, step="post", color=BLUE, linewidth=0)
+    axis.fill_between(t[edges], low, high, step="post", **{"color": BLUE, "linewidth": 0, **options})
 
 
 def _speeds(found: Runs) -> Figure:
@@ -76,6 +78,7 @@ def _speeds(found: Runs) -> Figure:
         (found.t_fixed, found.speed_fixed, RED, f"as printed, fixed step {1e3 * FIXED_STEP:g} ms"),
     ):
         axis.plot(*_mean(t, speed), color=color, linewidth=1.4, label=label)
+    _band(axis, found.t_fixed, found.speed_fixed, color=RED, alpha=0.15, label="the same, momentary speed")
     axis.plot([1, end], [0, rigid_speed(found.case, end)], "--", color=GREY, label="rigid shaft, hand check")
     axis.plot([CLAIM_TIME, end], [194, 194], color="black", linewidth=2, label="printed: 194 rad/s")
     axis.set(xlabel="t [s]", ylabel="mean crank speed over a second [rad/s]", xlim=(0, end))

@@ -64,7 +64,7 @@ SOURCES = (
         stem="004_e00ef50339108dab",
         name="nunes2017",
         about="Nunes (2017): Opposed-piston engine, slider crank against geared hypocycloid",
-        rows=("mechsym.reproduce.nunes2017:rows",),
+        rows=("mechsym.reproduce.nunes2017:rows", "mechsym.reproduce.nunes2017_text:rows"),
         figures="mechsym.reproduce.nunes2017_figures:figures",
     ),
 )

@@ -1,0 +1,72 @@
+"""`mechsym reproduce`: published numbers and figures beside what the models give."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, out_option, progress, table
+from mechsym.errors import BadInput
+
+
+@click.command()
+@click.argument("source", required=False)
+@click.option("--record", is_flag=True, help="Store the outcome as the one that later runs are compared with.")
+@json_option
+@out_option
+@click.pass_context
+def reproduce(ctx: click.Context, source: str | None, record: bool, as_json: bool, out: Path | None) -> None:
+    """Recompute every published number of SOURCE, or of all; --out draws the figures too.
+
+    SOURCE is a short name or a file's stem: zotov2024, moroianu2017, chmielewski2015, prymak, nunes2017. Findings are
+    results; exit status 1 only when the outcome differs from the recorded one.
+
+    \b
+    Example: mechsym reproduce chmielewski2015 --out reproduction
+    """
+    from mechsym.reproduce import findings
+    from mechsym.reproduce.sources import chosen, rows
+
+    if record and source:
+        raise BadInput(f"--record needs all sources, not {source} alone; leave the name out")
+    sources, found = chosen(source), {}
+    with progress(len(sources), "sources") as bar:
+        for one in sources:
+            found[one.stem] = rows(one)
+            bar.update(1)
+    flat = [row for one in found.values() for row in one]
+    files = [findings.record(flat)] if record else []
+    changed = findings.differences(findings.outcome(flat), findings.recorded([s.stem for s in sources]))
+    if out is not None:
+        from mechsym.reproduce.page import write
+
+        files += write(out, sources, found, changed)
+    emit(flat, as_json, lambda: _text(sources, found, changed, files))
+    ctx.exit(1 if changed else 0)
+
+
+def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[Path]) -> str:
+    from mechsym.reproduce.page import counts
+
+    lines = []
+    for source in sources:
+        own = found[source.stem]
+        summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(own).items() if count)
+        lines += [f"{source.name}: {source.about}", table(_shown(own), [*_COLUMNS]), _notes(own), f"  {summed}", ""]
+    lines += ["differs from the recorded outcome:", *changed] if changed else ["the outcome is the recorded one"]
+    if files:
+        lines.append(f"written: {len(files)} files, {files[0]} first")
+    return "\n".join(lines)
+
+
+_COLUMNS = ("item", "published", "computed", "rel_error", "verdict")
+
+
+def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [row | {"rel_error": None if row["rel_error"] is None else f"{row['rel_error']:+.1e}"} for row in rows]
+
+
+def _notes(rows: list[dict[str, Any]]) -> str:
+    """Notes of everything that is not plainly reproduced, after the table since they are long."""
+    told = [f"  {row['item']}: {row['note']}" for row in rows if row["verdict"] != "reproduced" and row["note"]]
+    return "\n".join(told)
