@@ -1,1 +1,20 @@
-"""The auditor: published hand formulas compared with the derivations, misprints found and repaired by search."""
+"""The auditor: published hand formulas compared with the derivations, misprints found and repaired by search.
+
+reader.py, latex.py, printer.py   text to tree and back (tree.py, limits.py, spelling.py)
+algebra.py                        one tree in floats, in many digits and in symbols
+theory/                           the derived quantities that formulas are compared with
+question.py                       states at which formula and quantity are compared
+prover.py, certificate.py         exact? digits decide, polynomials prove
+orders.py, dimensions.py          how good an approximation is; does it rescale
+edits.py, required.py,            single edits; what each part would have to be; what was left out;
+insertion.py, candidates.py       edits that meet it
+repair.py, verdict.py             the search and the decision
+sources/, claims/, registry.py    every relation of the sources as printed, and the claims of their texts
+mutants.py, trust.py              tests of the auditor itself
+findings.py, errata.py            rows, and docs/errata.md
+formula.py                        the user's own formula
+"""
+
+from mechsym.audit.formula import check_file, check_formula
+
+__all__ = ["check_file", "check_formula"]

@@ -43,7 +43,13 @@ class Algebra:
     pi: Callable[[], Any]
 
 
-def evaluate(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping | None = None) -> Any:
+def evaluate(
+    tree: Node,
+    names: Mapping[str, Any],
+    algebra: Algebra,
+    memo: MutableMapping[Node, Any] | None = None,
+    calls: MutableMapping[str, Any] | None = None,
+) -> Any:
     """Value of an expression.
 
     Parameters
@@ -54,8 +60,10 @@ def evaluate(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: Mutab
         Values of its letters
     algebra : Algebra
         Number system
-    memo : mutable mapping, optional
-        Values by node, filled while evaluating; trees that share nodes share work
+    memo : mutable mapping of Node to value, optional
+        Filled while evaluating; trees that share nodes share work
+    calls : mutable mapping of str to value, optional
+        Functions by their text, for all trees at the same states: sines cost most
 
     Returns
     -------
@@ -63,22 +71,27 @@ def evaluate(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: Mutab
         Array or scalar of the number system
     """
     memo = {} if memo is None else memo
+    calls = {} if calls is None else calls
     if tree not in memo:
-        memo[tree] = _value(tree, names, algebra, memo)
+        memo[tree] = _value(tree, names, algebra, memo, calls)
     return memo[tree]
 
 
-def _value(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping) -> Any:
+def _value(
+    tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping, calls: MutableMapping[str, Any]
+) -> Any:
     if isinstance(tree, ast.Constant):
         return algebra.number(Fraction(str(tree.value)))
     if isinstance(tree, ast.Name):
         return names[tree.id]
-    values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
-    if isinstance(tree, ast.BinOp):
-        return algebra.operations[type(tree.op)](*values)
-    if isinstance(tree, ast.UnaryOp):
-        return -values[0]
-    return algebra.functions[str(function_of(tree))](values[0])
+    if isinstance(tree, ast.Call):
+        text = ast.dump(tree)
+        if text not in calls:
+            argument = evaluate(tree.args[0], names, algebra, memo, calls)
+            calls[text] = algebra.functions[str(function_of(tree))](argument)
+        return calls[text]
+    values = [evaluate(child, names, algebra, memo, calls) for _, child in children(tree)]
+    return -values[0] if isinstance(tree, ast.UnaryOp) else algebra.operations[type(tree.op)](*values)  # type: ignore[attr-defined]
 
 
 def _float_power(base: Any, exponent: Any) -> Any:
@@ -86,9 +99,12 @@ def _float_power(base: Any, exponent: Any) -> Any:
 
 
 def _total(value: Any) -> Any:
-    if np.ndim(value) < 2:
-        raise BadInput("sum() needs a letter that has one value per part, such as the force on each journal")
-    return np.sum(value, axis=0)
+    # a letter with parts has a first axis for them; anything else has no sum
+    return np.sum(value, axis=0) if np.ndim(value) >= 2 else _nowhere(value)
+
+
+def _nowhere(value: Any) -> Any:
+    return np.full(np.shape(value), mpmath.nan if np.asarray(value).dtype == object else np.nan)
 
 
 def _cot(value: Any) -> Any:
@@ -166,7 +182,7 @@ SYMBOLS = Algebra(
     functions={
         name: _symbolic(getattr(sympy, name if name != "abs" else "Abs"))
         for name in ("sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs")
-    } | {"sum": _total},
+    } | {"sum": lambda value: np.sum(value) if np.ndim(value) else sympy.nan},
     pi=lambda: sympy.pi,
 )  # fmt: skip
 

@@ -3,15 +3,17 @@
 import ast
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import mpmath
 import numpy as np
 
+from mechsym.audit.algebra import evaluate
 from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, single_edits, without_double_signs
 from mechsym.audit.insertion import Vocabulary, candidate_words, is_unit, product, product_tree, simple, vocabulary
-from mechsym.audit.question import Bench, Question, names, value
+from mechsym.audit.question import Bench, Question, names, part_values, shaped
 from mechsym.audit.required import Required, required
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
 from mechsym.quantities import dimension
@@ -21,7 +23,7 @@ _VALID = 0.6
 
 
 def listed_edits(question: Question, tree: Node) -> list[Edit]:
-    """Edits that are tried one by one: the list of slips, and the same slip wherever a part is repeated.
+    """Slips that are tried one by one.
 
     Parameters
     ----------
@@ -35,11 +37,36 @@ def listed_edits(question: Question, tree: Node) -> list[Edit]:
     edits : list of Edit
         Changes; some give the same function
     """
-    return [*single_edits(tree, lambda letter: confusable(question, letter)), *_repeated(tree)]
+    return list(single_edits(tree, lambda letter: confusable(question, letter)))
+
+
+def repeated_edits(tree: Node) -> list[Edit]:
+    """One slip wherever the same part stands: an error that was carried through.
+
+    Parameters
+    ----------
+    tree : Node
+        The formula as it stands
+
+    Returns
+    -------
+    edits : list of Edit
+        Sign or factor two of parts that are repeated
+    """
+    nodes = [p.node for p in places(tree) if children(p.node) and value_of(p.node) is None]
+    texts = {node: ast.dump(node) for node in nodes}
+    counts = Counter(texts.values())
+    distinct = {text: node for node, text in texts.items() if counts[text] > 1}
+    found = []
+    for text, node in distinct.items():
+        for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
+            changed = substitute(tree, lambda n, text=text, new=new: new if texts.get(n) == text else None)
+            found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed)))
+    return found
 
 
 def confusable(question: Question, letter: str) -> list[str]:
-    """Letters that one may be mistaken for: the same letter with another index, or one of the same unit.
+    """Letters that one may be mistaken for: another index, the same unit, or a derived name with the same initial.
 
     Parameters
     ----------
@@ -58,26 +85,14 @@ def confusable(question: Question, letter: str) -> list[str]:
     indexed = [k for k in used if re.sub(r"\d+$", "", k) == stem]
     unit = _unit(question, letter)
     alike = [k for k in used if unit is not None and _unit(question, k) == unit]
-    return [k for k in dict.fromkeys([*indexed, *alike]) if k != letter]
+    derived = [k for k in question.theory.results if k[0] == letter[0] and k != question.quantity]
+    return [k for k in dict.fromkeys([*indexed, *alike, *derived]) if k != letter]
 
 
 def _unit(question: Question, letter: str) -> tuple[int, ...] | None:
     if letter in question.formula.letters or letter not in question.theory.letters:
         return None
     return dimension(question.theory.letters[letter].unit)
-
-
-def _repeated(tree: Node) -> Iterator[Edit]:
-    nodes = [p.node for p in places(tree) if children(p.node) and value_of(p.node) is None]
-    counts = Counter(ast.dump(n) for n in nodes)
-    distinct = {ast.dump(n): n for n in nodes if counts[ast.dump(n)] > 1}
-    for text, node in distinct.items():
-        for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
-            yield Edit(kind="everywhere", path=(), new=_everywhere(tree, text, new))
-
-
-def _everywhere(tree: Node, text: str, new: Node) -> Node:
-    return without_double_signs(substitute(tree, lambda n: new if children(n) and ast.dump(n) == text else None))
 
 
 def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequence[Edit], insert: bool) -> list[Edit]:
@@ -101,10 +116,8 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
     edits : list of Edit
         Candidates
     """
-    memo: dict[Node, Any] = {}
-    value(asked, tree, memo)
+    memo = part_values(asked, tree)
     wishes = required(asked, tree, memo)
-    names(asked, {n for edit in listed for n in letters(edit.new)})
     nodes = {p.path: p.node for p in places(tree)}
     edits = list(listed)
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
@@ -113,15 +126,25 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
             edits += _insertions(asked, tree, wishes, memo, words)
         else:
             edits += _numbers(asked, tree, wishes, memo)
-        return [e for e in edits if _meets(asked, nodes, wishes, memo, e)]
+        known = names(asked, {n for edit in edits for n in letters(edit.new)})
+        return [e for e in edits if _meets(asked, nodes, wishes, _Values(names=known, memo=memo), e)]
 
 
-def _meets(asked: Bench, nodes: dict[Path, Node], wishes: Required, memo: dict[Node, Any], edit: Edit) -> bool:
+@dataclass(frozen=True, kw_only=True)
+class _Values:
+    """Values of letters and of the parts of the formula, shared by all edits."""
+
+    names: Mapping[str, Any]
+    memo: dict[Node, Any]
+
+
+def _meets(asked: Bench, nodes: dict[Path, Node], wishes: Required, values: _Values, edit: Edit) -> bool:
     path = edit.path
     while path not in wishes:
         path = path[:-1]
     new = replace(nodes[path], edit.path[len(path) :], edit.new)
-    wish, old, found = wishes[path], memo[nodes[path]], value(asked, new, memo)
+    found = shaped(asked, evaluate(new, values.names, asked.algebra, values.memo, asked.calls))
+    wish, old = wishes[path], values.memo[nodes[path]]
     valid = ~np.isnan(np.asarray(wish, dtype=float))
     wrong, left = np.abs(old - wish)[valid], np.abs(found - wish)[valid]
     if len(wrong) < _VALID * len(valid) or not np.all(wrong > 0):
@@ -140,7 +163,11 @@ def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) 
         if factor == -1:
             yield Edit(kind="sign", path=place.path, new=negative(place.node))
         elif factor > 0:
-            kind = "number" if value_of(place.node) is not None else "unit" if is_unit(factor) else "factor"
+            kind = "unit" if is_unit(factor) else "factor"
+            if value_of(place.node) is not None:
+                if kind == "unit":
+                    continue  # a unit is not hidden in a number that stands there for another reason
+                kind = "number"
             yield Edit(kind=kind, path=place.path, new=scaled(place.node, factor))
 
 

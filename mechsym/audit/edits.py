@@ -278,7 +278,15 @@ def scaled(node: Node, factor: Fraction) -> Node:
             return binary(ast.Div, node.left, number(divisor))  # type: ignore[attr-defined]
     if factor.numerator == 1:
         return binary(ast.Div, node, number(factor.denominator))
-    return binary(ast.Mult, number(factor), node)
+    return _led_by(number(factor), node)
+
+
+def _led_by(factor: Node, node: Node) -> Node:
+    # 2*a*b, not 2*(a*b)
+    if is_operation(node, ast.Mult, ast.Div):
+        assert isinstance(node, ast.BinOp)
+        return binary(type(node.op), _led_by(factor, node.left), node.right)
+    return binary(ast.Mult, factor, node)
 
 
 def _leading_number(node: Node) -> Fraction | None:

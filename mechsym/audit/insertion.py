@@ -68,7 +68,8 @@ def candidate_words(question: Question, tree: Node) -> list[Node]:
     circular = [call(f, name(a)) for a in turning for f in ("sin", "cos")]
     authors = [name(k) for k, value in own.items() if needed & dependencies(theory, letters(value))]
     free = [name(k) for k in theory.letters if k in needed and k not in own and k not in question.hold]
-    words = [*sorted([*printed, *circular], key=_complexity), *authors, *free]
+    results = [name(k) for k in theory.results if k in needed and k != question.quantity and k not in own]
+    words = [*sorted([*printed, *circular], key=_complexity), *authors, *free, *results]
     return _distinct(w for w in words if not (isinstance(w, ast.Name) and w.id in angles))
 
 

@@ -27,6 +27,7 @@ _SLACK = 1.001
 _TURN_POINTS = 16
 _NODES = 12
 _NODE = Fraction(1, 10**6)
+_TRUSTED = 10  # coefficients that the nodes give to eight digits
 _SHIFT = 2  # powers of eps below zero that a quantity may start with
 
 
@@ -197,7 +198,7 @@ def is_truncation(question: Question, found: list[Group], tree: Node) -> bool:
     -------
     honest : bool
         True when the largest error over a turn, as lambda goes to zero, is at most 1.001 times the derived term of
-        the same power
+        the same power, or of the first one where the derived series ends before that power
     """
     known = orders(found, tree)
     if not known or min(known.values()) < 1:
@@ -209,13 +210,16 @@ def is_truncation(question: Question, found: list[Group], tree: Node) -> bool:
 def _honest(question: Question, group: str, loads: list[str], tree: Node) -> bool:
     derived, printed = _series(question, group, loads, tree)
     with mpmath.workdps(2 * ORDER_DIGITS):
-        scale = max(abs(c) for c in derived.ravel())
-        small = scale * mpmath.mpf(10) ** -8
-        for own, theirs in zip(derived, printed, strict=True):
-            error = max(abs(own - theirs))
-            if error > small:
-                return bool(error <= _SLACK * max(abs(own)))
-    return False
+        sizes = [max(abs(c)) for c in derived]
+        small = max(sizes) * mpmath.mpf(10) ** -8
+        errors = [max(abs(own - theirs)) for own, theirs in zip(derived, printed, strict=True)]
+        wrong = next((k for k, error in enumerate(errors) if error > small), None)
+        if wrong is None:
+            return False
+        # a derived series that ends before this power has no term to compare with: then its first one
+        ended = all(size <= small for size in sizes[wrong:_TRUSTED])
+        own = next(size for size in sizes if size > small) if ended else sizes[wrong]
+        return bool(errors[wrong] <= _SLACK * own)
 
 
 def _series(question: Question, group: str, loads: list[str], tree: Node) -> tuple[Any, Any]:

@@ -13,7 +13,7 @@ import numpy as np
 from mechsym.audit.algebra import FLOATS, Algebra, evaluate
 from mechsym.audit.reader import Formula
 from mechsym.audit.theory.record import Theory, complete
-from mechsym.audit.tree import Node, letters
+from mechsym.audit.tree import Node, letters, walk
 
 TURN_POINTS = 360
 
@@ -61,6 +61,8 @@ class Bench:
         The derived quantity
     digits : int
         Working precision, 0 for floats
+    calls : dict of str to array
+        Values of functions that were needed before
     """
 
     theory: Theory
@@ -69,6 +71,7 @@ class Bench:
     own: dict[str, Any]
     expected: Any
     digits: int = 0
+    calls: dict[str, Any] = field(default_factory=dict)
 
 
 Values = Mapping[str, Any]
@@ -97,7 +100,7 @@ def random_fractions(question: Question, count: int, seed: int) -> dict[str, lis
         value = Fraction(record.value).limit_denominator(10**9)
         draw = [generator.randint(7000, 14000) for _ in range(count)]
         if letter in question.hold:
-            found[letter] = [Fraction(question.hold[letter])] * count
+            found[letter] = [Fraction(str(question.hold[letter]))] * count
         elif letter == theory.angle:
             found[letter] = [Fraction(d * 6, 7000) - 6 + Fraction(1, 7) for d in draw]
         else:
@@ -226,7 +229,30 @@ def used_names(formula: Formula) -> list[str]:
     return list(dict.fromkeys(n for tree in trees for n in letters(tree) if n not in formula.letters))
 
 
-def value(asked: Bench, tree: Node, memo: dict | None = None) -> Any:
+def part_values(asked: Bench, tree: Node) -> dict[Node, Any]:
+    """Values of an expression and of all its parts at the states of a bench.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    tree : Node
+        Expression in the formula's letters
+
+    Returns
+    -------
+    values : dict of Node to array
+        By node
+    """
+    memo: dict[Node, Any] = {}
+    known = names(asked, letters(tree))
+    with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
+        for _, node in walk(tree):
+            evaluate(node, known, asked.algebra, memo, asked.calls)
+    return memo
+
+
+def value(asked: Bench, tree: Node) -> Any:
     """Value of an expression at the states of a bench.
 
     Parameters
@@ -235,8 +261,6 @@ def value(asked: Bench, tree: Node, memo: dict | None = None) -> Any:
         States
     tree : Node
         Expression in the formula's letters
-    memo : dict, optional
-        Values by node from earlier calls with the same bench
 
     Returns
     -------
@@ -244,8 +268,28 @@ def value(asked: Bench, tree: Node, memo: dict | None = None) -> Any:
         Values; nan where there is none
     """
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
-        found = evaluate(tree, names(asked, letters(tree)), asked.algebra, memo)
-        return np.broadcast_to(found, np.shape(asked.expected))
+        found = evaluate(tree, names(asked, letters(tree)), asked.algebra, {}, asked.calls)
+    return shaped(asked, found)
+
+
+def shaped(asked: Bench, found: Any) -> Any:
+    """A value as one number per state.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    found : scalar or array
+        What an evaluation gave
+
+    Returns
+    -------
+    value : array, shape (n,)
+        nan where a letter with parts was not summed
+    """
+    if np.ndim(found) > np.ndim(asked.expected):
+        return np.full(np.shape(asked.expected), mpmath.nan if asked.digits else np.nan)
+    return np.broadcast_to(found, np.shape(asked.expected))
 
 
 def names(asked: Bench, wanted: Iterable[str]) -> Mapping[str, Any]:

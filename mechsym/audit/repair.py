@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS, FLOATS
-from mechsym.audit.candidates import listed_edits, matching_edits
+from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.edits import RANKS, Edit, apply
 from mechsym.audit.orders import EXACT, FINE, Group, groups, orders, residual
 from mechsym.audit.printer import to_python
@@ -156,17 +156,39 @@ def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
     Returns
     -------
     better : list of Repair
-        Distinct functions; a single exact one ends the search
+        Distinct functions; an exact one, or those that mend the worst group that can be mended
     """
-    listed = [] if insert else listed_edits(exam.question, start.tree)
+    if insert:
+        return _better(exam, start, [], insert=True)
+    found = _better(exam, start, listed_edits(exam.question, start.tree), insert=False)
+    return found or _better(exam, start, repeated_edits(start.tree), insert=False)
+
+
+def _better(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Repair]:
     found = matching_edits(exam.question, search_bench(exam, "exact"), start.tree, listed, insert)
     for edit in _by_simplicity(start.tree, found):
         tree = apply(start.tree, edit)
         if is_exact(exam.judged, tree):
             return [standing(exam, tree, (*start.edits, edit))]
-    edits = _distinct(exam, start.tree, _order_edits(exam, start, listed, insert))
-    candidates = (standing(exam, apply(start.tree, e), (*start.edits, e)) for e in edits)
-    return [c for c in candidates if _improves(c, start)]
+    for group in _worst_first(exam, start):
+        asked = search_bench(exam, group.name) if insert else group.fine
+        edits = matching_edits(exam.question, asked, start.tree, listed, insert)
+        distinct = _distinct(exam, start.tree, edits)
+        nearer = [e for e in distinct if not max_rel_error(exam.turn, apply(start.tree, e)) > start.max_rel_error]
+        candidates = [standing(exam, apply(start.tree, e), (*start.edits, e)) for e in nearer]
+        improved = [c for c in candidates if _improves(c, start)]
+        if improved:
+            return improved
+    return []
+
+
+def _worst_first(exam: Examination, start: Repair) -> list[Group]:
+    # groups with the same error at both lambdas need not be searched twice
+    found: dict[Any, Group] = {}
+    for group in sorted(exam.groups, key=lambda g: start.orders[g.name]):
+        if start.orders[group.name] != EXACT:
+            found.setdefault((residual(group.coarse, start.tree), residual(group.fine, start.tree)), group)
+    return list(found.values())
 
 
 def is_sound(repair: Repair) -> bool:
@@ -183,16 +205,6 @@ def is_sound(repair: Repair) -> bool:
         False when there is no small parameter
     """
     return bool(repair.orders) and min(repair.orders.values()) >= 1
-
-
-def _order_edits(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Edit]:
-    found: dict[Any, list[Edit]] = {}
-    for group in exam.groups:
-        alike = residual(group.coarse, start.tree), residual(group.fine, start.tree)
-        if start.orders[group.name] != EXACT and alike not in found:
-            asked = search_bench(exam, group.name) if insert else group.fine
-            found[alike] = matching_edits(exam.question, asked, start.tree, listed, insert)
-    return [edit for edits in found.values() for edit in edits]
 
 
 def search_bench(exam: Examination, group: str) -> Bench:
@@ -234,7 +246,7 @@ def _search_bench(exam: Examination, group: str) -> Bench:
 def _improves(candidate: Repair, start: Repair) -> bool:
     pairs = [(candidate.orders[g], start.orders[g]) for g in start.orders]
     higher = all(new >= old for new, old in pairs) and any(new > old for new, old in pairs)
-    return higher and candidate.max_rel_error < start.max_rel_error
+    return higher and candidate.max_rel_error <= start.max_rel_error
 
 
 def _distinct(exam: Examination, tree: Node, edits: list[Edit]) -> list[Edit]:

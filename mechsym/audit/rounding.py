@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.audit.edits import places
-from mechsym.audit.question import value
+from mechsym.audit.question import part_values
 from mechsym.audit.repair import Examination, search_bench
 from mechsym.audit.required import required
 from mechsym.audit.tree import Node
@@ -31,9 +31,7 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
         Which number is rounded; empty when there is none
     """
     asked = search_bench(exam, "exact")
-    memo: dict[Node, Any] = {}
-    value(asked, tree, memo)
-    wishes = required(asked, tree, memo)
+    wishes = required(asked, tree, part_values(asked, tree))
     for place in places(tree):
         if isinstance(place.node, ast.Constant) and place.path in wishes:
             wish = _constant(wishes[place.path])

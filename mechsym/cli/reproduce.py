@@ -11,11 +11,11 @@ from mechsym.errors import BadInput
 
 @click.command()
 @click.argument("source", required=False)
-@click.option("--record", is_flag=True, help="Store the outcome as the one that later runs are compared with.")
+@click.option("--write", is_flag=True, help="Record the verdicts of all sources, to be compared with from then on.")
 @json_option
 @out_option
 @click.pass_context
-def reproduce(ctx: click.Context, source: str | None, record: bool, as_json: bool, out: Path | None) -> None:
+def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool, out: Path | None) -> None:
     """Recompute every published number of SOURCE, or of all; --out draws the figures too.
 
     SOURCE is a short name or a file's stem: zotov2024, moroianu2017, chmielewski2015, prymak, nunes2017. Findings are
@@ -24,23 +24,23 @@ def reproduce(ctx: click.Context, source: str | None, record: bool, as_json: boo
     \b
     Example: mechsym reproduce chmielewski2015 --out reproduction
     """
-    from mechsym.reproduce import findings
+    from mechsym import recorded
     from mechsym.reproduce.sources import chosen, rows
 
-    if record and source:
-        raise BadInput(f"--record needs all sources, not {source} alone; leave the name out")
+    if write and source:
+        raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
     sources, found = chosen(source), {}
     with progress(len(sources), "sources") as bar:
         for one in sources:
             found[one.stem] = rows(one)
             bar.update(1)
     flat = [row for one in found.values() for row in one]
-    files = [findings.record(flat)] if record else []
-    changed = findings.differences(findings.outcome(flat), findings.recorded([s.stem for s in sources]))
+    files = [recorded.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
+    changed = recorded.differences(_PACKAGE, flat, _NAME, ("verdict",))
     if out is not None:
-        from mechsym.reproduce.page import write
+        from mechsym.reproduce import page
 
-        files += write(out, sources, found, changed)
+        files += page.write(out, sources, found, changed)
     emit(flat, as_json, lambda: _text(sources, found, changed, files))
     ctx.exit(1 if changed else 0)
 
@@ -59,7 +59,8 @@ def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[P
     return "\n".join(lines)
 
 
-_COLUMNS = ("item", "published", "computed", "rel_error", "verdict")
+_PACKAGE, _NAME = "mechsym.reproduce", ("source", "item")
+_COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
 
 
 def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:

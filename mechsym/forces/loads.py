@@ -294,12 +294,23 @@ def columns(turn: Turn, found: Loads) -> dict[str, np.ndarray]:
     for name, (x, y) in found.bearings.items():
         table |= {f"{name}_x": x, f"{name}_y": y, f"{name}_load": np.hypot(x, y)}
     table |= dict(found.guides) | {n: v for n, v in turn.reactions.items() if n not in table}
-    roll = -(turn.momentum["angular_momentum_rate"] + _roll_sense(turn) * turn.torque)
+    roll = -(turn.momentum["angular_momentum_rate"] + roll_sense(turn) * turn.torque)
     return table | {"torque": turn.torque, "roll_moment": roll}
 
 
-def _roll_sense(turn: Turn) -> float:
-    # the load hangs on the flywheel, behind the last throw
+def roll_sense(turn: Turn) -> float:
+    """Sense of rotation of the shaft end that carries the load: the flywheel stands behind the last throw.
+
+    Parameters
+    ----------
+    turn : Turn
+        Cycle
+
+    Returns
+    -------
+    sense : float
+        1 or -1 [-]
+    """
     parameters = turn.case.need("parameters")
     return each(parameters, "sense")[-1] if isinstance(parameters, CrankTrainParameters) else 1.0
 

@@ -179,7 +179,7 @@ def _inputs(case: Case, found: Gas | None, phi: np.ndarray) -> dict[str, np.ndar
 
     if case.mechanism == "rodless":
         return dict(zip(("F_a", "F_b"), axis_forces(case.need("faces"), net, phi), strict=True))
-    if isinstance(case.sections["cycle"], Schmidt):  # one gas for all pistons, known over the shaft angle
+    if isinstance(case.sections.get("cycle"), Schmidt):  # one gas for all pistons, known over the shaft angle
         return {f"F{i + 1}": net(phi) * found.area for i in range(len(case.need("parameters").throw))}
     if case.mechanism == "crank_train":
         forces = gas_forces(case.need("parameters"), net, found.area, phi)

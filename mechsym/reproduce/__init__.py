@@ -1,8 +1,8 @@
-"""Published numbers and figures beside what the models give, one module per source.
+"""Published numbers and figures beside what the models give.
 
-record.py       a row: published, computed, verdict, note
+rows.py         a row: published, computed, verdict, note
 sources.py      the five sources by name, their rows and their figures
-findings.py     what the last recorded run found, and how a new run differs
 page.py         CSV, HTML and pictures of a run
-<source>.py, <source>_figures.py   rows and figures of one source
+findings.json   the recorded verdicts; a finding is a result, only a changed one is a failure (`mechsym.recorded`)
+<source>.py     what is computed for a source; <source>_rows.py, <source>_figures.py set it beside the print
 """

@@ -1,181 +1,332 @@
-"""Numbers and claims of Chmielewski et al. (2015) beside the converged start-up.
+"""Chmielewski et al. (2015): the start-up of section 2.2, converged, and what a fixed step makes of it.
 
-The paper reports that the crank settles at 194 rad/s after 90 s. Neither the exact equations nor the printed ones do
-that, however finely they are integrated, and the work of the drive does not allow it.
+The paper solved (6) with (11) and (2), reports a speed of 194 rad/s from 90 s on, and warns that its curves depend on
+the step. Here: the printed model and the exact one, each to convergence; a rigid shaft as a hand check; and runs with
+a fixed step, because those end where the paper's do.
 """
 
-from typing import Any
+import dataclasses
+from functools import cache
 
 import numpy as np
 
-from mechsym import mechanisms, torsion
-from mechsym.cases import Case
-from mechsym.reproduce.chmielewski2015_runs import CLAIM_TIME, FIXED_STEP, Runs, mean_speed, piston, runs
-from mechsym.reproduce.record import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
+from mechsym import cases, mechanisms, torsion
+from mechsym.mechanism import acceleration_function
+from mechsym.runs import problem_of
+from mechsym.simulate import Problem, Result, Settings, simulate
+from mechsym.simulate.audit import energies
+from mechsym.simulate.fixed_step import fixed_step
 
-SOURCE = "002_d7297926d6c52225"
-_CONSTANT = 0.01  # what the eye takes for constant in a figure [-]
-
-
-def rows() -> list[dict[str, Any]]:
-    """Every number and claim of section 2.2.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `record.row`
-    """
-    found = runs()
-    return [_torque(found), *_speed(found), *_amplitudes(found), *_steps(found)]
+CASE = "chmielewski"
+CLAIMED_SPEED, CLAIMED_TIME = 194.0, 90.0  # section 2.2 [rad/s, s]
+# steps with which classical Runge-Kutta and the third-order formula of Bogacki and Shampine hold the shaft at resonance
+# with a peak speed of about the paper's; the paper prints neither formula nor step [s]
+TELLING_STEP, TELLING_STEP_3 = 2.57e-3, 0.88e-3
+EXACT, PRINTED = "crankshaft_flywheel", "crankshaft_flywheel_printed"
+# integrator and tolerance, from rough to fine, the last by a second integrator
+SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
+FINEST = SWEEP[-1]
 
 
-def rigid_speed(case: Case, t: float) -> float:
-    r"""Speed that the drive reaches at most: the hand check.
-
-    .. math:: \omega \le \frac{M\,(t - t_0)}{I_0 + I_2 + \overline{m_0 x_0'^2}}
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Speeds:
+    """Crank speed of a run after the time that the paper names.
 
     Parameters
     ----------
-    case : Case
-        Data
+    name : str
+        Model, integrator and tolerance or step
+    mean, lowest, highest : float
+        Over the last two seconds [rad/s]
+    peak_at_claim : float
+        Largest speed in the two seconds from 90 s on [rad/s]
+    energy_residual : float or None
+        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
+    """
+
+    name: str
+    mean: float
+    lowest: float
+    highest: float
+    peak_at_claim: float
+    energy_residual: float | None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Reached:
+    """What a run reaches from 90 s on.
+
+    Parameters
+    ----------
+    name : str
+        Integrator with its tolerance or step
+    mean : float
+        Angle over time until the end [rad/s]
+    peak : float
+        Largest momentary speed within two seconds [rad/s]
+    energy_residual : float or None
+        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
+    """
+
+    name: str
+    mean: float
+    peak: float
+    energy_residual: float | None
+
+
+def problem(model: str) -> Problem:
+    """The start-up of the case with one of its two models.
+
+    Parameters
+    ----------
+    model : str
+        `crankshaft_flywheel` or `crankshaft_flywheel_printed`
+
+    Returns
+    -------
+    problem : Problem
+        0 to 100 s, torque step at 1 s
+    """
+    case = cases.load(CASE)
+    return dataclasses.replace(problem_of(case), mechanism=mechanisms.build(model, case.need("parameters")))
+
+
+@cache
+def run(model: str, tolerance: float = 1e-10, backend: str = "scipy-dop853") -> Result:
+    """One start-up without a second run for comparison.
+
+    Parameters
+    ----------
+    model : str
+        Name of the mechanism
+    tolerance : float
+        Of a step [-]
+    backend : str
+        Integrator
+
+    Returns
+    -------
+    result : Result
+        Made once
+    """
+    return simulate(problem(model), Settings(tolerance=tolerance, backend=backend, check="none"))
+
+
+def rigid_speed(t: float) -> float:
+    r"""Speed that a rigid drive has at most, :math:`M (t - 1) / (I_0 + I_2)`.
+
+    Parameters
+    ----------
     t : float
         Time [s]
 
     Returns
     -------
-    omega : float
-        Speed of a rigid shaft under the driving torque [rad/s]
+    speed : float
+        Without the piston's inertia, which lowers it [rad/s]
     """
-    drive = case.need("drive")
-    linear = torsion.matrices(mechanisms.build(case.mechanism, case.need("parameters")))
-    return float(drive.torque * max(t - drive.time, 0.0) / linear.mass.sum())
+    case = cases.load(CASE)
+    p, drive = case.need("parameters"), case.need("drive")
+    return float(drive.torque * (t - drive.time) / (p.I0 + p.I2))
 
 
-def convergence(found: Runs) -> str:
-    """The convergence of the mean speed in words.
+def rigid_speed_with_piston(t: float) -> float:
+    r"""Speed of a rigid drive that also carries the piston's mean inertia: the hand check.
+
+    .. math:: \omega = \frac{M\,(t - 1)}{I_0 + I_2 + \overline{m_0 x_0'^2}}
 
     Parameters
     ----------
-    found : Runs
-        Runs
+    t : float
+        Time [s]
 
     Returns
     -------
-    text : str
-        One clause for each run
+    speed : float
+        What the work of the drive allows as a mean speed [rad/s]
     """
-    return "; ".join(
-        f"{backend} at {tolerance:g}: {speed:.5f} rad/s, energy residual {residual:.0e}"
-        for backend, tolerance, speed, residual in found.sweep
+    case = cases.load(CASE)
+    linear = torsion.matrices(mechanisms.build(EXACT, case.need("parameters")))
+    drive = case.need("drive")
+    return float(drive.torque * (t - drive.time) / linear.mass.sum())
+
+
+def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np.inf) -> float:
+    """Mean in time of a crank's speed.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Times [s]
+    angle : ndarray, shape (n,)
+        Crank angle [rad]
+    since, until : float
+        Stretch; its ends are moved to the next times inside [s]
+
+    Returns
+    -------
+    mean : float
+        Angle over time [rad/s]
+    """
+    inside = (t >= since) & (t <= until)
+    return float(np.ptp(angle[inside]) / np.ptp(t[inside]))
+
+
+def _reached(name: str, t: np.ndarray, angle: np.ndarray, speed: np.ndarray, residual: float | None) -> Reached:
+    claim = (t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)
+    mean = mean_speed(t, angle, CLAIMED_TIME)
+    return Reached(name=name, mean=mean, peak=float(speed[claim].max()), energy_residual=residual)
+
+
+def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> Speeds:
+    """What a run says about the paper's claim.
+
+    Parameters
+    ----------
+    name : str
+        Name of the run
+    t : ndarray, shape (n,)
+        Times [s]
+    speed : ndarray, shape (n,)
+        Crank speed [rad/s]
+    residual : float or None
+        Energy residual [-]
+
+    Returns
+    -------
+    speeds : Speeds
+        Mean and extremes
+    """
+    end, claim = speed[t >= t[-1] - 2], speed[(t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)]
+    return Speeds(
+        name=name,
+        mean=float(end.mean()),
+        lowest=float(end.min()),
+        highest=float(end.max()),
+        peak_at_claim=float(claim.max()),
+        energy_residual=residual,
     )
 
 
-def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, verdict, note)
+def energy_gained(model: str, t: np.ndarray, q: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Energy of the exact mechanism minus the work of the torque, along a run of any model.
+
+    Parameters
+    ----------
+    model : str
+        Mechanism that has energies
+    t : ndarray, shape (n,)
+        Times [s]
+    q, u : ndarray, shape (2, n)
+        Angles [rad] and speeds [rad/s]
+
+    Returns
+    -------
+    share : ndarray, shape (n,)
+        As a share of the work done by the end [-]
+    """
+    case = cases.load(CASE)
+    drive = case.need("drive")
+    found = energies(mechanisms.build(model, case.need("parameters")), q, u)
+    assert found is not None
+    work = drive.torque * (q[0] - np.interp(drive.time, t, q[0]))
+    return np.where(t < drive.time, 0.0, (found[0] + found[1] - work) / work[-1])
 
 
-def _claim(item: str, published: str, computed: float, holds: bool, note: str = "") -> dict[str, Any]:
-    return _row(item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
+def mixed_model_energy() -> np.ndarray:
+    """Energy that the printed model makes or loses over the start-up.
+
+    Returns
+    -------
+    share : ndarray, shape (n,)
+        As a share of the work done by the end [-]
+    """
+    result = run("crankshaft_flywheel_printed")
+    q, u = (np.array([result.columns[f"{a}{d}"] for a in ("phi0", "phi2")]) for d in ("", "d"))
+    return energy_gained("crankshaft_flywheel", result.t, q, u)
 
 
-def _torque(found: Runs) -> dict[str, Any]:
-    work = found.exact.columns["work_drive"]
-    onset = float(found.exact.t[int(np.argmax(work > 0)) - 1])
-    angle = float(found.exact.columns["phi0"][-1])
-    return _claim(
-        "Fig. 5: torque stepped on at 1 s, work over angle [N*m]", "1.5", float(work[-1]) / angle,
-        onset == 1.0 and by_digits("1.5", float(work[-1]) / angle) == REPRODUCED,
-    )  # fmt: skip
+@cache
+def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """A start-up with a fixed step.
+
+    Parameters
+    ----------
+    model : str
+        Name of the mechanism
+    step : float
+        Step [s]
+    order : int
+        3 or 4
+
+    Returns
+    -------
+    t : ndarray, shape (n,)
+        Times [s]
+    y : ndarray, shape (n, m)
+        phi0, phi2, their speeds, and the energy columns [SI]
+    """
+    with np.errstate(all="ignore"):
+        return fixed_step(problem(model), step, order)
 
 
-def _speed(found: Runs) -> list[dict[str, Any]]:
-    t_end = float(found.exact.t[-1])
-    exact, printed = mean_speed(found.exact, CLAIM_TIME), mean_speed(found.printed, CLAIM_TIME)
-    rigid = rigid_speed(found.case, t_end)
-    late = mean_speed(found.exact, 99.0) - mean_speed(found.exact, 90.0, 91.0)
-    risen = mean_speed(found.exact, 84.0, 85.0) - mean_speed(found.exact, 55.0, 56.0)
-    bent = _bent(found.exact.t[found.exact.t >= CLAIM_TIME], found.exact.columns["phi0"][found.exact.t >= CLAIM_TIME])
-    return [
-        _row("Fig. 10: crank speed from 90 s on [rad/s]", "194", exact, by_digits("194", exact), convergence(found)),
-        _row(
-            "Fig. 10: the same with (6) and (11) as printed [rad/s]", "194", printed, by_digits("194", printed),
-            "the misprints of the equation do not explain it",
-        ),
-        _claim(
-            "Fig. 10: speed that the drive's work allows at 100 s [rad/s]", "194", rigid, rigid >= 194,
-            f"hand check, M (t - 1)/(I0 + I2 + mean of m0 x0'^2); {rigid_speed(found.case, CLAIM_TIME):.1f} at 90 s",
-        ),
-        _claim(
-            "Fig. 10: speed constant above 90 s, its gain until 100 s [rad/s]", "0", late,
-            abs(late) < _CONSTANT * exact, "constant torque without dissipation: no steady speed exists",
-        ),
-        _claim(
-            "speed rises up to 85 s, its gain from 55 to 85 s [rad/s]", "rises", risen, risen > _CONSTANT * exact,
-            "the second order of the piston's inertia meets the natural frequency there and holds the shaft at "
-            "94.9 rad/s until about 90 s; the drive feeds the vibration",
-        ),
-        _claim(
-            "Fig. 9: angle linear above 90 s, largest departure over the angle turned", "0", bent, bent < _CONSTANT,
-            "the speed goes on growing",
-        ),
-    ]  # fmt: skip
+@cache
+def convergence() -> dict[str, tuple[Reached, ...]]:
+    """Both models along `SWEEP`.
+
+    Returns
+    -------
+    study : dict of str to tuple of Reached
+        Model to one entry per run
+    """
+    return {model: tuple(_adaptive(model, tol, backend) for backend, tol in SWEEP) for model in (EXACT, PRINTED)}
 
 
-def _bent(t: np.ndarray, angle: np.ndarray) -> float:
-    """Largest departure from the straight line through both ends, over the angle turned."""
-    line = np.interp(t, t[[0, -1]], angle[[0, -1]])
-    return float(np.abs(angle - line).max() / np.ptp(angle))
+def _adaptive(model: str, tolerance: float, backend: str) -> Reached:
+    result = run(model, tolerance, backend)
+    columns, name = result.columns, f"{backend} at {tolerance:g}"
+    return _reached(name, result.t, columns["phi0"], columns["phi0d"], result.energy.residual)
 
 
-def _amplitudes(found: Runs) -> list[dict[str, Any]]:
-    t, moved = found.exact.t, piston(found)
+@cache
+def step_study() -> tuple[Reached, ...]:
+    """The printed model with fixed steps; the energy residual is what the formula loses of the work.
 
-    def largest(key: str, since: float) -> float:
-        return float(np.abs(moved[key][(t >= since) & (t <= since + 5.0)]).max())
-
-    lines = [
-        _row(
-            "Fig. 6: largest piston displacement [m]",
-            None,
-            float(moved["x0"].max()),
-            NOT_COMPUTABLE,
-            "no value printed",
-        )
-    ]
-    for figure, key, name in (
-        ("7", "v", "piston velocity"), ("8", "a", "piston acceleration"), ("11", "epsilon", "angular acceleration"),
-    ):  # fmt: skip
-        growth = largest(key, 95.0) / largest(key, 90.0) - 1
-        lines.append(
-            _claim(
-                f"Fig. {figure}: amplitude of the {name} constant above 90 s, its growth until 100 s", "0", growth,
-                abs(growth) < _CONSTANT, f"amplitude {largest(key, 95.0):.4g} at the end",
-            )
-        )  # fmt: skip
-    until, after = largest("epsilon", 45.0), largest("epsilon", 85.0) - largest("epsilon", 45.0)
-    lines.append(
-        _claim(
-            "Fig. 11: amplitude grows fast to 50 s and slower from 50 to 90 s, second gain over first", "< 1",
-            after / until, after < until, "the other way round: the shaft is caught by the resonance at 53 s",
-        )
-    )  # fmt: skip
-    return lines
+    Returns
+    -------
+    study : tuple of Reached
+        One per order and step
+    """
+    found = []
+    for order, step in ((4, 5e-3), (4, TELLING_STEP), (3, TELLING_STEP_3)):
+        t, y = fixed(PRINTED, step, order)
+        gained = energy_gained(EXACT, t, y[:, :2].T, y[:, 2:4].T)
+        name = f"Runge-Kutta {order}, {1000 * step:g} ms"
+        found.append(_reached(name, t, y[:, 0], y[:, 2], -float(gained[-1])))
+    return tuple(found)
 
 
-def _steps(found: Runs) -> list[dict[str, Any]]:
-    late = found.t_fixed >= CLAIM_TIME
-    mean = float(found.speed_fixed[late].mean())
-    apart = mean / mean_speed(found.printed, CLAIM_TIME) - 1
-    return [
-        _claim(
-            "the result depends on the step, change of the mean speed from 90 s on", "depends", apart,
-            abs(apart) > _CONSTANT, f"printed model, third order with a fixed step of {1e3 * FIXED_STEP:g} ms: "
-            f"{mean:.2f} rad/s; the step damps the resonance, which then holds for ever",
-        ),
-        _row(
-            "Fig. 10: 194 rad/s with the source's integrator and step [rad/s]", "194",
-            float(found.speed_fixed[late].max()), NOT_COMPUTABLE,
-            f"the source prints neither; computed: largest momentary speed of the printed model with the fixed step of "
-            f"{1e3 * FIXED_STEP:g} ms, chosen to come near: perhaps the envelope of a plot",
-        ),
-    ]  # fmt: skip
+@cache
+def piston() -> dict[str, np.ndarray]:
+    """Motion of the piston and the crank's acceleration along the finest run of the exact model.
+
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        `x0` [m], `v` [m/s], `a` [m/s^2], `epsilon` [rad/s^2], in SI [-]
+    """
+    found, mechanism = run(EXACT, FINEST[1], FINEST[0]), problem(EXACT).mechanism
+    drive = cases.load(CASE).need("drive")
+    given = {name: column[None, :] for name, column in found.columns.items()}
+    given |= {"M": np.where(found.t > drive.time, drive.torque, 0.0)[None, :], "F": np.zeros_like(given["phi0"])}
+    accelerations, kinematics = acceleration_function(mechanism), mechanism.functions["kinematics"]
+    epsilon = np.asarray(accelerations.call([given[n] for n in accelerations.name_in()])[0])[0]
+    values = kinematics.call([given[n] for n in kinematics.name_in()])
+    x = dict(zip(kinematics.name_out(), (np.asarray(v).ravel() for v in values), strict=True))
+    speed = found.columns["phi0d"]
+    return {
+        "x0": x["x0"],
+        "v": x["dx0_dphi0"] * speed,
+        "a": x["dx0_dphi0"] * epsilon + x["d2x0_dphi0_dphi0"] * speed**2,
+        "epsilon": epsilon,
+    }

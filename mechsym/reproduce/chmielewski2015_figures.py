@@ -5,9 +5,21 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from mechsym.cases import load
 from mechsym.plots import BLUE, GREEN, GREY, RED
-from mechsym.reproduce.chmielewski2015 import rigid_speed
-from mechsym.reproduce.chmielewski2015_runs import CLAIM_TIME, FIXED_STEP, Runs, piston, runs
+from mechsym.reproduce.chmielewski2015 import (
+    CASE,
+    CLAIMED_SPEED,
+    CLAIMED_TIME,
+    EXACT,
+    FINEST,
+    PRINTED,
+    TELLING_STEP,
+    fixed,
+    piston,
+    rigid_speed_with_piston,
+    run,
+)
 from mechsym.reproduce.drawing import panels
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
@@ -29,15 +41,15 @@ def figures() -> dict[str, Figure]:
     figures : dict of str to Figure
         `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs
     """
-    found = runs()
-    columns = {**found.exact.columns, **piston(found)}
-    drawn = {"figure_5": _torque(found)}
-    drawn |= {f"figure_{n}": _both_spans(n, found.exact.t, columns[key], label) for n, key, label in _FIGURES}
-    return drawn | {"speeds": _speeds(found)}
+    found = run(EXACT, FINEST[1], FINEST[0])
+    columns = {**found.columns, **piston()}
+    drawn = {"figure_5": _torque()}
+    drawn |= {f"figure_{n}": _both_spans(n, found.t, columns[key], label) for n, key, label in _FIGURES}
+    return drawn | {"speeds": _speeds()}
 
 
-def _torque(found: Runs) -> Figure:
-    drive = found.case.need("drive")
+def _torque() -> Figure:
+    drive = load(CASE).need("drive")
     figure, axes = panels(1, 2, (10, 3))
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
         axis.step([0, drive.time, end], [0, drive.torque, drive.torque], where="post", color=BLUE)
@@ -69,18 +81,20 @@ def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25, **option
     axis.fill_between(t[edges], low, high, step="post", **{"color": BLUE, "linewidth": 0, **options})
 
 
-def _speeds(found: Runs) -> Figure:
+def _speeds() -> Figure:
     figure, (axis,) = panels(size=(8, 4.6))
-    end = float(found.exact.t[-1])
-    for t, speed, color, label in (
-        (found.exact.t, found.exact.columns["phi0d"], BLUE, "exact equations, converged"),
-        (found.printed.t, found.printed.columns["phi0d"], GREEN, "(6) with (11) as printed, converged"),
-        (found.t_fixed, found.speed_fixed, RED, f"as printed, fixed step {1e3 * FIXED_STEP:g} ms"),
+    exact, printed = (run(model, FINEST[1], FINEST[0]) for model in (EXACT, PRINTED))
+    t, y = fixed(PRINTED, TELLING_STEP, 4)
+    for times, speed, color, label in (
+        (exact.t, exact.columns["phi0d"], BLUE, "exact equations, converged"),
+        (printed.t, printed.columns["phi0d"], GREEN, "(6) with (11) as printed, converged"),
+        (t, y[:, 2], RED, f"as printed, Runge-Kutta 4 with a fixed step of {1e3 * TELLING_STEP:g} ms"),
     ):
-        axis.plot(*_mean(t, speed), color=color, linewidth=1.4, label=label)
-    _band(axis, found.t_fixed, found.speed_fixed, color=RED, alpha=0.15, label="the same, momentary speed")
-    axis.plot([1, end], [0, rigid_speed(found.case, end)], "--", color=GREY, label="rigid shaft, hand check")
-    axis.plot([CLAIM_TIME, end], [194, 194], color="black", linewidth=2, label="printed: 194 rad/s")
+        axis.plot(*_mean(times, speed), color=color, linewidth=1.4, label=label)
+    _band(axis, t, y[:, 2], color=RED, alpha=0.15, label="the same, momentary speed")
+    end = float(exact.t[-1])
+    axis.plot([1, end], [0, rigid_speed_with_piston(end)], "--", color=GREY, label="rigid shaft, hand check")
+    axis.plot([CLAIMED_TIME, end], [CLAIMED_SPEED] * 2, color="black", linewidth=2, label="printed: 194 rad/s")
     axis.set(xlabel="t [s]", ylabel="mean crank speed over a second [rad/s]", xlim=(0, end))
     axis.legend(fontsize=8)
     return figure

@@ -1,21 +1,43 @@
-"""Moroianu (2017) prints definitions and curves without any data: nothing in it can be checked against a number.
+"""Moroianu (2017) prints definitions and nine curves without any data: no number of it can be checked.
 
-The curves of Figs. 1 to 12 need the engine's masses, lengths, speed and indicator diagram. Only the rule of Terskih,
-eq. (3), has numbers of its own; its values are given for the speeds of slow and semi-fast engines that the paper names.
+The chain (2) to (13) is computed for the case `moroianu`, a marine drive whose data are assumed, and drawn as in the
+source. Only the rule of Terskih, (3), gives numbers of its own.
 """
 
+from functools import cache
 from typing import Any
 
-from mechsym.reproduce.record import NOT_COMPUTABLE, row
+import numpy as np
+
+from mechsym.cases import load
+from mechsym.forces.textbook import Chain, chain, terskih
+from mechsym.forces.turn import Turn, turn
+from mechsym.reproduce.rows import NOT_COMPUTABLE, row
 
 SOURCE = "001_a140ef4f7e005dde"
-_FIGURES = {
-    "1": "pressure force", "3": "inertia force", "4": "total force", "6": "longitudinal force", "7": "normal force",
-    "9": "radial force", "10": "tangential force", "11": "total radial force", "12": "driving moment",
+CASE = "moroianu"
+# number of the figure: (field of the chain, its name in the source, unit)
+FIGURES = {
+    "1": ("F_p", "pressure force", "N"), "3": ("F_it", "inertia force", "N"), "4": ("F", "total force", "N"),
+    "6": ("B", "longitudinal force", "N"), "7": ("N", "normal force", "N"), "9": ("Z_B", "radial force", "N"),
+    "10": ("T", "tangential force", "N"), "11": ("Z", "total radial force", "N"), "12": ("M", "driving moment", "N*m"),
 }  # fmt: skip
 _SPEEDS_RPM = (100, 500, 1000)
-_MISSING = "no mass, length, speed or pressure is printed, nor a scale that the text names"
-_NO_VALUE = "an empirical rule without a printed value; a rod that is not yet drawn is put there"
+_MISSING = "no mass, length, speed or diagram is printed; computed: largest value with the assumed case moroianu"
+_NO_VALUE = "no value is printed; an empirical rule that knows nothing of the rod itself"
+
+
+@cache
+def curves() -> tuple[Turn, Chain]:
+    """The source's chain over a turn, with the assumed data.
+
+    Returns
+    -------
+    turn, chain : Turn, Chain
+        Rod as two masses with its centre of mass after Terskih
+    """
+    one = turn(load(CASE))
+    return one, chain(one, terskih(one.omega))
 
 
 def rows() -> list[dict[str, Any]]:
@@ -24,45 +46,15 @@ def rows() -> list[dict[str, Any]]:
     Returns
     -------
     rows : list of dict
-        Keys as in `record.row`
+        Keys as in `rows.row`
     """
-    curves = [
-        row(SOURCE, f"Fig. {number}: {name} over the crank angle", None, None, NOT_COMPUTABLE, _MISSING)
-        for number, name in _FIGURES.items()
+    found = curves()[1]
+    drawn = [
+        _row(f"Fig. {number}: {name} [{unit}]", float(np.abs(getattr(found, field)).max()), _MISSING)
+        for number, (field, name, unit) in FIGURES.items()
     ]
-    rule = [
-        row(
-            SOURCE, f"(3): centre of mass of the rod, L_m/L at {speed} rpm", None, centre_of_mass(speed),
-            NOT_COMPUTABLE, _NO_VALUE,
-        )
-        for speed in _SPEEDS_RPM
-    ]  # fmt: skip
-    return curves + rule
+    return drawn + [_row(f"(3): L_m/L at {rpm} rpm", terskih(rpm * np.pi / 30), _NO_VALUE) for rpm in _SPEEDS_RPM]
 
 
-def centre_of_mass(speed_rpm: float) -> float:
-    r"""Place of the rod's centre of mass after Terskih.
-
-    .. math:: \frac{L_m}{L} = 0.2\,\frac{(0.001\,n)^2 + 2}{(0.001\,n)^2 + 1}
-
-    Parameters
-    ----------
-    speed_rpm : float
-        Crank speed n [rpm]
-
-    Returns
-    -------
-    share : float
-        Distance from the crank pin over the rod's length [-]
-
-    Notes
-    -----
-    Source: Moroianu (2017), eq. (3). Empirical: no rod's centre of mass moves with the speed.
-
-    Examples
-    --------
-    >>> round(centre_of_mass(100), 3)
-    0.398
-    """
-    square = (1e-3 * speed_rpm) ** 2
-    return 0.2 * (square + 2) / (square + 1)
+def _row(item: str, computed: float, note: str) -> dict[str, Any]:
+    return row(SOURCE, item, None, computed, NOT_COMPUTABLE, note)

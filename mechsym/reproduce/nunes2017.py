@@ -17,7 +17,7 @@ from mechsym.compare import crossovers
 from mechsym.cycle import columns, engine, over_speeds, speed_range
 from mechsym.reproduce.nunes2017_facts import FACTS
 from mechsym.reproduce.nunes2017_numbers import CROSSOVER, DIFFERENCES, OVER_SPEEDS, Item
-from mechsym.reproduce.record import last_digit
+from mechsym.reproduce.rows import last_digit
 
 SOURCE = "004_e00ef50339108dab"
 _ROD_74 = {"parameters.l1": "37 mm", "parameters.l2": "37 mm"}

@@ -68,7 +68,7 @@ OVER_SPEEDS: list[Item] = [
     *_series("OPGHE tooth load [N]", _HY, "tooth_force", "9365.2 7432.2", (2000, 8000)),
     # section 5.1.1
     Item("OPSCE average torque at the lowest speed, about [N*m]", "15", _SC74, "torque_avg", 10, _ROD, about=0.1),
-    *_series("OPSCE average torque [N*m]", _SC74, "torque_avg", "33.4 36.9", (500, 8000), _ROD),
+    *_series("OPSCE average torque, section 5.1.1 [N*m]", _SC74, "torque_avg", "33.4 36.9", (500, 8000), _ROD),
     Item("OPSCE power [kW]", "30.9", _SC74, "power_kw", "max", _ROD),
     Item("OPSCE power [hp]", "41.4", _SC74, "power_hp", "max", _ROD),
     Item("OPSCE consumption at the lowest speed, about [g/kWh]", "475", _SC74, "sfc_g_kwh", 10, _ROD, about=0.1),

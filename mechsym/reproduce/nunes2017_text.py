@@ -10,7 +10,7 @@ from mechsym.cycle import engine
 from mechsym.engine.chamber import chamber, travel
 from mechsym.reproduce.nunes2017 import SOURCE, Curves, over_printed_speeds, value
 from mechsym.reproduce.nunes2017_numbers import Item
-from mechsym.reproduce.record import NOT_REPRODUCED, REPRODUCED, row
+from mechsym.reproduce.rows import NOT_REPRODUCED, REPRODUCED, row
 
 _LOWEST_RPM = 10
 _ABOUT = 0.1
@@ -35,7 +35,7 @@ def rows() -> list[dict[str, Any]]:
     Returns
     -------
     rows : list of dict
-        Keys as in `record.row`
+        Keys as in `rows.row`
     """
     curves = over_printed_speeds()
     found = []

@@ -9,7 +9,7 @@ from typing import Any
 
 from mechsym.files import write_csv, write_text
 from mechsym.plots import svg
-from mechsym.reproduce.record import KEYS, VERDICTS
+from mechsym.reproduce.rows import KEYS, VERDICTS
 from mechsym.reproduce.sources import Source, figures
 
 _DPI = 110

@@ -1,7 +1,6 @@
 """Numbers and claims of Prymak on rodless mechanisms beside the derived mechanism.
 
-The source prints no data. What follows from geometry is computed with r = 1 m, 1 rad/s and 1 kg at each of the four rod
-journals, two journals to an axis; any other data scale it.
+The source prints no data. What follows from geometry needs none: four rod journals of equal mass, two to an axis.
 """
 
 from typing import Any
@@ -11,15 +10,16 @@ import numpy as np
 from mechsym import constraints, mechanisms
 from mechsym.mechanism import Mechanism, curves
 from mechsym.mechanisms.rodless import RodlessParameters
-from mechsym.reproduce.record import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, row
+from mechsym.reproduce.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, row
 
 SOURCE = "003_8746f5f4ad51b1d1"
 _ROUNDING = 1e-12
-PARAMETERS = RodlessParameters(r=1.0, I1=1.0, m_link=0.0, I_link=0.0, m_a=2.0, m_b=2.0)
+RADIUS, SPEED, MASS = 0.04, 300.0, 1.0  # any: the results are pure numbers [m], [rad/s], [kg] per rod journal
+PARAMETERS = RodlessParameters(r=RADIUS, I1=0.1, m_link=0.0, I_link=0.0, m_a=2 * MASS, m_b=2 * MASS)
 
 
-def inertia_forces(alpha: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Inertia forces of all reciprocating masses, by axis, at constant speed.
+def inertia_resultant(alpha: np.ndarray) -> np.ndarray:
+    """Resultant of the inertia forces of four rod journals, two on each axis, at constant speed.
 
     Parameters
     ----------
@@ -28,11 +28,11 @@ def inertia_forces(alpha: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     Returns
     -------
-    P_jx, P_jy : ndarray, shape (n,)
-        Sum over the two journals of axis a and of axis b, in units of m r omega^2 [-]
+    force : ndarray, shape (2, n)
+        Along the axis of the slider that is outermost at angle 0, and along the other one [N]
     """
     found = curves(mechanisms.build("rodless", PARAMETERS), alpha)
-    return -PARAMETERS.m_a * found["d2x_a_dalpha2"], -PARAMETERS.m_b * found["d2x_b_dalpha2"]
+    return -2 * MASS * SPEED**2 * np.array([found["d2x_a_dalpha2"], found["d2x_b_dalpha2"]])
 
 
 def rows() -> list[dict[str, Any]]:
@@ -41,7 +41,7 @@ def rows() -> list[dict[str, Any]]:
     Returns
     -------
     rows : list of dict
-        Keys as in `record.row`
+        Keys as in `rows.row`
     """
     alpha = np.linspace(0, 2 * np.pi, 721)
     return [*_resultant_rows(alpha), *_stroke_rows(alpha), *_reaction_rows(), *_claims_without_data()]
@@ -52,7 +52,7 @@ def _row(item: str, published: str | None, computed: float | None, verdict: str,
 
 
 def _resultant_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
-    along_x, along_y = inertia_forces(alpha)
+    along_x, along_y = inertia_resultant(alpha) / (MASS * RADIUS * SPEED**2)
     size = np.hypot(along_x, along_y)
     # as printed: each of the four journals' forces squared, then summed
     printed = np.sqrt(2 * (along_x / 2) ** 2 + 2 * (along_y / 2) ** 2)
@@ -79,9 +79,8 @@ def _resultant_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
 
 def _stroke_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
     found = curves(mechanisms.build("rodless", PARAMETERS), alpha)
-    off = max(
-        float(np.abs(found["x_a"] - 2 * np.cos(alpha)).max()), float(np.abs(found["x_b"] - 2 * np.sin(alpha)).max())
-    )
+    wanted = {"x_a": 2 * np.cos(alpha), "x_b": 2 * np.sin(alpha)}
+    off = max(float(np.abs(found[name] / RADIUS - x).max()) for name, x in wanted.items())
     return [
         _row(
             "Fig. 3: rods move as 2 r cos alpha and 2 r sin alpha, largest difference over r", "0", off,

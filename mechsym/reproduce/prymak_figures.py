@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from mechsym.plots import BLUE, GREEN, RED
 from mechsym.reproduce.drawing import panels, turn_axis
-from mechsym.reproduce.prymak import inertia_forces
+from mechsym.reproduce.prymak import MASS, RADIUS, SPEED, inertia_resultant
 
 
 def figures() -> dict[str, Figure]:
@@ -17,7 +17,7 @@ def figures() -> dict[str, Figure]:
         `figure_3`
     """
     alpha = np.linspace(0, 2 * np.pi, 721)
-    x, y = inertia_forces(alpha)
+    x, y = inertia_resultant(alpha) / (MASS * RADIUS * SPEED**2)
     figure, (left, right) = panels(1, 2, (9.5, 4.2))
     left.plot(x, y, color=GREEN, label="end of the resultant")
     k = 80

@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput
+from mechsym.reproduce.rows import number
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +22,7 @@ class Source:
     rows : tuple of str
         Functions without arguments that give rows, as `module:function`
     figures : str
-        Function without arguments that gives figures by name, as `module:function`; empty when there is none
+        Function without arguments that gives figures by name, as `module:function`
     """
 
     stem: str
@@ -36,7 +37,7 @@ SOURCES = (
         stem="000_9f2b746dc1abd296",
         name="zotov2024",
         about="Zotov, Tokarev, Valeev, Fatkullina (2024): Two-stroke engine with constant crank angular velocity",
-        rows=("mechsym.reproduce.zotov2024:rows",),
+        rows=("mechsym.reproduce.zotov2024_rows:rows",),
         figures="mechsym.reproduce.zotov2024_figures:figures",
     ),
     Source(
@@ -44,13 +45,13 @@ SOURCES = (
         name="moroianu2017",
         about="Moroianu (2017): The dynamic design of the marin engines",
         rows=("mechsym.reproduce.moroianu2017:rows",),
-        figures="",
+        figures="mechsym.reproduce.moroianu2017_figures:figures",
     ),
     Source(
         stem="002_d7297926d6c52225",
         name="chmielewski2015",
         about="Chmielewski, Bogucki, Guminski, Maczak (2015): Crankshaft assembly with two degrees of freedom",
-        rows=("mechsym.reproduce.chmielewski2015:rows",),
+        rows=("mechsym.reproduce.chmielewski2015_rows:rows",),
         figures="mechsym.reproduce.chmielewski2015_figures:figures",
     ),
     Source(
@@ -64,7 +65,11 @@ SOURCES = (
         stem="004_e00ef50339108dab",
         name="nunes2017",
         about="Nunes (2017): Opposed-piston engine, slider crank against geared hypocycloid",
-        rows=("mechsym.reproduce.nunes2017:rows", "mechsym.reproduce.nunes2017_text:rows"),
+        rows=(
+            "mechsym.reproduce.nunes2017:rows",
+            "mechsym.reproduce.nunes2017_text:rows",
+            "mechsym.reproduce.nunes2017_sizing:rows",
+        ),
         figures="mechsym.reproduce.nunes2017_figures:figures",
     ),
 )
@@ -90,7 +95,7 @@ def chosen(name: str | None = None) -> tuple[Source, ...]:
     """
     if name is None:
         return SOURCES
-    found = tuple(s for s in SOURCES if name in (s.stem, s.name))
+    found = tuple(s for s in SOURCES if name.removesuffix(".txt") in (s.stem, s.name))
     if not found:
         raise BadInput(f"source {name!r} is not known; there are {', '.join(f'{s.name} ({s.stem})' for s in SOURCES)}")
     return found
@@ -107,9 +112,14 @@ def rows(source: Source) -> list[dict[str, Any]]:
     Returns
     -------
     rows : list of dict
-        Keys as in `record.row`, and for some sources more
+        Keys `rows.KEYS`, and for some sources more
     """
-    return [row for path in source.rows for row in _function(path)()]
+    return [_with_print(row) for path in source.rows for row in _function(path)()]
+
+
+def _with_print(row: dict[str, Any]) -> dict[str, Any]:
+    text = row.get("printed", row["published"])
+    return row | {"published": number(text), "printed": text}
 
 
 def figures(source: Source) -> Mapping[str, Any]:
@@ -125,7 +135,7 @@ def figures(source: Source) -> Mapping[str, Any]:
     figures : mapping of str to matplotlib.figure.Figure
         `figure_5a` and so on
     """
-    return _function(source.figures)() if source.figures else {}
+    return _function(source.figures)()
 
 
 def _function(path: str) -> Any:

@@ -1,201 +1,219 @@
-"""Numbers and claims of Zotov et al. (2024) beside the computation.
+"""Zotov et al. (2024): its sections 2 and 3, with a stated cycle in place of the force that it does not print.
 
-The paper does not print its gas force. What holds for every gas force gets a verdict; what depends on it is
-`not computable` as printed, and is computed with the stated cycle of the cases zotov-89 and zotov-142 instead.
+The paper's F(phi) came from measured diagrams that are not printed, so that its torques and guides cannot be computed
+again number by number. The built-in cases `zotov-89` and `zotov-142` carry a typical cycle of such an engine.
 """
 
 import dataclasses
-from typing import Any
+from functools import cache
 
 import numpy as np
 
-from mechsym import balance, guide, retune, trials
-from mechsym.assembly import running
+from mechsym import balance, cases, guide, hinge, periodic, retune
+from mechsym.arrangement import GuideParameters
+from mechsym.assembly import Assembly, assemble
 from mechsym.guide import Guide
+from mechsym.guide_family import Member, family
 from mechsym.hinge import Hinge
-from mechsym.loads import ConstantLoad
-from mechsym.reproduce.record import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
-from mechsym.reproduce.zotov2024_study import Study, departure, distances, members, printed_torque, study
+from mechsym.hinge_printed import hinge_torque_printed, load_torque_printed
+from mechsym.retune import Retuning, at_setting
 from mechsym.ripple import even_angles
-from mechsym.setting import setting_of, with_setting
+from mechsym.springs import AirGauge
 
-SOURCE = "000_9f2b746dc1abd296"
-FACTOR = 1.9  # caption of Fig. 6
-_NO_FORCE = "the gas force is not printed; computed with the cycle of zotov-89 and zotov-142"
-_ZERO = 1e-9  # of the peak
-_PRESSURES, _HEIGHTS = (3e6, 5e6, 8e6), (0.4, 1.0)  # caption of Fig. 5 [Pa], [m]
-_STEADY = 1e-6  # a ripple below this is what the simulation's tolerance leaves
-_VARIANTS = {
+CASES = ("zotov-89", "zotov-142")
+PRESSURES = (5e6, 9.5e6)  # Fig. 6 [Pa]
+# what the source leaves open and what changes the ripple of the retuned guide
+VARIANTS: dict[str, dict[str, str]] = {
     "atmosphere under the piston": {},
-    "scavenge pressure under it": {"cycle.crank_side": "scavenge"},
+    "scavenge pressure under the piston": {"cycle.crank_side": "scavenge"},
     "atmosphere, engine upright": {"axis_tilt": "90 deg"},
 }
 
 
-def rows() -> list[dict[str, Any]]:
-    """Every number, claim and figure of the source.
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Engines:
+    """Both speeds of the paper.
+
+    Parameters
+    ----------
+    assemblies : tuple of two Assembly
+        Engine at 89 and at 142 rpm
+    hinges : tuple of two Hinge
+        Torque that keeps each speed constant
+    cut : Guide
+        Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
+    placed : Guide
+        The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
+    """
+
+    assemblies: tuple[Assembly, Assembly]
+    hinges: tuple[Hinge, Hinge]
+    cut: Guide
+    placed: Guide
+
+
+@cache
+def engines(variant: str = "atmosphere under the piston") -> Engines:
+    """Both engines with their hinges and the paper's guide.
+
+    Parameters
+    ----------
+    variant : str
+        One of `VARIANTS`
 
     Returns
     -------
-    rows : list of dict
-        Keys as in `record.row`
+    engines : Engines
+        Made once
     """
-    found = study()
-    return [*_torque_rows(found), *_guide_rows(found), *_retuning_rows(found), _flywheel_row()]
+    slow, fast = (assemble(cases.load(name, VARIANTS[variant])) for name in CASES)
+    hinges = (hinge.build(slow.torques, slow.omega), hinge.build(fast.torques, fast.omega))
+    part = balance.build(hinges[0], "whole_cycle")
+    placed = guide.build(part, slow.case.need("spring"), _choices(slow))
+    return Engines(assemblies=(slow, fast), hinges=hinges, cut=_printed_guide(slow, hinges[0]), placed=placed)
 
 
-def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, verdict, note)
+def _printed_guide(engine: Assembly, wanted: Hinge) -> Guide:
+    spring = engine.case.need("spring")
+    printed = AirGauge(A=spring.A, H=spring.H, p0=spring.p0, n=spring.n)
+    choices = dataclasses.replace(_choices(engine), start="as_printed", arrangement="two_tracks")
+    return guide.build(balance.build(wanted, "whole_cycle"), printed, choices)
 
 
-def _claim(item: str, published: str, computed: float, holds: bool, note: str = "") -> dict[str, Any]:
-    return _row(item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
+def _choices(engine: Assembly) -> GuideParameters:
+    found: GuideParameters = engine.case.need("guide")
+    return found
 
 
-def _peak(wanted: Hinge) -> float:
+def peak(wanted: Hinge) -> float:
+    """Largest size of a hinge torque.
+
+    Parameters
+    ----------
+    wanted : Hinge
+        Hinge
+
+    Returns
+    -------
+    peak : float
+        max |M_h| [N*m]
+    """
     return max(abs(wanted.torque_min), abs(wanted.torque_max))
 
 
-def _torque_rows(found: Study) -> list[dict[str, Any]]:
-    low, high = found.hinges
-    square = (high.omega / low.omega) ** 2
-    phi = even_angles(2 * np.pi)
-    shares = [float(np.abs(h.inertia_part(phi)).max()) / _peak(h) for h in found.hinges]
-    ripple = _ripple_with_hinge(found)
-    return [
-        _row("Fig. 3: force on the piston", None, None, NOT_COMPUTABLE, f"{_NO_FORCE}, drawn as figure_3"),
-        _row(
-            "Fig. 4: largest |M_h| at 142 rpm over that at 89 rpm", "2", _peak(high) / _peak(low), NOT_COMPUTABLE,
-            f"{_NO_FORCE}; largest |M_h| {_peak(low) / 1e3:.1f} and {_peak(high) / 1e3:.1f} kN m",
-        ),
-        _row(
-            "factor of (8) from 89 to 142 rpm, by the square of the speed", "2", square, by_digits("2", square),
-            "the text gives the square as the reason for 'approximately 2 times'; it is (142/89)^2 for any gas force",
-        ),
-        _claim(
-            "M_h proportional to the square of the speed: share of the inertia part in its peak", "1", shares[1],
-            abs(shares[1] - 1) < 0.05,
-            f"{shares[0]:.2f} at 89 rpm, {shares[1]:.2f} at 142 rpm with the stated cycle; the rest is the gas force, "
-            "which (8) does not square",
-        ),
-        *_integral_rows(found),
-        _claim(
-            "speed ripple at 89 rpm with the hinge", "0", ripple, ripple < _STEADY,
-            "simulated with the guide a2 and constant load; holds for any gas force",
-        ),
-    ]  # fmt: skip
+def retuned(pressure: float) -> Retuning:
+    """The guide of 89 rpm with another pressure at 142 rpm.
+
+    Parameters
+    ----------
+    pressure : float
+        Excess pressure p0 [Pa]
+
+    Returns
+    -------
+    retuned : Retuning
+        What remains
+    """
+    found = engines()
+    return at_setting(found.cut, found.hinges[1], pressure)
 
 
-def _integral_rows(found: Study) -> list[dict[str, Any]]:
-    lines, phi = [], even_angles(2 * np.pi)
-    for index, (letter, wanted) in enumerate(zip("ab", found.hinges, strict=True)):
-        torque = printed_torque(found, index, phi)
-        exact, printed = abs(wanted.mean_torque) / _peak(wanted), float(abs(torque.mean()) / np.abs(torque).max())
-        lines.append(
-            _claim(
-                f"integral of M_h over a turn, option {letter}, over 2 pi times its peak", "0", exact,
-                max(exact, printed) < _ZERO, f"{printed:.0e} with (8) as printed; 0 by (4) and (5) for any gas force",
-            )
-        )  # fmt: skip
-    return lines
+def best_pressure() -> Retuning:
+    """The pressure with which that guide comes nearest to the torque needed at 142 rpm.
+
+    Returns
+    -------
+    retuned : Retuning
+        By least squares of the torque
+    """
+    found = engines()
+    return retune.retune(found.cut, found.hinges[1], "least_squares_torque")
 
 
-def _ripple_with_hinge(found: Study) -> float:
-    engine = running(found.engines[0], found.hinges[0], ConstantLoad(), found.printed)
-    ripple = trials.run("hinge", "guide a2", engine, found.hinges[0].omega, 3.0).speed_ripple
-    return float("inf") if ripple is None else ripple
+def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
+    """Hinge torque exactly as equation (8) prints it, with M_r by (5).
+
+    Parameters
+    ----------
+    index : int
+        0 for 89 rpm, 1 for 142 rpm
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+
+    Returns
+    -------
+    M_h : ndarray, shape (n,)
+        Torque on the crank [N*m]
+    """
+    engine = engines().assemblies[index]
+    p, even = engine.case.need("parameters"), even_angles(2 * np.pi)
+    load = load_torque_printed(p, engine.force(even), even)
+    return hinge_torque_printed(p, engine.omega, engine.force(phi), load, phi)
 
 
-def _guide_rows(found: Study) -> list[dict[str, Any]]:
-    cut = {label: m.guide for label, m in members(found).items()}
-    off = {label: departure(g) for label, g in cut.items()}
-    worst = {letter: max(off[letter + n] for n in "123") for letter in "abcd"}
-    pressed = [off[a + x] > off[a + y] for a in "abcd" for x, y in ("12", "23")]
-    taller = _rounder_when_taller(found)
-    closing = {label: float(guide.closing(g, distances(g)).min()) for label, g in cut.items()}
-    listed = ", ".join(f"{letter} {100 * value:.0f} %" for letter, value in worst.items())
-    return [
-        _claim(
-            "Fig. 5: option closest to a circle, largest departure of its guides", "a", worst["a"],
-            min(worst, key=lambda k: worst[k]) == "a",
-            f"(rho_max - rho_min) / mean rho: {listed}, with the stated cycle",
-        ),
-        _claim(
-            "Fig. 5: a larger p0 makes the guide rounder, share of the pairs", "1", float(np.mean(pressed)),
-            all(pressed), "with the stated cycle; by (11) the closing falls with A p0 for any torque",
-        ),
-        _claim(
-            "Fig. 5: a larger H makes the guide rounder, share of the pairs", "1", float(np.mean(taller)), all(taller),
-            "H = 0.4 and 1 m at the same rho0 = 0.8 m, with the stated cycle: the shorter spring is stiffer and closes "
-            "less; a and b are rounder than c and d by their larger rho0",
-        ),
-        _row(
-            "Fig. 5: twelve guides", None, 1e3 * min(closing.values()), NOT_COMPUTABLE,
-            f"{_NO_FORCE}, drawn as figure_5; computed: smallest closing z [mm]; "
-            f"{sum(z < 0 for z in closing.values())} of 12 guides let the spring be longer than its height H somewhere",
-        ),
-    ]  # fmt: skip
+@cache
+def guides() -> tuple[Member, ...]:
+    """The twelve guides of Fig. 5, as printed and placed.
+
+    Returns
+    -------
+    guides : tuple of Member
+        24 members
+    """
+    found = engines()
+    case = found.assemblies[0].case
+    slow, fast = (balance.build(h, "whole_cycle") for h in found.hinges)
+    settings = (case.need(k) for k in ("spring", "guide", "rollers", "limits"))
+    return family((slow, fast), *settings)
 
 
-def _rounder_when_taller(found: Study) -> list[bool]:
-    """For both speeds and the three pressures: is the guide for H = 1 m rounder than that for 0.4 m, at one rho0."""
-    lines = []
-    for wanted in found.hinges:
-        part = balance.build(wanted, "whole_cycle")
-        for p0 in _PRESSURES:
-            springs = (dataclasses.replace(with_setting(found.printed.spring, p0), H=H) for H in _HEIGHTS)
-            short, tall = (departure(guide.build(part, spring, found.printed.parameters)) for spring in springs)
-            lines.append(tall < short)
-    return lines
+def longest_stretch(cut: Guide) -> float:
+    """By how much the spring in a guide is longer than its free height.
+
+    Parameters
+    ----------
+    cut : Guide
+        Guide
+
+    Returns
+    -------
+    stretch : float
+        0 when the guide presses it everywhere [m]
+    """
+    if cut.rho is None:
+        return float("nan")
+    _, _, rho, _ = periodic.extremes(cut.rho)
+    return max(0.0, cut.rollers * (rho - cut.parameters.rho0))
 
 
-def _retuning_rows(found: Study) -> list[dict[str, Any]]:
-    high, p0 = found.hinges[1], setting_of(found.printed.spring)
-    best = retune.retune(found.printed, high, "least_squares_torque")
-    paper = retune.at_setting(found.printed, high, FACTOR * p0)
-    steadiest = {
-        name: retune.retune(s.placed, s.hinges[1], "least_ripple_propeller_load")
-        for name, s in ((name, study(changes)) for name, changes in _VARIANTS.items())
-    }
-    ripples = ", ".join(f"{name} {100 * (r.ripple_propeller_load or np.nan):.1f} %" for name, r in steadiest.items())
-    proportional = _departure_from_proportional(found.printed)
-    first = steadiest["atmosphere under the piston"].ripple_propeller_load
-    return [
-        _row("factor of p0 from 5 to 9.5 MPa", "1.9", 9.5 / 5, by_digits("1.9", 9.5 / 5)),
-        _claim(
-            "(14): M_h* proportional to p0, largest relative departure", "0", proportional, proportional < _ZERO,
-            f"with the law of (9); with absolute pressure {_departure_from_proportional(found.placed):.1e}",
-        ),
-        _row(
-            "Fig. 6: p0 for 142 rpm with guide a2 [MPa]", "9.5", best.setting / 1e6, NOT_COMPUTABLE,
-            f"{_NO_FORCE}; least squares of the torque, {best.setting / p0:.2f} times 5 MPa",
-        ),
-        _row(
-            "Fig. 6: curves 2 and 3 'visually almost coincide', rms of their difference", "0", paper.torque_error,
-            NOT_COMPUTABLE,
-            f"{_NO_FORCE}; with the factor 1.9, over the rms of curve 3; {best.torque_error:.3f} with the best p0",
-        ),
-        _row(
-            "speed 'almost constant' at 142 rpm with guide a2 retuned: ripple", "0", first, NOT_COMPUTABLE,
-            f"{_NO_FORCE}; least ripple over p0, propeller load, absolute law: {ripples}; a flywheel of the usual size "
-            f"leaves 2 %; with the factor 1.9 {_fate(paper.ripple_propeller_load)}",
-        ),
-    ]  # fmt: skip
+def departure(cut: Guide) -> float:
+    """How far a guide is from a circle: largest minus smallest distance over their mean.
+
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
+
+    Returns
+    -------
+    departure : float
+        0 for a circle [-]
+    """
+    rho = distances(cut)
+    return float(np.ptp(rho) / ((rho.max() + rho.min()) / 2))
 
 
-def _fate(ripple: float | None) -> str:
-    return "the engine stops" if ripple is None else f"{100 * ripple:.1f} %"
+def distances(cut: Guide) -> np.ndarray:
+    """Distances of the roller centres from the axis around a turn.
 
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
 
-def _departure_from_proportional(cut: Guide) -> float:
-    phi, spring = even_angles(2 * np.pi), cut.spring
-    doubled = with_setting(spring, 2 * setting_of(spring))
-    once, twice = guide.crank_torque(cut, spring, phi), guide.crank_torque(cut, doubled, phi)
-    return float(np.abs(twice - 2 * once).max() / np.abs(twice).max())
-
-
-def _flywheel_row() -> dict[str, Any]:
-    return _row(
-        "flywheel inertia, up to this share of all moving parts [%]", "80", None, NOT_COMPUTABLE,
-        "a general statement of the source's reference [21], no datum of this engine",
-    )  # fmt: skip
+    Returns
+    -------
+    rho : ndarray, shape (n,)
+        At even angles, both ends included [m]
+    """
+    return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))

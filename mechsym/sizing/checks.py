@@ -28,11 +28,11 @@ def require(
     name : str
         Name of the quantity, for the message
     value : float or ndarray
-        Value in SI; every element is checked
+        Value in SI; every element is checked [unit]
     unit : str
         Its SI unit, `"-"` for a pure number
     above, low, below, high : float, optional
-        Bounds; `above` and `below` must not be reached
+        Bounds; `above` and `below` must not be reached [unit]
     hint : str
         Why the bound is there and what to do instead
 

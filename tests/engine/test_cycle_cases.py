@@ -8,7 +8,8 @@ from click.testing import CliRunner
 
 from mechsym.cases import load
 from mechsym.cli.compare import compare
-from mechsym.cli.cycle import cycle, parse_speeds
+from mechsym.cli.cycle import cycle
+from mechsym.cli.speeds import parse_speeds
 from mechsym.compare import crossovers
 from mechsym.cycle import RPM, curves, engine, speed_range
 from mechsym.engine.model import at_design, design_names

@@ -9,7 +9,7 @@ from mechsym.cycle import RPM, columns, engine, over_speeds, speed_range
 from mechsym.reproduce.nunes2017 import rows, verdict
 from mechsym.reproduce.nunes2017_errata import errata
 from mechsym.reproduce.nunes2017_numbers import Item
-from mechsym.reproduce.record import last_digit
+from mechsym.reproduce.rows import last_digit
 
 UNSETTLED = {"speed of the smallest difference in exhaust [rpm]"}  # the curve is flat to 3e-5 from 2350 to 2730 rpm
 

@@ -2,7 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import reduce
 from typing import Any
@@ -12,7 +12,8 @@ import sympy
 from sympy import Expr
 
 from mechsym.audit.algebra import Algebra, evaluate
-from mechsym.audit.tree import Node, binary, call, children, function_of, letters, name, number
+from mechsym.audit.reader import CONSTANTS, read_expression
+from mechsym.audit.tree import Node, binary, call, children, function_of, letters, name, number, walk
 from mechsym.errors import BadInput
 
 _FUNCTIONS = {
@@ -209,6 +210,30 @@ def parts(theory: Theory, tree: Node) -> bool:
     return function_of(tree) != "sum" and any(parts(theory, child) for _, child in children(tree))
 
 
+def check_sums(theory: Theory, tree: Node) -> None:
+    """Refuse a letter with parts outside sum(), and a sum() without one.
+
+    Parameters
+    ----------
+    theory : Theory
+        Letters and tape
+    tree : Node
+        Expression
+
+    Raises
+    ------
+    BadInput
+        Says which letters have parts
+    """
+    letters_with_parts = [k for k, entry in theory.tape.items() if isinstance(entry, tuple)]
+    hint = f"letters of {theory.name} with one value per part: {', '.join(letters_with_parts) or 'none'}"
+    if parts(theory, tree):
+        raise BadInput(f"a letter that has one value per part stands outside sum(); {hint}")
+    for _, node in walk(tree):
+        if function_of(node) == "sum" and not parts(theory, dict(children(node))["argument"]):
+            raise BadInput(f"sum() is over nothing that has parts; {hint}")
+
+
 def known(theory: Theory) -> list[str]:
     """Letters that a formula may use, the free ones first.
 
@@ -242,3 +267,38 @@ def need_result(theory: Theory, quantity: str) -> None:
     """
     if quantity not in theory.tape:
         raise BadInput(f"{theory.name} has no quantity {quantity!r}; it has {', '.join(theory.results)}")
+
+
+def extended(
+    theory: Theory, new_name: str, more_letters: Mapping[str, Letter], expressions: Mapping[str, tuple[str, str]]
+) -> Theory:
+    """A theory with further letters and expressions.
+
+    Parameters
+    ----------
+    theory : Theory
+        What there is
+    new_name : str
+        Name of the result
+    more_letters : mapping of str to Letter
+        Letters to add
+    expressions : mapping of str to (str, str)
+        Name to expression in letters and names, and its unit; in the order of definition
+
+    Returns
+    -------
+    theory : Theory
+        Both together
+    """
+    letters_now = {**theory.letters, **more_letters}
+    tape = dict(theory.tape)
+    for new, (text, _) in expressions.items():
+        tape[new] = read_expression(text, [*letters_now, *tape, *CONSTANTS])[0]
+    return replace(
+        theory,
+        name=new_name,
+        letters=letters_now,
+        tape=tape,
+        results=(*theory.results, *expressions),
+        units={**theory.units, **{k: unit for k, (_, unit) in expressions.items()}},
+    )

@@ -7,7 +7,8 @@ from mechsym.errors import BadInput
 REPRODUCED, SLIP = "reproduced", "reproduced with the source's slip"
 NOT_REPRODUCED, NOT_COMPUTABLE = "not reproduced", "not computable"
 VERDICTS = (REPRODUCED, SLIP, NOT_REPRODUCED, NOT_COMPUTABLE)
-KEYS = ("source", "item", "published", "computed", "rel_error", "verdict", "note")
+# `printed` keeps the digits and the words of the source, `published` is its number
+KEYS = ("source", "item", "published", "computed", "rel_error", "verdict", "note", "printed")
 
 
 def row(
@@ -33,7 +34,7 @@ def row(
     Returns
     -------
     row : dict
-        Keys `KEYS`; rel_error is None unless both values are numbers and the published one is not 0
+        Keys `KEYS`; published is None for words, rel_error unless both are numbers and the published one is not 0
 
     Raises
     ------
@@ -42,10 +43,9 @@ def row(
     """
     if verdict not in VERDICTS:
         raise BadInput(f"verdict {verdict!r} is not an option; options are {', '.join(VERDICTS)}")
-    printed = number(published)
-    known = computed is not None and printed is not None and printed != 0
-    error = computed / printed - 1 if known else None  # type: ignore[operator]
-    return dict(zip(KEYS, (source, item, published, computed, error, verdict, note), strict=True))
+    value = number(published)
+    error = computed / value - 1 if computed is not None and value else None
+    return dict(zip(KEYS, (source, item, value, computed, error, verdict, note, published), strict=True))
 
 
 def number(text: str | None) -> float | None:

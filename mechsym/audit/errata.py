@@ -1,0 +1,90 @@
+"""docs/errata.md: one readable entry per finding, written by the audit and never by hand."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from mechsym.audit.entries import Source
+from mechsym.audit.findings import Row
+from mechsym.audit.trust import Trust, lines
+
+PATH = Path("docs") / "errata.md"
+_TITLES = {
+    "misprint": "Misprint", "wrong": "Wrong", "approximate": "Approximate", "unsupported claim": "Unsupported claim",
+    "supported claim": "Supported claim",
+}  # fmt: skip
+
+
+def text(sources: Sequence[Source], rows: Sequence[Row], found: Trust) -> str:
+    """The errata of all sources.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+        The registry
+    rows : sequence of dict
+        Its verdicts
+    found : Trust
+        Mutation tests of the auditor
+
+    Returns
+    -------
+    text : str
+        Markdown
+    """
+    parts = [_HEAD, _summary(sources, rows)]
+    for source in sources:
+        own = [r for r in rows if r["source"] == source.stem]
+        entries = [_entry(r) for r in own if r["verdict"] in _TITLES]
+        parts.append(f"## {source.title}\n\nSource `{source.stem}` (`{source.short}`).")
+        parts += entries or ["Nothing to report."]
+    parts.append("## How far the auditor can be trusted")
+    parts.append("\n".join(f"- {line}" for line in lines(found)[:2]))
+    misses = lines(found)[2:]
+    if misses:
+        parts.append("Spoiled formulas that did not come back (theory.quantity [slip]: spoiled -> what was found):")
+        parts.append("\n".join(f"- `{line.partition(': ')[2]}`" for line in misses))
+    return "\n\n".join(parts) + "\n"
+
+
+_HEAD = """# Errata of the sources
+
+Written by `make audit` from the derivations; do not edit. Each formula is given as printed (letters spelled out), with
+the correction that the repair search found and the largest relative error over a turn at the source's data. An
+approximation is honest when its error is at most that of leaving out the first power of lambda that it neglects."""
+
+
+def _summary(sources: Sequence[Source], rows: Sequence[Row]) -> str:
+    verdicts = list(dict.fromkeys(r["verdict"] for r in rows))
+    head = f"| source | {' | '.join(verdicts)} |"
+    body = [head, "|---" * (len(verdicts) + 1) + "|"]
+    for source in sources:
+        own = [r["verdict"] for r in rows if r["source"] == source.stem]
+        body.append(f"| {source.short} | {' | '.join(str(own.count(v)) for v in verdicts)} |")
+    return "\n".join(body)
+
+
+def _entry(row: Row) -> str:
+    where = f"({row['equation']})" if row["equation"][0].isdigit() else row["equation"]
+    parts = [f"### {_TITLES[row['verdict']]}: {where}, {row['claim']}"]
+    if row["printed"]:
+        parts.append(f"As printed:\n\n    {row['printed']}")
+    if row["correction"]:
+        parts.append(f"Corrected:\n\n    {row['correction']}")
+    sentence = _numbers(row)
+    parts += [s for s in (sentence, row["note"]) if s]
+    return "\n\n".join(parts)
+
+
+def _numbers(row: Row) -> str:
+    if row["verdict"].endswith("claim"):
+        return ""
+    found = [f"Largest relative error {row['max_rel_error']:.3g}"]
+    if row["corrected_max_rel_error"] is not None:
+        found.append(f"{_small(row['corrected_max_rel_error'])} when corrected")
+    if row["order"] is not None:
+        found.append("leading term wrong" if row["order"] < 0 else f"relative order {row['order']} in lambda")
+    return ", ".join(found) + "."
+
+
+def _small(error: float) -> str:
+    return "exact" if error < 1e-10 else f"{error:.3g}"

@@ -1,0 +1,160 @@
+"""Verdicts as rows with the documented keys, for people, JSON and the record."""
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from mechsym.audit.entries import Entry, Listed, Printed, Source, TextClaim
+from mechsym.audit.question import Question
+from mechsym.audit.reader import read, write
+from mechsym.audit.theory.catalogue import theory
+from mechsym.audit.theory.record import known
+from mechsym.audit.verdict import Verdict, decide
+
+Row = dict[str, Any]
+NAME = ("source", "equation", "claim")
+COMPARED = ("verdict", "order", "correction")
+
+
+def question_of(entry: Printed) -> Question:
+    """The question that a printed formula raises.
+
+    Parameters
+    ----------
+    entry : Printed
+        From the registry
+
+    Returns
+    -------
+    question : Question
+        With the data of its source
+    """
+    name, _, quantity = entry.quantity.partition(".")
+    found = theory(name)
+    return Question(
+        formula=read(entry.statement, known(found), entry.letters),
+        theory=found,
+        quantity=quantity,
+        hold=entry.hold,
+        turn=entry.turn() if entry.turn else {},
+    )
+
+
+def rows(sources: Iterable[Source], done: Callable[[], Any] = lambda: None) -> list[Row]:
+    """Audit sources.
+
+    Parameters
+    ----------
+    sources : iterable of Source
+        What to audit
+    done : callable, optional
+        Called after each entry
+
+    Returns
+    -------
+    rows : list of dict
+        One per entry, in the order of the text
+    """
+    found = []
+    for source in sources:
+        for entry in source.entries:
+            found.append(row(source.stem, entry))
+            done()
+    return found
+
+
+def row(source: str, entry: Entry) -> Row:
+    """The verdict on one entry.
+
+    Parameters
+    ----------
+    source : str
+        File stem
+    entry : Entry
+        From the registry
+
+    Returns
+    -------
+    row : dict
+        Documented keys, and printed, evidence, effect
+    """
+    head = {"source": source, "equation": entry.equation, "claim": entry.claim}
+    if isinstance(entry, Printed):
+        question = question_of(entry)
+        answer = decide(question)
+        effect = entry.effect(answer) if entry.effect else ""
+        return head | formula_row(question, answer, entry.statement, entry.note, effect)
+    if isinstance(entry, Listed):
+        return head | _plain(entry.verdict, None, entry.note, entry.statement)
+    assert isinstance(entry, TextClaim)
+    decided = entry.decide()
+    verdict = "supported claim" if decided.supported else "unsupported claim"
+    error = None if decided.rel_error is None else abs(decided.rel_error)
+    return head | _plain(verdict, error, decided.note, "")
+
+
+def formula_row(question: Question, verdict: Verdict, printed: str, note: str, effect: str) -> Row:
+    """The keys of a formula that was compared.
+
+    Parameters
+    ----------
+    question : Question
+        What was asked
+    verdict : Verdict
+        The answer
+    printed : str
+        The formula as it was given
+    note, effect : str
+        What else there is to say
+
+    Returns
+    -------
+    row : dict
+        Documented keys from verdict on
+    """
+    best = verdict.repairs[0] if verdict.repairs else None
+    notes = [verdict.note, _edits(verdict), note, effect]
+    return {
+        "verdict": verdict.verdict,
+        "max_rel_error": verdict.max_rel_error,
+        "order": verdict.order,
+        "correction": write(question.formula, best.tree) if best else None,
+        "corrected_max_rel_error": best.max_rel_error if best else None,
+        "note": "; ".join(n for n in notes if n),
+        "printed": printed,
+        "understood": write(question.formula),
+        "effect": effect,
+        "evidence": _evidence(question, verdict),
+    }
+
+
+def _edits(verdict: Verdict) -> str:
+    if not verdict.repairs:
+        return ""
+    return f"repaired by: {', then '.join(edit.kind for edit in verdict.repairs[0].edits)}"
+
+
+def _evidence(question: Question, verdict: Verdict) -> Row:
+    return {
+        "quantity": f"{question.theory.name}.{question.quantity}",
+        "data": question.theory.data,
+        "certificate": verdict.certificate or None,
+        "orders": dict(verdict.orders),
+        "dimensions_consistent": verdict.dimensions,
+        "counterexample": dict(verdict.counterexample),
+        "other_repairs": [write(question.formula, r.tree) for r in verdict.repairs[1:4]],
+    }
+
+
+def _plain(verdict: str, error: float | None, note: str, printed: str) -> Row:
+    return {
+        "verdict": verdict,
+        "max_rel_error": error,
+        "order": None,
+        "correction": None,
+        "corrected_max_rel_error": None,
+        "note": note,
+        "printed": printed,
+        "understood": None,
+        "effect": "",
+        "evidence": {},
+    }

@@ -1,0 +1,87 @@
+"""All theories by name, each with the data of a case."""
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+from mechsym import cases
+from mechsym.audit.theory import drives, engines, guides, rodless, sliders
+from mechsym.audit.theory.record import Theory
+from mechsym.errors import BadInput
+
+Build = Callable[[Mapping[str, float], str], Theory]
+
+# theory: (builder, case that its values come from unless another is named)
+_THEORIES: dict[str, tuple[Build, str]] = {
+    "crosshead": (drives.crosshead, "zotov-89"),
+    "crankshaft_flywheel": (drives.crankshaft_flywheel, "chmielewski"),
+    "crankshaft_flywheel_truncated": (drives.crankshaft_flywheel_truncated, "chmielewski"),
+    "guide": (guides.guide, "zotov-89"),
+    "slider_crank": (sliders.slider_crank, "zotov-89"),
+    "two_mass_rod": (sliders.two_mass_rod, "zotov-89"),
+    "rodless": (rodless.rodless, ""),
+    "opposed_slider_crank": (engines.opposed_slider_crank, ""),
+    "opposed_hypocycloid": (engines.opposed_hypocycloid, ""),
+    "otto": (engines.otto, ""),
+    "cylinder": (engines.cylinder, ""),
+}
+
+
+def names() -> list[str]:
+    """Names of all theories.
+
+    Returns
+    -------
+    names : list of str
+        Sorted
+    """
+    return sorted(_THEORIES)
+
+
+@cache
+def theory(name: str, case: str = "") -> Theory:
+    """A theory with the data of a case.
+
+    Parameters
+    ----------
+    name : str
+        Name of the theory
+    case : str
+        Name of a built-in case or a path; empty for the source's data
+
+    Returns
+    -------
+    theory : Theory
+        Letters, tape, data
+
+    Raises
+    ------
+    BadInput
+        No such theory, or a case of another mechanism
+    """
+    if name not in _THEORIES:
+        raise BadInput(f"there is no theory {name!r}; there are {', '.join(names())}")
+    build, usual = _THEORIES[name]
+    chosen = case or usual
+    return build(_values(name, chosen) if chosen else {}, chosen)
+
+
+def _values(name: str, case: str) -> dict[str, float]:
+    found = cases.load(case)
+    values = dataclasses.asdict(found.need("parameters"))
+    if name in cases_mechanisms() and found.mechanism != name:
+        raise BadInput(f"case {case} is of the mechanism {found.mechanism}, not of {name}; name another with --case")
+    operation: Any = found.sections.get("operation")
+    return values | ({"speed": operation.speed} if operation else {})
+
+
+def cases_mechanisms() -> list[str]:
+    """Theories that are mechanisms with cases of their own.
+
+    Returns
+    -------
+    names : list of str
+        Names
+    """
+    return [n for n, (_, usual) in _THEORIES.items() if usual and cases.load(usual).mechanism == n]

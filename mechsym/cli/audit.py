@@ -1,0 +1,111 @@
+"""`mechsym audit`: published hand formulas, or the user's own, against the derivations."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, progress, table
+from mechsym.errors import BadInput
+
+_COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
+
+
+@click.command()
+@click.option("--source", help="Only this source: file stem or short name.")
+@click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax or LaTeX.")
+@click.option("--against", metavar="NAME.QUANTITY", help="What the formula claims to be, e.g. crosshead.inertia.")
+@click.option("--letters", default="", metavar="PAIRS", help='Your letters, e.g. "R=r1+r2, L=l1+l2".')
+@click.option("--case", default="", help="Case whose data the error is measured with.")
+@click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
+@click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
+@json_option
+@click.pass_context
+def audit(
+    ctx: click.Context,
+    source: str | None,
+    formula: str | None,
+    against: str | None,
+    letters: str,
+    case: str,
+    file: Path | None,
+    write: bool,
+    as_json: bool,
+) -> None:
+    """Compare published hand formulas with the derivations; repair misprints by search.
+
+    Exit status 1 when --formula or --file finds a misprint or a wrong formula, or when the audit differs from the
+    recorded findings.
+
+    \b
+    Example: mechsym audit --source zotov2024
+    Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
+    """
+    if formula is not None or file is not None:
+        if source or write or (formula is not None and file is not None):
+            raise BadInput("--formula and --file stand alone; use one of them without --source and --write")
+        rows = _own(formula, against, letters, case, file)
+        emit(rows[0] if formula is not None else rows, as_json, lambda: "\n\n".join(map(_told, rows)))
+        ctx.exit(int(any(row["verdict"] in ("misprint", "wrong") for row in rows)))
+    if against or letters or case:
+        raise BadInput("--against, --letters and --case belong to --formula; write for example --formula 'r*sin(phi)'")
+    ctx.exit(_published(source, write, as_json))
+
+
+def _own(formula: str | None, against: str | None, letters: str, case: str, file: Path | None) -> list[dict[str, Any]]:
+    from mechsym.audit.formula import check_file, check_formula
+
+    if file is not None:
+        return check_file(file)
+    if against is None:
+        from mechsym.audit.theory.catalogue import names
+
+        raise BadInput(f"--formula needs --against THEORY.QUANTITY; theories are {', '.join(names())}")
+    return [check_formula(str(formula), against, letters, case)]
+
+
+def _published(source: str | None, write: bool, as_json: bool) -> int:
+    from mechsym import recorded
+    from mechsym.audit import findings, registry
+
+    if write and source:
+        raise BadInput("--write records the findings of all sources; leave out --source")
+    chosen = [registry.source(source)] if source else registry.sources()
+    with progress(sum(len(s.entries) for s in chosen), "auditing") as bar:
+        rows = findings.rows(chosen, lambda: bar.update(1))
+    differences = recorded.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
+    emit(rows, as_json, lambda: table(rows, _COLUMNS))
+    if write:
+        _write(chosen, rows)
+        return 0
+    for line in differences:
+        click.echo(f"differs from the record: {line}", err=True)
+    return 1 if differences else 0
+
+
+def _write(sources: list[Any], rows: list[dict[str, Any]]) -> None:
+    from mechsym import recorded
+    from mechsym.audit import errata, findings
+    from mechsym.audit.trust import lines, trust
+    from mechsym.files import write_text
+
+    with progress(len(rows), "testing the auditor") as bar:
+        found = trust(sources, rows, lambda: bar.update(1))
+    click.echo("\n".join(lines(found)), err=True)
+    recorded.write("mechsym.audit", rows, (*findings.NAME, *findings.COMPARED))
+    click.echo(str(write_text(errata.PATH, errata.text(sources, rows, found))), err=True)
+
+
+def _told(row: dict[str, Any]) -> str:
+    lines = [f"{row['claim']}: {row['verdict']}", f"understood as: {row['understood']}"]
+    if row["correction"]:
+        lines.append(f"corrected:     {row['correction']}")
+    lines.append(f"largest relative error: {row['max_rel_error']:.3g}")
+    if row["corrected_max_rel_error"] is not None:
+        lines.append(f"when corrected:         {row['corrected_max_rel_error']:.3g}")
+    if row["order"] is not None:
+        lines.append(f"order of lambda: {row['order']}" if row["order"] >= 0 else "the leading term is wrong")
+    counterexample = row["evidence"]["counterexample"]
+    if counterexample:
+        lines.append("for example at " + ", ".join(f"{k} = {v:.6g}" for k, v in counterexample.items()))
+    return "\n".join([*lines, *([row["note"]] if row["note"] else [])])
