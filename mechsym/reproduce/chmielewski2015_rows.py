@@ -90,17 +90,17 @@ def _shape(found: Result) -> list[dict[str, Any]]:
     bent = _bent(t[t >= CLAIMED_TIME], angle[t >= CLAIMED_TIME])
     return [
         _claim(
-            "Fig. 10: speed constant above 90 s, its gain until 100 s [rad/s]", "0", late, abs(late) < 1.0,
+            "Fig. 10: speed above 90 s, its gain until 100 s [rad/s]", "constant", late, abs(late) < 1.0,
             "constant torque without dissipation: no steady speed exists",
         ),
         _claim(
-            "speed rises up to 85 s, its gain from 55 to 85 s [rad/s]", "rises", risen, risen > 1.0,
+            "speed up to 85 s, its gain from 55 to 85 s [rad/s]", "rises", risen, risen > 1.0,
             "the second order of the piston's inertia meets the natural frequency there and holds the shaft at half of "
             "it until about 90 s; the drive feeds the vibration",
         ),
         _claim(
-            "Fig. 9: angle linear above 90 s, largest departure over the angle turned", "0", bent, bent < _CONSTANT,
-            "the speed goes on growing",
+            "Fig. 9: angle above 90 s, largest departure from a line over the angle turned", "linear", bent,
+            bent < _CONSTANT, "the speed goes on growing",
         ),
     ]  # fmt: skip
 
@@ -132,7 +132,7 @@ def _amplitudes(found: Result) -> list[dict[str, Any]]:
         growth = largest(key, 95.0) / largest(key, 90.0) - 1
         lines.append(
             _claim(
-                f"Fig. {figure}: amplitude of the {name} constant above 90 s, its growth until 100 s", "0", growth,
+                f"Fig. {figure}: amplitude of the {name} above 90 s, its growth until 100 s", "constant", growth,
                 abs(growth) < _CONSTANT, f"amplitude {largest(key, 95.0):.4g} at the end",
             )
         )  # fmt: skip

@@ -86,7 +86,7 @@ def _sinusoidal() -> list[dict[str, Any]]:
         second[name] = float(spectrum[2:].max() / spectrum[1])
     return [
         _claim(
-            "Figs. 3.2 to 3.5: OPGHE moves sinusoidally, largest higher order of the acceleration", "0",
+            "Figs. 3.2 to 3.5: OPGHE moves sinusoidally, largest higher order of the acceleration", "sinusoidal",
             second["OPGHE"], second["OPGHE"] < 1e-12, f"OPSCE {second['OPSCE']:.3f}",
         )
     ]  # fmt: skip

@@ -59,8 +59,8 @@ def test_194_rad_s_from_90_s_on_is_not_reproduced(found):
 
 @pytest.mark.slow
 def test_the_speed_is_held_where_the_paper_lets_it_rise_and_rises_where_it_settles(found):
-    assert abs(one(found, "speed rises up to 85 s")["computed"]) < 1.0
-    assert one(found, "Fig. 10: speed constant")["computed"] > 10
+    assert abs(one(found, "speed up to 85 s")["computed"]) < 1.0
+    assert one(found, "Fig. 10: speed above")["computed"] > 10
     assert one(found, "Fig. 9")["verdict"] == "not reproduced"
     assert one(found, "Fig. 11: amplitude grows")["verdict"] == "not reproduced"
 
@@ -81,9 +81,9 @@ def test_more_than_one_fixed_step_gives_194_so_it_cannot_be_told(found):
 @pytest.mark.slow
 def test_motion_of_the_piston_by_differences():
     result, moved = paper.run(paper.EXACT, paper.FINEST[1], paper.FINEST[0]), paper.piston()
-    fine = (result.t > 99.0) & (np.append(np.diff(result.t), 1) < 1e-3)
-    t = result.t[fine]
-    inner = slice(1, -1)
+    fine = result.t > 99.0  # even steps of half a millisecond
+    step = np.ptp(result.t[fine]) / (fine.sum() - 1)
     for rate, of in (("v", "x0"), ("a", "v")):
-        slope = np.gradient(moved[of][fine], t)
-        assert np.abs(slope - moved[rate][fine])[inner].max() < 5e-3 * np.abs(moved[rate]).max()
+        y = moved[of][fine]
+        slope = (y[:-4] - 8 * y[1:-3] + 8 * y[3:-1] - y[4:]) / (12 * step)
+        assert np.abs(slope - moved[rate][fine][2:-2]).max() < 1e-3 * np.abs(moved[rate]).max()
