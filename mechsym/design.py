@@ -9,6 +9,7 @@ from mechsym.assembly import Assembly, assemble, kept_flywheel, load_of
 from mechsym.balance import Balance
 from mechsym.cases import Case
 from mechsym.cases.settings import TrialSettings
+from mechsym.errors import BadInput
 from mechsym.feasibility import Verdict
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
@@ -118,9 +119,15 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
 
 
 def _other(case: Case) -> Assembly | None:
-    """The engine at the other speed, if the case names one."""
+    """The same engine with the speed and the cycle of another case, if the case names one."""
     section = case.sections.get("retune")
-    return None if section is None else assemble(cases.load(section.case))
+    if section is None:
+        return None
+    other = cases.load(section.case)
+    same = {key: record for key, record in case.sections.items() if key in ("parameters", "flywheel")}
+    if other.mechanism != case.mechanism:
+        raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
+    return assemble(dataclasses.replace(other, sections={**other.sections, **same}))
 
 
 def _retuned(other: Assembly, cut: Guide, load: Load, turns: float) -> Retuned:

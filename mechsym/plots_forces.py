@@ -40,9 +40,15 @@ def chain(found: Forces) -> Figure:
     axes[1].legend(fontsize=7, ncols=4, frameon=False)
     teeth = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
     _curves(axes[2], phi, {_label(n): v for n, v in (teeth or found.loads.guides).items()})
-    axes[3].plot(phi, found.turn.torque, color=_SERIES[0])
-    axes[3].axhline(found.turn.torque.mean(), color=_QUIET, lw=1, ls="--")
-    names = ("gas force [kN]", f"{_label(pin.name)} [kN]", f"{'teeth' if teeth else 'side force'} [kN]", "torque [N m]")
+    scale, unit = (1e3, "kN m") if np.abs(found.turn.torque).max() > 1e4 else (1.0, "N m")
+    axes[3].plot(phi, found.turn.torque / scale, color=_SERIES[0])
+    axes[3].axhline(found.turn.torque.mean() / scale, color=_QUIET, lw=1, ls="--")
+    names = (
+        "gas force [kN]",
+        f"{_label(pin.name)} [kN]",
+        f"{'teeth' if teeth else 'side force'} [kN]",
+        f"torque [{unit}]",
+    )
     for axis, name in zip(axes, names, strict=True):
         axis.set_ylabel(name)
         _bare(axis)
@@ -114,8 +120,9 @@ def orders(found: Forces) -> Figure:
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     torque = found.torque_orders
-    left.bar(torque.order[1:], torque.amplitude[1:], width=0.35, color=_SERIES[0])
-    left.set(xlabel="order", ylabel="torque amplitude [N m]")
+    scale, unit = (1e3, "kN m") if torque.amplitude[1:].max() > 1e4 else (1.0, "N m")
+    left.bar(torque.order[1:], torque.amplitude[1:] / scale, width=0.35, color=_SERIES[0])
+    left.set(xlabel="order", ylabel=f"torque amplitude [{unit}]")
     shown = {n: o for n, o in found.shaking.orders.items() if n != "roll"}
     for i, (name, values) in enumerate(shown.items()):
         whole = np.isclose(values.order % 1, 0) & (values.order > 0) & (values.order <= 6)

@@ -200,7 +200,7 @@ def _nearest(found: Job, parts: Parts, forces: Forces) -> list[dict[str, Any]]:
     held = hypocycloid_checks.holding(parts, forces, found.wants, found.stock)
     if not held.any():
         return []
-    low, high = hypocycloid_checks.longest_run(held)
+    low, high = hypocycloid_checks.fastest_run(held)
     at = "full load only inside this range; the nearest engine that holds"
     power = performance(found, forces.omega[high : high + 1]).power[0]
     return [

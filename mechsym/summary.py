@@ -4,7 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.assembly import load_of
 from mechsym.design import Design
+from mechsym.loads import PropellerLoad
 from mechsym.offers import Offer
 from mechsym.rollers import parallel
 from mechsym.steadiness import RIPPLE
@@ -96,8 +98,7 @@ def offers(design: Design) -> list[dict[str, Any]]:
 
 
 def _law(design: Design) -> str:
-    load = design.assembly.case.sections.get("load")
-    return "propeller" if type(load).__name__ == "PropellerLoad" else "constant"
+    return "propeller" if isinstance(load_of(design.assembly.case), PropellerLoad) else "constant"
 
 
 def _saved(design: Design) -> float | None:

@@ -2,6 +2,7 @@
 
 import ast
 import importlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -50,3 +51,11 @@ def test_runs(stem, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "can be built" in done.stdout
     assert (tmp_path / FILES[stem]).exists()
+
+
+def test_example_of_the_readme_runs(tmp_path):
+    readme = (FOLDER.parent / "README.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", readme, re.S)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "can be built: True" in done.stdout

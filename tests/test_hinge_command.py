@@ -157,6 +157,14 @@ def test_spring_at_its_limits(run):
     assert "closing z/H" in numbers["guide"]["reason"] and "spring pressure" in numbers["guide"]["reason"]
 
 
+def test_other_speed_is_of_the_same_engine(run):
+    # without its own masses the other engine would ask for a negative pressure
+    status, numbers, err = run("m1=80 t")
+    assert status == 1 and err == ""
+    assert numbers["retune"]["p0"] > 0
+    assert numbers["retune"]["p0_ratio"] > 1
+
+
 def test_files(written):
     assert {"report.html", "summary.json", "hinge.csv", "guide.csv", "torque.svg", "track.svg"} <= written.keys()
     table = np.genfromtxt(written["hinge.csv"], delimiter=",", names=True)

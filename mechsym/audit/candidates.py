@@ -5,16 +5,21 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import evaluate
-from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, single_edits, without_double_signs
+from mechsym.audit.bench import Bench, names, part_values, shaped
+from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, without_double_signs
 from mechsym.audit.insertion import Vocabulary, candidate_words, is_unit, product, product_tree, simple, vocabulary
-from mechsym.audit.question import Bench, Question, names, part_values, shaped
+from mechsym.audit.printer import to_python
+from mechsym.audit.question import Question
 from mechsym.audit.required import Required, required
+from mechsym.audit.slips import single_edits
+from mechsym.audit.theory.record import known
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
 from mechsym.quantities import dimension
 
@@ -60,9 +65,14 @@ def repeated_edits(tree: Node) -> list[Edit]:
     found = []
     for text, node in distinct.items():
         for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
-            changed = substitute(tree, lambda n, text=text, new=new: new if texts.get(n) == text else None)
-            found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed)))
+            changed = substitute(tree, partial(_instead, texts, text, new))
+            about = f"{to_python(node)} becomes {to_python(new)} in {counts[text]} places"
+            found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed), about=about))
     return found
+
+
+def _instead(texts: Mapping[Node, str], text: str, new: Node, node: Node) -> Node | None:
+    return new if texts.get(node) == text else None
 
 
 def confusable(question: Question, letter: str) -> list[str]:
@@ -85,7 +95,7 @@ def confusable(question: Question, letter: str) -> list[str]:
     indexed = [k for k in used if re.sub(r"\d+$", "", k) == stem]
     unit = _unit(question, letter)
     alike = [k for k in used if unit is not None and _unit(question, k) == unit]
-    derived = [k for k in question.theory.results if k[0] == letter[0] and k != question.quantity]
+    derived = [k for k in known(question.theory) if k[0] == letter[0] and k != question.quantity]
     return [k for k in dict.fromkeys([*indexed, *alike, *derived]) if k != letter]
 
 
@@ -176,22 +186,24 @@ def _quotient(asked: Bench, above: Any, below: Any) -> Any:
 
 
 def _insertions(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any], words: Vocabulary) -> Iterator[Edit]:
+    # what is put back must not be more than what stands there, or any formula could be mended
+    most = sum(not children(p.node) for p in places(tree))
     for place in places(tree):
         if place.path not in wishes or value_of(place.node) is not None:
             continue
         wish, old = wishes[place.path], memo[place.node]
         if is_product(place):
-            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times)
+            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times, most)
         if is_term(place):
-            yield from _put_back(asked, place, words, wish - old, _plus)
+            yield from _put_back(asked, place, words, wish - old, _plus, most)
 
 
 Join = Callable[[Node, Any, Any], Node]
 
 
-def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join) -> Iterable[Edit]:
+def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join, most: int) -> Iterable[Edit]:
     found = product(asked, words, missing)
-    if found is not None and found[1]:
+    if found is not None and 1 <= len(found[1]) <= most:
         yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
 
 

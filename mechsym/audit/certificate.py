@@ -11,7 +11,8 @@ import sympy
 from sympy import Dummy, Expr, Integer, Pow, cos, sin
 
 from mechsym.audit.algebra import SYMBOLS, evaluate
-from mechsym.audit.question import Question, used_names
+from mechsym.audit.bench import used_names
+from mechsym.audit.question import Question
 from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node
 from mechsym.errors import BadInput
@@ -137,17 +138,21 @@ def _root(base: Expr, degree: int, letters: dict[Expr, Dummy]) -> Expr:
     if not below.is_positive:
         above, below = base, Integer(1)
     content, factors = sympy.sqf_list(_lower_cosines(sympy.expand(above * below)))
-    outside, inside = Integer(1), content
+    outside, inside = _letter_of(content, letters), Integer(1)
     for factor, power in factors:
         if factor.is_positive:
             outside *= factor ** (power // 2)
             inside *= factor ** (power % 2)
         else:
             inside *= factor**power
-    root = sympy.sqrt(inside)
-    if not root.is_Symbol and not root.is_Rational:
-        root = letters.setdefault(sympy.expand(inside), Dummy("D", positive=True))
-    return outside * root / below
+    return outside * _letter_of(sympy.expand(inside), letters) / below
+
+
+def _letter_of(square: Expr, letters: dict[Expr, Dummy]) -> Expr:
+    root = sympy.sqrt(square)
+    if root.is_Symbol or root.is_Rational:
+        return root
+    return letters.setdefault(square, Dummy("D", positive=True))
 
 
 def _lower_roots(polynomial: Expr, letters: dict[Expr, Dummy]) -> Expr:

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from mechsym.audit.algebra import FLOATS
-from mechsym.audit.question import Question, bench, float_values, random_fractions, value
+from mechsym.audit.bench import bench, value
+from mechsym.audit.question import Question, float_values, random_fractions
 from mechsym.audit.tree import Node
 from mechsym.quantities import dimension
 

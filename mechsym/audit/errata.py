@@ -37,6 +37,11 @@ def text(sources: Sequence[Source], rows: Sequence[Row], found: Trust) -> str:
         entries = [_entry(r) for r in own if r["verdict"] in _TITLES]
         parts.append(f"## {source.title}\n\nSource `{source.stem}` (`{source.short}`).")
         parts += entries or ["Nothing to report."]
+        remarks = [
+            f"- {_where(r)}, {r['claim']}: {r['note']}." for r in own if r["note"] and r["verdict"] not in _TITLES
+        ]
+        if remarks:
+            parts += ["### Remarks on the other relations", "\n".join(remarks)]
     parts.append("## How far the auditor can be trusted")
     parts.append("\n".join(f"- {line}" for line in lines(found)[:2]))
     misses = lines(found)[2:]
@@ -64,15 +69,18 @@ def _summary(sources: Sequence[Source], rows: Sequence[Row]) -> str:
 
 
 def _entry(row: Row) -> str:
-    where = f"({row['equation']})" if row["equation"][0].isdigit() else row["equation"]
-    parts = [f"### {_TITLES[row['verdict']]}: {where}, {row['claim']}"]
+    parts = [f"### {_TITLES[row['verdict']]}: {_where(row)}, {row['claim']}"]
     if row["printed"]:
         parts.append(f"As printed:\n\n    {row['printed']}")
     if row["correction"]:
         parts.append(f"Corrected:\n\n    {row['correction']}")
     sentence = _numbers(row)
-    parts += [s for s in (sentence, row["note"]) if s]
+    parts += [s for s in (sentence, _sentences(row["note"])) if s]
     return "\n\n".join(parts)
+
+
+def _where(row: Row) -> str:
+    return f"({row['equation']})" if row["equation"][0].isdigit() else row["equation"]
 
 
 def _numbers(row: Row) -> str:
@@ -84,6 +92,10 @@ def _numbers(row: Row) -> str:
     if row["order"] is not None:
         found.append("leading term wrong" if row["order"] < 0 else f"relative order {row['order']} in lambda")
     return ", ".join(found) + "."
+
+
+def _sentences(note: str) -> str:
+    return " ".join(f"{part[0].upper()}{part[1:]}." for part in note.split("; ") if part)
 
 
 def _small(error: float) -> str:

@@ -3,16 +3,20 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from mechsym.audit.edits import apply
 from mechsym.audit.entries import Entry, Listed, Printed, Source, TextClaim
+from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read, write
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
+from mechsym.audit.tree import Node, at
 from mechsym.audit.verdict import Verdict, decide
 
 Row = dict[str, Any]
 NAME = ("source", "equation", "claim")
 COMPARED = ("verdict", "order", "correction")
+_LONGEST = 90
 
 
 def question_of(entry: Printed) -> Question:
@@ -112,7 +116,7 @@ def formula_row(question: Question, verdict: Verdict, printed: str, note: str, e
         Documented keys from verdict on
     """
     best = verdict.repairs[0] if verdict.repairs else None
-    notes = [verdict.note, _edits(verdict), note, effect]
+    notes = [verdict.note, _edits(question, verdict), note, effect]
     return {
         "verdict": verdict.verdict,
         "max_rel_error": verdict.max_rel_error,
@@ -127,10 +131,20 @@ def formula_row(question: Question, verdict: Verdict, printed: str, note: str, e
     }
 
 
-def _edits(verdict: Verdict) -> str:
+def _edits(question: Question, verdict: Verdict) -> str:
     if not verdict.repairs:
         return ""
-    return f"repaired by: {', then '.join(edit.kind for edit in verdict.repairs[0].edits)}"
+    found, tree = [], question.formula.tree
+    for edit in verdict.repairs[0].edits:
+        change = edit.about or f"{_told(at(tree, edit.path))} becomes {_told(edit.new)}"
+        found.append(f"{edit.kind}: {change}")
+        tree = apply(tree, edit)
+    return f"repaired by {', then by '.join(found)}"
+
+
+def _told(node: Node) -> str:
+    text = to_python(node)
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
 
 
 def _evidence(question: Question, verdict: Verdict) -> Row:

@@ -9,7 +9,7 @@ from mechsym.audit.findings import Row, formula_row
 from mechsym.audit.question import Question
 from mechsym.audit.reader import letter_pairs, read
 from mechsym.audit.theory.catalogue import names, theory
-from mechsym.audit.theory.record import Theory, check_sums, known, need_result
+from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
 from mechsym.audit.tree import letters as letters_of
 from mechsym.audit.verdict import decide
 from mechsym.errors import BadInput
@@ -79,7 +79,9 @@ def question_of(text: str, against: str, letters: str | Mapping[str, str], case:
     formula = read(text, known(found), pairs)
     check_sums(found, formula.tree)
     used = {n for tree in (formula.tree, *formula.letters.values()) for n in letters_of(tree)}
-    hold = {k: 0.0 for k, letter in found.letters.items() if letter.value == 0 and k not in used and k != found.angle}
+    needed = dependencies(found, [quantity])
+    zero = [k for k, letter in found.letters.items() if letter.value == 0 and k in needed and k != found.angle]
+    hold = {k: 0.0 for k in zero if k not in used}
     return Question(formula=formula, theory=found, quantity=quantity, hold=hold)
 
 
@@ -140,7 +142,9 @@ def _tables(path: Path) -> list[dict[str, Any]]:
 def _check_table(table: dict[str, Any], number: int) -> Row:
     unknown = sorted(table.keys() - _KEYS)
     if unknown or not {"text", "against"} <= table.keys():
-        raise BadInput(f"keys are {', '.join(sorted(_KEYS))}, of which text and against are needed; found {sorted(table)}")
+        raise BadInput(
+            f"keys are {', '.join(sorted(_KEYS))}, of which text and against are needed; found {sorted(table)}"
+        )
     letters = table.get("letters", {})
     texts = [v for k, v in table.items() if k != "letters"]
     pairs = list(letters.values()) if isinstance(letters, dict) else [letters]

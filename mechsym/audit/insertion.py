@@ -14,7 +14,8 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.question import Bench, Question, value
+from mechsym.audit.bench import Bench, value
+from mechsym.audit.question import Question
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, binary, call, is_operation, letters, name, number, value_of, walk
 
@@ -33,16 +34,22 @@ class Vocabulary:
     Parameters
     ----------
     words : tuple of Node
-        Letters, functions and brackets that are independent of each other
+        Letters, functions and brackets
     signs : ndarray, shape (k, n)
-        Signs of their values
-    logs : ndarray, shape (n, k)
-        Logarithms of their absolute values
+        Signs of their values [-]
+    logs : ndarray, shape (k, n)
+        Logarithms of their absolute values [-]
+    basis : tuple of int
+        Words that are no products of powers of earlier ones
     """
 
     words: tuple[Node, ...]
     signs: np.ndarray
     logs: np.ndarray
+    basis: tuple[int, ...]
+
+
+Product = tuple[Fraction, list[tuple[Node, Fraction]]]
 
 
 def candidate_words(question: Question, tree: Node) -> list[Node]:
@@ -89,7 +96,7 @@ def _distinct(nodes: Iterable[Node]) -> list[Node]:
 
 
 def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
-    """The words that are independent at the states of a bench.
+    """The words that have values at the states of a bench.
 
     Parameters
     ----------
@@ -101,22 +108,29 @@ def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
     Returns
     -------
     vocabulary : Vocabulary
-        No word is a product of powers of others
+        Without constants
     """
-    kept: list[Node] = []
-    signs: list[np.ndarray] = []
-    logs = [np.ones(len(asked.expected))]
+    usable: list[Node] = []
+    basis: list[int] = []
+    signs, logs = [], []
+    independent = [np.ones(len(asked.expected))]
     for word in words:
-        if len(kept) >= min(MAX_WORDS, len(asked.expected) - 4):
-            break
         sign, log = logarithm(asked, value(asked, word))
-        if not np.all(np.isfinite(log)) or np.ptp(log) < 1e-9 or _depends(log, logs):
+        if not np.all(np.isfinite(log)) or np.ptp(log) < 1e-9:
             continue
-        kept.append(word)
-        logs.append(log)
+        if len(basis) < min(MAX_WORDS, len(log) - 4) and not _depends(log, independent):
+            basis.append(len(usable))
+            independent.append(log)
+        usable.append(word)
         signs.append(sign)
-    shape = (len(kept), len(asked.expected))
-    return Vocabulary(words=tuple(kept), signs=np.array(signs).reshape(shape), logs=np.array(logs[1:]).reshape(shape).T)
+        logs.append(log)
+    shape = (len(usable), len(asked.expected))
+    return Vocabulary(
+        words=tuple(usable),
+        signs=np.array(signs).reshape(shape),
+        logs=np.array(logs).reshape(shape),
+        basis=tuple(basis),
+    )
 
 
 def _depends(log: np.ndarray, logs: list[np.ndarray]) -> bool:
@@ -138,7 +152,7 @@ def logarithm(asked: Bench, values: Any) -> tuple[np.ndarray, np.ndarray]:
     Returns
     -------
     signs, logs : ndarray, shape (n,)
-        Logarithms of absolute values; infinite or nan where there is none
+        Logarithms of absolute values; infinite or nan where there is none [-]
     """
     with np.errstate(all="ignore"):
         if not asked.digits:
@@ -148,15 +162,15 @@ def logarithm(asked: Bench, values: Any) -> tuple[np.ndarray, np.ndarray]:
             return np.array([float(mpmath.sign(v)) for v in values]), np.array(logs)
 
 
-def product(asked: Bench, words: Vocabulary, values: Any) -> tuple[Fraction, list[tuple[Node, Fraction]]] | None:
-    """Values as a simple number times a product of powers of words.
+def product(asked: Bench, words: Vocabulary, values: Any) -> Product | None:
+    """Values as a simple number times a power of one word, or else a product of powers of words.
 
     Parameters
     ----------
     asked : Bench
         States
     words : Vocabulary
-        Independent words at the same states
+        Words at the same states
     values : array, shape (n,)
         What is missing
 
@@ -168,19 +182,39 @@ def product(asked: Bench, words: Vocabulary, values: Any) -> tuple[Fraction, lis
     signs, logs = logarithm(asked, values)
     if not np.all(np.isfinite(logs)):
         return None
-    matrix = np.column_stack([np.ones(len(logs)), words.logs])
+    return _single(words, signs, logs) or _several(words, signs, logs)
+
+
+def _single(words: Vocabulary, signs: np.ndarray, logs: np.ndarray) -> Product | None:
+    for exponent in (1, -1, 2, -2):
+        rest = logs - exponent * words.logs
+        for k in np.flatnonzero(np.ptp(rest, axis=1) < _CLOSE):
+            found = _constant(words, [int(k)], np.array([float(exponent)]), signs, logs)
+            if found is not None:
+                return found, [(words.words[k], Fraction(exponent))]
+    return None
+
+
+def _several(words: Vocabulary, signs: np.ndarray, logs: np.ndarray) -> Product | None:
+    basis = list(words.basis)
+    matrix = np.column_stack([np.ones(len(logs)), words.logs[basis].T])
     solution, *_ = np.linalg.lstsq(matrix, logs, rcond=None)
     exponents = np.round(2 * solution[1:]) / 2
     if np.any(np.abs(exponents - solution[1:]) > 1e-3) or np.max(np.abs(exponents), initial=0.0) > MAX_EXPONENT:
         return None
-    used = [(w, Fraction(e)) for w, e in zip(words.words, exponents, strict=True) if e]
+    used = [(words.words[k], Fraction(e)) for k, e in zip(basis, exponents, strict=True) if e]
     if len(used) > MAX_FACTORS:
         return None
-    with np.errstate(all="ignore"):
-        turned = np.prod(np.where(exponents[:, None] % 2 == 1, words.signs, 1.0), axis=0) * signs
-    constants = turned * np.exp(logs - words.logs @ exponents)
-    found = simple(constants)
+    found = _constant(words, basis, exponents, signs, logs)
     return None if found is None else (found, used)
+
+
+def _constant(
+    words: Vocabulary, chosen: list[int], exponents: np.ndarray, signs: np.ndarray, logs: np.ndarray
+) -> Fraction | None:
+    # what is left when the powers of the chosen words are taken out
+    odd = np.where(exponents[:, None] % 2 == 1, words.signs[chosen], 1.0)
+    return simple(signs * np.prod(odd, axis=0) * np.exp(logs - exponents @ words.logs[chosen]))
 
 
 def simple(constants: np.ndarray) -> Fraction | None:
@@ -189,7 +223,7 @@ def simple(constants: np.ndarray) -> Fraction | None:
     Parameters
     ----------
     constants : ndarray, shape (n,)
-        Values at the states
+        Values at the states [-]
 
     Returns
     -------

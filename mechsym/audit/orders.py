@@ -14,7 +14,8 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS
-from mechsym.audit.question import Bench, Question, bench, digit_values, random_fractions, small_rods, value
+from mechsym.audit.bench import Bench, bench, value
+from mechsym.audit.question import Question, digit_values, random_fractions, small_rods
 from mechsym.audit.tree import Node
 from mechsym.quantities import dimension
 

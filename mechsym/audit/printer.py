@@ -2,7 +2,6 @@
 
 import ast
 from collections.abc import Mapping
-from fractions import Fraction
 
 from mechsym.audit.spelling import latex
 from mechsym.audit.tree import Node, function_of
@@ -76,25 +75,28 @@ def _latex(node: Node, spelled: Mapping[str, str]) -> tuple[str, int]:
     if isinstance(node, ast.Name):
         return spelled.get(node.id) or latex(node.id), _ATOM
     if isinstance(node, ast.Constant):
-        return _decimal(node), _ATOM
+        return _decimal(node)
     if isinstance(node, ast.UnaryOp):
-        return f"-{_at_least(node.operand, _PRODUCT, spelled)}", _SIGN if _is_atom(node.operand) else _SUM
+        return f"-{_at_least(node.operand, _POWER, spelled)}", _SUM
     if isinstance(node, ast.Call):
         return _function(node, spelled)
     assert isinstance(node, ast.BinOp)
     return _operation(node, spelled)
 
 
-def _decimal(node: ast.Constant) -> str:
+def _decimal(node: ast.Constant) -> tuple[str, int]:
     text = str(node.value)
     if "e" not in text:
-        return text
+        return text, _ATOM
     mantissa, _, exponent = text.partition("e")
-    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}"
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}", _PRODUCT
 
 
-def _is_atom(node: Node) -> bool:
-    return isinstance(node, (ast.Name, ast.Constant, ast.Call))
+def _is_signed(node: Node) -> bool:
+    # -a b: the sign of the first factor needs no bracket where the product leads
+    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+        node = node.left
+    return isinstance(node, ast.UnaryOp)
 
 
 def _at_least(node: Node, level: int, spelled: Mapping[str, str]) -> str:
@@ -121,9 +123,11 @@ def _operation(node: ast.BinOp, spelled: Mapping[str, str]) -> tuple[str, int]:
     if isinstance(node.op, ast.Pow):
         return _power(node, spelled), _POWER
     if isinstance(node.op, ast.Mult):
-        left, right = _at_least(node.left, _PRODUCT, spelled), _at_least(node.right, _POWER, spelled)
+        signed = _is_signed(node.left)
+        left = _at_least(node.left, _SUM if signed else _PRODUCT, spelled)
+        right = _at_least(node.right, _POWER, spelled)
         digits = left[-1:].isdigit() and right[:1].isdigit()
-        return f"{left} \\cdot {right}" if digits else f"{left} {right}", _PRODUCT
+        return f"{left} \\cdot {right}" if digits else f"{left} {right}", _SUM if signed else _PRODUCT
     sign = "+" if isinstance(node.op, ast.Add) else "-"
     right = _at_least(node.right, _PRODUCT, spelled)
     return f"{_latex(node.left, spelled)[0]} {sign} {right}", _SUM
@@ -135,22 +139,6 @@ def _power(node: ast.BinOp, spelled: Mapping[str, str]) -> str:
     if isinstance(node.left, ast.Call) and function not in ("sqrt", "abs", "sum") and exponent != "-1":
         head, _, tail = _latex(node.left, spelled)[0].partition(str(_NAMES.get(str(function), function)))
         return rf"{head}{_NAMES.get(str(function), function)}^{{{exponent}}}{tail}"
-    simple = isinstance(node.left, (ast.Name, ast.Constant))
-    base = _latex(node.left, spelled)[0]
+    base, level = _latex(node.left, spelled)
+    simple = level == _ATOM and isinstance(node.left, (ast.Name, ast.Constant))
     return f"{base}^{{{exponent}}}" if simple else rf"\left({base}\right)^{{{exponent}}}"
-
-
-def plain_number(value: Fraction) -> str:
-    """A simple number for messages.
-
-    Parameters
-    ----------
-    value : Fraction
-        Exact value
-
-    Returns
-    -------
-    text : str
-        For example `1/2` or `60`
-    """
-    return str(value.numerator) if value.denominator == 1 else f"{value.numerator}/{value.denominator}"

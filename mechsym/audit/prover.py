@@ -6,8 +6,9 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS, FLOATS
+from mechsym.audit.bench import Bench, bench, value
 from mechsym.audit.certificate import proves_equal
-from mechsym.audit.question import Bench, Question, bench, digit_values, float_values, random_fractions, value
+from mechsym.audit.question import Question, digit_values, float_values, random_fractions
 from mechsym.audit.tree import Node
 
 POINTS = 20

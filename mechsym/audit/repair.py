@@ -9,23 +9,13 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS, FLOATS
+from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.edits import RANKS, Edit, apply
 from mechsym.audit.orders import EXACT, FINE, Group, groups, orders, residual
 from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
-from mechsym.audit.question import (
-    Bench,
-    Question,
-    bench,
-    digit_values,
-    float_values,
-    max_rel_error,
-    random_fractions,
-    small_rods,
-    turn,
-    value,
-)
+from mechsym.audit.question import Question, digit_values, float_values, random_fractions, small_rods
 from mechsym.audit.tree import Node
 
 SEARCH_DIGITS = 80
@@ -158,18 +148,26 @@ def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
     better : list of Repair
         Distinct functions; an exact one, or those that mend the worst group that can be mended
     """
-    if insert:
-        return _better(exam, start, [], insert=True)
-    found = _better(exam, start, listed_edits(exam.question, start.tree), insert=False)
-    return found or _better(exam, start, repeated_edits(start.tree), insert=False)
+    lists = [[]] if insert else [listed_edits(exam.question, start.tree), repeated_edits(start.tree)]
+    for listed in lists:
+        if exact := _exact(exam, start, listed, insert):
+            return [exact]
+    for listed in lists:
+        if found := _raised(exam, start, listed, insert):
+            return found
+    return []
 
 
-def _better(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Repair]:
+def _exact(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> Repair | None:
     found = matching_edits(exam.question, search_bench(exam, "exact"), start.tree, listed, insert)
     for edit in _by_simplicity(start.tree, found):
         tree = apply(start.tree, edit)
         if is_exact(exam.judged, tree):
-            return [standing(exam, tree, (*start.edits, edit))]
+            return standing(exam, tree, (*start.edits, edit))
+    return None
+
+
+def _raised(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> list[Repair]:
     for group in _worst_first(exam, start):
         asked = search_bench(exam, group.name) if insert else group.fine
         edits = matching_edits(exam.question, asked, start.tree, listed, insert)

@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import DIGITS
-from mechsym.audit.question import Bench
+from mechsym.audit.bench import Bench
 from mechsym.audit.tree import Node, Path, children, function_of
 
 Required = Mapping[Path, Any]

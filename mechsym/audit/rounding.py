@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.audit.bench import part_values
 from mechsym.audit.edits import places
-from mechsym.audit.question import part_values
 from mechsym.audit.repair import Examination, search_bench
 from mechsym.audit.required import required
 from mechsym.audit.tree import Node

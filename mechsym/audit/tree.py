@@ -250,8 +250,9 @@ def replace(tree: Node, path: Path, new: Node) -> Node:
     if isinstance(tree, ast.UnaryOp):
         return negative(below)
     assert isinstance(tree, ast.BinOp)
-    sides = {"left": tree.left, "right": tree.right} | {path[0]: below}
-    return ast.BinOp(op=tree.op, **sides)
+    if path[0] == "left":
+        return ast.BinOp(left=below, op=tree.op, right=tree.right)
+    return ast.BinOp(left=tree.left, op=tree.op, right=below)
 
 
 def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
@@ -293,19 +294,3 @@ def letters(tree: Node) -> list[str]:
         Without repetition
     """
     return list(dict.fromkeys(node.id for _, node in walk(tree) if isinstance(node, ast.Name)))
-
-
-def same(first: Node, second: Node) -> bool:
-    """Whether two trees are written the same.
-
-    Parameters
-    ----------
-    first, second : Node
-        Expressions
-
-    Returns
-    -------
-    answer : bool
-        True when every node agrees
-    """
-    return first is second or ast.dump(first) == ast.dump(second)

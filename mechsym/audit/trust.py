@@ -76,7 +76,8 @@ def lines(found: Trust) -> list[str]:
     breakable = k.mutants - k.equivalent
     kinds = ", ".join(f"{kind} {back}/{all_}" for kind, (all_, back) in r.by_kind.items())
     return [
-        f"kill rate: {100 * k.refuted / breakable:.1f} % ({k.refuted} of {breakable} mutants of exact formulas refuted; "
+        f"kill rate: {100 * k.refuted / breakable:.1f} % ({k.refuted} of {breakable} mutants of exact formulas "
+        f"refuted; "
         f"{k.equivalent} more are proved to be the same function)",
         f"repair rate: {100 * r.returned / r.spoiled:.1f} % ({r.returned} of {r.spoiled} spoiled formulas came back to "
         f"the original; by slip: {kinds})",

@@ -143,7 +143,7 @@ def _read(name: str) -> tuple[str, str]:
     except (OSError, ValueError) as error:
         # a path may hold a zero byte, which is a ValueError too
         reason = "not UTF-8 text" if isinstance(error, UnicodeDecodeError) else getattr(error, "strerror", error)
-        why = f"case {shown(name, 300)} is not built in and no readable file ({reason})"
+        why = f"case {shown(name, 300)} is neither built in nor a readable file ({reason})"
         raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
 
 

@@ -51,6 +51,7 @@ _SECTIONS: dict[str, Any] = {
             "none": "mechsym.engine.friction:NoFriction",
             "chen_flynn": "mechsym.engine.friction:ChenFlynn",
             "heywood": "mechsym.engine.friction:Heywood",
+            "mechanism": "mechsym.engine.friction:MechanismFriction",
         },
     ),
     "load": (

@@ -8,14 +8,18 @@ import numpy as np
 
 from mechsym import constraints, mechanisms
 from mechsym.cases import Case
-from mechsym.forces import textbook
+from mechsym.forces import claims, textbook
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Losses, losses
 from mechsym.forces.harmonics import Orders, orders
-from mechsym.forces.loads import Loads, angle_of_largest, columns, extremes, loads, power_residual
+from mechsym.forces.loads import Loads, loads, power_residual
 from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
+from mechsym.forces.table import angle_of_largest, columns, extremes
 from mechsym.forces.turn import Turn, turn
+
+_FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
+_RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -113,7 +117,7 @@ def summary(found: Forces) -> dict[str, Any]:
     -------
     summary : dict
         `max`, `min`, `power_residual`, `angle_of_max_deg`, `torque_orders`, `shaking`, `friction`, `two_mass`,
-        `weight`, `rodless`, `unbalanced`, `comparison`, `facts`; what a mechanism does not have is null
+        `weight`, `rodless`, `unbalanced`, `comparison`, `claims`, `facts`; what a mechanism does not have is null
     """
     one = found.turn
     largest, smallest = extremes(found.columns)
@@ -135,8 +139,25 @@ def summary(found: Forces) -> dict[str, Any]:
         "rodless": _rodless(one) if one.case.mechanism == "rodless" else None,
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
-        "facts": list(one.gas.facts) if one.gas else ["no gas acts: the case has no [cycle]"],
+        "claims": _claims(found),
+        "facts": _facts(found),
     }
+
+
+def quantities(numbers: dict[str, Any]) -> list[str]:
+    """Columns that a reader wants to see the extremes of.
+
+    Parameters
+    ----------
+    numbers : dict
+        From `summary`
+
+    Returns
+    -------
+    names : list of str
+        Without motion, raw reactions and the printed chains
+    """
+    return [name for name in numbers["max"] if not name.startswith(_RAW)]
 
 
 def _order_table(found: Orders) -> dict[str, list[float]]:
@@ -165,6 +186,23 @@ def _friction(found: Losses) -> dict[str, Any]:
 
 def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+
+
+def _facts(found: Forces) -> list[str]:
+    gas, lost = found.turn.gas, found.losses
+    facts = list(gas.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
+        share = 100 * (1 - lost.mechanical_efficiency)
+        facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")
+    return facts
+
+
+def _claims(found: Forces) -> list[dict[str, str]]:
+    judged = [] if found.comparison is None else claims.claims(found.comparison)
+    if found.chains:
+        efficiency = None if found.losses is None else found.losses.mechanical_efficiency
+        judged.append(claims.left_out(textbook.weight_shares(found.turn), efficiency))
+    return judged
 
 
 def _rodless(one: Turn) -> dict[str, Any]:

@@ -19,6 +19,8 @@ from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, radial, tangential
 from mechsym.forces.turn import Turn, at, one_coordinate
 
+_FREE_FALL = 9.81  # [m/s^2]
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class SliderCrank:
@@ -185,12 +187,12 @@ def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
     errors : dict of str to float
         For N, Z, T, M and the loads of crank pin and main bearing: largest difference over the largest exact value [-]
     """
-    exact = _exact(weightless(turn))
+    exact = _exact(with_weight(turn, 0.0))
     return _shares(_approximate(turn, approximate), exact)
 
 
 def weight_shares(turn: Turn) -> dict[str, float]:
-    """What the weights do to the forces, which the chain leaves out.
+    """What the weights do to the forces, which the chain leaves out; also where the case leaves them out (g = 0).
 
     Parameters
     ----------
@@ -202,23 +204,25 @@ def weight_shares(turn: Turn) -> dict[str, float]:
     shares : dict of str to float
         For the same quantities as `errors`: largest change by the weights over the largest value without [-]
     """
-    return _shares(_exact(turn), _exact(weightless(turn)))
+    return _shares(_exact(with_weight(turn, _FREE_FALL)), _exact(with_weight(turn, 0.0)))
 
 
-def weightless(turn: Turn) -> Turn:
-    """The same cycle without weight.
+def with_weight(turn: Turn, g: float) -> Turn:
+    """The same cycle under another gravity.
 
     Parameters
     ----------
     turn : Turn
         Of a crosshead or crank_throw
+    g : float
+        Acceleration of free fall [m/s^2]
 
     Returns
     -------
     turn : Turn
-        With g = 0
+        Forces with these weights
     """
-    parameters = dataclasses.replace(turn.case.need("parameters"), g=0.0)
+    parameters = dataclasses.replace(turn.case.need("parameters"), g=g)
     case = dataclasses.replace(turn.case, sections={**turn.case.sections, "parameters": parameters})
     return at(case, one_coordinate(case), turn.gas, turn.omega, turn.phi)
 

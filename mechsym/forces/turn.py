@@ -86,9 +86,9 @@ def turn(case: Case) -> Turn:
     BadInput
         Another mechanism, or a section is missing
     """
-    omega, found = case.need("operation").speed, gas(case)
+    mechanism, omega, found = one_coordinate(case), case.need("operation").speed, gas(case)
     period = found.period if found else 2 * math.pi
-    mechanism, steps = one_coordinate(case), round(_STEPS_PER_TURN * period / (2 * math.pi))
+    steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
     phi = np.arange(steps) * period / steps
     return at(case, mechanism, found, omega, phi)
 

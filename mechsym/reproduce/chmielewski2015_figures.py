@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from mechsym.cases import load
 from mechsym.plots import BLUE, GREEN, GREY, RED
-from mechsym.reproduce.chmielewski2015 import (
+from mechsym.reproduce.chmielewski2015_runs import (
     CASE,
     CLAIMED_SPEED,
     CLAIMED_TIME,

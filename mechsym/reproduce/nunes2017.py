@@ -36,13 +36,26 @@ Curves = Mapping[str, np.ndarray]
 
 
 def rows() -> list[dict[str, Any]]:
-    """The engine model's published numbers with their verdicts.
+    """The thesis's published numbers with their verdicts: engine model, then component sizing.
 
     Returns
     -------
     rows : list of dict
         Keys source, item, published, computed, rel_error, verdict, note, and converged, corrected (None where the
         models do not differ)
+    """
+    from mechsym.reproduce import nunes2017_sizing  # it takes `verdict` from here
+
+    return engine_rows() + nunes2017_sizing.rows()
+
+
+def engine_rows() -> list[dict[str, Any]]:
+    """The published numbers of chapters 2, 3 and 5.
+
+    Returns
+    -------
+    rows : list of dict
+        As `rows`
     """
     models = {name: _curves(changes) for name, changes in _MODELS.items()}
     found = [_row(item, {name: value(item, curves) for name, curves in models.items()}) for item in OVER_SPEEDS]

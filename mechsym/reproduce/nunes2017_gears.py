@@ -1,7 +1,8 @@
 """The thesis's gear calculation, as it was made, and with its slips removed: tables 4.8 to 4.12.
 
 As made: each member has its own K_v (pitch speed from its own diameter, half the true mesh speed for the pinion) and
-its own K_m, the ring's diameter stands in its contact stress, I and J belong to an external pair, 200 is for 196.85.
+its own K_m, the ring's diameter stands in its contact stress, I and J are those of an external pair as printed in table
+4.8, 200 stands for 196.85.
 Corrected: one mesh, I of the internal pair and J by the formulas of AGMA 908, load and factors of safety as printed.
 """
 
@@ -10,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.reproduce.nunes2017_sizing_numbers import GEOMETRY
 from mechsym.sizing import gear_factors, gears
-from mechsym.sizing.agma908 import interpolated
 from mechsym.sizing.gear_bending import bending_geometry_factor
 from mechsym.sizing.gear_geometry import Pair, pitting_geometry_factor
 
 D_PINION, D_RING, WIDEST = 0.026, 0.052, 0.052
-_BENDING, _CONTACT, _Z_E = 454.7125e6, 1300e6, 187027.3
+_BENDING, _CONTACT, _Z_E = 454.7125e6, 1300e6, 187030.0  # eq. 4.1, table 4.1, table 4.10
 _ANGLE = np.radians(25)
 
 
@@ -90,7 +91,7 @@ def widths_printed(shift: float, teeth: int, rpm: np.ndarray, tooth: np.ndarray,
         In the order of the table [m]
     """
     module = D_PINION / teeth
-    I, *J = (interpolated(name, shift, teeth, 2 * teeth) for name in ("I", "J_pinion", "J_gear"))
+    I, *J = (float(text) for text in GEOMETRY[shift, teeth])
     share, found = 0.5 if twin else 1.0, []
     for member in (1, 2):
         load = share * np.max(tooth * dynamic_printed(member, rpm, 200.0))

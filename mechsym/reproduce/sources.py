@@ -51,7 +51,7 @@ SOURCES = (
         stem="002_d7297926d6c52225",
         name="chmielewski2015",
         about="Chmielewski, Bogucki, Guminski, Maczak (2015): Crankshaft assembly with two degrees of freedom",
-        rows=("mechsym.reproduce.chmielewski2015_rows:rows",),
+        rows=("mechsym.reproduce.chmielewski2015:rows",),
         figures="mechsym.reproduce.chmielewski2015_figures:figures",
     ),
     Source(
@@ -68,7 +68,6 @@ SOURCES = (
         rows=(
             "mechsym.reproduce.nunes2017:rows",
             "mechsym.reproduce.nunes2017_text:rows",
-            "mechsym.reproduce.nunes2017_sizing:rows",
         ),
         figures="mechsym.reproduce.nunes2017_figures:figures",
     ),

@@ -72,7 +72,7 @@ class Check:
     safety_factor : float
         How far the value is on the safe side: 1 at the limit
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     rule, source : str
         Name of the rule and where it is printed
     note : str
@@ -103,7 +103,7 @@ def at_most(
     value, limit : float
         Load and what the part stands [unit]
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     **more : str
         `source` and `note`
 
@@ -136,7 +136,7 @@ def at_least(
     value, limit : float
         What the part has and what it needs [unit]
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     **more : str
         `source` and `note`
 

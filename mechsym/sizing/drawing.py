@@ -106,7 +106,8 @@ def hypocycloid_boxes(parts: Parts, forces: Forces, stock: Stock) -> tuple[list[
             *_bearing(planet, places["outer"], gears.pinion_bore / 2, z.outer, side),
             *_bearing(axis, places["main"], places["main"].bearing.bore / 2, z.inner, side),
             *_bearing(axis, places["outboard"], places["outboard"].bearing.bore / 2, z.outboard, side),
-            _across(axis - crank.output / 2, axis + crank.output / 2, end, z.outboard - end + 0.02, side, "output shaft"),
+            _across(axis - crank.output / 2, axis + crank.output / 2, end, z.outboard - end + 0.02, side,
+                    "output shaft"),
         ]  # fmt: skip
     boxes += _pin_boxes(crank, pin)
     text = f"{gears.teeth_pinion:.0f}/{gears.teeth_ring:.0f} teeth"

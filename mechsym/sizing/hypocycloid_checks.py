@@ -131,8 +131,8 @@ def holding(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> np.ndar
     return np.array(held)
 
 
-def longest_run(held: np.ndarray) -> tuple[int, int]:
-    """First and last index of the longest run of true values.
+def fastest_run(held: np.ndarray) -> tuple[int, int]:
+    """First and last index of the last run of true values.
 
     Parameters
     ----------
@@ -146,10 +146,8 @@ def longest_run(held: np.ndarray) -> tuple[int, int]:
 
     Examples
     --------
-    >>> longest_run(np.array([True, False, True, True]))
-    (2, 3)
+    >>> fastest_run(np.array([True, True, False, True, False]))
+    (3, 3)
     """
     edges = np.flatnonzero(np.diff(np.concatenate([[0], held.astype(int), [0]])))
-    starts, ends = edges[::2], edges[1::2]
-    k = int(np.argmax(ends - starts))
-    return int(starts[k]), int(ends[k]) - 1
+    return int(edges[-2]), int(edges[-1]) - 1

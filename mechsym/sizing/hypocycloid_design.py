@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.sizing.bearing_design import Choice, check_bearing, choices, choose, seat_diameter
+from mechsym.sizing.bearing_design import Choice, Seat, check_bearing, choices, choose, seat_diameter
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.crank_design import check_crank, size_output
 from mechsym.sizing.gear_design import candidates, face_width
@@ -215,7 +215,7 @@ def _outboard(parts: Parts, forces: Forces, wants: Wants, stock: Stock, output: 
     return replace(parts, crank=crank, bearings=replace(parts.bearings, outboard=found.bearing.designation))
 
 
-def _longest(options: list[Choice], seat, wants: Wants) -> Choice | None:
+def _longest(options: list[Choice], seat: Seat, wants: Wants) -> Choice | None:
     def weakest(choice: Choice) -> float:
         return min(c.safety_factor / c.wanted for c in check_bearing(choice, seat, wants))
 

@@ -45,7 +45,7 @@ class Spans:
             )
 
 
-def over_period(theta, phi, p, rest):
+def over_period(theta: np.ndarray, phi: np.ndarray, p: np.ndarray, rest: float) -> np.ndarray:
     r"""Pressure over the four-stroke period from the closed part of the cycle.
 
     .. math:: p(\theta) = p_{closed}(\theta) \text{ for } |\theta| \le \pi, \quad p_{rest} \text{ else}
@@ -80,7 +80,7 @@ def over_period(theta, phi, p, rest):
     return np.array([np.interp(turn, a, b, left=rest, right=rest) for a, b in zip(phi, p, strict=True)])
 
 
-def tooth_load_printed(F, theta):
+def tooth_load_printed(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
     r"""Tangential tooth load of all gears on one crank, for a planet without mass.
 
     .. math:: W = F\sin\theta
@@ -109,7 +109,7 @@ def tooth_load_printed(F, theta):
     return np.asarray(F) * np.sin(theta)
 
 
-def journal_load_massless(F, theta):
+def journal_load_massless(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
     r"""Load of the planet's journals, both sides together, without mass and without separating force.
 
     .. math:: J = |F|\sqrt{1 + 3\sin^2\theta}
@@ -138,7 +138,9 @@ def journal_load_massless(F, theta):
     return np.abs(F) * np.sqrt(1 + 3 * np.sin(theta) ** 2)
 
 
-def side_vectors(F, tooth, radial, spin, theta):
+def side_vectors(
+    F: np.ndarray, tooth: np.ndarray, radial: np.ndarray, spin: np.ndarray, theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     r"""Forces on one side of the planet, as vectors along and across the cylinder.
 
     .. math:: \vec F = -\tfrac12 F\,\hat x, \qquad \vec T = \tfrac12 (W\,\hat t - N\,\hat r), \qquad
@@ -178,7 +180,7 @@ def side_vectors(F, tooth, radial, spin, theta):
     return force, teeth, np.asarray(spin)[:, None] / 2 * np.array([c, s])[:, None, :]
 
 
-def side_loads(vectors, spans, shares):
+def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[float, float]) -> dict[str, np.ndarray]:
     r"""Loads of the bearings of one side, as magnitudes.
 
     .. math::
@@ -227,7 +229,7 @@ def side_loads(vectors, spans, shares):
     return {name: np.hypot(*vector) for name, vector in found.items()}
 
 
-def tooth_share_one_end(spans, stiffness_ratio):
+def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:
     r"""Share of the tooth load that the driving side's gear takes when the torque leaves at that end only.
 
     .. math:: \frac{W_1}{W} = \frac12 + \left[1 + \frac{k_j}{k_g}\frac{(z_o - z_i)^2}{2 z_g^2}\right]^{-1}
@@ -261,7 +263,7 @@ def tooth_share_one_end(spans, stiffness_ratio):
     return 0.5 + 1 / (1 + stiffness_ratio * lever)
 
 
-def reversed_tooth_load(W, returns):
+def reversed_tooth_load(W: np.ndarray, returns: int) -> np.ndarray:
     r"""Load on a tooth root that bends it as much as its own load history, loads of the other flank included.
 
     .. math:: W_{eq} = \max_\theta\left(A + \tfrac37 B\right)

@@ -8,6 +8,7 @@
 Journals are rigid, webs stiff. Source: beam theory (unit load method); one redundant reaction on each side.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,7 +52,7 @@ class Shaft:
         require("end of the seat", self.seat_end, "m", low=self.spans.inner, high=self.spans.gear)
 
 
-def outer_shares(shaft):
+def outer_shares(shaft: Shaft) -> tuple[float, float]:
     r"""Shares of the loads that the outer journal takes.
 
     .. math::
@@ -94,7 +95,7 @@ def outer_shares(shaft):
     return force / reaction, tooth / reaction
 
 
-def moment(z, spans, shares, force, pull):
+def moment(z: float, spans: Spans, shares: tuple[float, float], force: np.ndarray, pull: np.ndarray) -> np.ndarray:
     r"""Bending moment along the shaft, by the direction of the forces.
 
     .. math:: M(z) = -F\,[(z_i - z) - s_F L] + P\,[(z_g - z_i) - s_T L] \quad (z \le z_i)
@@ -142,7 +143,7 @@ def moment(z, spans, shares, force, pull):
     return (spans.outer - z) * (shares[0] * np.asarray(force) - shares[1] * np.asarray(pull))
 
 
-def inner_slope(shaft, E, moment_at):
+def inner_slope(shaft: Shaft, E: float, moment_at: Callable[[float], np.ndarray]) -> np.ndarray:
     r"""Slope of the shaft at the inner journal.
 
     .. math:: \beta = \int_0^{z_i}\frac{M}{E I}\,\mathrm{d}z

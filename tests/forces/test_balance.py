@@ -12,7 +12,8 @@ from rigid_bodies import System, motion
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym import cases
-from mechsym.forces.loads import columns, loads, polar, power_residual, radial, tangential
+from mechsym.forces.loads import loads, polar, power_residual, radial, tangential
+from mechsym.forces.table import columns
 from mechsym.forces.turn import at, one_coordinate, turn
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters

@@ -71,7 +71,7 @@ def test_missing_balance_is_explained():
     one = turn(case)
     reasons = verdict(one, shaking(one), case.need("shaking"))
     assert len(reasons) == 2 and "order 1 of force_x" in reasons[0]
-    assert "an unbalance u1 = -0.1 kg m on the crank takes all of it" in reasons[0]
+    assert "a counterweight of u1 = -0.1 kg m on the crank takes all of it" in reasons[0]
 
 
 def in_line(degrees, z):

@@ -8,7 +8,8 @@ import pytest
 
 from mechsym import cases
 from mechsym.errors import BadInput
-from mechsym.forces.loads import columns, loads, pin_torque, polar, power_residual, radial, tangential
+from mechsym.forces.loads import loads, pin_torque, polar, power_residual, radial, tangential
+from mechsym.forces.table import columns
 from mechsym.forces.turn import turn
 
 NAMES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid", "zotov-89", "alpha-stirling",

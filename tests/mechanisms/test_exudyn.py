@@ -106,7 +106,8 @@ def test_slider_crank(phi):
 def test_crank_train():
     train = CrankTrainParameters(
         throw=(1, 2), phase=(0.2, 2.0), bank=(0.5, -0.4), I_f=0.05, k=1e5,
-        **{n: getattr(THROW, n) for n in ("r", "l1", "l2", "offset", "m_rod", "m_piston", "I_rod", "I0", "g", "axis_tilt")},
+        **{n: getattr(THROW, n) for n in ("r", "l1", "l2", "offset", "m_rod", "m_piston")},
+        **{n: getattr(THROW, n) for n in ("I_rod", "I0", "g", "axis_tilt")},
     )  # fmt: skip
     forces, rows = (900.0, -400.0), []
     for i, force in enumerate(forces):

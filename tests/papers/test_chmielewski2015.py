@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.reproduce import chmielewski2015 as paper
-from mechsym.reproduce.chmielewski2015_rows import rows
+from mechsym.reproduce import chmielewski2015_runs as paper
+from mechsym.reproduce.chmielewski2015 import rows
 
 
 def test_table_1_is_the_case():

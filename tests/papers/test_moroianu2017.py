@@ -82,7 +82,7 @@ def test_errors_leave_the_weight_out_and_name_it_beside():
     heavy, light = marine(), marine(g=0)
     ratio = slider_crank(heavy).L_m / slider_crank(heavy).L
     assert errors(heavy, chain(heavy, ratio)) == pytest.approx(errors(light, chain(light, ratio)), rel=1e-9)
-    assert max(weight_shares(light).values()) == 0
+    assert weight_shares(light) == pytest.approx(weight_shares(heavy), rel=1e-9)
     # the engine lies down: the guide carries crosshead, piston rod, piston and the rod's share
     share = weight_shares(heavy)["N"] * np.abs(loads(light).guides["side_force"]).max()
     assert share == pytest.approx(9.81 * (150 + 200 + 110 + 150 * 0.8 / 1.55), rel=1e-9)

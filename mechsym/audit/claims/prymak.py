@@ -67,6 +67,6 @@ def no_side_force() -> Decided:
     """
     return Decided(
         supported=True,
-        note="the guides of the sliders take X_a and X_b instead of the cylinders; their size needs a closing rule, since the "
-        "rigid mechanism is overconstrained by one",
+        note="the guides of the sliders take X_a and X_b instead of the cylinders; their size needs a closing rule, "
+        "since the rigid mechanism is overconstrained by one",
     )

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from mechsym.audit.bench import turn, value
 from mechsym.audit.entries import Decided, Turn
-from mechsym.audit.question import Question, turn, value
+from mechsym.audit.question import Question
 from mechsym.audit.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
@@ -35,8 +36,7 @@ def loads() -> Turn:
     """
     engines = computed.engines()
     load = engines.hinges[0].load_torque
-    constant = {"M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}
-    return {"F": engines.assemblies[0].force, **constant}
+    return {"F": engines.assemblies[0].force, "M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}
 
 
 def hinge_torque_effect(verdict: Verdict) -> str:
@@ -145,7 +145,8 @@ def proportional_to_pressure() -> Decided:
     away = float(np.max(np.abs(second - 2 * first)) / np.max(np.abs(first)))
     return Decided(
         supported=error < 1e-9,
-        note=f"exact for the printed law (9); a spring that obeys the absolute pressure is {100 * away:.1f} % off at 2 p0",
+        note="exact for the printed law (9); a spring that obeys the absolute pressure is "
+        f"{100 * away:.1f} % off at 2 p0",
         rel_error=error,
     )
 
@@ -186,7 +187,8 @@ def almost_constant() -> Decided:
     return Decided(
         supported=ripple is not None and ripple < 0.02,
         note=f"{'the engine stalls at 9.5 MPa' if stops else 'it runs at 9.5 MPa'} {_CYCLE}; the best pressure, "
-        f"{best.setting / 1e6:.1f} MPa, leaves {100 * (ripple or 1):.0f} % ripple under a propeller load, for there is no flywheel",
+        f"{best.setting / 1e6:.1f} MPa, leaves {100 * (ripple or 1):.0f} % ripple under a propeller load, for "
+        "there is no flywheel",
     )
 
 
@@ -201,6 +203,6 @@ def spring_compressed() -> Decided:
     stretches = [computed.longest_stretch(m.guide) for m in computed.guides() if m.start == "as_printed"]
     return Decided(
         supported=max(stretches) <= 0,
-        note=f"W is positive somewhere, so the spring is {1e3 * min(stretches):.1f} to {1e3 * max(stretches):.1f} mm longer "
-        f"than H there in all twelve guides ({_CYCLE}); the constant of W is free and can be chosen to avoid it",
+        note=f"W is positive somewhere, so the spring is {1e3 * min(stretches):.1f} to {1e3 * max(stretches):.1f} mm "
+        f"longer than H there in all twelve guides ({_CYCLE}); the constant of W is free and can be chosen to avoid it",
     )

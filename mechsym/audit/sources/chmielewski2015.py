@@ -3,7 +3,7 @@
 F in (1) and (3) is the rod force, tension positive. The models have no damping and no gas force.
 """
 
-from mechsym.audit.claims import chmielewski2015 as claims
+import mechsym.audit.claims.chmielewski2015 as claims
 from mechsym.audit.entries import Listed, Printed, Source, TextClaim
 
 _NO_GAS = {"F": 0.0, "c1": 0.0}
@@ -12,8 +12,9 @@ _TRUNCATED = "r*(phi0dd*(sin(phi0) + lam/2*sin(2*phi0)) + phi0d**2*(cos(phi0) + 
 _MIXED = f"I0*phi0dd + {_LEVER}*r*m0*({_TRUNCATED}) + k1*(phi0 - phi2)"
 
 ENTRIES = (
-    Listed(equation="text", claim="reduced inertias", statement="I_0 = I_w + m_s*r**2, I_2 = I_z", verdict="definition"),
-    Printed(equation="1", claim="moments about the crankshaft", hold=_NO_GAS, letters={"F": "rod_force", "phi0": "phi0"},
+    Listed(equation="text", claim="reduced inertias", statement="I_0 = I_w + m_s*r**2, I_2 = I_z",
+           verdict="definition"),
+    Printed(equation="1", claim="moments about the crankshaft", hold=_NO_GAS, letters={"F": "rod_force"},
             statement="M - I0*phi0dd - F*r*sin(phi0 + gamma0) - k1*(phi0 - phi2)",
             quantity="crankshaft_flywheel.residual_phi0",
             note="the sum is taken about the shaft, not about the top dead centre as the text says"),
@@ -30,10 +31,12 @@ ENTRIES = (
     Printed(equation="6", claim="angular acceleration with the exact piston acceleration", hold=_NO_GAS,
             statement=f"phi0dd = M/I0 - {_LEVER}*r*m0/I0*x0dd - k1/I0*(phi0 - phi2) = 0",
             letters={"x0dd": "x0dd_solved"}, quantity="crankshaft_flywheel.acceleration_phi0"),
-    Printed(equation="6", claim="(6) with (11), solved for the torque, as the exact Lagrange equation",
-            statement=_MIXED, hold=_NO_GAS, quantity="crankshaft_flywheel.driving_torque", turn=claims.steady, effect=claims.mixed_model_effect,
-            note="the model that was simulated: exact transmission, truncated acceleration; no Lagrange equation, so it has no energy of its own"),
-    Printed(equation="6", claim="(6) with (11), solved for the torque, as the Lagrange equation of the travel (9)",
+    Printed(equation="6", claim="with (11) put in, solved for the torque: the exact Lagrange equation",
+            statement=_MIXED, hold=_NO_GAS, quantity="crankshaft_flywheel.driving_torque", turn=claims.steady,
+            effect=claims.mixed_model_effect,
+            note="the model that was simulated: exact transmission, truncated acceleration; no Lagrange equation, so "
+                 "it has no energy of its own"),
+    Printed(equation="6", claim="with (11) put in, solved for the torque: the Lagrange equation of (9)",
             statement=_MIXED, quantity="crankshaft_flywheel_truncated.driving_torque", turn=claims.steady,
             effect=claims.mixed_model_truncated_effect, note="no Lagrange equation of the truncated kinematics either"),
     Printed(equation="7", claim="piston travel", statement="r + l - r*cos(phi0) - l*cos(gamma0)",
@@ -56,6 +59,7 @@ ENTRIES = (
 SOURCE = Source(
     stem="002_d7297926d6c52225",
     short="chmielewski2015",
-    title="Chmielewski, Bogucki, Guminski, Maczak (2015): Dynamic model of a crankshaft assembly with two degrees of freedom",
+    title="Chmielewski, Bogucki, Guminski, Maczak (2015): Dynamic model of a crankshaft assembly with two degrees of "
+    "freedom",
     entries=ENTRIES,
 )

@@ -4,7 +4,7 @@ F is the total force on the piston along the cylinder axis, alpha the crank angl
 (5) are not in the text that we have.
 """
 
-from mechsym.audit.claims import moroianu2017 as claims
+import mechsym.audit.claims.moroianu2017 as claims
 from mechsym.audit.entries import Listed, Printed, Source, TextClaim
 
 # the paper's F is the gas force and the inertia of the reciprocating masses together
@@ -33,7 +33,8 @@ ENTRIES = (
     Printed(equation="11", claim="tangential force", statement="sin(alpha + beta)*B", letters=_CHAIN,
             quantity="slider_crank.tangential_force"),
     Listed(equation="12", claim="total radial force", statement="Z = Z_B + F_ibm", verdict="definition",
-           note="the text says tangential component where it must be radial; F_ibm = -m_bm R omega^2 with Z_B positive towards the shaft"),
+           note="the text says tangential component where it must be radial; F_ibm = -m_bm R omega^2 with Z_B "
+                "positive towards the shaft"),
     Printed(equation="13", claim="instantaneous driving moment", statement="T*R",
             letters={"T": "tangential_force", "R": "r"}, quantity="slider_crank.torque"),
     TextClaim(equation="text", claim="two masses at its ends stand for the connecting rod", decide=claims.two_masses),

@@ -1,13 +1,15 @@
 """All theories by name, each with the data of a case."""
 
 import dataclasses
+import tomllib
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from mechsym import cases
 from mechsym.audit.theory import drives, engines, guides, rodless, sliders
 from mechsym.audit.theory.record import Theory
+from mechsym.derive.build import scripts
 from mechsym.errors import BadInput
 
 Build = Callable[[Mapping[str, float], str], Theory]
@@ -29,14 +31,14 @@ _THEORIES: dict[str, tuple[Build, str]] = {
 
 
 def names() -> list[str]:
-    """Names of all theories.
+    """Names of all theories: those above, and every other derived mechanism.
 
     Returns
     -------
     names : list of str
         Sorted
     """
-    return sorted(_THEORIES)
+    return sorted({*_THEORIES, *scripts()})
 
 
 @cache
@@ -60,28 +62,22 @@ def theory(name: str, case: str = "") -> Theory:
     BadInput
         No such theory, or a case of another mechanism
     """
-    if name not in _THEORIES:
+    if name not in names():
         raise BadInput(f"there is no theory {name!r}; there are {', '.join(names())}")
-    build, usual = _THEORIES[name]
+    build, usual = _THEORIES.get(name) or (partial(drives.mechanism, name), _usual_case(name))
     chosen = case or usual
     return build(_values(name, chosen) if chosen else {}, chosen)
 
 
+def _usual_case(mechanism: str) -> str:
+    fitting = (c for c in cases.names() if tomllib.loads(cases.text(c)).get("mechanism") == mechanism)
+    return next(fitting, "")
+
+
 def _values(name: str, case: str) -> dict[str, float]:
     found = cases.load(case)
-    values = dataclasses.asdict(found.need("parameters"))
-    if name in cases_mechanisms() and found.mechanism != name:
+    if name in scripts() and found.mechanism != name:
         raise BadInput(f"case {case} is of the mechanism {found.mechanism}, not of {name}; name another with --case")
+    values = {k: v for k, v in dataclasses.asdict(found.need("parameters")).items() if isinstance(v, float)}
     operation: Any = found.sections.get("operation")
     return values | ({"speed": operation.speed} if operation else {})
-
-
-def cases_mechanisms() -> list[str]:
-    """Theories that are mechanisms with cases of their own.
-
-    Returns
-    -------
-    names : list of str
-        Names
-    """
-    return [n for n, (_, usual) in _THEORIES.items() if usual and cases.load(usual).mechanism == n]

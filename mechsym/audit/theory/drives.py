@@ -1,4 +1,4 @@
-"""Theories of the drives of sources 000 and 002: crosshead engine, crankshaft with flywheel."""
+"""Theories of mechanisms: any derived one, and the drives of sources 000 and 002 with what their papers speak of."""
 
 from collections.abc import Mapping
 
@@ -13,6 +13,30 @@ from mechsym.derive.rates import accelerations
 # no source prints these; they only set the scale of an error
 _LOADS = {"F": 1e5, "M_r": 9000.0, "M_h": -20000.0, "phi": 1.0, "phidd": 0.5}
 _SHAFT = {"phi0": 1.0, "phi2": 0.99, "phi0d": 194.0, "phi2d": 194.0, "phi0dd": 3.0, "phi2dd": 1.5, "M": 1.5, "F": 30.0}
+
+
+def mechanism(name: str, values: Mapping[str, float], data: str) -> Theory:
+    """Any derived mechanism, without results of its own.
+
+    Parameters
+    ----------
+    name : str
+        Name of the derivation
+    values : mapping of str to float
+        Parameters of a case and its speed
+    data : str
+        Name of the case
+
+    Returns
+    -------
+    theory : Theory
+        Lengths that begin with l count as rods
+    """
+    equations = derive(declared(name))
+    m = equations.mechanism
+    rods = tuple(p.name for p in m.parameter_list if p.name.startswith("l") and m.units[p.name] == "m")
+    speeds = {u.name: values.get("speed", 10.0) for u in velocities(m)}
+    return mechanism_theory(equations, dict.fromkeys(rods, 4.0) | speeds | dict(values), rods, data, {})
 
 
 def crosshead(values: Mapping[str, float], data: str) -> Theory:

@@ -5,9 +5,10 @@ from collections.abc import Mapping
 import sympy
 from sympy import Symbol, integrate, pi, solve
 
+from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.guides import generic
 from mechsym.audit.theory.mechanisms import mechanism_theory
-from mechsym.audit.theory.record import Letter, Theory, extended, tape_of
+from mechsym.audit.theory.record import Letter, Theory, extended
 from mechsym.audit.theory.sliders import slider_crank
 from mechsym.derive import derive
 from mechsym.derive.build import declared
@@ -17,6 +18,19 @@ _CHAMBER = {
     "A_piston": Letter(unit="m^2", value=2.8274e-3), "V_c": Letter(unit="m^3", value=3.2673e-5),
     "V_displacement": Letter(unit="m^3", value=2.9405e-4), "CR": Letter(unit="-", value=10.0),
     "p": Letter(unit="Pa", value=5e6),
+}  # fmt: skip
+_STEP = {
+    "P1": Letter(unit="Pa", value=1e6), "V1": Letter(unit="m^3", value=1e-4), "V2": Letter(unit="m^3",
+    value=9.6e-5),
+    "Q_R": Letter(unit="J", value=8.0), "Q_L": Letter(unit="J", value=1.0), "Q_vap": Letter(unit="J", value=0.5),
+    "gamma": Letter(unit="-", value=1.4), "m2": Letter(unit="kg", value=4e-4), "R": Letter(unit="J/kg/K",
+    value=287.0),
+    "N": Letter(unit="1/s", value=2000.0), "n_R": Letter(unit="-", value=2.0), "W_c": Letter(unit="J", value=456.0),
+    "V_displaced": Letter(unit="m^3", value=2.9405e-4), "m_fuel": Letter(unit="kg", value=2.3923e-5),
+    "QHV": Letter(unit="J/kg", value=43.5e6), "S": Letter(unit="m", value=0.104), "dtheta": Letter(unit="-",
+    value=1.0),
+    "B": Letter(unit="m", value=0.06), "T": Letter(unit="K", value=900.0), "p": Letter(unit="Pa", value=2e6),
+    "m": Letter(unit="kg", value=4e-4), "P_kW": Letter(unit="W", value=25.0),
 }  # fmt: skip
 _SPEED = 8000 * 2 * 3.141592653589793 / 60
 _CLEARANCE = {"clearance_volume": ("V_displacement/(CR - 1)", "m^3")}  # CR = (V_d + V_c)/V_c solved for V_c
@@ -139,17 +153,7 @@ def cylinder(values: Mapping[str, float], data: str) -> Theory:
         `pressure_after` solves the first law with trapezoidal work for a perfect gas; the rest follows from the work
         per cycle `W_c` of a four-stroke engine at N rpm
     """
-    letters = {
-        "P1": Letter(unit="Pa", value=1e6), "V1": Letter(unit="m^3", value=1e-4), "V2": Letter(unit="m^3", value=9.6e-5),
-        "Q_R": Letter(unit="J", value=8.0), "Q_L": Letter(unit="J", value=1.0), "Q_vap": Letter(unit="J", value=0.5),
-        "gamma": Letter(unit="-", value=1.4), "m2": Letter(unit="kg", value=4e-4), "R": Letter(unit="J/kg/K", value=287.0),
-        "N": Letter(unit="1/s", value=2000.0), "n_R": Letter(unit="-", value=2.0), "W_c": Letter(unit="J", value=456.0),
-        "V_displaced": Letter(unit="m^3", value=2.9405e-4), "m_fuel": Letter(unit="kg", value=2.3923e-5),
-        "QHV": Letter(unit="J/kg", value=43.5e6), "S": Letter(unit="m", value=0.104), "dtheta": Letter(unit="-", value=1.0),
-        "B": Letter(unit="m", value=0.06), "T": Letter(unit="K", value=900.0), "p": Letter(unit="Pa", value=2e6),
-        "m": Letter(unit="kg", value=4e-4), "P_kW": Letter(unit="W", value=25.0),
-    }  # fmt: skip
-    s = {k: Symbol(k, positive=True) for k in letters}
+    s = {k: Symbol(k, positive=True) for k in _STEP}
     P2, gamma, P1, V1, V2 = Symbol("P2", positive=True), s["gamma"], s["P1"], s["V1"], s["V2"]
     heat = s["Q_R"] - s["Q_L"] - s["Q_vap"]
     # internal energy of a perfect gas is p V/(gamma - 1); the work is that of the mean pressure
@@ -176,5 +180,5 @@ def cylinder(values: Mapping[str, float], data: str) -> Theory:
     }
     units = {"power": "W", "Tq": "N*m", "mep": "Pa", "mdot_fuel": "kg/s", "omega": "rad/s"}
     return Theory(
-        name="cylinder", letters=letters, tape=tape_of(expressions), results=tuple(expressions), units=units, data=data
+        name="cylinder", letters=_STEP, tape=tape_of(expressions), results=tuple(expressions), units=units, data=data
     )

@@ -9,7 +9,8 @@ from collections.abc import Mapping
 import sympy
 from sympy import Symbol, diff, integrate, solve
 
-from mechsym.audit.theory.record import Letter, Theory, tape_of
+from mechsym.audit.theory.conversion import tape_of
+from mechsym.audit.theory.record import Letter, Theory
 
 _LETTERS = {
     "H": ("m", 1.0), "A": ("m^2", 0.031), "n": ("-", 1.25), "p0": ("Pa", 5e6), "p0s": ("Pa", 5e6), "rho0": ("m", 0.8),

@@ -5,7 +5,8 @@ from typing import Any
 
 from sympy import Expr, Integer, Matrix, Symbol
 
-from mechsym.audit.theory.record import Letter, Theory, tape_of
+from mechsym.audit.theory.conversion import tape_of
+from mechsym.audit.theory.record import Letter, Theory
 from mechsym.derive import Equations, Mechanism, velocities
 from mechsym.derive.rates import accelerations
 

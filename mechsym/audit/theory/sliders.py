@@ -1,12 +1,14 @@
 """Theory of the force chain of a slider crank with a massless rod (sources 001, 003, 004), and of the two-mass rod."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import sympy
 from sympy import Symbol, cos, sin, solve
 
+from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.mechanisms import mechanism_theory
-from mechsym.audit.theory.record import Letter, Theory, tape_of
+from mechsym.audit.theory.record import Letter, Theory
 from mechsym.derive import Mechanism, acceleration, derive
 
 
@@ -29,7 +31,7 @@ def slider_crank(values: Mapping[str, float], data: str) -> Theory:
     m = Mechanism("slider_crank", source="001_a140ef4f7e005dde")
     phi = m.coordinates("phi")
     r, l = m.parameters("r l", "m")
-    mass = m.parameters("m", "kg")
+    mass: Any = m.parameters("m", "kg")
     F = m.inputs("F", "N")
     x_A, y_A = m.joints("x_A y_A", "crank on rod")
     y_G = m.joints("y_G", "guide on piston")

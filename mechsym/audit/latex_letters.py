@@ -1,0 +1,202 @@
+r"""Letters in LaTeX: `\varphi_0`, `\ddot{x}_0`, `I_{C2}`, `\frac{dx}{d\varphi}` are one letter each."""
+
+import re
+from dataclasses import dataclass, field
+
+from mechsym.audit.spelling import plain
+from mechsym.audit.tree import Node, name
+from mechsym.errors import BadInput
+
+_GREEK = {
+    "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "kappa", "lambda",
+    "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
+    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
+}  # fmt: skip
+WORDS = {"\\mathrm", "\\text", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
+
+
+@dataclass
+class Cursor:
+    """Where the reader is; the one thing that changes while reading.
+
+    Parameters
+    ----------
+    tokens : list of str
+        Commands, numbers and single signs
+    position, depth : int
+        Next token, and how deep the reader is in brackets
+    spelled : dict of str to str
+        Plain name to the author's LaTeX
+    """
+
+    tokens: list[str]
+    position: int = 0
+    depth: int = 0
+    spelled: dict[str, str] = field(default_factory=dict)
+
+    def peek(self, ahead: int = 0) -> str:
+        """A token that is not taken yet.
+
+        Parameters
+        ----------
+        ahead : int
+            How many tokens further on
+
+        Returns
+        -------
+        token : str
+            Empty at the end
+        """
+        index = self.position + ahead
+        return self.tokens[index] if index < len(self.tokens) else ""
+
+    def take(self, wanted: str = "") -> str:
+        """The next token.
+
+        Parameters
+        ----------
+        wanted : str
+            What it must be; anything when empty
+
+        Returns
+        -------
+        token : str
+            Empty at the end
+
+        Raises
+        ------
+        BadInput
+            It is another one
+        """
+        token = self.peek()
+        if wanted and token != wanted:
+            raise BadInput(f"LaTeX: {wanted!r} is missing {place(self)}")
+        self.position += 1
+        return token
+
+
+def place(cursor: Cursor) -> str:
+    """Where the reader is, for messages.
+
+    Parameters
+    ----------
+    cursor : Cursor
+        Where it is
+
+    Returns
+    -------
+    words : str
+        The last tokens
+    """
+    before = "".join(cursor.tokens[max(0, cursor.position - 6) : cursor.position])
+    return f"after {before!r}" if before else "at the start"
+
+
+def letter(cursor: Cursor, bare: bool) -> Node:
+    """Read a letter with its dots and its subscript.
+
+    Parameters
+    ----------
+    cursor : Cursor
+        Where the reader is
+    bare : bool
+        Whether it is the one token after a fraction or a power, without a subscript
+
+    Returns
+    -------
+    node : Node
+        Its plain name
+
+    Raises
+    ------
+    BadInput
+        What stands there is no letter
+    """
+    start = cursor.position
+    dots = {"\\dot": 1, "\\ddot": 2}.get(cursor.peek(), 0)
+    braced = False
+    if dots:
+        cursor.take()
+        braced = cursor.peek() == "{"
+        if braced:
+            cursor.take()
+    base = _base(cursor)
+    subscript = "" if bare and not dots else _subscript(cursor)
+    if braced:
+        cursor.take("}")
+        subscript = subscript or _subscript(cursor)
+    if cursor.peek() == "'":
+        raise BadInput(f"LaTeX: primes are not read {place(cursor)}; write \\frac{{dx}}{{d\\varphi}} for x'")
+    found = plain(base, subscript, dots)
+    cursor.spelled.setdefault(found, _join(cursor.tokens[start : cursor.position]))
+    return name(found)
+
+
+def _join(tokens: list[str]) -> str:
+    pairs = zip(tokens, [*tokens[1:], ""], strict=True)
+    return "".join(f"{t} " if t[0] == "\\" and t[-1].isalpha() and n[:1].isalpha() else t for t, n in pairs)
+
+
+def _base(cursor: Cursor) -> str:
+    token = cursor.take()
+    if token in WORDS:
+        cursor.take("{")
+        word = ""
+        while cursor.peek().isalnum():
+            word += cursor.take()
+        cursor.take("}")
+        return word
+    if token[1:] in _GREEK and token.startswith("\\"):
+        return token[1:]
+    if len(token) == 1 and token.isalpha() and token.isascii():
+        return token
+    cursor.position -= 1
+    what = repr(token) if token else "an end"
+    raise BadInput(f"LaTeX: {what} is not read {place(cursor)}; use fractions, roots, powers, letters and functions")
+
+
+def _subscript(cursor: Cursor) -> str:
+    if cursor.peek() != "_":
+        return ""
+    cursor.take()
+    if cursor.peek() != "{":
+        return cursor.take()
+    text, depth = "", 0
+    while cursor.peek():
+        token = cursor.take()
+        depth += {"{": 1, "}": -1}.get(token, 0)
+        if depth == 0:
+            return text
+        if token not in WORDS:
+            text += token
+    raise BadInput("LaTeX: a subscript's closing brace is missing")
+
+
+def derivative(cursor: Cursor) -> str | None:
+    r"""Read what follows `\frac` when it is a derivative such as dx over d phi.
+
+    Parameters
+    ----------
+    cursor : Cursor
+        Behind the command
+
+    Returns
+    -------
+    name : str or None
+        `dx_dphi` or `d2x_dphi2`; None when it is an ordinary fraction
+    """
+    # \frac{d x}{d \varphi} and \frac{d^2 x}{d \varphi^2} are one letter, dx_dphi and d2x_dphi2
+    text = "".join(cursor.tokens[cursor.position : cursor.position + 24])
+    d, letter = r"(?:d|\\mathrm\{d\}|\\partial)", r"\\?[A-Za-z]+(?:_\w|_\{\w+\})?"
+    match = re.match(rf"\{{{d}(\^2|\^\{{2\}})?({letter})\}}\{{{d}({letter})(\^2|\^\{{2\}})?\}}", text)
+    if match is None or bool(match[1]) != bool(match[4]):
+        return None
+    end, length = cursor.position, 0
+    while length < match.end():
+        length += len(cursor.tokens[end])
+        end += 1
+    cursor.position = end
+    above, below = (plain(*re.sub(r"[\\{}]", "", match[i]).partition("_")[::2]) for i in (2, 3))
+    found = f"d2{above}_d{below}2" if match[1] else f"d{above}_d{below}"
+    cursor.spelled[found] = rf"\frac{match[0]}"
+    return found

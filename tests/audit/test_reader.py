@@ -1,0 +1,133 @@
+"""Text to tree and back; text is never executed, and what is not arithmetic is refused in one line."""
+
+import ast
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechsym.audit import tree as trees
+from mechsym.audit.algebra import FLOATS, evaluate
+from mechsym.audit.printer import to_latex, to_python
+from mechsym.audit.reader import letter_pairs, read, read_expression, write
+from mechsym.errors import BadInput
+
+KNOWN = "r1 r2 l1 l2 m1 m2 I01 IC2 phi phid phidd g F M_r lam psi r l x dx_dphi d2x_dphi2 phi0 phi2 x0dd phi0dd P_jx".split()
+
+READ = [
+    (r"\sin\varphi\left(1+\lambda\right)", "sin(phi)*(1 + lam)"),
+    (r"I_{C2}\lambda^2\cos^2\varphi", "IC2*lam**2*cos(phi)**2"),
+    (r"\frac12 m_2\dot\varphi^2", "1/2*m2*phid**2"),
+    (r"\frac{1}{2} m_{2} \dot{\varphi}^{2}", "1/2*m2*phid**2"),
+    (r"\tfrac{\lambda}{2}\sin 2\varphi", "lam/2*sin(2*phi)"),
+    (r"\sin^{-1}\left(\lambda\sin\varphi\right)", "asin(lam*sin(phi))"),
+    (r"\sin(\varphi+\psi)/\cos\psi", "sin(phi + psi)/cos(psi)"),
+    (r"\sin[\varphi]^2", "sin(phi)**2"),
+    (r"\sqrt{1-\lambda^2\sin^2\varphi}", "sqrt(1 - lam**2*sin(phi)**2)"),
+    (r"\sqrt[3]{r}", "r**(1/3)"),
+    (r"\frac{dx}{d\varphi} F", "dx_dphi*F"),
+    (r"\frac{d^2x}{d\varphi^2}", "d2x_dphi2"),
+    (r"\ddot\varphi_0 + \ddot{\varphi}_0", "phi0dd + phi0dd"),
+    (r"0{,}25\lambda^2", "0.25*lam**2"),
+    (r"-\lambda \cdot 2 \times r", "-lam*2*r"),
+    (r"\operatorname{tg}\psi", "tan(psi)"),
+    (r"\left|\cos\varphi\right|", "abs(cos(phi))"),
+    (r"\lambda/2\sin2\varphi", "lam/2*sin(2*phi)"),
+    (r"\sin\varphi\cos\varphi", "sin(phi)*cos(phi)"),
+    (r"\sum P_{jx}^2", "sum(P_jx**2)"),
+    ("r*sin(φ) + lambda^2", "r*sin(phi) + lam**2"),
+    ("r·cos(φ0)", "r*cos(phi0)"),
+    ("I = +Mr*arcsin(lam)", "M_r*asin(lam)"),
+    ("2*x0dd - -3", "2*x0dd - -3"),
+]
+
+REFUSED = [
+    ("", "empty"), ("   ", "empty"), ("q + 1", "unknown letter 'q'"), ("r1 r2", "cannot be read"),
+    ("2r1", "write products with"), ("__import__('os').system('true')", "not a known function"),
+    ("r1.__class__", "not arithmetic"), ("lambda x: x", "cannot be read"), ("r1 if g else r2", "not arithmetic"),
+    ("[r1]", "not arithmetic"), ("r1 @ r2", "operators are"), ("r1 // r2", "operators are"), ("r1 == r2", "not arithmetic"),
+    ("~r1", "only the signs"), ("'a'", "not a number"), ("True", "not a number"), ("1j", "not a number"),
+    ("1e999", "not a number"), ("f(r1)", "not a known function"), ("sin()", "one argument"), ("sin(r1, r2)", "one argument"),
+    ("sin(x=r1)", "cannot be read"), ("sin(*r1)", "not arithmetic"), ("(x := 3)", "quantity alone"),
+    ("r1 = r2 = g", "more than one equals sign"), ("r1 + r2 = g", "quantity alone"), ("= r1", "quantity alone"),
+    ("x = 0", "right side is 0"), ("r1 =", "empty"), ("9" * 5000, "cannot be read"), ("r" * 7000, "at most 6000"),
+    ("(" * 90 + "r1" + ")" * 89, "cannot be read"), ("-" * 3000 + "r1", "nested too deep"), ("1+" * 2500 + "1", "nested more"),
+    ("2**" * 1500 + "2", "nested"), (r"\sin\varphi^2", "does the power belong"), (r"r_1/g m_{2}", "where the divisor ends"),
+    (r"\int F dx", r"'\\\\int' is not read"), (r"\varphi'", "primes are not read"), (r"\sin", "no argument"), (r"\frac{1}", "an end"),
+    (r"\frac{1}{2", "missing"), ("\\", "not read"), ("{" * 2000, "nested more"), ("\\frac" * 1000, "nested more"),
+    ("2^{" * 400, "nested more"), ("x_{" * 500, "closing brace"), ("\\mathrm{" * 50, "missing"), (r"r\cdot", "an end"),
+    (r"\begin{equation} r \end{equation}", "not read"), ("$r$ $q$", "unknown letter"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "meaning"), READ, ids=[t for t, _ in READ])
+def test_reads_what_authors_write(text, meaning):
+    assert to_python(read(text, KNOWN).tree) == meaning
+
+
+@pytest.mark.parametrize(("text", "reason"), REFUSED, ids=[t[:30] for t, _ in REFUSED])
+def test_refuses_the_rest_in_one_line(text, reason):
+    with pytest.raises(BadInput, match=reason if "\\\\" in reason else re.escape(reason)) as refused:
+        read(text, KNOWN)
+    assert "\n" not in str(refused.value)
+
+
+def test_unknown_letters_come_with_the_known_ones():
+    with pytest.raises(BadInput, match="letters are r1, r2, l1"):
+        read("q", KNOWN)
+
+
+def test_ambiguous_letters_are_asked_about():
+    with pytest.raises(BadInput, match="may mean M_r or Mr_"):
+        read_expression("Mr", ["M_r", "Mr_"])
+
+
+def test_trailing_zero_is_noted_and_left_out():
+    formula = read("x = r*sin(phi) = 0", KNOWN)
+    assert to_python(formula.tree) == "r*sin(phi)" and "= 0" in formula.note
+
+
+def test_authors_letters_hide_ours_and_print_as_written():
+    formula = read(r"\ell\,\sin\varphi".replace(r"\ell", "R"), KNOWN, {"R": "r1 + r2"})
+    assert to_python(formula.tree) == "R*sin(phi)"
+    formula = read(r"R_{1}\sin\varphi", KNOWN, {"R_1": "r1 + r2"})
+    assert write(formula) == r"R_{1} \sin \varphi"
+
+
+def test_letter_pairs():
+    assert letter_pairs("R=r1+r2, L = l1+l2;") == {"R": "r1+r2", "L": "l1+l2"}
+    for text in ("R", "R=", "=r1"):
+        with pytest.raises(BadInput, match="LETTER=EXPRESSION"):
+            letter_pairs(text)
+
+
+NAMES = st.sampled_from(["r", "lam", "phi", "M_r", "IC2"]).map(trees.name)
+NUMBERS = st.one_of(
+    st.integers(0, 60).map(trees.number), st.sampled_from([0.25, 0.5, 1e-6]).map(lambda v: ast.Constant(v))
+)
+
+
+def bigger(inner):
+    operators = st.sampled_from([ast.Add, ast.Sub, ast.Mult, ast.Div])
+    return st.one_of(
+        st.builds(trees.binary, operators, inner, inner),
+        st.builds(lambda base, power: trees.binary(ast.Pow, base, trees.number(power)), inner, st.integers(2, 4)),
+        inner.map(trees.negative),
+        st.builds(trees.call, st.sampled_from(["sin", "cos", "sqrt", "exp", "abs", "asin"]), inner),
+    )
+
+
+TREES = st.recursive(st.one_of(NAMES, NUMBERS), bigger, max_leaves=12)
+VALUES = {"r": 0.7, "lam": 0.31, "phi": 1.1, "M_r": 3.7, "IC2": 0.9, "pi": 3.14159}
+
+
+@settings(deadline=None, derandomize=True, max_examples=200)
+@given(TREES)
+def test_printed_text_reads_back_to_the_same_value(tree):
+    with np.errstate(all="ignore"):
+        value = evaluate(tree, VALUES, FLOATS)
+        for text in (to_python(tree), f"${to_latex(tree, {})}$"):
+            back = evaluate(read_expression(text, [*VALUES])[0], VALUES, FLOATS)
+            assert np.isclose(back, value, rtol=1e-12, equal_nan=True), text
