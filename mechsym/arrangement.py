@@ -48,13 +48,31 @@ class GuideParameters:
 
     arrangement: str = choice(*ROLLERS, about="how the track carries the spring")
     start: str = choice("placed", "as_printed", default="placed", about="where the turn starts on the spring's curve")
-    rho0: float = quantity("m", above=0, about="roller centre to shaft axis at free height")
+    rho0: float = quantity("m", above=0, high=100, about="roller centre to shaft axis at free height")
     z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
     shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
     balance: str = choice(*KINDS, default="whole_cycle", about="part of the torque to balance")
 
     def __post_init__(self) -> None:
         check(self)
+
+
+def closing_ratio(arrangement: str, period: float) -> float:
+    """The fastest shaft on which a track closes after one turn.
+
+    Parameters
+    ----------
+    arrangement : str
+        Name of the arrangement
+    period : float
+        Period of the torque over the crank angle [rad]
+
+    Returns
+    -------
+    shaft_ratio : float
+        Turns of the guide's shaft per turn of the crank [-]
+    """
+    return 2 * math.pi / (period * _PERIODS_MULTIPLE_OF[arrangement])
 
 
 def refuse_open_track(parameters: GuideParameters, period: float) -> None:
@@ -78,5 +96,5 @@ def refuse_open_track(parameters: GuideParameters, period: float) -> None:
         raise BadInput(
             f"guide.shaft_ratio = {parameters.shaft_ratio:g}: the {parameters.arrangement} track does not close, since "
             f"the torque repeats every {period / (2 * math.pi):g} turns of the crank; "
-            f"use {2 * math.pi / (period * multiple):g}"
+            f"use {closing_ratio(parameters.arrangement, period):g}"
         )

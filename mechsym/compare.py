@@ -43,9 +43,9 @@ def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
     Returns
     -------
     comparison : dict
-        `crossover_rpm` (of the mean torque), `at_crossover` (figures of the first engine there) and `table`, rows of
-        `quantity`, `speed_rpm`, `a`, `b`, `difference` (b/a - 1); first the largest value of each quantity with its
-        speed for either engine, then values at a few speeds
+        `crossover_rpm` (of the mean torque), `brake_crossover_rpm` (after friction), `at_crossover` (figures of the
+        first engine there) and `table`, rows of `quantity`, `speed_rpm`, `a`, `b`, `difference` (b/a - 1); first the
+        largest value of each quantity with its speed for either engine, then values at a few speeds
     """
     speed = np.asarray(a["speed_rpm"])
     flat_a, flat_b = _flat(a), _flat(b)
@@ -54,7 +54,8 @@ def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
     shown = np.unique(np.linspace(0, speed.size - 1, _SPEEDS_IN_TABLE).round().astype(int))
     rows = [_largest(k, speed, flat_a[k], flat_b[k]) for k in _PEAKS]
     rows += [_row(k, float(speed[i]), flat_a[k][i], flat_b[k][i]) for k in _ALONG for i in shown]
-    return {"crossover_rpm": crossing, "at_crossover": at, "table": rows}
+    brake = crossovers(speed, flat_a["brake_torque"], flat_b["brake_torque"])
+    return {"crossover_rpm": crossing, "brake_crossover_rpm": brake, "at_crossover": at, "table": rows}
 
 
 def _flat(found: Mapping[str, Any]) -> dict[str, np.ndarray]:

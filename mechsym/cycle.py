@@ -1,6 +1,7 @@
 """The engine of a case and what it does over the speeds: case -> motion -> engine -> performance."""
 
-from dataclasses import asdict
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, fields, replace
 from functools import partial
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
 from mechsym.engine.chamber import chamber, piston_force, travel, volume
-from mechsym.engine.friction import NoFriction
+from mechsym.engine.friction import Friction, MechanismFriction, NoFriction
 from mechsym.engine.gas import ConstantGamma
 from mechsym.engine.model import Engine, closed_period
 from mechsym.engine.performance import Performance, performance
@@ -20,6 +21,9 @@ from mechsym.errors import BadInput
 from mechsym.motion import motion
 
 RPM = np.pi / 30
+Progress = Callable[[int], Any]
+_BLOCK = 1000
+_FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
 
 def engine(case: Case) -> Engine:
@@ -29,7 +33,7 @@ def engine(case: Case) -> Engine:
     ----------
     case : Case
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` and `[friction_pressure]`
-        default to a constant gamma and no friction
+        default to a constant gamma and no friction, the law `mechanism` is fitted to the case's `[friction]`
 
     Returns
     -------
@@ -50,11 +54,22 @@ def engine(case: Case) -> Engine:
         cycle=cycle,
         gas=case.sections.get("gas", ConstantGamma()),
         heat_transfer=case.need("heat_transfer"),
-        friction_pressure=case.sections.get("friction_pressure", NoFriction()),
+        friction_pressure=_friction(case),
     )
 
 
-def over_speeds(engine: Engine, omega: np.ndarray) -> Performance:
+def _friction(case: Case) -> Friction:
+    law = case.sections.get("friction_pressure", NoFriction())
+    if not isinstance(law, MechanismFriction):
+        return law
+    from mechsym.forces.friction_law import fitted_law
+
+    # the friction hangs on the gas forces, and those not on the friction
+    plain = replace(case, sections={**case.sections, "friction_pressure": NoFriction()})
+    return fitted_law(plain, case.need("operation").speed * np.array(_FRICTION_SPEEDS)).law
+
+
+def over_speeds(engine: Engine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:
     """Figures over the speeds, by the method that the cycle names.
 
     Parameters
@@ -63,15 +78,57 @@ def over_speeds(engine: Engine, omega: np.ndarray) -> Performance:
         The engine
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
+    progress : callable, optional
+        Called with the number of points done after each block of them
 
     Returns
     -------
     performance : Performance
         Figures at the n speeds
     """
-    if engine.cycle.method == "nunes2017_printed":
-        return performance_printed(engine, omega)
-    return performance(engine, {"omega": omega})
+    return over_design(engine, {"omega": omega}, progress)
+
+
+def over_design(engine: Engine, design: Mapping[str, Any], progress: Progress = lambda count: None) -> Performance:
+    """Figures over any of the engine's values, by the method that the cycle names.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to ndarray, shape (n,)
+        Operating points, see `model.design_names`; must hold `omega` [rad/s]
+    progress : callable, optional
+        Called with the number of points done after each block of them
+
+    Returns
+    -------
+    performance : Performance
+        Figures at the n points
+
+    Raises
+    ------
+    BadInput
+        The printed method knows no other variable than the speed
+    """
+    printed = engine.cycle.method == "nunes2017_printed"
+    if printed and set(design) != {"omega"}:
+        raise BadInput("method = 'nunes2017_printed' runs over the speed alone; set cycle.method = 'converged'")
+    points = dict(zip(design, np.broadcast_arrays(*(np.atleast_1d(v) for v in design.values())), strict=True))
+    parts = []
+    # blocks keep the memory of a large map small and cost nothing
+    for first in range(0, points["omega"].size, _BLOCK):
+        block = {name: values[first : first + _BLOCK] for name, values in points.items()}
+        parts.append(performance_printed(engine, block["omega"]) if printed else performance(engine, block))
+        progress(block["omega"].size)
+    return parts[0] if len(parts) == 1 else _joined(parts)
+
+
+def _joined(parts: list[Performance]) -> Performance:
+    names = [f.name for f in fields(Performance) if f.name != "loads"]
+    values = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+    loads = {name: np.concatenate([part.loads[name] for part in parts]) for name in parts[0].loads}
+    return Performance(**values, loads=loads)
 
 
 def columns(found: Performance) -> dict[str, Any]:

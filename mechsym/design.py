@@ -4,15 +4,19 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
-from mechsym import balance, cases, feasibility, guide, hinge, trials
+from mechsym import cases, hinge, steadiness, trials
 from mechsym.assembly import Assembly, assemble, kept_flywheel, load_of
 from mechsym.balance import Balance
 from mechsym.cases import Case
 from mechsym.cases.settings import TrialSettings
+from mechsym.errors import BadInput
 from mechsym.feasibility import Verdict
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
-from mechsym.trials import Flywheels, Retuned, Sensitivity, Trial
+from mechsym.loads import Load
+from mechsym.offers import Offer, offers
+from mechsym.steadiness import Flywheels, Retuned, Sensitivity
+from mechsym.trials import Trial
 
 STEPS = 6  # how often `design` calls `progress`
 
@@ -33,6 +37,8 @@ class Design:
         Guide, or why there is none
     verdict : Verdict
         Whether it can be built
+    instead : tuple of Offer
+        The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
     trials : tuple of Trial
         Runs side by side
     flywheels : Flywheels
@@ -50,6 +56,7 @@ class Design:
     balance: Balance
     guide: Guide
     verdict: Verdict
+    instead: tuple[Offer, ...]
     trials: tuple[Trial, ...]
     flywheels: Flywheels
     sensitivities: tuple[Sensitivity, ...]
@@ -82,28 +89,27 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     spring, choices = case.need("spring"), case.need("guide")
     rollers, limits, load = case.need("rollers"), case.need("limits"), load_of(case)
     turns = case.sections.get("trials", TrialSettings()).turns
-    engine = assemble(case, diagram)
+    engine, other = assemble(case, diagram), _other(case)
     progress()
     wanted = hinge.build(engine.torques, engine.omega)
-    part = balance.build(wanted, choices.balance)
-    cut = guide.build(part, spring, choices)
-    verdict = feasibility.judge(cut, spring, rollers, limits)
-    usable = cut if cut.rho is not None else None
+    chosen, *instead = offers(wanted, spring, choices, rollers, limits)
+    usable = chosen.guide if chosen.guide.rho is not None else None
     progress()
     runs = trials.side_by_side(engine, wanted, usable, load, turns)
     progress()
-    wheels = trials.flywheels(engine, wanted, usable, load)
+    wheels = steadiness.flywheels(engine, wanted, usable, load)
     progress()
-    errors = trials.sensitivities(engine, wanted, usable, load) if usable else []
+    errors = steadiness.sensitivities(engine, wanted, usable, load) if usable else []
     progress()
-    again = _retuned(case, usable, turns) if usable else None
+    again = _retuned(other, usable, load, turns) if usable and other else None
     progress()
     return Design(
         assembly=engine,
         hinge=wanted,
-        balance=part,
-        guide=cut,
-        verdict=verdict,
+        balance=chosen.balance,
+        guide=chosen.guide,
+        verdict=chosen.verdict,
+        instead=tuple(instead),
         trials=tuple(runs),
         flywheels=wheels,
         sensitivities=tuple(errors),
@@ -112,9 +118,17 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     )
 
 
-def _retuned(case: Case, cut: Guide, turns: float) -> Retuned | None:
+def _other(case: Case) -> Assembly | None:
+    """The same engine with the speed and the cycle of another case, if the case names one."""
     section = case.sections.get("retune")
     if section is None:
         return None
-    other = assemble(cases.load(section.case))
-    return trials.retuned(other, hinge.build(other.torques, other.omega), cut, load_of(case), turns)
+    other = cases.load(section.case)
+    same = {key: record for key, record in case.sections.items() if key in ("parameters", "flywheel")}
+    if other.mechanism != case.mechanism:
+        raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
+    return assemble(dataclasses.replace(other, sections={**other.sections, **same}))
+
+
+def _retuned(other: Assembly, cut: Guide, load: Load, turns: float) -> Retuned:
+    return steadiness.retuned(other, hinge.build(other.torques, other.omega), cut, load, turns)

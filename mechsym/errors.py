@@ -1,4 +1,8 @@
-"""The errors that a user can mend. The command line turns them into one line and exit status 2."""
+"""The errors that a user can mend, and their words. The command line prints one line and ends with exit status 2."""
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
 
 
 class BadInput(ValueError):
@@ -10,3 +14,48 @@ class BadInput(ValueError):
 
 class MissingExtra(BadInput):
     """A command needs an optional package; the message names the extra that brings it."""
+
+
+def suggest(word: str, options: Iterable[str]) -> str:
+    """What is allowed in place of a word that is not, the nearest first.
+
+    Parameters
+    ----------
+    word : str
+        What was found
+    options : iterable of str
+        What is allowed
+
+    Returns
+    -------
+    text : str
+        For example ``did you mean 'bore'? allowed are bore, stroke``
+
+    Examples
+    --------
+    >>> suggest("bre", ["bore", "stroke"])
+    "did you mean 'bore'? allowed are bore, stroke"
+    """
+    options = list(options)
+    near = difflib.get_close_matches(word, options, n=1)
+    hint = f"did you mean {near[0]!r}? " if near else ""
+    return f"{hint}allowed are {', '.join(options)}"
+
+
+def shown(value: Any, longest: int = 60) -> str:
+    """A value as a message shows it, cut where it is very long.
+
+    Parameters
+    ----------
+    value : object
+        What was found
+    longest : int
+        Most characters
+
+    Returns
+    -------
+    text : str
+        Its Python form, perhaps cut
+    """
+    text = repr(value)
+    return text if len(text) <= longest else f"{text[: longest - 3]}..."

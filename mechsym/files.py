@@ -14,6 +14,32 @@ import numpy as np
 from mechsym.errors import BadInput
 
 
+def make_folder(path: Path) -> Path:
+    """Make a folder for results, before the work whose results it takes.
+
+    Parameters
+    ----------
+    path : Path
+        Folder; its parents are made when they are missing
+
+    Returns
+    -------
+    path : Path
+        The same path
+
+    Raises
+    ------
+    BadInput
+        It cannot be made, or nothing can be written into it
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=path).close()
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    return path
+
+
 def write_text(path: Path, text: str) -> Path:
     """Write `text` to a temporary name beside `path` and move it into place.
 
@@ -34,7 +60,7 @@ def write_text(path: Path, text: str) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     except OSError as error:
-        raise BadInput(f"{path}: cannot be written ({error.strerror}); choose another folder with --out") from error
+        raise _unwritable(path, error) from error
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
             file.write(text)
@@ -44,6 +70,10 @@ def write_text(path: Path, text: str) -> Path:
         Path(name).unlink(missing_ok=True)
         raise
     return path
+
+
+def _unwritable(path: Path, error: OSError) -> BadInput:
+    return BadInput(f"{path}: cannot be written ({error.strerror}); choose another folder with --out")
 
 
 def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -> Path:

@@ -31,6 +31,8 @@ from mechsym.springs import AirAbsolute, AirGauge, Coil, law
 
 Spring = AirGauge | AirAbsolute | Coil
 
+_FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Guide:
@@ -235,8 +237,13 @@ def _status(
             f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at "
             f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
         )
-    rollers = ROLLERS[parameters.arrangement]
-    rho_min = parameters.rho0 - float(functions.closing(energy_max)) / rollers
+    z_max = float(functions.closing(energy_max))
+    if z_max >= _FULL * functions.z_high:
+        return "spring_bottoms", (
+            f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
+            "make it stiffer or longer"
+        )
+    rho_min = parameters.rho0 - z_max / ROLLERS[parameters.arrangement]
     if rho_min <= 0:
         return "crosses_axis", (
             f"the path crosses the shaft axis: its smallest rho would be {rho_min * 1e3:.4g} mm; "

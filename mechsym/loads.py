@@ -43,7 +43,7 @@ class PropellerLoad:
     """
 
     torque: float | None = quantity("N*m", default=None, low=0, about="torque at the reference speed")
-    speed: float | None = quantity("rad/s", default=None, above=0, about="reference speed")
+    speed: float | None = quantity("rad/s", default=None, low=0.1, about="reference speed")
 
     def __post_init__(self) -> None:
         check(self)

@@ -14,8 +14,8 @@ from mechsym.mechanism import Mechanism, bind
 
 # mechanism: parameters whose masses go up and down with the piston, outputs of `reactions` that limit a design
 _PISTONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "crosshead": (("m3", "m4", "m5"), ()),
     "crank_throw": (("m_piston",), ()),
+    "crosshead": (("m3", "m4", "m5"), ()),
     "hypocycloid": (("m3",), ("tooth_force",)),
 }
 

@@ -54,6 +54,26 @@ def _angle_axis(axis: Any, period: float) -> None:
     axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))
 
 
+def unit_of(peak: float, unit: str) -> tuple[float, str]:
+    """Unit in which numbers of a size read well: thousands of it where they are large.
+
+    Parameters
+    ----------
+    peak : float
+        Largest magnitude [SI unit]
+    unit : str
+        The SI unit as it is written
+
+    Returns
+    -------
+    factor : float
+        To be multiplied with [-]
+    unit : str
+        The unit, perhaps with a k
+    """
+    return (1e-3, f"k{unit}") if abs(peak) >= 1e3 else (1.0, unit)
+
+
 def pressure(design: Design) -> Figure:
     """Cylinder pressure over the crank angle with the angles of its events, and over the volume.
 
@@ -102,19 +122,21 @@ def torque(design: Design) -> Figure:
     hinge = design.hinge
     figure, (upper, lower) = _axes(9, 5.0, 2, 1, sharex=True, height_ratios=[2, 1])
     phi = np.linspace(0, hinge.period, 1441)
+    factor, unit = unit_of(max(hinge.torque_max, -hinge.torque_min), "N m")
+    work_factor, work_unit = unit_of(max(hinge.work_max, -hinge.work_min), "J")
     parts = [
         ("gas and load", hinge.gas_part, RED),
         ("inertia", hinge.inertia_part, GREEN),
         ("gravity", hinge.gravity_part, ORANGE),
     ]
     for name, part, color in parts:
-        upper.plot(phi * _DEG, part(phi) / 1e3, color=color, linewidth=1, label=name)
-    upper.plot(phi * _DEG, hinge.torque(phi) / 1e3, color=BLUE, linewidth=2, label="hinge torque $M_h$")
+        upper.plot(phi * _DEG, part(phi) * factor, color=color, linewidth=1, label=name)
+    upper.plot(phi * _DEG, hinge.torque(phi) * factor, color=BLUE, linewidth=2, label="hinge torque $M_h$")
     upper.axhline(0, color="black", linewidth=0.6)
-    upper.set_ylabel("torque on the crank [kN m]")
+    upper.set_ylabel(f"torque on the crank [{unit}]")
     upper.legend(fontsize=8, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
-    lower.plot(phi * _DEG, hinge.work(phi) / 1e3, color=BLUE)
-    lower.set_ylabel("work $W$ [kJ]")
+    lower.plot(phi * _DEG, hinge.work(phi) * work_factor, color=BLUE)
+    lower.set_ylabel(f"work $W$ [{work_unit}]")
     lower.set_xlabel("crank angle [deg]")
     _angle_axis(lower, hinge.period)
     return figure

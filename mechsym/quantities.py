@@ -16,7 +16,7 @@ import math
 import re
 from typing import Any
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, shown
 
 # unit: (factor to SI, exponents of kg, m, s, K, rad). Angles carry a dimension of their own so that
 # "5 m" is refused where radians are wanted; rpm and Hz are angular speeds only where rad/s is wanted.
@@ -38,7 +38,9 @@ _BASE: dict[str, tuple[float, tuple[int, ...]]] = {
     "%": (1e-2, (0, 0, 0, 0, 0)),
 }  # fmt: skip
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
-_FACTOR = re.compile(r"([A-Za-z%]+)(?:\^?(-?\d+))?$")
+_FACTOR = re.compile(r"([A-Za-z%]+)(?:\^?(-?\d))?$")
+# no length, mass or pressure of a machine lies outside; inside, squares and products of several stay far from overflow
+_SMALLEST, _LARGEST = 1e-20, 1e20
 
 
 def units() -> list[str]:
@@ -55,6 +57,8 @@ def units() -> list[str]:
 def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     factor, dims = 1.0, [0] * 5
     sign = 1
+    known = f"{', '.join(units())} and their products like kg*m^2"
+    unknown = BadInput(f"unit {shown(text)} is not known; units are {known}")
     for part in re.split(r"([*/ ])", text.strip().replace("**", "^")):
         if part in ("*", " ", "", "-", "1"):
             continue
@@ -63,12 +67,14 @@ def _unit(text: str) -> tuple[float, tuple[int, ...]]:
             continue
         match = _FACTOR.match(part)
         if match is None or match[1] not in _BASE:
-            raise BadInput(f"unit {text!r} is not known; units are {', '.join(units())} and their products like kg*m^2")
+            raise unknown
         power = int(match[2] or 1) * sign
         scale, exponents = _BASE[match[1]]
         factor *= scale**power
         dims = [d + e * power for d, e in zip(dims, exponents, strict=True)]
         sign = 1
+    if sign < 0:
+        raise unknown
     return factor, tuple(dims)
 
 
@@ -119,7 +125,7 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     Raises
     ------
     BadInput
-        Not a number, not finite, unknown unit, or a unit of another dimension
+        Not a number, not of magnitude 1e-20 to 1e20 (or 0), unknown unit, or a unit of another dimension
 
     Examples
     --------
@@ -128,18 +134,21 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     """
     wanted = f"a number in {unit}" if unit != "-" else "a pure number"
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise BadInput(f"{key} = {value!r} is not {wanted}")
+        raise BadInput(f"{key} = {shown(value)} is not {wanted}")
     if isinstance(value, str):
         match = _NUMBER.match(value)
         if match is None:
-            raise BadInput(f'{key} = {value!r} is not {wanted}; write for example 1.5 or "1.5 {unit}"')
+            example = "1.5" if unit == "-" else f'1.5 or "1.5 {unit}"'
+            raise BadInput(f"{key} = {shown(value)} is not {wanted}; write for example {example}")
         number = float(match[1])
         if match[2]:
             number *= _scale(value, match[2], unit, key)
     else:
-        number = float(value)
-    if not math.isfinite(number):
-        raise BadInput(f"{key} = {value!r} is not finite; give {wanted}")
+        # a whole number may be too large for a float
+        number = float(value) if abs(value) <= _LARGEST else math.inf
+    if not (number == 0 or _SMALLEST <= abs(number) <= _LARGEST):
+        size = f"0 or of magnitude {_SMALLEST:g} to {_LARGEST:g}"
+        raise BadInput(f"{key} = {shown(value)} is beyond any machine; give {wanted}, {size}")
     return number
 
 
@@ -147,9 +156,9 @@ def _scale(value: str, text: str, unit: str, key: str) -> float:
     try:
         factor, dims = _unit(text)
     except BadInput as error:
-        raise BadInput(f"{key} = {value!r}: {error}") from None
+        raise BadInput(f"{key} = {shown(value)}: {error}") from None
     if not _compatible(dims, _unit(unit)[1]):
-        raise BadInput(f"{key} = {value!r} has the wrong dimension; give it in {unit} or a multiple of that unit")
+        raise BadInput(f"{key} = {shown(value)} has the wrong dimension; give it in {unit} or a multiple of that unit")
     return factor
 
 
@@ -240,7 +249,7 @@ def check(record: Any) -> None:
     for field in dataclasses.fields(record):
         value, meta = getattr(record, field.name), field.metadata
         if "options" in meta and value not in meta["options"]:
-            raise BadInput(f"{field.name} = {value!r} is not an option; options are {', '.join(meta['options'])}")
+            raise BadInput(f"{field.name} = {shown(value)} is not an option; options are {', '.join(meta['options'])}")
         if "unit" in meta and value is not None:
             for number in value if isinstance(value, tuple) else (value,):
                 _check_number(field.name, number, meta)

@@ -121,15 +121,16 @@ def _figures(design: Design) -> dict[str, str]:
 
 
 def _motion(design: Design) -> dict[str, Any]:
-    """Positions for the moving picture, rounded to a tenth of a millimetre."""
+    """Positions for the moving picture, with five digits of the rod's length."""
     p = design.assembly.case.need("parameters")
     r, l = p.r1 + p.r2, p.l1 + p.l2
     phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
-    found = curves(design.assembly.mechanism, phi)
+    found, digits = curves(design.assembly.mechanism, phi), 5 - int(np.floor(np.log10(l)))
+    factor, unit = plots.unit_of(max(design.hinge.torque_max, -design.hinge.torque_min), "N m")
     motion = {
-        "r": r, "l": l, "bore": design.assembly.cylinder.bore, "phi": np.round(phi, 5).tolist(),
-        "crosshead": np.round(r + l - found["x"], 4).tolist(),
-        "torque": np.round(design.hinge.torque(phi) / 1e3, 2).tolist(), "rho": [], "profile": [], "rollers": 0,
+        "torque_unit": unit, "r": r, "l": l, "bore": design.assembly.cylinder.bore, "phi": np.round(phi, 5).tolist(),
+        "crosshead": np.round(r + l - found["x"], digits).tolist(),
+        "torque": np.round(design.hinge.torque(phi) * factor, 2).tolist(), "rho": [], "profile": [], "rollers": 0,
         "radius": 0.0, "ratio": 1.0,
     }  # fmt: skip
     if design.guide.rho is not None:
@@ -138,7 +139,7 @@ def _motion(design: Design) -> dict[str, Any]:
         ratio = design.guide.parameters.shaft_ratio
         rho = np.interp(ratio * phi % (2 * np.pi), turn.theta, turn.rho)
         motion |= {
-            "rho": np.round(rho, 4).tolist(), "profile": np.round(np.column_stack([x, y])[::3], 4).tolist(),
+            "rho": np.round(rho, digits).tolist(), "profile": np.round(np.column_stack([x, y])[::3], digits).tolist(),
             "rollers": design.guide.rollers, "radius": radius, "ratio": ratio,
         }  # fmt: skip
     return motion

@@ -21,7 +21,8 @@ from mechsym.errors import BadInput
 from mechsym.guide import Guide, Spring
 from mechsym.hinge import Hinge
 from mechsym.ripple import constant_load_speed, propeller_load_speed, ripple
-from mechsym.setting import Affine, affine, missing_work, with_setting, work_swing
+from mechsym.setting import Affine, affine, missing_work, setting_of, with_setting, work_swing
+from mechsym.springs import Coil
 
 CRITERIA = (
     "least_squares_torque",
@@ -86,18 +87,19 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
     BadInput
         Unknown criterion
     """
-    parts = affine(guide, hinge)
+    parts, least = affine(guide, hinge), _least_setting(guide.spring)
+    near = max(_least_squares_work(parts), least)
     match criterion:
         case "least_squares_torque":
-            setting = _projection(parts.torque_wanted - parts.torque_0, parts.torque_1)
+            setting = max(_projection(parts.torque_wanted - parts.torque_0, parts.torque_1), least)
         case "least_squares_work":
-            setting = _least_squares_work(parts)
+            setting = near
         case "least_work_swing":
-            setting = _minimum(lambda s: work_swing(parts, s), _least_squares_work(parts))
+            setting = _minimum(lambda s: work_swing(parts, s), near)
         case "least_ripple_constant_load":
-            setting = _minimum(lambda s: _or_more(_ripple_constant(parts, s), parts, s), _least_squares_work(parts))
+            setting = _minimum(lambda s: _or_more(_ripple_constant(parts, s), parts, s), near)
         case "least_ripple_propeller_load":
-            setting = _minimum(lambda s: _or_more(_ripple_propeller(parts, s), parts, s), _least_squares_work(parts))
+            setting = _minimum(lambda s: _or_more(_ripple_propeller(parts, s), parts, s), near)
         case _:
             raise BadInput(f"criterion {criterion!r} is not an option; options are {', '.join(CRITERIA)}")
     return at_setting(guide, hinge, setting, criterion)
@@ -134,6 +136,11 @@ def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "giv
         ripple_constant_load=_ripple_constant(parts, setting),
         ripple_propeller_load=_ripple_propeller(parts, setting),
     )
+
+
+def _least_setting(spring: Spring) -> float:
+    # a spring only pushes: where the other speed asks for the opposite torque, the best setting would be negative
+    return 0.0 if isinstance(spring, Coil) else 0.01 * setting_of(spring)
 
 
 def _projection(wanted: np.ndarray, given: np.ndarray) -> float:

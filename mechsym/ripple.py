@@ -102,8 +102,8 @@ def propeller_load_speed(
     # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
     gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
     *forced, end = accumulate(zip(decay, gain, strict=True), lambda g, s: s[0] * g + s[1], initial=0.0)
-    faded = np.exp(-np.concatenate([[0.0], np.cumsum(step)]))
-    g = np.array(forced) + faded[:-1] * end / (1 - faded[-1])
+    faded = np.exp(-np.cumsum(step) + step)
+    g = np.array(forced) + faded * end / -np.expm1(-step.sum())
     squares = omega**2 + 2 * (g - missing) / inertia
     return None if squares.min() <= 0 else np.sqrt(squares)
 

@@ -37,9 +37,9 @@ class AirGauge:
         Polytropic index [-]
     """
 
-    A: float = quantity("m^2", above=0, about="piston area")
-    H: float = quantity("m", above=0, about="free height of the gas column")
-    p0: float = quantity("Pa", above=0, about="excess pressure at free height")
+    A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
+    H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
+    p0: float = quantity("Pa", low=1, high=1e12, about="excess pressure at free height")
     n: float = quantity("-", low=1, high=2, about="polytropic index")
 
     def __post_init__(self) -> None:
@@ -64,9 +64,9 @@ class AirAbsolute:
         Pressure outside, absolute [Pa]
     """
 
-    A: float = quantity("m^2", above=0, about="piston area")
-    H: float = quantity("m", above=0, about="free height of the gas column")
-    p0: float = quantity("Pa", above=0, about="excess pressure at free height")
+    A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
+    H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
+    p0: float = quantity("Pa", low=1, high=1e12, about="excess pressure at free height")
     n: float = quantity("-", low=1, high=2, about="polytropic index")
     pa: float = quantity("Pa", default=101325.0, above=0, about="pressure outside")
 
@@ -90,7 +90,7 @@ class Coil:
 
     k: float = quantity("N/m", above=0, about="stiffness")
     F0: float = quantity("N", low=0, about="preload at z = 0")
-    H: float = quantity("m", above=0, about="closing at which the coils touch")
+    H: float = quantity("m", low=1e-4, high=100, about="closing at which the coils touch")
 
     def __post_init__(self) -> None:
         check(self)

@@ -17,7 +17,7 @@ from mechsym import mechanisms, torsion
 from mechsym.cases import Case
 from mechsym.quantities import check, quantity
 from mechsym.runs import StepTorque, problem_of, settings_of
-from mechsym.simulate import Result, simulate
+from mechsym.simulate import Result, simulate, simulate_many
 from mechsym.torsion import Critical
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
@@ -189,11 +189,10 @@ def start_up_map(case: Case, dampings: tuple[float, ...]) -> tuple[StartUp, ...]
     start_ups : tuple of StartUp
         One for each
     """
-    runs = []
-    for c1 in dampings:
-        parameters = replace(case.need("parameters"), c1=c1)
-        runs.append(start_up(replace(case, sections={**case.sections, "parameters": parameters})))
-    return tuple(runs)
+    damped = [replace(case.need("parameters"), c1=c1) for c1 in dampings]
+    cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]
+    results = simulate_many([problem_of(c) for c in cases], settings_of(case))
+    return tuple(start_up(c, r) for c, r in zip(cases, results, strict=True))
 
 
 def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

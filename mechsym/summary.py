@@ -4,9 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.assembly import load_of
 from mechsym.design import Design
+from mechsym.loads import PropellerLoad
+from mechsym.offers import Offer
 from mechsym.rollers import parallel
-from mechsym.trials import RIPPLE
+from mechsym.steadiness import RIPPLE
 from mechsym.turn import Turn, at_angles
 
 _RPM = 60 / (2 * np.pi)
@@ -55,7 +58,7 @@ def summary(design: Design) -> dict[str, Any]:
             "energy_residual": check.result.energy.residual if check else None,
             "tolerance_difference": check.result.tolerance_difference if check else None,
         },
-        "remaining_ripple": design.balance.ripple_propeller_load if design.balance.rest_swing else None,
+        "offers": offers(design),
         "runs": {t.name: _run(t) for t in design.trials},
         "retune": _retune(design),
         "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
@@ -66,9 +69,36 @@ def summary(design: Design) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def offers(design: Design) -> list[dict[str, Any]]:
+    """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+
+    Returns
+    -------
+    offers : list of dict
+        The chosen one first
+    """
+    chosen = Offer(balance=design.balance, guide=design.guide, verdict=design.verdict)
+    return [
+        {
+            "balance": offer.balance.kind,
+            "shaft_ratio": offer.guide.parameters.shaft_ratio,
+            "feasible": offer.verdict.feasible,
+            "reason": offer.verdict.reason,
+            "work_left": offer.balance.rest_swing,
+            "ripple_constant_load": offer.balance.ripple_constant_load,
+            "ripple_propeller_load": offer.balance.ripple_propeller_load,
+        }
+        for offer in (chosen, *design.instead)
+    ]
+
+
 def _law(design: Design) -> str:
-    load = design.assembly.case.sections.get("load")
-    return "propeller" if type(load).__name__ == "PropellerLoad" else "constant"
+    return "propeller" if isinstance(load_of(design.assembly.case), PropellerLoad) else "constant"
 
 
 def _saved(design: Design) -> float | None:

@@ -73,7 +73,7 @@ def test_text_for_people():
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (["chmielewski", "--backend", "euler"], "options are scipy-dop853"),
+        (["chmielewski", "--backend", "euler"], "options are auto"),
         (["chmielewski", "--tolerance", "tiny"], "tolerance"),
         (["chmielewski", "--set", "t_end=-3 s"], "t_end"),
         (["chmielewski", "--set", "drive.input=X"], "part names 'X'"),

@@ -224,7 +224,7 @@ def simple(constants: np.ndarray) -> Fraction | None:
     Parameters
     ----------
     constants : ndarray, shape (n,)
-        Values at the states
+        Values at the states [-]
 
     Returns
     -------

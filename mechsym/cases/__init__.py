@@ -6,7 +6,6 @@ Numbers are SI; texts may carry a unit; a key may name its unit instead (`speed_
 """
 
 import dataclasses
-import difflib
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -14,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cases import schema
-from mechsym.errors import BadInput
-from mechsym.quantities import parse, units
+from mechsym.cases.values import convert, override, without_unit
+from mechsym.errors import BadInput, shown, suggest
 
 _HEAD = ("mechanism", "source", "about")
 
@@ -119,15 +118,15 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
         Names file, key, value and what is allowed
     """
     file, content = _read(name)
-    try:
-        tables = tomllib.loads(content)
-    except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"{file}: not valid TOML: {error}") from None
+    tables = _tables(file, content)
     head = {key: _head(tables, key, file) for key in _HEAD}
     sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in _HEAD}
     for key, value in (overrides or {}).items():
-        _override(sections, head["mechanism"], key, value)
-    records = {key: _section(head["mechanism"], key, table, file) for key, table in sections.items()}
+        override(sections, head["mechanism"], key, value)
+    try:
+        records = {key: _section(head["mechanism"], key, table) for key, table in sections.items()}
+    except BadInput as error:
+        raise BadInput(f"{file}: {error}") from None
     return Case(name=Path(name).stem if name not in names() else name, file=file, sections=records, **head)
 
 
@@ -141,112 +140,64 @@ def _read(name: str) -> tuple[str, str]:
     path = Path(name)
     try:
         return str(path), path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not UTF-8 text"
-        raise BadInput(
-            f"case {name!r} is neither built in ({', '.join(names())}) nor a readable file: {reason}"
-        ) from None
+    except (OSError, ValueError) as error:
+        # a path may hold a zero byte, which is a ValueError too
+        reason = "not UTF-8 text" if isinstance(error, UnicodeDecodeError) else getattr(error, "strerror", error)
+        why = f"case {shown(name, 300)} is neither built in nor a readable file ({reason})"
+        raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
+
+
+def _tables(file: str, content: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(content)
+    except RecursionError:
+        raise BadInput(f"{file}: not valid TOML: nested too deeply; a case has sections of keys and values") from None
+    except ValueError as error:
+        raise BadInput(f"{file}: not valid TOML: {error}; see 'mechsym cases zotov-89' for one that is") from None
 
 
 def _head(tables: dict[str, Any], key: str, file: str) -> str:
-    if not isinstance(tables.get(key), str):
-        raise BadInput(f"{file}: key {key!r} is missing at the top; it is a text")
+    if key not in tables:
+        raise BadInput(f'{file}: key {key} is missing at the top; write {key} = "..." above the first section')
+    if not isinstance(tables[key], str):
+        raise BadInput(f"{file}: key {key} = {shown(tables[key])} at the top is not a text")
     return tables[key]
 
 
-def _suggest(key: str, options: list[str]) -> str:
-    near = difflib.get_close_matches(key, options, n=1)
-    hint = f"did you mean {near[0]!r}? " if near else ""
-    return f"{hint}allowed are {', '.join(options)}"
-
-
-def _record_class(mechanism: str, section: str, table: Any, file: str) -> Any:
-    if not isinstance(table, dict):
-        raise BadInput(
-            f"{file}: {section!r} stands at the top but is no section; {_suggest(section, schema.sections())}"
-        )
-    try:
-        return schema.record(mechanism, section, table)
-    except KeyError:
-        raise BadInput(f"{file}: section [{section}] is not known; {_suggest(section, schema.sections())}") from None
-    except BadInput as error:
-        raise BadInput(f"{file}: [{section}] {error}") from None
-
-
-def _section(mechanism: str, section: str, table: Any, file: str) -> Any:
-    cls = _record_class(mechanism, section, table, file)
-    fields = {f.name: f for f in dataclasses.fields(cls)}
-    values = {}
-    for key, value in table.items():
-        if key == schema.selector(section) and key not in fields:
-            continue
-        name, value = _with_unit(key, value, fields)
-        if name not in fields:
-            raise BadInput(f"{file}: key {section}.{key} is not known; {_suggest(key, list(fields))}")
-        values[name] = _value(fields[name], value, f"{section}.{key}", file)
-    for name, field in fields.items():
-        if name not in values and field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING:
-            unit = field.metadata.get("unit")
-            raise BadInput(f"{file}: key {section}.{name} is missing" + (f"; give it in {unit}" if unit else ""))
+def _section(mechanism: str, section: str, table: Any) -> Any:
+    cls = _record_class(mechanism, section, table)
+    values = _values(cls, section, table)
     try:
         return cls(**values)
     except BadInput as error:
-        raise BadInput(f"{file}: [{section}] {error}") from None
+        raise BadInput(f"[{section}] {error}") from None
 
 
-def _with_unit(key: str, value: Any, fields: Mapping[str, Any]) -> tuple[str, Any]:
-    stem, _, unit = key.rpartition("_")
-    if key not in fields and stem in fields and unit in units() and "unit" in fields[stem].metadata:
-        return stem, f"{value} {unit}"
-    return key, value
-
-
-def _value(field: Any, value: Any, key: str, file: str) -> Any:
-    if "unit" in field.metadata:
-        try:
-            if isinstance(value, list):
-                return tuple(parse(v, field.metadata["unit"], key) for v in value)
-            return parse(value, field.metadata["unit"], key)
-        except BadInput as error:
-            raise BadInput(f"{file}: {error}") from None
-    return tuple(value) if isinstance(value, list) else value
-
-
-def _override(sections: dict[str, Any], mechanism: str, key: str, value: Any) -> None:
-    section, dot, name = key.partition(".")
-    if not dot:
-        homes = [s for s, t in sections.items() if isinstance(t, dict) and key in _keys(mechanism, s, t)]
-        # a key that the file gives in one section only is meant, although others may know it too
-        homes = [s for s in homes if {key, key.rpartition("_")[0]} & sections[s].keys()] or homes
-        if len(homes) != 1:
-            raise BadInput(f"--set {key} {_why_not_one(sections, mechanism, key, homes)}")
-        section, name = homes[0], key
-    table = sections.setdefault(section, {})
+def _record_class(mechanism: str, section: str, table: Any) -> Any:
+    if section not in schema.sections():
+        raise BadInput(f"section [{section}] is not known; {suggest(section, schema.sections())}")
     if not isinstance(table, dict):
-        raise BadInput(f"--set {key}: {section!r} is no section; {_suggest(section, schema.sections())}")
-    stem = name.rpartition("_")[0]
-    table.pop(stem if stem in table and name not in table else name, None)
-    for other in [k for k in table if k.rpartition("_")[0] == name and k.rpartition("_")[2] in units()]:
-        table.pop(other)
-    table[name] = value
-
-
-def _why_not_one(sections: dict[str, Any], mechanism: str, key: str, homes: list[str]) -> str:
-    if homes:
-        return f"is in several sections ({', '.join(homes)}); write section.{key}"
-    tables = {s: t for s, t in sections.items() if isinstance(t, dict)}
-    bare = sorted({k for s, t in tables.items() for k in _keys(mechanism, s, t)})
-    near = difflib.get_close_matches(key, bare, n=3)
-    hint = f"did you mean {' or '.join(near)}? " if near else ""
-    return f"is not known; {hint}give section.key, sections here are {', '.join(tables)}"
-
-
-def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:
+        raise BadInput(f"{section} = {shown(table)} is no section; write [{section}] and its keys below it")
     try:
-        cls = schema.record(mechanism, section, table)
-    except (KeyError, BadInput):
-        return set(table)
-    found = {f.name for f in dataclasses.fields(cls)}
-    return found | {
-        f"{f.name}_{u}" for f in dataclasses.fields(cls) if f.metadata.get("unit", "-") != "-" for u in units()
-    }
+        return schema.record(mechanism, section, table)
+    except BadInput as error:
+        raise BadInput(f"[{section}] {error}") from None
+
+
+def _values(cls: Any, section: str, table: dict[str, Any]) -> dict[str, Any]:
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    values: dict[str, Any] = {}
+    for key, raw in table.items():
+        if key == schema.selector(section) and key not in fields:
+            continue
+        name, value = without_unit(key, raw, fields)
+        if name not in fields:
+            raise BadInput(f"key {section}.{key} is not known; {suggest(key, fields)}")
+        if name in values:
+            raise BadInput(f"key {section}.{name} is given twice, once with its unit in the key; keep one")
+        values[name] = convert(fields[name], value, f"{section}.{key}")
+    for name, field in fields.items():
+        if name not in values and field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING:
+            unit = field.metadata.get("unit")
+            raise BadInput(f"key {section}.{name} is missing" + (f"; give it in {unit}" if unit else ""))
+    return values

@@ -3,11 +3,18 @@
 import importlib
 from typing import Any
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, shown, suggest
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
+    "sizing": "mechsym.sizing.wants:Wants",
+    "part_piston": "mechsym.sizing.parts:PistonPart",
+    "part_cylinder": "mechsym.sizing.parts:CylinderPart",
+    "part_gears": "mechsym.sizing.parts:GearPart",
+    "part_crank": "mechsym.sizing.parts:CrankPart",
+    "part_bearings": "mechsym.sizing.parts:BearingPart",
+    "part_masses": "mechsym.sizing.parts:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
@@ -18,11 +25,13 @@ _SECTIONS: dict[str, Any] = {
         "kind",
         {
             "two-stroke-marine": "mechsym.engine.two_stroke:TwoStrokeMarine",
+            "two-stroke-zone": "mechsym.engine.two_stroke_zone:TwoStrokeZone",
             "diagram": "mechsym.engine.diagram:Diagram",
             "spark-ignition": "mechsym.engine.spark_ignition:SparkIgnition",
             "schmidt": "mechsym.engine.schmidt:Schmidt",
         },
     ),
+    "combustion": "mechsym.engine.diagram_combustion:Analysis",
     "gas": (
         "model",
         {"constant_gamma": "mechsym.engine.gas:ConstantGamma", "nasa": "mechsym.engine.gas:NasaMixture"},
@@ -42,6 +51,7 @@ _SECTIONS: dict[str, Any] = {
             "none": "mechsym.engine.friction:NoFriction",
             "chen_flynn": "mechsym.engine.friction:ChenFlynn",
             "heywood": "mechsym.engine.friction:Heywood",
+            "mechanism": "mechsym.engine.friction:MechanismFriction",
         },
     ),
     "load": (
@@ -66,6 +76,17 @@ _SECTIONS: dict[str, Any] = {
     "guide": "mechsym.guide:GuideParameters",
     "rollers": "mechsym.rollers:RollerParameters",
     "limits": "mechsym.feasibility:Limits",
+    "friction": "mechsym.forces.friction:Friction",
+    "rings": (
+        "law",
+        {
+            "none": "mechsym.forces.rings:NoRings",
+            "patton1989": "mechsym.forces.rings:Patton1989",
+            "contact_pressure": "mechsym.forces.rings:ContactPressure",
+        },
+    ),
+    "shaking": "mechsym.forces.shaking:BalanceWanted",
+    "comparison": "mechsym.forces.comparison:ComparisonSettings",
     "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
     "closing": (
         "rule",
@@ -136,8 +157,10 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
     entry = _SECTIONS[section]
     if isinstance(entry, tuple):
         key, variants = entry
-        if table.get(key) not in variants:
-            raise BadInput(f"{key} = {table.get(key)!r} is not an option; options are {', '.join(variants)}")
-        entry = variants[table[key]]
+        name = table.get(key)
+        if not isinstance(name, str) or name not in variants:
+            found = f"{key} = {shown(name)} is not known" if key in table else f"key {key} is missing"
+            raise BadInput(f"{found}; {suggest(str(name), variants)}")
+        entry = variants[name]
     module, _, name = entry.partition(":")
     return getattr(importlib.import_module(module), name)

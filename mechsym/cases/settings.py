@@ -16,7 +16,7 @@ class Operation:
         Mean crank speed [rad/s]
     """
 
-    speed: float = quantity("rad/s", above=0, about="mean crank speed")
+    speed: float = quantity("rad/s", low=0.1, high=1e5, about="mean crank speed")
 
     def __post_init__(self) -> None:
         check(self)

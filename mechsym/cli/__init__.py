@@ -15,12 +15,14 @@ COMMANDS = {
     "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "forces": "mechsym.cli.forces:forces",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
     "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
+    "size": "mechsym.cli.size:size",
 }
 
 

@@ -38,8 +38,8 @@ def cases(name: str | None, as_json: bool) -> None:
     from mechsym import cases as known
 
     if name is not None:
-        text = known.text(name)
         known.load(name)
+        text = known.text(name)
         emit({"name": name, **tomllib.loads(text)}, as_json, lambda: text.rstrip("\n"))
         return
     rows = []

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
-from mechsym.cli.cycle import parse_speeds
+from mechsym.cli.speeds import parse_speeds
 
 
 @click.command()
@@ -31,7 +31,7 @@ def compare(
     from mechsym.cycle import columns, engine, over_speeds, speed_range
 
     cases = [load(name, pairs(overrides)) for name in (case_a, case_b)]
-    omega = np.asarray(parse_speeds(speeds)) if speeds else speed_range(cases[0].need("speeds"))
+    omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
     found = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
     a, b = found.values() if len(found) == 2 else [*found.values()] * 2
     result = {"cases": [case.name for case in cases], **side_by_side(a, b)}

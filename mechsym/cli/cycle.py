@@ -5,70 +5,81 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
 
-_MOST_SPEEDS = 100_000
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 
 
 @click.command()
 @click.argument("case")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
+@click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
+@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram: combustion from pressure.")
+@click.option("--loop", type=click.FloatRange(0.5, 1000), help="Engine cycles to run with the mechanism in the loop.")
 @json_option
 @out_option
 @set_option
-def cycle(case: str, speeds: str | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
-    """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
+def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, loop: float | None, as_json: bool,
+          out: Path | None, overrides: tuple[str, ...]) -> None:  # fmt: skip
+    """Engine cycle of CASE, one cylinder: torque, power, consumption, energy shares, peak pressure.
+
+    With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle. With --loop: gas
+    and motion integrated together, against the case's load (a propeller without [load]).
 
     \b
     Examples: mechsym cycle nunes-slider-crank --speeds 500:8000:500
               mechsym cycle nunes-hypocycloid --set cycle.method=nunes2017_printed --speeds 10:8000:10 --json
+              mechsym cycle nunes-slider-crank --over "cycle.ignition=-30 deg:0 deg:2 deg" --speeds 4000
+              mechsym cycle generator --diagram measured.csv
+              mechsym cycle nunes-hypocycloid --loop 10
     """
     from mechsym.cases import load
-    from mechsym.cycle import columns, engine, over_speeds
+    from mechsym.cli import cycle_loop, cycle_measured
 
     loaded = load(case, pairs(overrides))
-    machine = engine(loaded)
-    omega = parse_speeds(speeds) if speeds else [loaded.need("operation").speed]
-    found = columns(over_speeds(machine, _array(omega)))
-    files = _write(out, machine, found, loaded.need("operation").speed) if out else []
+    if diagram or hasattr(loaded.need("cycle"), "alignment"):
+        cycle_measured.show(loaded, diagram, as_json, out)
+    elif loop:
+        cycle_loop.show(loaded, loop, as_json, out)
+    else:
+        omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
+        _show_map(loaded, omega, over, (as_json, out))
+
+
+def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
+    from mechsym.cycle import engine
+    from mechsym.engine.spark_ignition import SparkIgnition
+    from mechsym.forces.gas import one_cylinder
+    from mechsym.two_stroke_cycle import two_stroke_columns
+
+    as_json, out = output
+    if isinstance(case.need("cycle"), SparkIgnition):
+        machine = engine(one_cylinder(case))
+        found = _map(machine, omega, over)
+    elif over:
+        raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
+    else:
+        machine, found = None, two_stroke_columns(case, _array(omega))
+    files = _write(out, machine, found, case.need("operation").speed) if out else []
     emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
 
 
-def parse_speeds(text: str) -> list[float]:
-    """Speeds from A:B:STEP or a list with commas, in rpm.
+def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
+    from mechsym.cycle import columns, over_design
+    from mechsym.optimise.problem import design_units
 
-    Parameters
-    ----------
-    text : str
-        `500:8000:500`, `2000` or `1000,2000`
-
-    Returns
-    -------
-    omega : list of float
-        Crank speeds [rad/s]
-
-    Raises
-    ------
-    BadInput
-        Not numbers, not positive, or too many
-    """
-    from mechsym.quantities import parse
-
-    parts = text.split(":")
-    if len(parts) == 3:
-        first, last, step = (parse(part, "-", "--speeds") for part in parts)
-        if step <= 0 or last < first or (last - first) / step > _MOST_SPEEDS:
-            raise BadInput(f"--speeds {text}: needs A <= B, STEP > 0 and at most {_MOST_SPEEDS} speeds")
-        rpm = [first + k * step for k in range(int((last - first) / step * (1 + 1e-12) + 1e-9) + 1)]
-    elif len(parts) == 1:
-        rpm = [parse(part, "-", "--speeds") for part in text.split(",")]
-    else:
-        raise BadInput(f"--speeds {text}: write A:B:STEP in rpm, for example 500:8000:500")
-    if min(rpm) <= 0:
-        raise BadInput(f"--speeds {text}: speeds must be > 0 rpm")
-    return [parse(f"{value!r} rpm", "rad/s") for value in rpm]
+    design: dict[str, Any] = {"omega": _array(omega)}
+    if over:
+        if len(omega) > 1:
+            raise BadInput("--over runs at one speed; give --speeds one value, or leave it out")
+        name, values = parse_over(over, design_units(machine))
+        design[name] = _array(values)
+    points = max(v.size for v in design.values())
+    with progress(points, "cycles") as bar:
+        found = columns(over_design(machine, design, bar.update))
+    return ({name: design[name]} if over else {}) | found
 
 
 def _array(values: list[float]) -> Any:
@@ -80,13 +91,15 @@ def _array(values: list[float]) -> Any:
 def _text(found: dict[str, Any]) -> str:
     count = len(found["speed_rpm"])
     every = max(1, -(-count // 20))
-    rows = [{k: float(found[k][i]) for k in _SHOWN} for i in range(0, count, every)]
-    lines = [table(rows, list(_SHOWN))]
-    if count > 1:
+    shown = [k for k in found if "." in k] + list(_SHOWN)
+    rows = [{k: float(found[k][i]) for k in shown} for i in range(0, count, every)]
+    lines = [table(rows, shown)]
+    if count > 1 and shown[0] == "speed_rpm":
         peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
         lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]
     worst = abs(found["energy_residual"]).max()
-    return "\n".join([*lines, f"first law closed to {worst:.1g} of the fuel's heating value"])
+    closed = f"first law closed to {worst:.1g} of the fuel's heating value"
+    return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
 
 
 def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
@@ -96,9 +109,10 @@ def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list
 
     flat = {k: v for k, v in found.items() if k not in ("fractions", "loads")}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]
-    one = curves(machine, omega)
-    files = [write_csv(out / "performance.csv", flat), write_csv(out / "cycle.csv", one)]
-    files.append(cycle_picture(out / "cycle.svg", one))
-    if len(flat["speed_rpm"]) > 1:
+    files = [write_csv(out / "performance.csv", flat)]
+    if machine is not None:
+        one = curves(machine, omega)
+        files += [write_csv(out / "cycle.csv", one), cycle_picture(out / "cycle.svg", one)]
+    if len(set(flat["speed_rpm"])) > 1:
         files.append(performance_picture(out / "performance.svg", {"": found}))
     return files

@@ -24,9 +24,12 @@ def hinge(case_name: str, diagram: str | None, out: Path | None, overrides: tupl
     Example: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
     """
     from mechsym import cases, design
+    from mechsym.files import make_folder
     from mechsym.summary import summary
 
     case = cases.load(case_name, pairs(overrides))
+    if out is not None:
+        make_folder(out)
     with progress(design.STEPS + bool(out), f"hinge of {case.name}") as bar:
         found = design.design(case, diagram, lambda: bar.update(1))
         files: list[Path] = []
@@ -53,6 +56,12 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
         f"energy residual {_number(check['energy_residual'])}",
         f"flywheel saved   {_number(numbers['flywheel_inertia_saved'])} kg*m^2 (ripple 1/50 without hinge)",
     ]
+    for offer in numbers["offers"][1:]:
+        lines.append(
+            f"instead          balance = {offer['balance']!r} with shaft_ratio = {offer['shaft_ratio']:g}: ripple "
+            f"{_number(offer['ripple_constant_load'])} under constant, {_number(offer['ripple_propeller_load'])} under "
+            "propeller load"
+        )
     if again["p0"] is not None:
         lines.append(
             f"at {again['speed_rpm']:.4g} rpm       best setting {again['p0']:.5g} ({again['p0_ratio']:.3g} times), "

@@ -1,6 +1,7 @@
-"""`mechsym reproduce`: published numbers computed again."""
+"""`mechsym reproduce`: published numbers and figures beside what the models give."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -11,51 +12,62 @@ from mechsym.errors import BadInput
 @click.command()
 @click.argument("source", required=False)
 @click.option("--write", is_flag=True, help="Record the verdicts of all sources, to be compared with from then on.")
-@out_option
 @json_option
+@out_option
 @click.pass_context
-def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | None, as_json: bool) -> None:
-    """Compute the numbers of SOURCE again, or of all sources: published value, computed value, verdict, note.
+def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool, out: Path | None) -> None:
+    """Recompute every published number of SOURCE, or of all; --out draws the figures too.
 
-    SOURCE is a file stem or a short name. With --out the figures are drawn as the source drew them, and the rows are
-    written as JSON. Exit status 1 when a verdict differs from the recorded one.
+    SOURCE is a short name or a file's stem: zotov2024, moroianu2017, chmielewski2015, prymak, nunes2017. Findings are
+    results; exit status 1 only when the outcome differs from the recorded one.
 
     \b
-    Example: mechsym reproduce chmielewski2015 --out figures
+    Example: mechsym reproduce chmielewski2015 --out reproduction
     """
     from mechsym import recorded
-    from mechsym.reproduce import catalogue
+    from mechsym.reproduce.sources import chosen, rows
 
     if write and source:
-        raise BadInput("--write records the verdicts of all sources; leave out SOURCE")
-    chosen = [catalogue.short_name(source)] if source else catalogue.names()
-    rows = []
-    with progress(len(chosen), "reproducing") as bar:
-        for name in chosen:
-            rows += catalogue.rows(name)
+        raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
+    sources, found = chosen(source), {}
+    with progress(len(sources), "sources") as bar:
+        for one in sources:
+            found[one.stem] = rows(one)
             bar.update(1)
+    flat = [row for one in found.values() for row in one]
+    files = [recorded.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
+    changed = recorded.differences(_PACKAGE, flat, _NAME, ("verdict",))
     if out is not None:
-        for path in _write(rows, chosen, out):
-            click.echo(str(path), err=True)
-    columns = ["source", "item", "published", "computed", "rel_error", "verdict"]
-    emit(rows, as_json, lambda: table(rows, columns))
-    package, identity = "mechsym.reproduce", ("source", "item")
-    if write:
-        recorded.write(package, rows, (*identity, "verdict"))
-    differences = recorded.differences(package, rows, identity, ("verdict",))
-    for line in differences:
-        click.echo(f"differs from the record: {line}", err=True)
-    ctx.exit(1 if differences else 0)
+        from mechsym.reproduce import page
+
+        files += page.write(out, sources, found, changed)
+    emit(flat, as_json, lambda: _text(sources, found, changed, files))
+    ctx.exit(1 if changed else 0)
 
 
-def _write(rows: list[dict], chosen: list[str], out: Path) -> list[Path]:
-    from mechsym.files import to_json, write_text
-    from mechsym.plots import svg
-    from mechsym.reproduce import catalogue
+def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[Path]) -> str:
+    from mechsym.reproduce.page import counts
 
-    written = [write_text(out / "reproduce.json", to_json(rows) + "\n")]
-    for name in chosen:
-        draw = catalogue.figures(name)
-        for stem, figure in draw().items() if draw else []:
-            written.append(write_text(out / f"{stem}.svg", svg(figure)))
-    return written
+    lines = []
+    for source in sources:
+        own = found[source.stem]
+        summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(own).items() if count)
+        lines += [f"{source.name}: {source.about}", table(_shown(own), [*_COLUMNS]), _notes(own), f"  {summed}", ""]
+    lines += ["differs from the recorded outcome:", *changed] if changed else ["the outcome is the recorded one"]
+    if files:
+        lines.append(f"written: {len(files)} files, {files[0]} first")
+    return "\n".join(lines)
+
+
+_PACKAGE, _NAME = "mechsym.reproduce", ("source", "item")
+_COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
+
+
+def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [row | {"rel_error": None if row["rel_error"] is None else f"{row['rel_error']:+.1e}"} for row in rows]
+
+
+def _notes(rows: list[dict[str, Any]]) -> str:
+    """Notes of everything that is not plainly reproduced, after the table since they are long."""
+    told = [f"  {row['item']}: {row['note']}" for row in rows if row["verdict"] != "reproduced" and row["note"]]
+    return "\n".join(told)

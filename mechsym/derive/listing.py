@@ -1,8 +1,9 @@
 """The equations of a mechanism as LaTeX and MathML, stored beside the generated code so that reports need no sympy."""
 
+from collections.abc import Callable
 from typing import Any
 
-from sympy import Derivative, Eq, Expr, Symbol, cos, latex, mathml, sin
+from sympy import Eq, Expr, Symbol, cos, latex, mathml, sin
 
 from mechsym.derive.declare import Mechanism
 from mechsym.derive.emit import groups
@@ -10,10 +11,10 @@ from mechsym.derive.lagrange import Equations
 from mechsym.derive.rates import accelerations, velocities
 
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
-_LATEX = {"lam": r"\lambda", "phi": r"\varphi"}
+_LATEX = {"lam": r"\lambda", "phi": r"\varphi", "inertia": "I"}
 _GREEK = {
     "phi": "\u03c6", "psi": "\u03c8", "theta": "\u03b8", "alpha": "\u03b1", "gamma": "\u03b3", "lam": "\u03bb",
-    "rho": "\u03c1", "omega": "\u03c9",
+    "rho": "\u03c1", "omega": "\u03c9", "inertia": "I",
 }  # fmt: skip
 
 
@@ -83,16 +84,20 @@ def _equation(m: Mechanism, title: str, left: Expr, right: Expr) -> dict[str, st
 
 
 def _physical(m: Mechanism, expression: Expr) -> Expr:
-    """Names such as sin_phi and dx_dphi turned back into sin(phi) and a derivative."""
+    """Names such as sin_phi turned back into sin(phi); their derivatives stay names."""
     values: dict[Symbol, Expr] = {}
-    for symbol in sorted(expression.free_symbols, key=lambda s: s.name):
-        root, by = m.tape.derived_from(symbol)
-        kind, _, angle = root.name.partition("_")
-        inner = Symbol(angle, real=True)
-        circular = kind in ("sin", "cos") and inner in (*m.tape.variables, *m.tape.entries)
-        base = {"sin": sin, "cos": cos}[kind](inner) if circular else root
-        values[symbol] = Derivative(base, *by, evaluate=False) if by else base
+    for symbol in expression.free_symbols:
+        circular = _circular(m, symbol)
+        if circular and not m.tape.derived_from(symbol)[1]:
+            kind, inner = circular
+            values[symbol] = {"sin": sin, "cos": cos}[kind](inner)
     return expression.xreplace(values)
+
+
+def _circular(m: Mechanism, symbol: Symbol) -> tuple[str, Symbol] | None:
+    kind, _, angle = m.tape.derived_from(symbol)[0].name.partition("_")
+    inner = Symbol(angle, real=True)
+    return (kind, inner) if kind in ("sin", "cos") and inner in (*m.tape.variables, *m.tape.entries) else None
 
 
 def _stem(m: Mechanism, symbol: Symbol) -> tuple[str, int]:
@@ -106,19 +111,41 @@ def _stem(m: Mechanism, symbol: Symbol) -> tuple[str, int]:
 def _split(name: str) -> tuple[str, str]:
     letters, _, index = name.partition("_")
     stem = letters.rstrip("0123456789")
+    if stem[0] == "I" and stem[1:].isupper():  # IC2 is an I about the point C2
+        stem = "I"
     return stem, ", ".join(part for part in (letters[len(stem) :], index) if part)
 
 
+def _marks(m: Mechanism, by: tuple[Symbol, ...], name: Callable[[Mechanism, Symbol], str]) -> tuple[str, str]:
+    """Primes where there is one coordinate, else the variables as further indices after a comma."""
+    if not by:
+        return "", ""
+    return ("\u2032" * len(by), "") if len(m.q) == 1 else ("", "," + "".join(name(m, v) for v in by))
+
+
 def _latex_name(m: Mechanism, symbol: Symbol) -> str:
-    name, dots = _stem(m, symbol)
-    stem, index = _split(name)
-    greek = _LATEX.get(stem, f"\\{stem}" if stem in _GREEK else stem)
-    body = ("", r"\dot", r"\ddot")[dots] + (f"{{{greek}}}" if dots else greek)
-    return f"{body}_{{{index}}}" if index else body
+    root, by = m.tape.derived_from(symbol)
+    primes, further = _marks(m, by, _latex_name)
+    primes = "'" * len(primes)
+    if circular := _circular(m, symbol):
+        body, index = rf"(\{circular[0]} {_latex_name(m, circular[1])})", ""
+    else:
+        name, dots = _stem(m, root)
+        stem, index = _split(name)
+        greek = _LATEX.get(stem, f"\\{stem}" if stem in _GREEK else stem)
+        body = ("", r"\dot", r"\ddot")[dots] + (f"{{{greek}}}" if dots else greek)
+    # braces keep a power apart from the primes, which are powers to LaTeX
+    return (f"{{{body}{primes}}}" if primes else body) + (f"_{{{index}{further}}}" if index or further else "")
 
 
 def _math_name(m: Mechanism, symbol: Symbol) -> str:
-    name, dots = _stem(m, symbol)
-    stem, index = _split(name)
-    body = _GREEK.get(stem, stem) + ("", _DOT, _TWO_DOTS)[dots]
-    return f"{body}_{index}" if index else body
+    root, by = m.tape.derived_from(symbol)
+    primes, further = _marks(m, by, _math_name)
+    if circular := _circular(m, symbol):
+        body, index = f"({circular[0]} {_math_name(m, circular[1])})", ""
+    else:
+        name, dots = _stem(m, root)
+        stem, index = _split(name)
+        body = _GREEK.get(stem, stem) + ("", _DOT, _TWO_DOTS)[dots]
+    further = further.replace("_", "")
+    return f"{body}{primes}" + (f"_{index}{further}" if index or further else "")

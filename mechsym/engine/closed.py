@@ -24,6 +24,7 @@ from mechsym.engine.runge_kutta import fold
 from mechsym.engine.wiebe import ddouble_wiebe_dy, double_wiebe
 
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
+PHASES = tuple(_SHARES)
 _GRADING = {"before": 1, "during": 4, "after": 1}
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
 NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
@@ -119,6 +120,29 @@ def contents(closed: Closed, phase: str, phi: Any) -> Contents:
     return Contents(burnt, slope, closed.mass, 0.0)
 
 
+def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
+    """Pressure of the gas.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+    t : CasADi scalar
+        Temperature [K]
+
+    Returns
+    -------
+    p : CasADi scalar
+        Absolute pressure [Pa]
+    """
+    now = contents(closed, phase, phi)
+    return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)[0]
+
+
 def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
     """Slopes of temperature, work and heat loss with the crank angle.
 
@@ -184,8 +208,8 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
         nodes.append(_node(closed, phase, z)(ca.repmat(design, 1, n + 1), s, history))
         state = history[:, -1]
     t = ca.SX.sym("t")
-    scalars = ca.Function("scalars", [z, t], [ca.vertcat(*_scalars(closed, t))])(design, state[0])
-    outputs = [*ca.vertsplit(ca.horzcat(*nodes)), state[1], state[2], *ca.vertsplit(scalars)]
+    books = ca.Function("scalars", [z, t], [ca.vertcat(*scalars(closed, t))])(design, state[0])
+    outputs = [*ca.vertsplit(ca.horzcat(*nodes)), state[1], state[2], *ca.vertsplit(books)]
     return ca.Function("closed", [design], outputs, ["design"], [*NODES, "work", "wall_heat", *SCALARS])
 
 
@@ -214,15 +238,28 @@ def _rate(closed: Closed, phase: str, z: Any) -> Callable[[Any, Any, Any], Any]:
 
 def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
     s, y, phi = ca.SX.sym("s"), ca.SX.sym("y", 3), ca.SX.sym("phi")
-    now = contents(closed, phase, phi)
-    p = now.mass * properties(closed.gas, y[0], now.burnt).gas_constant * y[0] / volume(closed.chamber, phi)[0]
+    p = pressure(closed, phase, phi, y[0])
     dt = rates(closed, phase, phi, y[0])[0]
     dp = ca.jacobian(p, phi) + ca.jacobian(p, y[0]) * dt
     at_phi = ca.Function("at_phi", [z, phi, y], [ca.vertcat(phi, y[0], p, dt, dp)])
     return ca.Function("node", [z, s, y], [at_phi(z, _span(closed, phase, s)[0], y)])
 
 
-def _scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
+def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
+    """Energies, masses and angles of the closed period.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    t_end : CasADi scalar
+        Temperature when the exhaust opens [K]
+
+    Returns
+    -------
+    values : tuple of CasADi scalar
+        In the order and the units of `SCALARS` [-]
+    """
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
     v_closes, v_opens = (volume(closed.chamber, angle)[0] for angle in (closed.closes, closed.opens))
     values = {

@@ -55,7 +55,7 @@ class Diagram:
         Absolute pressure under the piston [Pa]
     """
 
-    bore: float = quantity("m", above=0, about="diameter of the piston")
+    bore: float = quantity("m", low=1e-3, high=10, about="diameter of the piston")
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
     working_cycle: str = choice("two-stroke", "four-stroke", about="period of the diagram")
     file: str = ""

@@ -12,6 +12,14 @@ class NoFriction:
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
+class MechanismFriction:
+    """Section `[friction_pressure]`, `law = "mechanism"`: Chen and Flynn's form fitted to the friction of the joints.
+
+    A case with it needs `[friction]`; `cycle.engine` puts the fitted `ChenFlynn` in its place.
+    """
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class ChenFlynn:
     """Section `[friction_pressure]`, `law = "chen_flynn"`.
 

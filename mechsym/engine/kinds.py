@@ -14,6 +14,7 @@ from mechsym.engine.diagram_pressure import diagram_pressure
 from mechsym.engine.pressure import Pressure
 from mechsym.engine.two_stroke import TwoStrokeMarine
 from mechsym.engine.two_stroke_solve import two_stroke_pressure
+from mechsym.engine.two_stroke_zone import TwoStrokeZone, two_stroke_zone_pressure
 
 _PRESSURES: dict[type, Callable[[Any, Cylinder], Pressure]] = {
     TwoStrokeMarine: two_stroke_pressure,
@@ -22,6 +23,7 @@ _PRESSURES: dict[type, Callable[[Any, Cylinder], Pressure]] = {
 _BACK_PRESSURES: dict[type, Callable[[Any], float]] = {
     TwoStrokeMarine: two_stroke.back_pressure,
     Diagram: lambda diagram: diagram.p_back,
+    TwoStrokeZone: lambda cycle: cycle.p_back,
 }
 
 
@@ -48,6 +50,8 @@ def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cy
         The cycle cannot be made
     """
     cylinder = cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
+    if isinstance(cycle, TwoStrokeZone):  # integrated, so it needs the travel as a CasADi function
+        return two_stroke_zone_pressure(cycle, kinematics), cylinder
     return _PRESSURES[type(cycle)](cycle, cylinder), cylinder
 
 

@@ -9,6 +9,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from mechsym.engine.chamber import ChamberParameters, Motion, chamber
 from mechsym.engine.closed import Closed
 from mechsym.engine.friction import Friction
@@ -16,6 +18,8 @@ from mechsym.engine.gas import ConstantGamma, NasaMixture, properties
 from mechsym.engine.heat import Law
 from mechsym.engine.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
 from mechsym.errors import BadInput
+
+_SECTIONS = ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -81,6 +85,32 @@ def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
     return Engine(**parts)
 
 
+def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
+    """Refuse a design with numbers that the engine's own records would refuse.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to float or ndarray
+        Dotted names to numbers; each is tried at its smallest and its largest value
+
+    Raises
+    ------
+    BadInput
+        Name, value and what is allowed
+    """
+    for name, values in design.items():
+        section, _, key = name.partition(".")
+        numbers = np.asarray(values, float)
+        if name == "omega" and not np.all(numbers > 0):
+            raise BadInput(f"omega = {numbers.min():g} rad/s is out of range; it must be > 0 rad/s")
+        record: Any = getattr(engine, section, None)
+        if section in _SECTIONS and hasattr(record, key):
+            for value in (numbers.min(), numbers.max()):
+                dataclasses.replace(record, **{key: float(value)})
+
+
 def design_names(engine: Engine) -> list[str]:
     """Names that a design may hold.
 
@@ -95,7 +125,7 @@ def design_names(engine: Engine) -> list[str]:
         `omega` and the dotted names
     """
     names = ["omega", *(f"parameters.{key}" for key in engine.motion.parameters)]
-    for section in ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure"):
+    for section in _SECTIONS:
         record = getattr(engine, section)
         names += [f"{section}.{f.name}" for f in dataclasses.fields(record) if "unit" in f.metadata]
     return names

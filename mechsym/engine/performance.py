@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsym.engine.chamber import Chamber, chamber, piston_force, travel
 from mechsym.engine.friction import Friction, friction_pressure
-from mechsym.engine.model import Engine, at_design, closed_period
+from mechsym.engine.model import Engine, at_design, check_design, closed_period
 from mechsym.engine.run import dense, run
 
 _CYCLE_ANGLE = 4 * np.pi
@@ -91,7 +91,13 @@ def performance(engine: Engine, design: Mapping[str, Any]) -> Performance:
     -------
     performance : Performance
         Figures at the n points
+
+    Raises
+    ------
+    BadInput
+        A value is out of range, or combustion does not fit into the closed period
     """
+    check_design(engine, design)
     result = run(functools.partial(closed_period, engine), design)
     scalars = dict(result.scalars)
     scalars["work"] = scalars["work"] + scalars["exchange_work"]

@@ -5,6 +5,7 @@ period is then checked for each point by itself; where the residual is not below
 """
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -165,12 +166,18 @@ def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> Run:
-    function = closed_function(build, names, steps)
+    function = _function(build, names, steps)
     found = {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in function.call({"design": values}).items()}
     scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
     residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
     return Run(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
+
+
+@functools.lru_cache(maxsize=8)
+def _function(build: Callable[[Any], Closed], names: tuple[str, ...], steps: int) -> Any:
+    # searches call `run` again and again with one `build`; making the function costs more than evaluating it
+    return closed_function(build, names, steps)
 
 
 def _not_closed(result: Run, names: list[str], values: np.ndarray) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.polynomial import Chebyshev
 
 from mechsym import mechanisms
 from mechsym.cases import Case
@@ -26,6 +27,7 @@ from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import RodlessParameters
 
 _STEP = math.radians(0.25)  # of the tabulated cycle
+_DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -205,3 +207,47 @@ def travel(case: Case) -> ca.Function:
     values = dict(zip(kinematics.name_out(), found, strict=True))
     outputs = [values["x"], values[f"dx_d{mechanism.coordinates[0]}"]]
     return ca.Function("travel", [phi], outputs, ["phi"], ["x", "dx_dphi"])
+
+
+def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
+    r"""The same indicator diagram over another motion of equal stroke: equal pressure at equal travel, so equal work.
+
+    .. math:: p_{other}(\theta) = p(\varphi), \quad x_{own}(\varphi) = x_{other}(\theta)
+
+    Parameters
+    ----------
+    found : Gas
+        Over the motion `own`
+    own, other : casadi.Function
+        Travels of `travel`, both with dead centres at 0 and pi
+
+    Returns
+    -------
+    gas : Gas
+        Over the motion `other`
+    """
+
+    # travel is even in the angle, so one cosine is a smooth function of the other: a polynomial found once
+    cosine = Chebyshev.interpolate(lambda c: np.cos(_angle_at(own, _travelled(other, np.arccos(c)))), _DEGREE)
+
+    def absolute(theta: np.ndarray) -> np.ndarray:
+        theta = np.asarray(theta, dtype=float)
+        half = np.ceil(theta / math.pi) - 1  # a valve that opens at the dead centre opens after it
+        angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
+        return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
+
+    return dataclasses.replace(found, absolute=absolute)
+
+
+def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:
+    return np.asarray(motion(phi.reshape(1, -1))[0]).reshape(phi.shape)
+
+
+def _angle_at(motion: ca.Function, x: np.ndarray) -> np.ndarray:
+    # between the dead centres the travel only grows: bisection to the last digit, with no slope to divide by
+    low, high = np.zeros_like(x), np.full_like(x, math.pi)
+    for _ in range(54):
+        middle = (low + high) / 2
+        short = _travelled(motion, middle) < x
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    return (low + high) / 2

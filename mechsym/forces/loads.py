@@ -5,7 +5,6 @@ in the sense of rotation. The side force is that of the guide on the piston or s
 crank, in the frame; the same forces turned into the crank give the polar diagram of the pin.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -253,70 +252,18 @@ def polar(turn: Turn, found: Loads) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     return pins | {name: (-x, -y) for name, (x, y) in found.bearings.items()}
 
 
-def extremes(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, float], dict[str, float]]:
-    """Largest and smallest value of every column.
-
-    Parameters
-    ----------
-    columns : mapping of str to ndarray
-        Columns of a table
-
-    Returns
-    -------
-    largest, smallest : dict of str to float
-        By column
-    """
-    return {k: float(np.max(v)) for k, v in columns.items()}, {k: float(np.min(v)) for k, v in columns.items()}
-
-
-def columns(turn: Turn, found: Loads) -> dict[str, np.ndarray]:
-    """The table of a turn: angle, gas, motion, loads, torque, SI units unless the name says otherwise.
+def roll_sense(turn: Turn) -> float:
+    """Sense of rotation of the shaft end that carries the load: the flywheel stands behind the last throw.
 
     Parameters
     ----------
     turn : Turn
         Cycle
-    found : Loads
-        Its loads
 
     Returns
     -------
-    columns : dict of str to ndarray, shape (n,)
-        `phi_deg` first, then `p`, gas forces, pins, bearings, guides, reactions, `torque`
+    sense : float
+        1 or -1 [-]
     """
-    table: dict[str, np.ndarray] = {"phi_deg": np.degrees(turn.phi)}
-    if turn.gas is not None:
-        table["p"] = turn.gas.absolute(turn.phi)
-    table |= dict(turn.inputs) | {n: v for n, v in turn.kinematics.items() if n.startswith(("x", "psi"))}
-    for pin in found.pins:
-        table |= {f"{pin.name}_radial": radial(pin), f"{pin.name}_tangential": tangential(pin)}
-        table[f"{pin.name}_load"] = np.hypot(pin.x, pin.y)
-    for name, (x, y) in found.bearings.items():
-        table |= {f"{name}_x": x, f"{name}_y": y, f"{name}_load": np.hypot(x, y)}
-    table |= dict(found.guides) | {n: v for n, v in turn.reactions.items() if n not in table}
-    roll = -(turn.momentum["angular_momentum_rate"] + _roll_sense(turn) * turn.torque)
-    return table | {"torque": turn.torque, "roll_moment": roll}
-
-
-def _roll_sense(turn: Turn) -> float:
-    # the load hangs on the flywheel, behind the last throw
     parameters = turn.case.need("parameters")
     return each(parameters, "sense")[-1] if isinstance(parameters, CrankTrainParameters) else 1.0
-
-
-def angle_of_largest(phi: np.ndarray, values: np.ndarray) -> float:
-    """Crank angle at which a column is largest.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Angles [rad]
-    values : ndarray, shape (n,)
-        Column, in any unit [-]
-
-    Returns
-    -------
-    angle : float
-        Within a period, in degrees [deg]
-    """
-    return math.degrees(phi[int(np.argmax(values))])

@@ -86,9 +86,9 @@ def turn(case: Case) -> Turn:
     BadInput
         Another mechanism, or a section is missing
     """
-    omega, found = case.need("operation").speed, gas(case)
+    mechanism, omega, found = one_coordinate(case), case.need("operation").speed, gas(case)
     period = found.period if found else 2 * math.pi
-    mechanism, steps = one_coordinate(case), round(_STEPS_PER_TURN * period / (2 * math.pi))
+    steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
     phi = np.arange(steps) * period / steps
     return at(case, mechanism, found, omega, phi)
 
@@ -179,7 +179,7 @@ def _inputs(case: Case, found: Gas | None, phi: np.ndarray) -> dict[str, np.ndar
 
     if case.mechanism == "rodless":
         return dict(zip(("F_a", "F_b"), axis_forces(case.need("faces"), net, phi), strict=True))
-    if isinstance(case.sections["cycle"], Schmidt):  # one gas for all pistons, known over the shaft angle
+    if isinstance(case.sections.get("cycle"), Schmidt):  # one gas for all pistons, known over the shaft angle
         return {f"F{i + 1}": net(phi) * found.area for i in range(len(case.need("parameters").throw))}
     if case.mechanism == "crank_train":
         forces = gas_forces(case.need("parameters"), net, found.area, phi)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, suggest
 from mechsym.mechanism import Mechanism, bind
 from mechsym.mechanism import listing as stored_listing
 
@@ -53,7 +53,7 @@ def parameters_class(name: str) -> Any:
         No such mechanism
     """
     if name not in _CLASSES:
-        raise BadInput(f"mechanism {name!r} is not known; there are {', '.join(names())}")
+        raise BadInput(f"mechanism {name!r} is not known; {suggest(name, names())}")
     module, _, cls = _CLASSES[name].partition(":")
     return getattr(import_module(f"mechsym.mechanisms.{module}"), cls)
 

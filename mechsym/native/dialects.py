@@ -81,7 +81,7 @@ def expression(dialect: dict[str, str], op: str, args: list[str], exponent: floa
     args : list of str
         Texts of the operands
     exponent : float, optional
-        Value of a constant exponent, which may become products
+        Value of a constant exponent, which may become products [-]
 
     Returns
     -------
@@ -108,7 +108,7 @@ def literal(value: float) -> str | None:
     Parameters
     ----------
     value : float
-        The constant
+        The constant [SI]
 
     Returns
     -------

@@ -3,12 +3,12 @@
     body      f_0(k, s, x0, x1, .., *y0, ..)   one instance at one point; constants k[j * s]
     rows      f_rows8(k, x, y)                 8 lanes; row i of x holds input i of all lanes; constants per lane
     block     f_block(m, k, x, y)              m points; x[i] and y[i] point to columns
-    entries   f_point, f_batch                 what the shared object exports
+    stage     f_stage(m, k, state, stage, ..)  m lanes; some inputs are the same in all of them
 
 No value of a parameter is in the text: constants are read from a table.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 
 from mechsym.native import dialects
 from mechsym.native.kernels import Kernel
@@ -137,6 +137,46 @@ def block(kernels: tuple[Kernel, ...], name: str) -> str:
     return _function(head, lines)
 
 
+def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
+    """One step of a march in m lanes: state and lane values in columns, stage values common to all lanes.
+
+    Parameters
+    ----------
+    kernel : Kernel
+        The whole step as one kernel with one instance
+    name : str
+        Name of the program
+    sizes : tuple of int
+        Numbers of states, of stage values and of lane values, the inputs in this order
+
+    Returns
+    -------
+    text : str
+        C function `<name>_stage(m, k, state, stage, lane, lanes, next, record)`; states lie `MS_W` apart, lane values
+        and records `lanes`
+    """
+    states, stages, _ = sizes
+    head = (
+        f"static void {name}_stage(const long m, const double *restrict k, const double *restrict state, "
+        "const double *restrict stage, const double *restrict lane, const long lanes, double *restrict next, "
+        "double *restrict record)"
+    )
+
+    def source(place: str) -> str:
+        i = int(place)
+        if i < states:
+            return f"state + {i} * MS_W"
+        return f"stage + {i - states}" if i < states + stages else f"lane + {i - states - stages} * lanes"
+
+    def target(place: str) -> str:
+        i = int(place)
+        return f"next + {i} * MS_W" if i < states else f"record + {i - states} * lanes"
+
+    common = range(states, states + stages)
+    lines = ["enum { s = 1, move = 0 };", _loop(kernel, f"{name}_0", source, target, common)]
+    return _function(head, lines)
+
+
 def _loops(kernels: tuple[Kernel, ...], name: str, source: Place, target: Place) -> list[str]:
     lines = []
     for number, kernel in enumerate(kernels):
@@ -146,7 +186,7 @@ def _loops(kernels: tuple[Kernel, ...], name: str, source: Place, target: Place)
     return lines
 
 
-def _loop(kernel: Kernel, name: str, source: Place, target: Place) -> str:
+def _loop(kernel: Kernel, name: str, source: Place, target: Place, common: Container[int] = ()) -> str:
     single = len(kernel.inputs) == 1
     inputs = (
         [str(i) for i in kernel.inputs[0]] if single else [f"{name}_in[i][{j}]" for j in range(len(kernel.inputs[0]))]
@@ -158,7 +198,8 @@ def _loop(kernel: Kernel, name: str, source: Place, target: Place) -> str:
     lines = [f"const double *restrict x{j} = {source(i)};" for j, i in enumerate(inputs)]
     lines += [f"double *restrict y{j} = {target(o)};" for j, o in enumerate(outputs)]
     lines.append(f"const double *restrict c = {constants};")
-    points = [*(f"x{j}[p]" for j in range(len(inputs))), *(f"y{j} + p" for j in range(len(outputs)))]
+    points = [f"x{j}[0]" if i in common else f"x{j}[p]" for j, i in enumerate(kernel.inputs[0])]
+    points += [f"y{j} + p" for j in range(len(outputs))]
     lines += ["MS_LANES", "for (long p = 0; p < m; p++)", f"    {name}({', '.join(['c + move * p', 's', *points])});"]
     head = "{" if single else f"for (int i = 0; i < {len(kernel.inputs)}; i++) {{"
     return "\n    ".join([head, *("    " + line for line in lines), "}"])

@@ -57,12 +57,12 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
     shape : tuple of int
         Outputs and points
     out : ndarray or None
-        The caller's own array
+        The caller's own array [SI]
 
     Returns
     -------
     target : ndarray, shape `shape`
-        New unless the caller has one
+        New unless the caller has one [SI]
 
     Raises
     ------
@@ -136,12 +136,35 @@ def numpy_text(tape: Tape) -> str:
     return "\n".join(["def function(x, y):", *("    " + line for line in lines)])
 
 
+def numpy_function(tape: Tape) -> Callable[[Any, Any], None]:
+    """The program as a Python function of arrays.
+
+    Parameters
+    ----------
+    tape : Tape
+        The program
+
+    Returns
+    -------
+    function : callable
+        (x, y): lists of columns to read and to write
+
+    Raises
+    ------
+    BadInput
+        numpy does not know one of its operators
+    """
+    if unknown(tape, NUMPY):
+        raise BadInput(f"{tape.name}: numpy has no {', '.join(unknown(tape, NUMPY))}; install a C compiler")
+    scope: dict[str, Any] = {"np": np, "inf": np.inf, "nan": np.nan}
+    exec(compile(numpy_text(tape), f"<numpy {tape.name}>", "exec"), scope)
+    return scope["function"]
+
+
 def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
     if unknown(tape, NUMPY):
         return _mapped(function, tape)
-    scope: dict[str, Any] = {"np": np, "inf": np.inf, "nan": np.nan}
-    exec(compile(numpy_text(tape), f"<numpy {tape.name}>", "exec"), scope)
-    run = scope["function"]
+    run = numpy_function(tape)
 
     def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
         found = columns(tape.name, len(tape.inputs), values)

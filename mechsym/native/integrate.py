@@ -28,8 +28,7 @@ _ARRAYS = (
 
 class _Table(ctypes.Structure):
     _fields_ = [
-        *((name, ctypes.c_long) for name in ("slot", "state", "pieces", "terms", "per_lane")),
-        *((name, ctypes.c_double) for name in ("start", "period")),
+        *((name, ctypes.c_long) for name in ("slot", "state", "pieces", "terms")),
         *((name, ctypes.c_void_p) for name in ("breaks", "coefficients")),
     ]
 
@@ -57,6 +56,8 @@ class _Batch:
     start: np.ndarray
     until: np.ndarray
     held: np.ndarray
+    times: np.ndarray
+    kinks: np.ndarray
 
 
 def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome:
@@ -94,7 +95,7 @@ def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome
     texts = [getattr(integrators, method)(p, lanes) for p in batch.programs]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
     blocks = _blocks(texts if len(texts) > 1 else texts * count, lanes)
-    result = _empty(count, batch.start.shape[1], len(runs.times))
+    result = _empty(count, batch.start.shape[1], batch.times.shape[1])
 
     def work(block: tuple[str, list[int]]) -> None:
         _run_block(loaded[block[0]][f"ms_{method}"], batch, block[1], lanes, result)
@@ -122,26 +123,29 @@ def _spread(runs: Runs, mode: str) -> _Batch:
     functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
     programs = [program(f, mode) for f in functions]
     n, p = integrators.sizes(programs[0])
-    start, until, held = np.asarray(runs.start, float), np.asarray(runs.until, float), np.asarray(runs.held, float)
-    counts = {len(a) for a, alone in ((start, 1), (until, 1), (held, 2)) if a.ndim > alone}
+    arrays: dict[str, tuple[Any, int]] = {
+        "start": (runs.start, 1),
+        "until": (runs.until, 1),
+        "held": (runs.held, 2),
+        "times": (runs.times, 1),
+    }
+    arrays["kinks"] = (runs.kinks.angles if runs.kinks else (), 1)
+    found = {name: np.asarray(value, float) for name, (value, _) in arrays.items()}
+    counts = {len(found[name]) for name, (_, alone) in arrays.items() if found[name].ndim > alone}
     counts |= set() if single else {len(functions)}
     if len(counts) > 1:
-        raise BadInput(f"start, until, held and rhs are for {sorted(counts)} runs; they must agree")
-    count = counts.pop() if counts else 1
-    segments = until.shape[-1]
-    if start.shape[-1] != n or held.shape[-1] != p or (p and held.shape[-2] != segments):
+        raise BadInput(f"start, until, held, times and rhs are for {sorted(counts)} runs; they must agree")
+    count, segments = counts.pop() if counts else 1, found["until"].shape[-1]
+    if not p:
+        found["held"] = np.zeros((segments, 0))
+    if found["start"].shape[-1] != n or found["held"].shape[-2:] != (segments, p):
         raise BadInput(
             f"{programs[0].tape.name} has {n} states and {p} held values in {segments} segments; start has shape "
-            f"{start.shape}, held {held.shape}"
+            f"{found['start'].shape}, held {found['held'].shape}"
         )
-    return _Batch(
-        runs=runs,
-        programs=programs,
-        constants=[constant_table(q.kernels) for q in programs],
-        start=np.broadcast_to(start, (count, n)),
-        until=np.broadcast_to(until, (count, segments)),
-        held=np.broadcast_to(held if p else np.zeros((segments, 0)), (count, segments, p)),
-    )
+    spread = {name: np.broadcast_to(a, (count, *a.shape[-arrays[name][1] :])) for name, a in found.items()}
+    constants = [constant_table(q.kernels) for q in programs]
+    return _Batch(runs=runs, programs=programs, constants=constants, **spread)
 
 
 def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
@@ -172,16 +176,16 @@ def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, resu
 
 
 def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
-    lanes, n, times = len(chosen), batch.start.shape[1], len(batch.runs.times)
+    lanes, n, times = len(chosen), batch.start.shape[1], batch.times.shape[1]
     constants = batch.constants if len(batch.constants) > 1 else batch.constants * len(batch.start)
-    kinks = batch.runs.kinks
+    period = batch.runs.kinks.period if batch.runs.kinks else 1.0
     counters = {name: np.zeros(lanes, ctypes.c_long) for name in ("steps", "rejected", "sampled", "met", "status")}
     floats = {
         "constants": np.stack([constants[c] for c in chosen], axis=1),
         "until": batch.until[chosen].T,
         "held": np.moveaxis(batch.held[chosen], 0, 2),
-        "grid": batch.runs.times,
-        "kink_angles": np.mod(kinks.angles, kinks.period) if kinks else (),
+        "grid": batch.times[chosen].T,
+        "kink_angles": np.mod(batch.kinks[chosen].T, period),
         "t": np.full(lanes, float(batch.runs.t)),
         "y": batch.start[chosen].T,
         "samples": np.full((times, n, lanes), np.nan),
@@ -194,13 +198,13 @@ def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
 def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[_Run, list[Any]]:
     """The argument of the C function, and what must stay alive as long as it is used."""
     alive: list[Any] = [arrays]
-    tables = (_Table * len(runs.tables))(*(_table(t, chosen, alive) for t in runs.tables))
+    tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
     surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
     alive += [tables, surfaces]
     kinks = runs.kinks
     structure = _Run(
         segments=len(arrays["until"]), times=len(arrays["grid"]), tables=len(runs.tables),
-        surfaces=len(runs.surfaces), kinks=len(kinks.angles) if kinks else 0, kink_state=kinks.state if kinks else 0,
+        surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kink_state=kinks.state if kinks else 0,
         max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
         kink_period=kinks.period if kinks else 1.0, table=ctypes.addressof(tables),
         surface=ctypes.addressof(surfaces), **{name: a.ctypes.data for name, a in arrays.items()},
@@ -208,17 +212,15 @@ def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) ->
     return structure, alive
 
 
-def _table(table: Table, chosen: np.ndarray, alive: list[Any]) -> _Table:
-    breaks = np.ascontiguousarray(table.breaks, dtype=float)
-    shared = table.coefficients.ndim == 2
-    rows = table.coefficients[None] if shared else table.coefficients[chosen]
+def _table(table: Table, run: int, alive: list[Any]) -> _Table:
+    breaks, coefficients = table.polynomials[run if len(table.polynomials) > 1 else 0]
+    breaks = np.ascontiguousarray(breaks, dtype=float)
     # one polynomial after another, as the C code reads them
-    coefficients = np.array(np.swapaxes(rows, 1, 2), dtype=float, order="C")
-    alive += [breaks, coefficients]
+    rows = np.ascontiguousarray(coefficients.T, dtype=float)
+    alive += [breaks, rows]
     return _Table(
-        slot=table.held, state=table.state, pieces=len(breaks) - 1, terms=coefficients.shape[2],
-        per_lane=0 if shared else coefficients[0].size, start=breaks[0], period=breaks[-1] - breaks[0],
-        breaks=breaks.ctypes.data, coefficients=coefficients.ctypes.data,
+        slot=table.held, state=table.state, pieces=len(breaks) - 1, terms=rows.shape[1], breaks=breaks.ctypes.data,
+        coefficients=rows.ctypes.data,
     )  # fmt: skip
 
 

@@ -52,7 +52,7 @@ def dop853(program: Program, lanes: int) -> str:
     text : str
         C text
     """
-    return "\n".join([_system(program, lanes), _dop853_numbers(), header("dop853.h"), header("advance.h")])
+    return "\n".join([_system(program, lanes), dop853_numbers(), header("dop853.h"), header("advance.h")])
 
 
 def _system(program: Program, lanes: int) -> str:
@@ -74,7 +74,14 @@ def _sum(weights: dict[int, float], letter: str = "MS_Q") -> str:
 
 
 @functools.cache
-def _dop853_numbers() -> str:
+def dop853_numbers() -> str:
+    """The numbers of DOP853 as macros: MS_STAGES, MS_EXTRA_STAGES, MS_WEIGHTS, MS_ERROR_5, MS_ERROR_3, MS_DENSE_1..4.
+
+    Returns
+    -------
+    text : str
+        C text
+    """
     lower = {stage: table.A[13].get(stage, 0.0) - table.WEIGHTS_3.get(stage, 0.0) for stage in table.A[13]}
     stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {_sum(table.A[s])})" for s in table.A if s != 13}
     first = " \\\n    ".join(text for s, text in stages.items() if s < 13)
@@ -123,7 +130,7 @@ def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.n
     Returns
     -------
     a, b, c, ahead : ndarray
-        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial
+        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial [-]
 
     Notes
     -----

@@ -75,9 +75,25 @@ def kernels(tape: Tape) -> tuple[Kernel, ...]:
     loops = [_kernel(parts) for parts in rolled]
     rest = [_kernel([_part(tape, single)])] if single else []
     found = tuple(loops + rest)
-    whole = _part(tape, list(range(len(tape.results))))
     total = sum(_operations(p) * len(p.inputs) for p in found)
-    return found if total <= _DEARER * _operations(whole) else (_kernel([whole]),)
+    single_kernel = whole(tape)
+    return found if total <= _DEARER * _operations(single_kernel) else (single_kernel,)
+
+
+def whole(tape: Tape) -> Kernel:
+    """The program as one kernel with one instance.
+
+    Parameters
+    ----------
+    tape : Tape
+        The program
+
+    Returns
+    -------
+    kernel : Kernel
+        Writes every output
+    """
+    return _kernel([_part(tape, list(range(len(tape.results))))])
 
 
 def _operations(part: _Part | Kernel) -> int:
@@ -177,7 +193,7 @@ def constant_table(found: tuple[Kernel, ...]) -> np.ndarray:
     Returns
     -------
     table : ndarray, shape (n,)
-        Instance after instance, kernel after kernel; never empty
+        Instance after instance, kernel after kernel; never empty [SI]
     """
     values = [v for kernel in found for row in kernel.constants for v in row]
     return np.array(values or [0.0])

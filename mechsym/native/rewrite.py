@@ -1,13 +1,15 @@
-"""Fewer divisions: a quotient costs as much as ten products, and expressions for machines are full of them.
+"""Cheaper forms: a quotient costs as much as ten products, and expressions for machines are full of them.
 
     a / c                 becomes  a * (1 / c), the reciprocal of a constant being a constant
     a / d and b / d       become   a * r and b * r with one r = 1 / d
     a / d and b / sqrt(d) become   a * r * r and b * r with one r = 1 / sqrt(d)
+    x ** c                becomes  exp(c * log(x)) for a constant c that is no multiple of one half
 
-Each costs one more rounding, so only the mode `fast` does it.
+The first three cost one more rounding, the last |c log x| units of the last place, so only the mode `fast` does it.
 """
 
 import dataclasses
+import math
 
 from mechsym.native.tape import Tape, prune
 
@@ -20,8 +22,8 @@ class _Work:
     place: dict[int, int] = dataclasses.field(default_factory=dict)
 
 
-def fewer_divisions(tape: Tape) -> Tape:
-    """The same program with reciprocals shared.
+def cheaper(tape: Tape) -> Tape:
+    """The same program with reciprocals shared and broken powers taken apart.
 
     Parameters
     ----------
@@ -31,7 +33,7 @@ def fewer_divisions(tape: Tape) -> Tape:
     Returns
     -------
     tape : Tape
-        With as few quotients as the rules of this module give
+        By the rules of this module
     """
     denominators = [_denominator(op, args) for op, args in tape.nodes]
     uses = {d: denominators.count(d) for d in denominators if d is not None}
@@ -43,6 +45,9 @@ def fewer_divisions(tape: Tape) -> Tape:
         elif op in ("div", "inv") and _shared(tape, uses, roots, args[-1]):
             inverse = _reciprocal(tape, work, uses, roots, args[-1])
             work.place[i] = inverse if op == "inv" else _put(work, "mul", (work.place[args[0]], inverse))
+        elif op == "pow" and _broken(tape, args[1]):
+            exponent = _put(work, "mul", (work.place[args[1]], _put(work, "log", (work.place[args[0]],))))
+            work.place[i] = _put(work, "exp", (exponent,))
         else:
             work.place[i] = _put(work, op, tuple(work.place[a] for a in args))
     nodes, results = prune(work.nodes, [work.place[r] for r in tape.results])
@@ -51,6 +56,11 @@ def fewer_divisions(tape: Tape) -> Tape:
 
 def _denominator(op: str, args: tuple) -> int | None:
     return args[-1] if op in ("div", "inv") else None
+
+
+def _broken(tape: Tape, exponent: int) -> bool:
+    op, args = tape.nodes[exponent]
+    return op == "constant" and math.isfinite(args[0]) and 2 * args[0] != int(2 * args[0])
 
 
 def _shared(tape: Tape, uses: dict[int, int], roots: dict[int, int], d: int) -> bool:

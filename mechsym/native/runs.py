@@ -28,16 +28,14 @@ class Table:
     ----------
     held, state : int
         Index of the held value and of the state
-    breaks : ndarray, shape (k + 1,)
-        Ascending, from the start to the end of one period
-    coefficients : ndarray, shape (terms, k) or (runs, terms, k)
-        Polynomials in the distance from the left break, highest power first, as in `scipy.interpolate.PPoly`
+    polynomials : tuple of (ndarray, ndarray)
+        For each run, or one for all: breaks (k + 1,) from the start to the end of one period, and coefficients
+        (terms, k) in the distance from the left break, highest power first, as in `scipy.interpolate.PPoly`
     """
 
     held: int
     state: int
-    breaks: np.ndarray
-    coefficients: np.ndarray
+    polynomials: tuple[tuple[np.ndarray, np.ndarray], ...]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -67,14 +65,14 @@ class Kinks:
     ----------
     state : int
         Index of the state
-    angles : tuple of float
+    angles : ndarray, shape (k,) or (runs, k)
         Within one period
     period : float
         After which they repeat
     """
 
     state: int
-    angles: tuple[float, ...]
+    angles: np.ndarray
     period: float
 
 
@@ -94,8 +92,8 @@ class Runs:
         Ends of the segments, ascending; the last is the end of the run [s]
     held : ndarray, shape (segments, p) or (runs, segments, p)
         Held values in each segment; empty when there are none
-    times : ndarray, shape (m,)
-        Wanted times after the start, ascending [s]
+    times : ndarray, shape (m,) or (runs, m)
+        Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
     tables, surfaces : tuple of Table, of Surface
         See there
     kinks : Kinks or None

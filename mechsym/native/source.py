@@ -8,8 +8,9 @@ from importlib import resources
 import casadi
 
 from mechsym.native import emit
+from mechsym.native.factor import factored
 from mechsym.native.kernels import Kernel, kernels
-from mechsym.native.rewrite import fewer_divisions
+from mechsym.native.rewrite import cheaper
 from mechsym.native.tape import Tape, read
 
 
@@ -37,14 +38,14 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
     function : casadi.Function
         Function of scalars or small vectors
     mode : str
-        `fast` shares reciprocals, `strict` leaves every operation as it is
+        `fast` shares reciprocals and factors, `strict` leaves every operation as it is
 
     Returns
     -------
     program : Program
         What the emitter takes
     """
-    tape = fewer_divisions(read(function)) if mode == "fast" else read(function)
+    tape = factored(cheaper(read(function))) if mode == "fast" else read(function)
     return Program(tape=tape, kernels=kernels(tape))
 
 

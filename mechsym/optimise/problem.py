@@ -124,7 +124,7 @@ def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
     BadInput
         Unknown names, wrong units, empty ranges
     """
-    units = _design_units(engine)
+    units = design_units(engine)
     figures = figure_units(engine)
     for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
         if name not in figures:
@@ -156,7 +156,19 @@ def figure_units(engine: Engine) -> dict[str, str]:
     return SCALAR_UNITS | PEAK_UNITS | dict.fromkeys(loads, "N")
 
 
-def _design_units(engine: Engine) -> dict[str, str]:
+def design_units(engine: Engine) -> dict[str, str]:
+    """Units of the values that a design may hold.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+
+    Returns
+    -------
+    units : dict of str to str
+        Dotted name to SI unit
+    """
     records = {s: getattr(engine, s) for s in ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")}
     units = {
         f"{section}.{f.name}": f.metadata["unit"]

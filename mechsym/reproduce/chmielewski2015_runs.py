@@ -1,4 +1,4 @@
-"""The start-up of Chmielewski et al. (2015), section 2.2: converged runs, and what a fixed step makes of it.
+"""Chmielewski et al. (2015): the start-up of section 2.2, converged, and what a fixed step makes of it.
 
 The paper solved (6) with (11) and (2), reports a speed of 194 rad/s from 90 s on, and warns that its curves depend on
 the step. Here: the printed model and the exact one, each to convergence; a rigid shaft as a hand check; and runs with
@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from mechsym import cases, mechanisms
+from mechsym import cases, mechanisms, torsion
 from mechsym.mechanism import acceleration_function
 from mechsym.runs import problem_of
 from mechsym.simulate import Problem, Result, Settings, simulate
@@ -19,8 +19,13 @@ from mechsym.simulate.fixed_step import fixed_step
 
 CASE = "chmielewski"
 CLAIMED_SPEED, CLAIMED_TIME = 194.0, 90.0  # section 2.2 [rad/s, s]
-# fitted: classical Runge-Kutta with this step holds the shaft at resonance with a peak speed of the paper's [s]
-TELLING_STEP = 2.57e-3
+# steps with which classical Runge-Kutta and the third-order formula of Bogacki and Shampine hold the shaft at resonance
+# with a peak speed of about the paper's; the paper prints neither formula nor step [s]
+TELLING_STEP, TELLING_STEP_3 = 2.57e-3, 0.88e-3
+EXACT, PRINTED = "crankshaft_flywheel", "crankshaft_flywheel_printed"
+# integrator and tolerance, from rough to fine, the last by a second integrator
+SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
+FINEST = SWEEP[-1]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -44,6 +49,28 @@ class Speeds:
     lowest: float
     highest: float
     peak_at_claim: float
+    energy_residual: float | None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Reached:
+    """What a run reaches from 90 s on.
+
+    Parameters
+    ----------
+    name : str
+        Integrator with its tolerance or step
+    mean : float
+        Angle over time until the end [rad/s]
+    peak : float
+        Largest momentary speed within two seconds [rad/s]
+    energy_residual : float or None
+        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
+    """
+
+    name: str
+    mean: float
+    peak: float
     energy_residual: float | None
 
 
@@ -85,27 +112,6 @@ def run(model: str, tolerance: float = 1e-10, backend: str = "scipy-dop853") -> 
     return simulate(problem(model), Settings(tolerance=tolerance, backend=backend, check="none"))
 
 
-def crank_acceleration(result: Result) -> np.ndarray:
-    """Acceleration of the crank along a run of the printed model.
-
-    Parameters
-    ----------
-    result : Result
-        Of `run`
-
-    Returns
-    -------
-    acceleration : ndarray, shape (n,)
-        From its equations, not by differences [rad/s^2]
-    """
-    function = acceleration_function(problem("crankshaft_flywheel_printed").mechanism)
-    drive = cases.load(CASE).need("drive")
-    torque = np.where(result.t < drive.time, 0.0, drive.torque)
-    known = {**result.columns, "M": torque}
-    rows = [np.broadcast_to(known.get(n, 0.0), result.t.shape)[None, :] for n in function.name_in()]
-    return np.asarray(function(*rows))[0]
-
-
 def rigid_speed(t: float) -> float:
     r"""Speed that a rigid drive has at most, :math:`M (t - 1) / (I_0 + I_2)`.
 
@@ -122,6 +128,54 @@ def rigid_speed(t: float) -> float:
     case = cases.load(CASE)
     p, drive = case.need("parameters"), case.need("drive")
     return float(drive.torque * (t - drive.time) / (p.I0 + p.I2))
+
+
+def rigid_speed_with_piston(t: float) -> float:
+    r"""Speed of a rigid drive that also carries the piston's mean inertia: the hand check.
+
+    .. math:: \omega = \frac{M\,(t - 1)}{I_0 + I_2 + \overline{m_0 x_0'^2}}
+
+    Parameters
+    ----------
+    t : float
+        Time [s]
+
+    Returns
+    -------
+    speed : float
+        What the work of the drive allows as a mean speed [rad/s]
+    """
+    case = cases.load(CASE)
+    linear = torsion.matrices(mechanisms.build(EXACT, case.need("parameters")))
+    drive = case.need("drive")
+    return float(drive.torque * (t - drive.time) / linear.mass.sum())
+
+
+def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np.inf) -> float:
+    """Mean in time of a crank's speed.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Times [s]
+    angle : ndarray, shape (n,)
+        Crank angle [rad]
+    since, until : float
+        Stretch; its ends are moved to the next times inside [s]
+
+    Returns
+    -------
+    mean : float
+        Angle over time [rad/s]
+    """
+    inside = (t >= since) & (t <= until)
+    return float(np.ptp(angle[inside]) / np.ptp(t[inside]))
+
+
+def _reached(name: str, t: np.ndarray, angle: np.ndarray, speed: np.ndarray, residual: float | None) -> Reached:
+    claim = (t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)
+    mean = mean_speed(t, angle, CLAIMED_TIME)
+    return Reached(name=name, mean=mean, peak=float(speed[claim].max()), energy_residual=residual)
 
 
 def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> Speeds:
@@ -217,41 +271,62 @@ def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @cache
-def convergence() -> tuple[Speeds, ...]:
-    """Both models at three tolerances, and by a second integrator.
+def convergence() -> dict[str, tuple[Reached, ...]]:
+    """Both models along `SWEEP`.
 
     Returns
     -------
-    study : tuple of Speeds
-        One per run
+    study : dict of str to tuple of Reached
+        Model to one entry per run
     """
-    found = []
-    for model in ("crankshaft_flywheel", "crankshaft_flywheel_printed"):
-        for tolerance in (1e-8, 1e-10, 1e-12):
-            found.append(_adaptive(model, tolerance, "scipy-dop853"))
-        found.append(_adaptive(model, 1e-12, "sundials"))
-    return tuple(found)
+    return {model: tuple(_adaptive(model, tol, backend) for backend, tol in SWEEP) for model in (EXACT, PRINTED)}
 
 
-def _adaptive(model: str, tolerance: float, backend: str) -> Speeds:
+def _adaptive(model: str, tolerance: float, backend: str) -> Reached:
     result = run(model, tolerance, backend)
-    name = f"{model}, {backend}, tolerance {tolerance:g}"
-    return speeds(name, result.t, result.columns["phi0d"], result.energy.residual)
+    columns, name = result.columns, f"{backend} at {tolerance:g}"
+    return _reached(name, result.t, columns["phi0"], columns["phi0d"], result.energy.residual)
 
 
 @cache
-def step_study() -> tuple[Speeds, ...]:
-    """The printed model with fixed steps.
+def step_study() -> tuple[Reached, ...]:
+    """The printed model with fixed steps; the energy residual is what the formula loses of the work.
 
     Returns
     -------
-    study : tuple of Speeds
-        One per step and order
+    study : tuple of Reached
+        One per order and step
     """
     found = []
-    for order, step in ((4, 5e-3), (4, TELLING_STEP), (4, 1e-3), (3, 5e-3), (3, 1e-3)):
-        t, y = fixed("crankshaft_flywheel_printed", step, order)
-        gained = energy_gained("crankshaft_flywheel", t, y[:, :2].T, y[:, 2:4].T)
-        name = f"crankshaft_flywheel_printed, Runge-Kutta {order}, step {1000 * step:g} ms"
-        found.append(speeds(name, t, y[:, 2], -float(gained[-1])))
+    for order, step in ((4, 5e-3), (4, TELLING_STEP), (3, TELLING_STEP_3)):
+        t, y = fixed(PRINTED, step, order)
+        gained = energy_gained(EXACT, t, y[:, :2].T, y[:, 2:4].T)
+        name = f"Runge-Kutta {order}, {1000 * step:g} ms"
+        found.append(_reached(name, t, y[:, 0], y[:, 2], -float(gained[-1])))
     return tuple(found)
+
+
+@cache
+def piston() -> dict[str, np.ndarray]:
+    """Motion of the piston and the crank's acceleration along the finest run of the exact model.
+
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        `x0` [m], `v` [m/s], `a` [m/s^2], `epsilon` [rad/s^2], in SI [-]
+    """
+    found, mechanism = run(EXACT, FINEST[1], FINEST[0]), problem(EXACT).mechanism
+    drive = cases.load(CASE).need("drive")
+    given = {name: column[None, :] for name, column in found.columns.items()}
+    given |= {"M": np.where(found.t > drive.time, drive.torque, 0.0)[None, :], "F": np.zeros_like(given["phi0"])}
+    accelerations, kinematics = acceleration_function(mechanism), mechanism.functions["kinematics"]
+    epsilon = np.asarray(accelerations.call([given[n] for n in accelerations.name_in()])[0])[0]
+    values = kinematics.call([given[n] for n in kinematics.name_in()])
+    x = dict(zip(kinematics.name_out(), (np.asarray(v).ravel() for v in values), strict=True))
+    speed = found.columns["phi0d"]
+    return {
+        "x0": x["x0"],
+        "v": x["dx0_dphi0"] * speed,
+        "a": x["dx0_dphi0"] * epsilon + x["d2x0_dphi0_dphi0"] * speed**2,
+        "epsilon": epsilon,
+    }

@@ -17,6 +17,7 @@ from mechsym.compare import crossovers
 from mechsym.cycle import columns, engine, over_speeds, speed_range
 from mechsym.reproduce.nunes2017_facts import FACTS
 from mechsym.reproduce.nunes2017_numbers import CROSSOVER, DIFFERENCES, OVER_SPEEDS, Item
+from mechsym.reproduce.rows import last_digit
 
 SOURCE = "004_e00ef50339108dab"
 _ROD_74 = {"parameters.l1": "37 mm", "parameters.l2": "37 mm"}
@@ -35,7 +36,7 @@ Curves = Mapping[str, np.ndarray]
 
 
 def rows() -> list[dict[str, Any]]:
-    """The engine model's published numbers with their verdicts.
+    """The thesis's published numbers with their verdicts: engine model, then component sizing.
 
     Returns
     -------
@@ -43,11 +44,35 @@ def rows() -> list[dict[str, Any]]:
         Keys source, item, published, computed, rel_error, verdict, note, and converged, corrected (None where the
         models do not differ)
     """
+    from mechsym.reproduce import nunes2017_sizing  # it takes `verdict` from here
+
+    return engine_rows() + nunes2017_sizing.rows()
+
+
+def engine_rows() -> list[dict[str, Any]]:
+    """The published numbers of chapters 2, 3 and 5.
+
+    Returns
+    -------
+    rows : list of dict
+        As `rows`
+    """
     models = {name: _curves(changes) for name, changes in _MODELS.items()}
     found = [_row(item, {name: value(item, curves) for name, curves in models.items()}) for item in OVER_SPEEDS]
     for items, evaluate in ((CROSSOVER, _at_crossover), (DIFFERENCES, _difference)):
         found += [_row(item, {name: evaluate(item, curves) for name, curves in models.items()}) for item in items]
     return found + facts()
+
+
+def over_printed_speeds() -> dict[str, Curves]:
+    """Performance of the three engines over the speeds by the thesis's own march.
+
+    Returns
+    -------
+    curves : dict of str to mapping
+        `slider_crank`, `slider_crank_74` (rod of 74 mm) and `hypocycloid` to their quantities over the speeds
+    """
+    return _curves(_MODELS["printed"])
 
 
 def value(item: Item, curves: Mapping[str, Curves]) -> float:
@@ -93,29 +118,13 @@ def verdict(item: Item, computed: float) -> tuple[str, str]:
     wanted, unit = float(target), max(last_digit(target), 2 * item.about * abs(float(target)))
     off = abs(computed - wanted) / unit
     # 0.55 for 0.5: T(5400) = 245.03252 is printed 245.032
-    rounded, truncated = off <= 0.55, 0 <= abs(computed) - abs(wanted) < unit
+    rounded = off <= 0.55
+    truncated = not item.about and 0 <= abs(computed) - abs(wanted) < unit
     if not (rounded or truncated):
         return "not reproduced", "; ".join(filter(None, [item.slip, f"{off:.2f} of the last digit off"]))
     edge = f"{off:.2f} of the last digit off" if 0.5 < off <= 0.55 else ""
     notes = [item.slip, "" if rounded else "truncated in print", edge, "the text says about" if item.about else ""]
     return "reproduced with the source's slip" if item.slip else "reproduced", "; ".join(filter(None, notes))
-
-
-def last_digit(text: str) -> float:
-    """Value of one unit in the last printed digit.
-
-    Parameters
-    ----------
-    text : str
-        A number as printed
-
-    Returns
-    -------
-    unit : float
-        For example 0.001 for `9.188` [-]
-    """
-    mantissa, _, exponent = text.lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
 def facts() -> list[dict[str, Any]]:

@@ -55,7 +55,7 @@ _SWAPPED = "the columns of table 3.1 are exchanged"
 
 FACTS: list[tuple[Item, Fact]] = [
     (_fact("ideal Otto efficiency at CR = 10 [%]", "60.19"), lambda _: 100 * otto_efficiency(10.0, 1.4)),
-    (_fact("ideal Otto efficiency at CR = 10 [%]", "60.2"), lambda _: 100 * otto_efficiency(10.0, 1.4)),
+    (_fact("ideal Otto efficiency at CR = 10, section 5.1.1 [%]", "60.2"), lambda _: 100 * otto_efficiency(10.0, 1.4)),
     (_fact("piston area [m^2]", "0.02827", "0.02827 printed for 0.002827", "0.002827"), _of_chamber(lambda c: c.area)),
     (_fact("displacement, table 3.2 [m^3]", "2.9405e-4"), _of_chamber(lambda c: c.displacement)),
     (_fact("displacement, section 3.1.1 [m^3]", "2.9405e-5", "exponent -5 printed for -4", "2.9405e-4"),

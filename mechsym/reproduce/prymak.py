@@ -1,16 +1,21 @@
-"""Prymak (undated): the inertia forces of a rodless mechanism, which are the paper's only computed result."""
+"""Numbers and claims of Prymak on rodless mechanisms beside the derived mechanism.
+
+The source prints no data. What follows from geometry needs none: four rod journals of equal mass, two to an axis.
+"""
 
 from typing import Any
 
 import numpy as np
 
-from mechsym.mechanism import curves
-from mechsym.mechanisms.rodless import RodlessParameters, build
-from mechsym.reproduce.rows import row
+from mechsym import constraints, mechanisms
+from mechsym.mechanism import Mechanism, curves
+from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.reproduce.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, row
 
 SOURCE = "003_8746f5f4ad51b1d1"
-# the paper prints no data; its results are pure numbers and do not depend on these
-RADIUS, SPEED, MASS = 0.04, 300.0, 1.0  # [m], [rad/s], [kg] reciprocating per rod journal
+_ROUNDING = 1e-12
+RADIUS, SPEED, MASS = 0.04, 300.0, 1.0  # any: the results are pure numbers [m], [rad/s], [kg] per rod journal
+PARAMETERS = RodlessParameters(r=RADIUS, I1=0.1, m_link=0.0, I_link=0.0, m_a=2 * MASS, m_b=2 * MASS)
 
 
 def inertia_resultant(alpha: np.ndarray) -> np.ndarray:
@@ -26,33 +31,82 @@ def inertia_resultant(alpha: np.ndarray) -> np.ndarray:
     force : ndarray, shape (2, n)
         Along the axis of the slider that is outermost at angle 0, and along the other one [N]
     """
-    parameters = RodlessParameters(r=RADIUS, I1=0.1, u1=0.0, m_link=0.0, I_link=0.0, m_a=2 * MASS, m_b=2 * MASS)
-    found = curves(build(parameters), alpha)
+    found = curves(mechanisms.build("rodless", PARAMETERS), alpha)
     return -2 * MASS * SPEED**2 * np.array([found["d2x_a_dalpha2"], found["d2x_b_dalpha2"]])
 
 
 def rows() -> list[dict[str, Any]]:
-    """The paper's results (4) and (5), and its conclusion 3.
+    """Every number and claim of the source.
 
     Returns
     -------
     rows : list of dict
-        Keys source, item, published, computed, rel_error, verdict, note
+        Keys as in `rows.row`
     """
-    alpha = np.linspace(0, 2 * np.pi, 361)
-    along, across = inertia_resultant(alpha)
-    size = np.hypot(along, across) / (MASS * RADIUS * SPEED**2)
-    turned = np.unwrap(np.arctan2(across, along))
+    alpha = np.linspace(0, 2 * np.pi, 721)
+    return [*_resultant_rows(alpha), *_reaction_rows(), *_claims_without_data()]
+
+
+def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
+    return row(SOURCE, item, published, computed, verdict, note)
+
+
+def _resultant_rows(alpha: np.ndarray) -> list[dict[str, Any]]:
+    along_x, along_y = inertia_resultant(alpha) / (MASS * RADIUS * SPEED**2)
+    size = np.hypot(along_x, along_y)
+    # as printed: each of the four journals' forces squared, then summed
+    printed = np.sqrt(2 * (along_x / 2) ** 2 + 2 * (along_y / 2) ** 2)
+    constant = np.ptp(size) < _ROUNDING and abs(size.mean() - 4) < _ROUNDING
+    off = float(max(np.abs(along_x - 4 * np.cos(alpha)).max(), np.abs(along_y - 4 * np.sin(alpha)).max()))
+    turned = float(np.abs(np.exp(1j * alpha) - (along_x + 1j * along_y) / size).max())
+    to_rod = np.degrees(np.arctan2(np.abs(along_y), np.abs(along_x)))
     return [
-        row(SOURCE, "(4) resultant inertia force over m r omega^2", 4.0, float(size.mean()), "reproduced",
-            f"constant within {np.ptp(size):.0e} over a turn"),
-        row(SOURCE, "(5) angle of the resultant over the crank angle", 1.0,
-        float((turned[-1] - turned[0]) / (2 * np.pi)),
-            "reproduced", "it turns with the crank"),
-        row(SOURCE, "conclusion 3: share of the resultant across a rod, at most", 0.0,
-            float(np.max(np.abs(across)) / np.max(np.hypot(along, across))), "not reproduced",
-            "the resultant points along a rod at four angles of a turn only; what turns with the crank is not along a "
-            "rod"),
-        row(SOURCE, "conclusions 1 and 2: losses by friction, wear", None, None, "not computable",
-            "the paper gives no loads, no coefficients and no numbers"),
+        _row(
+            "(4): resultant inertia force over m r omega^2, constant", "4", float(size.mean()),
+            SLIP if constant else NOT_REPRODUCED,
+            f"under the root the sums must be squared; the terms squared, as printed, give {printed.max():.3f}",
+        ),
+        _row(
+            "(5): sums by axis over m r omega^2, largest difference", "-4 cos alpha, -4 sin alpha", off,
+            REPRODUCED if off < _ROUNDING else NOT_REPRODUCED, "harmonic, no second order; the print counts inwards",
+        ),
+        _row(
+            "(5): direction of the resultant, largest difference [rad]", "tan phi = tan alpha", turned,
+            REPRODUCED if turned < _ROUNDING else NOT_REPRODUCED, "the resultant turns with the crank",
+        ),
+        _row(
+            "conclusion 3: direction of the inertia force, largest angle to the rod of axis a [deg]", "along the rod",
+            float(to_rod.max()), REPRODUCED if to_rod.max() < 1e-6 else NOT_REPRODUCED,
+            "contradicts (5): the rods stay on their axes while the resultant turns",
+        ),
+    ]  # fmt: skip
+
+
+def _reaction_rows() -> list[dict[str, Any]]:
+    rank, count = _rank(mechanisms.build("rodless_constraints", PARAMETERS))
+    closed = f"rank {rank} of {count}, determined are X_a cos alpha - X_b sin alpha and the tangential pin force"
+    return [
+        _row(
+            "(1), Fig. 2: guide reactions X_i as functions of alpha", None, None, NOT_COMPUTABLE,
+            f"no closed form is printed, and the rigid mechanism does not determine them: {closed}; mechsym gives them "
+            "with a named closing rule",
+        ),
+        _row(
+            "conclusion 2: side force on the pistons", "none", None, NOT_COMPUTABLE,
+            "the guides of the sliders take the side force instead, so its size on the piston depends on clearances",
+        ),
+    ]  # fmt: skip
+
+
+def _rank(mechanism: Mechanism) -> tuple[int, int]:
+    solution = constraints.solve(mechanism, constraints.close(mechanism, {mechanism.coordinates[0]: 0.7}))
+    return solution.rank, solution.count
+
+
+def _claims_without_data() -> list[dict[str, Any]]:
+    return [
+        _row(
+            "conclusion 1: smaller losses by friction and inertia than with rods", None, None, NOT_COMPUTABLE,
+            "neither masses nor friction coefficients are printed",
+        )
     ]  # fmt: skip

@@ -1,5 +1,4 @@
-"""Zotov et al. (2024): what its sections 2 and 3 report,
-with a stated cycle in place of the force that it does not print.
+"""Zotov et al. (2024): its sections 2 and 3, with a stated cycle in place of the force that it does not print.
 
 The paper's F(phi) came from measured diagrams that are not printed, so that its torques and guides cannot be computed
 again number by number. The built-in cases `zotov-89` and `zotov-142` carry a typical cycle of such an engine.
@@ -7,7 +6,6 @@ again number by number. The built-in cases `zotov-89` and `zotov-142` carry a ty
 
 import dataclasses
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -17,15 +15,19 @@ from mechsym.assembly import Assembly, assemble
 from mechsym.guide import Guide
 from mechsym.guide_family import Member, family
 from mechsym.hinge import Hinge
-from mechsym.hinge_printed import hinge_torque_printed
-from mechsym.reproduce.rows import row
+from mechsym.hinge_printed import hinge_torque_printed, load_torque_printed
 from mechsym.retune import Retuning, at_setting
+from mechsym.ripple import even_angles
 from mechsym.springs import AirGauge
 
-SOURCE = "000_9f2b746dc1abd296"
 CASES = ("zotov-89", "zotov-142")
-_NO_FORCE = "F(phi) is not printed; with the cycle of the built-in cases"
 PRESSURES = (5e6, 9.5e6)  # Fig. 6 [Pa]
+# what the source leaves open and what changes the ripple of the retuned guide
+VARIANTS: dict[str, dict[str, str]] = {
+    "atmosphere under the piston": {},
+    "scavenge pressure under the piston": {"cycle.crank_side": "scavenge"},
+    "atmosphere, engine upright": {"axis_tilt": "90 deg"},
+}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -40,25 +42,35 @@ class Engines:
         Torque that keeps each speed constant
     cut : Guide
         Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
+    placed : Guide
+        The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
     """
 
     assemblies: tuple[Assembly, Assembly]
     hinges: tuple[Hinge, Hinge]
     cut: Guide
+    placed: Guide
 
 
 @cache
-def engines() -> Engines:
+def engines(variant: str = "atmosphere under the piston") -> Engines:
     """Both engines with their hinges and the paper's guide.
+
+    Parameters
+    ----------
+    variant : str
+        One of `VARIANTS`
 
     Returns
     -------
     engines : Engines
         Made once
     """
-    slow, fast = (assemble(cases.load(name)) for name in CASES)
+    slow, fast = (assemble(cases.load(name, VARIANTS[variant])) for name in CASES)
     hinges = (hinge.build(slow.torques, slow.omega), hinge.build(fast.torques, fast.omega))
-    return Engines(assemblies=(slow, fast), hinges=hinges, cut=_printed_guide(slow, hinges[0]))
+    part = balance.build(hinges[0], "whole_cycle")
+    placed = guide.build(part, slow.case.need("spring"), _choices(slow))
+    return Engines(assemblies=(slow, fast), hinges=hinges, cut=_printed_guide(slow, hinges[0]), placed=placed)
 
 
 def _printed_guide(engine: Assembly, wanted: Hinge) -> Guide:
@@ -118,23 +130,25 @@ def best_pressure() -> Retuning:
     return retune.retune(found.cut, found.hinges[1], "least_squares_torque")
 
 
-def printed_error(phi: np.ndarray) -> float:
-    """What equation (8) as printed is wrong by at 89 rpm.
+def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
+    """Hinge torque exactly as equation (8) prints it, with M_r by (5).
 
     Parameters
     ----------
+    index : int
+        0 for 89 rpm, 1 for 142 rpm
     phi : ndarray, shape (n,)
         Crank angles [rad]
 
     Returns
     -------
-    error : float
-        Largest difference of M_h as a share of its peak [-]
+    M_h : ndarray, shape (n,)
+        Torque on the crank [N*m]
     """
-    engine, wanted = engines().assemblies[0], engines().hinges[0]
-    p, force = engine.case.need("parameters"), engine.force(phi)
-    printed = hinge_torque_printed(p, engine.omega, force, wanted.load_torque, phi)
-    return float(np.max(np.abs(printed - wanted.torque(phi))) / peak(wanted))
+    engine = engines().assemblies[index]
+    p, even = engine.case.need("parameters"), even_angles(2 * np.pi)
+    load = load_torque_printed(p, engine.force(even), even)
+    return hinge_torque_printed(p, engine.omega, engine.force(phi), load, phi)
 
 
 @cache
@@ -172,39 +186,34 @@ def longest_stretch(cut: Guide) -> float:
     return max(0.0, cut.rollers * (rho - cut.parameters.rho0))
 
 
-def rows() -> list[dict[str, Any]]:
-    """Every number that the paper reports of its computations.
+def departure(cut: Guide) -> float:
+    """How far a guide is from a circle: largest minus smallest distance over their mean.
+
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
 
     Returns
     -------
-    rows : list of dict
-        Keys source, item, published, computed, rel_error, verdict, note
+    departure : float
+        0 for a circle [-]
     """
-    found = engines()
-    slow, fast = found.hinges
-    paper, best = retuned(PRESSURES[1]), best_pressure()
-    return [
-        _row("mean of M_h over a turn, option a, as a share of its peak", 0.0, abs(slow.mean_torque) / peak(slow),
-             "reproduced", "holds for every F: M_r is the mean by (5)"),
-        _row("mean of M_h over a turn, option b, as a share of its peak", 0.0, abs(fast.mean_torque) / peak(fast),
-             "reproduced", "as for option a"),
-        _row("largest |M_h|, option b over option a (Fig. 4)", 2.0, peak(fast) / peak(slow), "not computable",
-             f"{_NO_FORCE}; the same picture as the paper's 'approximately 2 times'"),
-        _row("pressure that serves 142 rpm over 5 MPa (Fig. 6)", 1.9, best.setting / PRESSURES[0], "not computable",
-             f"{_NO_FORCE}, least squares of the torque; {100 * best.torque_error:.0f} % of its rms remain"),
-        _row("torque missing at 142 rpm with 9.5 MPa (Fig. 6), share of its rms", None, paper.torque_error,
-             "not computable", f"{_NO_FORCE}; the paper says 'visually almost coincide'"),
-        _row("speed ripple at 142 rpm with 9.5 MPa under a propeller load", None, paper.ripple_propeller_load,
-             "not computable", f"{_NO_FORCE}; the paper says 'almost constant' and gives no number"),
-        *[_guide_row(member) for member in guides() if member.start == "as_printed"],
-    ]  # fmt: skip
+    rho = distances(cut)
+    return float(np.ptp(rho) / ((rho.max() + rho.min()) / 2))
 
 
-def _guide_row(member: Member) -> dict[str, Any]:
-    stretch = longest_stretch(member.guide)
-    note = f"{_NO_FORCE}; the paper does not discuss that the spring is longer than its free height here"
-    return _row(f"Fig. 5 {member.label}: stretch of the spring beyond H [m]", None, stretch, "not computable", note)
+def distances(cut: Guide) -> np.ndarray:
+    """Distances of the roller centres from the axis around a turn.
 
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
 
-def _row(item: str, published: float | None, computed: float | None, verdict: str, note: str) -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, verdict, note)
+    Returns
+    -------
+    rho : ndarray, shape (n,)
+        At even angles, both ends included [m]
+    """
+    return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))

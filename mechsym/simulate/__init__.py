@@ -3,11 +3,13 @@
 problem.py    what to run: mechanism, parts on its inputs, start, splits, stops
 equations.py  first-order equations with the work of every part
 run.py        smooth phases one after another, then the checks
+many.py       problems of one form side by side
 backends.py   integrators by name
 result.py     columns with units, CSV and netCDF
 """
 
-from mechsym.simulate.problem import Formula, Kinks, Part, Problem, Steps, Stop
+from mechsym.simulate.many import simulate_many
+from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.result import Energy, Event, Result, dataset, write_netcdf, write_series
 from mechsym.simulate.run import simulate
 from mechsym.simulate.settings import Settings
@@ -18,6 +20,7 @@ __all__ = [
     "Formula",
     "Kinks",
     "Part",
+    "Periodic",
     "Problem",
     "Result",
     "Settings",
@@ -25,6 +28,7 @@ __all__ = [
     "Stop",
     "dataset",
     "simulate",
+    "simulate_many",
     "write_netcdf",
     "write_series",
 ]

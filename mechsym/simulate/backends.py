@@ -1,4 +1,8 @@
-"""Integrators by name. Each takes a `Phase` and returns a `Leg`; a new one is one line here."""
+"""Integrators by name.
+
+`native` runs a whole problem in compiled C; `auto` takes it where there is a compiler and the problem has no plain
+Python callables, otherwise scipy. Each of the others takes a `Phase` and returns a `Leg`; a new one is one line here.
+"""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -6,9 +10,10 @@ from importlib import import_module
 from mechsym.errors import BadInput
 from mechsym.simulate.phase import Leg, Phase
 
-DEFAULT = "scipy-dop853"
+DEFAULT, FALLBACK = "auto", "scipy-dop853"
+NATIVE = ("auto", "native")
 # name: ("module:function", arguments after the phase); imported on first use
-BACKENDS: dict[str, tuple[str, tuple[str, ...]]] = {
+_PHASES: dict[str, tuple[str, tuple[str, ...]]] = {
     "scipy-dop853": ("mechsym.simulate.scipy_backend:advance", ("DOP853",)),
     "scipy-rk45": ("mechsym.simulate.scipy_backend:advance", ("RK45",)),
     "scipy-rk23": ("mechsym.simulate.scipy_backend:advance", ("RK23",)),
@@ -18,6 +23,8 @@ BACKENDS: dict[str, tuple[str, tuple[str, ...]]] = {
     "sundials": ("mechsym.simulate.symbolic_backends:advance_sundials", ()),
     "heyoka": ("mechsym.simulate.symbolic_backends:advance_heyoka", ()),
 }
+
+BACKENDS = (*NATIVE, *_PHASES)
 
 
 def backend(name: str) -> Callable[[Phase], Leg]:
@@ -36,11 +43,11 @@ def backend(name: str) -> Callable[[Phase], Leg]:
     Raises
     ------
     BadInput
-        No such backend
+        No such backend, or one that takes whole problems only
     """
-    if name not in BACKENDS:
-        raise BadInput(f"backend {name!r} is not known; there are {', '.join(BACKENDS)}")
-    (path, arguments) = BACKENDS[name]
+    if name not in _PHASES:
+        raise BadInput(f"backend {name!r} does not go phase by phase; there are {', '.join(_PHASES)}")
+    (path, arguments) = _PHASES[name]
     module, _, function = path.partition(":")
     found = getattr(import_module(module), function)
     return lambda phase: found(phase, *arguments)

@@ -13,13 +13,12 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.loads import Load, TableLoad, load_torque
 from mechsym.mechanism import Mechanism, velocities
 from mechsym.quantities import check, choice, quantity
 from mechsym.simulate.machine import Machine
-from mechsym.simulate.problem import Formula, Kinks, Part, Problem, Stop
+from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Stop
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,13 +174,14 @@ def problem(engine: Engine, speed: float, turns: float, phi_start: float = 0.0, 
     )
 
 
-def _at_angle(engine: Engine, force: AngleForce) -> Callable[[float, list[float], list[float]], float]:
-    point = force.point
-    if point is not None:
-        return lambda t, q, u: point(q[0])
-    # one angle at a time costs numpy functions 20 to 100 microseconds, a polynomial one
-    value = periodic.scalar(periodic.fit(force.value, engine.kinks, engine.period))
-    return lambda t, q, u: value(q[0])[0]
+def _at_angle(engine: Engine, force: AngleForce) -> Periodic:
+    return Periodic(
+        coordinate=engine.mechanism.coordinates[0],
+        value=force.value,
+        period=engine.period,
+        kinks=engine.kinks,
+        point=force.point,
+    )
 
 
 def _load(load: Load) -> Formula | Callable[[float, list[float], list[float]], float]:

@@ -8,14 +8,16 @@ function, so that any backend can take it; scipy calls it through a buffer (0.5 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
+from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanism import acceleration_function, velocities
-from mechsym.simulate.problem import Formula, Problem, Steps
+from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +32,7 @@ class System:
         Names of the states y
     units : tuple of str
         Their units
-    values : tuple of Steps or callable
+    values : tuple of Steps, Periodic or callable
         What gives each entry of w
     size : int
         Number of coordinates
@@ -41,7 +43,7 @@ class System:
     function: ca.Function
     columns: tuple[str, ...]
     units: tuple[str, ...]
-    values: tuple[Steps | Callable[..., float], ...]
+    values: tuple[Steps | Periodic | Callable[..., float], ...]
     size: int
     audited: bool
 
@@ -139,6 +141,36 @@ def _step(steps: Steps, t: float) -> float:
     return steps.values[int(np.searchsorted(steps.times, t, side="right"))]
 
 
+def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[..., float]:
+    """A value as a function of floats (t, q, u)."""
+    if not isinstance(value, Periodic):
+        return value
+    index = system.columns.index(value.coordinate)
+    if value.point is not None:
+        point = value.point
+        return lambda t, q, u: point(q[index])
+    # one angle at a time costs numpy functions 20 to 100 microseconds, a polynomial one
+    both = periodic.scalar(fitted(value))
+    return lambda t, q, u: both(q[index])[0]
+
+
+@lru_cache(maxsize=64)
+def fitted(value: Periodic) -> Any:
+    """Periodic piecewise polynomial of a value, to round-off.
+
+    Parameters
+    ----------
+    value : Periodic
+        Over one coordinate
+
+    Returns
+    -------
+    poly : scipy.interpolate.PPoly
+        See `mechsym.periodic.fit`
+    """
+    return periodic.fit(value.value, value.kinks, value.period)
+
+
 def right_side(
     system: System, w: np.ndarray, t_end: float, spans: Sequence[Any] = ()
 ) -> Callable[[float, np.ndarray], np.ndarray]:
@@ -167,7 +199,7 @@ def right_side(
     for i, array in enumerate((t_now, y_now, w_now)):
         buffer.set_arg(i, array.data)
     buffer.set_res(0, out.data)
-    sampled = [(i, v) for i, v in enumerate(system.values) if not isinstance(v, Steps)]
+    sampled = [(i, _asked(system, v)) for i, v in enumerate(system.values) if not isinstance(v, Steps)]
     n, last = system.size, float(np.nextafter(t_end, -np.inf))
 
     # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory

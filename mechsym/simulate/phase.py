@@ -113,3 +113,28 @@ class Leg:
     met: int | None = None
     step: float | None = None
     failure: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Raw:
+    """A whole run before it is audited.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Start, wanted times up to the end, and the end [s]
+    y : ndarray, shape (n, m)
+        States there
+    steps : int
+        Accepted steps
+    end : str
+        `t_end`, `turns`, the name of a stop, or `failure`
+    failure : str
+        Empty, or why it could not go on
+    """
+
+    t: np.ndarray
+    y: np.ndarray
+    steps: int
+    end: str
+    failure: str

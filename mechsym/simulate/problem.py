@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from mechsym.errors import BadInput
 from mechsym.mechanism import Mechanism, velocities
 from mechsym.quantities import check, choice, quantity
@@ -52,6 +54,34 @@ class Formula:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Periodic:
+    """A value that depends on one coordinate only and repeats, such as a gas force over the crank angle.
+
+    Parameters
+    ----------
+    coordinate : str
+        Name of the coordinate
+    value : callable
+        Vectorised: angles (n,) [rad] to values (n,) in the unit of the input
+    period : float
+        After which it repeats [rad]
+    kinks : tuple of float
+        Angles where it is not smooth; it may jump there [rad]
+    point : callable, optional
+        The same for one float, where there is a fast way; without it a polynomial is fitted to round-off
+    """
+
+    coordinate: str
+    value: Callable[[np.ndarray], np.ndarray]
+    period: float = quantity("rad", above=0, about="period of the value")
+    kinks: tuple[float, ...] = ()
+    point: Callable[[float], float] | None = None
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Part:
     """Something that acts on one input of the mechanism and whose work is counted by itself.
 
@@ -63,14 +93,14 @@ class Part:
         The mechanism's input it adds to
     role : str
         `drive` counts as work in; `load` and `store` (a spring outside the mechanism) do not
-    value : Steps, Formula or callable
+    value : Steps, Formula, Periodic or callable
         A plain callable takes floats (t, q, u); only the scipy backends can use it
     """
 
     name: str
     input: str
     role: str = choice("drive", "load", "store", default="drive", about="side of the energy balance")
-    value: Steps | Formula | Callable[[float, list[float], list[float]], float]
+    value: Steps | Formula | Periodic | Callable[[float, list[float], list[float]], float]
 
     def __post_init__(self) -> None:
         check(self)
@@ -171,6 +201,7 @@ class Problem:
         if self.t_end <= self.t_start:
             raise BadInput(f"t_end = {self.t_end:g} s must be later than t_start = {self.t_start:g} s")
         _known("part", [p.input for p in self.parts], self.mechanism.inputs)
+        _known("part", [p.value.coordinate for p in self.parts if isinstance(p.value, Periodic)], q)
         _known("kinks", [k.coordinate for k in self.kinks], q)
         _known("stop", [s.of for s in self.stops], (*q, *u))
         if len({p.name for p in self.parts}) != len(self.parts):

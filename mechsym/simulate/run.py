@@ -1,30 +1,24 @@
 """Run a problem: split it into smooth phases, integrate each, audit the energy, and check the tolerance."""
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from mechsym.errors import BadInput
 from mechsym.mechanism import velocities
+from mechsym.native.compiler import NoCompiler
+from mechsym.simulate import native_backend
 from mechsym.simulate.audit import energies, energy_audit, speed_difference, verdict
-from mechsym.simulate.backends import backend
+from mechsym.simulate.backends import FALLBACK, NATIVE, backend
 from mechsym.simulate.equations import System, held, system
-from mechsym.simulate.phase import Phase, Surface
+from mechsym.simulate.phase import Phase, Raw, Surface
 from mechsym.simulate.problem import Problem, Steps
 from mechsym.simulate.result import Event, Result
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.watch import watch
 
 _TIGHTEST = 3e-14  # below that a double-precision step cannot be controlled
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Raw:
-    t: np.ndarray
-    y: np.ndarray
-    steps: int
-    end: str
-    failure: str
 
 
 def simulate(problem: Problem, settings: Settings | None = None) -> Result:
@@ -51,15 +45,46 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
     equations = system(problem)
     begin = time.perf_counter()
     raw = _integrate(problem, equations, settings)
-    result = _result(problem, equations, raw, time.perf_counter() - begin)
+    result = result_of(problem, equations, raw, time.perf_counter() - begin)
     if raw.failure or settings.check == "none":
         return result
-    tighter = replace(settings, tolerance=max(settings.tolerance / 100, _TIGHTEST), check="none")
-    check = _result(problem, equations, _integrate(problem, equations, tighter), 0.0)
-    return _checked(problem, result, check, settings)
+    check = result_of(problem, equations, _integrate(problem, equations, tighter(settings)), 0.0)
+    return checked(problem, result, check, settings)
 
 
-def _checked(problem: Problem, result: Result, check: Result, settings: Settings) -> Result:
+def tighter(settings: Settings) -> Settings:
+    """Settings of the run that checks another.
+
+    Parameters
+    ----------
+    settings : Settings
+        Of the run to be checked
+
+    Returns
+    -------
+    settings : Settings
+        A hundredth of the tolerance, without a check of its own
+    """
+    return replace(settings, tolerance=max(settings.tolerance / 100, _TIGHTEST), check="none")
+
+
+def checked(problem: Problem, result: Result, check: Result, settings: Settings) -> Result:
+    """A result with the verdict of its check.
+
+    Parameters
+    ----------
+    problem : Problem
+        What was run
+    result, check : Result
+        The run, and the run at the tighter tolerance
+    settings : Settings
+        Of the run
+
+    Returns
+    -------
+    result : Result
+        With status, reason and difference
+    """
     if check.status == "failed":
         return replace(result, status="not converged", reason=f"the run at the tighter tolerance {check.reason}")
     if check.end != result.end:
@@ -75,10 +100,26 @@ def _checked(problem: Problem, result: Result, check: Result, settings: Settings
     return replace(result, status=status, reason=reason, tolerance_difference=float(np.max(difference)))
 
 
-def _integrate(problem: Problem, equations: System, settings: Settings) -> _Raw:
+def _integrate(problem: Problem, equations: System, settings: Settings) -> Raw:
+    """A whole run in C where that is possible, otherwise phase by phase."""
+    wanted, ends = wanted_times(problem), ends_of(problem)
+    if settings.backend in NATIVE:
+        reason = native_backend.unsuited(problem)
+        if not reason:
+            try:
+                return native_backend.run(problem, equations, settings, wanted, ends)
+            except NoCompiler as error:
+                reason = str(error)
+        if settings.backend == "native":
+            raise BadInput(f"backend 'native' cannot take this run: {reason}; or use backend auto")
+        settings = replace(settings, backend=FALLBACK)
+    return _phase_by_phase(problem, equations, settings, wanted, ends)
+
+
+def _phase_by_phase(
+    problem: Problem, equations: System, settings: Settings, wanted: np.ndarray, ends: list[float]
+) -> Raw:
     advance = backend(settings.backend)
-    wanted = _times(problem)
-    ends = [*_breaks(problem), problem.t_end]
     y = np.concatenate([problem.q0, problem.u0, np.zeros(len(equations.columns) - 2 * equations.size)])
     t, step, steps, end, failure = problem.t_start, None, 0, "t_end", ""
     times, states = [np.array([t])], [y[None]]
@@ -104,7 +145,7 @@ def _integrate(problem: Problem, equations: System, settings: Settings) -> _Raw:
     found, values = np.concatenate(times), np.concatenate(states)
     if found[-1] < t:
         found, values = np.append(found, t), np.vstack([values, y])
-    return _Raw(t=found, y=values, steps=steps, end="failure" if failure else end, failure=failure)
+    return Raw(t=found, y=values, steps=steps, end="failure" if failure else end, failure=failure)
 
 
 def _beyond(surface: Surface, y: np.ndarray) -> np.ndarray:
@@ -114,19 +155,62 @@ def _beyond(surface: Surface, y: np.ndarray) -> np.ndarray:
     return moved
 
 
-def _times(problem: Problem) -> np.ndarray:
+def wanted_times(problem: Problem) -> np.ndarray:
+    """Times at which results are wanted.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a spacing or a list of times
+
+    Returns
+    -------
+    times : ndarray, shape (n,)
+        After the start, ascending [s]
+    """
     if not isinstance(problem.output, (int, float)):
         return np.asarray(problem.output, dtype=float)
     count = int(np.floor((problem.t_end - problem.t_start) / problem.output * (1 + 1e-12)))
     return np.minimum(problem.t_start + problem.output * np.arange(1, count + 1), problem.t_end)
 
 
-def _breaks(problem: Problem) -> list[float]:
+def ends_of(problem: Problem) -> list[float]:
+    """Ends of the stretches of time in which nothing jumps.
+
+    Parameters
+    ----------
+    problem : Problem
+        With known jumps
+
+    Returns
+    -------
+    ends : list of float
+        Ascending; the last is the end of the run [s]
+    """
     jumps = [t for p in problem.parts if isinstance(p.value, Steps) for t in p.value.times]
-    return sorted(t for t in {*problem.breaks, *jumps} if problem.t_start < t < problem.t_end)
+    inside = sorted(t for t in {*problem.breaks, *jumps} if problem.t_start < t < problem.t_end)
+    return [*inside, problem.t_end]
 
 
-def _result(problem: Problem, equations: System, raw: _Raw, wall_s: float) -> Result:
+def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> Result:
+    """A finished run as a result, with its energy audited.
+
+    Parameters
+    ----------
+    problem : Problem
+        What was run
+    equations : System
+        Its equations
+    raw : Raw
+        What came out
+    wall_s : float
+        Time it took [s]
+
+    Returns
+    -------
+    result : Result
+        Status `failed` or `unchecked`
+    """
     n = equations.size
     columns = dict(zip(equations.columns, raw.y.T, strict=True))
     units = dict(zip(equations.columns, equations.units, strict=True))

@@ -9,6 +9,7 @@ Source: Nunes (2017), annex A.2 to A.4 and table 4.8. AGMA 908 advises against i
 import csv
 from functools import cache
 from importlib import resources
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from mechsym.sizing.checks import require
 
 
 @cache
-def table():
+def table() -> tuple[dict[str, Any], ...]:
     """The lines of the three tables.
 
     Returns
@@ -43,7 +44,7 @@ def table():
     return tuple(lines)
 
 
-def interpolated(quantity, shift, teeth_1, teeth_2):
+def interpolated(quantity: str, shift: float, teeth_1: float, teeth_2: float) -> float:
     """A geometry factor by linear interpolation in both tooth numbers, as the source did.
 
     Parameters

@@ -3,12 +3,15 @@
 Source: Nunes (2017), ch. 4.6.1; slider cranks: Taylor, The Internal-Combustion Engine, vol. 2, ch. 8.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from mechsym.sizing.checks import require
 
 
-def unbalance(parts):
+def unbalance(parts: Sequence[tuple[float, float]]) -> float:
     r"""Static unbalance of parts on one line through the axis.
 
     .. math:: U = \sum m_i b_i
@@ -40,7 +43,7 @@ def unbalance(parts):
     return float(sum(mass * distance for mass, distance in parts))
 
 
-def unbalance_force(U, omega):
+def unbalance_force(U: float, omega: Any) -> Any:
     r"""Rotating force of an unbalance.
 
     .. math:: F = U\,\omega^2
@@ -69,7 +72,7 @@ def unbalance_force(U, omega):
     return U * np.asarray(omega) ** 2
 
 
-def counterweight(U, distance):
+def counterweight(U: float, distance: float) -> float:
     r"""Mass of a counterweight.
 
     .. math:: m = |U| / b
@@ -99,7 +102,9 @@ def counterweight(U, distance):
     return abs(U) / distance
 
 
-def slider_crank_shaking(m_rec, m_rot, balanced, r, l, theta):
+def slider_crank_shaking(
+    m_rec: float, m_rot: float, balanced: float, r: float, l: float, theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     r"""Shaking force of a slider crank per square of speed, with part of the reciprocating mass balanced.
 
     .. math::

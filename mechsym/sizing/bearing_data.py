@@ -56,7 +56,7 @@ class Bearing:
             raise BadInput(f"bearing {self.designation}: outside {self.outside:g} m must be larger than bore")
 
 
-def catalogue(extra=None):
+def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     """The built-in bearings, and those of a CSV file with the same columns.
 
     Parameters

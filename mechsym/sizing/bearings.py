@@ -3,6 +3,8 @@
 Source: ISO 281 and ISO 76; worked examples from Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 11.
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechsym.errors import BadInput
@@ -11,7 +13,7 @@ from mechsym.sizing.checks import require
 _RELIABILITY = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
 
 
-def life_exponent(kind):
+def life_exponent(kind: str) -> float:
     """Exponent of the life equation.
 
     Parameters
@@ -36,7 +38,7 @@ def life_exponent(kind):
     return 3.0 if kind == "ball" else 10 / 3
 
 
-def equivalent_load(F, kind, turns=None):
+def equivalent_load(F: np.ndarray, kind: str, turns: np.ndarray | None = None) -> np.ndarray:
     r"""Constant load with the same life as a load history.
 
     .. math:: P = \left(\frac{\int |F|^p\,\mathrm{d}\varphi}{\int \mathrm{d}\varphi}\right)^{1/p}
@@ -72,7 +74,7 @@ def equivalent_load(F, kind, turns=None):
     return (np.sum(np.abs(F) ** p * weights, axis=-1) / weights.sum()) ** (1 / p)
 
 
-def set_rating(C, count, kind):
+def set_rating(C: float, count: int, kind: str) -> float:
     r"""Dynamic rating of equal bearings side by side.
 
     .. math:: C_i = i^{7/9}\,C \quad\text{(rollers)}, \qquad i^{0.7}\,C \quad\text{(balls)}
@@ -104,7 +106,7 @@ def set_rating(C, count, kind):
     return C * count ** (0.7 if kind == "ball" else 7 / 9)
 
 
-def life_revolutions(C, P, kind, reliability=0.90):
+def life_revolutions(C: float, P: Any, kind: str, reliability: float = 0.9) -> Any:
     r"""Rating life in revolutions.
 
     .. math:: L = a_1\left(\frac{C}{P}\right)^p 10^6
@@ -142,7 +144,7 @@ def life_revolutions(C, P, kind, reliability=0.90):
     return _RELIABILITY[reliability] * (C / P) ** life_exponent(kind) * 1e6
 
 
-def required_rating(P, revolutions, kind):
+def required_rating(P: float, revolutions: float, kind: str) -> float:
     r"""Dynamic rating for a wanted life.
 
     .. math:: C = P\,(L/10^6)^{1/p}
@@ -175,7 +177,7 @@ def required_rating(P, revolutions, kind):
     return P * (revolutions / 1e6) ** (1 / life_exponent(kind))
 
 
-def life_hours(revolutions, omega):
+def life_hours(revolutions: Any, omega: Any) -> Any:
     r"""Life in hours at constant speed.
 
     .. math:: L_h = \frac{2\pi L}{3600\,|\omega|}
@@ -205,7 +207,7 @@ def life_hours(revolutions, omega):
     return 2 * np.pi * revolutions / (3600 * np.abs(omega))
 
 
-def static_factor(C0, F):
+def static_factor(C0: float, F: Any) -> float:
     r"""Static safety factor.
 
     .. math:: s_0 = C_0 / F_{max}

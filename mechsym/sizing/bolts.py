@@ -16,7 +16,7 @@ COARSE = {
 }  # fmt: skip
 
 
-def core_diameter(p, B, n_bolts, sigma):
+def core_diameter(p: float, B: float, n_bolts: int, sigma: float) -> float:
     r"""Core diameter of the bolts that hold a cylinder against its pressure.
 
     .. math:: d_c = \sqrt{\frac{B^2 p}{n\,\sigma}}
@@ -52,7 +52,7 @@ def core_diameter(p, B, n_bolts, sigma):
     return np.sqrt(B**2 * p / (n_bolts * sigma))
 
 
-def bolt_stress(p, B, n_bolts, d_c):
+def bolt_stress(p: float, B: float, n_bolts: int, d_c: float) -> float:
     r"""Tensile stress in the core of the bolts.
 
     .. math:: \sigma = \frac{B^2 p}{n\,d_c^2}
@@ -86,7 +86,7 @@ def bolt_stress(p, B, n_bolts, d_c):
     return B**2 * p / (n_bolts * d_c**2)
 
 
-def root_diameter(nominal_mm):
+def root_diameter(nominal_mm: int) -> float:
     r"""Root diameter of a coarse metric thread.
 
     .. math:: d_3 = d - 1.226869\,P
@@ -120,7 +120,7 @@ def root_diameter(nominal_mm):
     return (nominal_mm - 1.226869 * COARSE[nominal_mm]) * 1e-3
 
 
-def thread_for(d_c):
+def thread_for(d_c: float) -> int:
     """Smallest standard thread whose root is not thinner than asked.
 
     Parameters

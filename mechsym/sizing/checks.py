@@ -28,11 +28,11 @@ def require(
     name : str
         Name of the quantity, for the message
     value : float or ndarray
-        Value in SI; every element is checked
+        Value in SI; every element is checked [unit]
     unit : str
         Its SI unit, `"-"` for a pure number
     above, low, below, high : float, optional
-        Bounds; `above` and `below` must not be reached
+        Bounds; `above` and `below` must not be reached [unit]
     hint : str
         Why the bound is there and what to do instead
 
@@ -72,7 +72,7 @@ class Check:
     safety_factor : float
         How far the value is on the safe side: 1 at the limit
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     rule, source : str
         Name of the rule and where it is printed
     note : str
@@ -103,7 +103,7 @@ def at_most(
     value, limit : float
         Load and what the part stands [unit]
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     **more : str
         `source` and `note`
 
@@ -136,7 +136,7 @@ def at_least(
     value, limit : float
         What the part has and what it needs [unit]
     wanted : float
-        Safety factor asked for
+        Safety factor asked for [-]
     **more : str
         `source` and `note`
 

@@ -1,5 +1,6 @@
 """Crankpin, webs, shaft and output shaft: sizes and checks with the load history of every speed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,8 +33,8 @@ class CrankLoads:
     ----------
     omega : ndarray, shape (k,)
         Crank speeds [rad/s]
-    F_x, F_y : ndarray, shape (k, n)
-        Force on the middle of the crankpin in a frame that stands still [N]
+    moment : callable
+        Distance from the middle of the crankpin [m] -> bending moment (2, k, n) in a frame that stands still [N*m]
     turn : ndarray, shape (n,)
         Angle of the crankshaft (the planet turns backwards) in that frame [rad]
     along_web : ndarray, shape (k, n)
@@ -47,8 +48,7 @@ class CrankLoads:
     """
 
     omega: np.ndarray
-    F_x: np.ndarray
-    F_y: np.ndarray
+    moment: Callable[[float], np.ndarray]
     turn: np.ndarray
     along_web: np.ndarray
     shaft_torque: np.ndarray
@@ -112,13 +112,13 @@ def check_crank(part: CrankPart, loads: CrankLoads, wants: Wants, material: Mate
     """
     strength = material.yield_strength or material.ultimate
     places = {
-        "crankpin, middle": (part.pin, loads.arm, False),
-        "crankpin, fillet": (part.pin, loads.arm - part.pin_length / 2, True),
-        "shaft, fillet at the web": (part.shaft, loads.arm - part.pin_length / 2 - part.web, True),
+        "crankpin, middle": (part.pin, 0.0, False),
+        "crankpin, fillet": (part.pin, part.pin_length / 2, True),
+        "shaft, fillet at the web": (part.shaft, part.pin_length / 2 + part.web, True),
     }
     checks = []
-    for name, (d, lever, notched) in places.items():
-        M_x, M_y = loads.F_x * lever / 2, loads.F_y * lever / 2
+    for name, (d, z, notched) in places.items():
+        M_x, M_y = loads.moment(z)
         T = loads.shaft_torque if name.startswith("shaft") else np.zeros_like(M_x)
         bore = 0.0 if name.startswith("shaft") else part.pin_bore
         section = _section((d, bore), part, wants, material, notched)

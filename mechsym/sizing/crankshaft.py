@@ -9,12 +9,14 @@
 Source: Nunes (2017), ch. 4.5 and 4.6, after Khurmi and Gupta (2005).
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechsym.sizing.checks import require
 
 
-def bearing_reaction(F, d_force, d_bearing):
+def bearing_reaction(F: float, d_force: float, d_bearing: float) -> float:
     r"""Reaction of a bearing on the crankpin's load.
 
     .. math:: R = F\,d_{force}/d_{bearing}
@@ -47,7 +49,7 @@ def bearing_reaction(F, d_force, d_bearing):
     return F * d_force / d_bearing
 
 
-def crankpin_diameter(R, arm, sigma_b):
+def crankpin_diameter(R: float, arm: float, sigma_b: float) -> float:
     r"""Diameter of a crankpin in bending.
 
     .. math:: d = \sqrt[3]{\frac{32 R\,a}{\pi\sigma_b}}
@@ -81,7 +83,7 @@ def crankpin_diameter(R, arm, sigma_b):
     return (32 * R * arm / (np.pi * sigma_b)) ** (1 / 3)
 
 
-def web_width(d_pin):
+def web_width(d_pin: float) -> float:
     r"""Usual width of a crank web.
 
     .. math:: w = 1.125\,d + 12.7\,\mathrm{mm}
@@ -109,7 +111,7 @@ def web_width(d_pin):
     return 1.125 * d_pin + 12.7e-3
 
 
-def web_stress(R, arm, l_pin, t, w):
+def web_stress(R: float, arm: float, l_pin: float, t: float, w: float) -> float:
     r"""Bending and direct stress of a crank web.
 
     .. math:: \sigma = \frac{6 R\left(a - \frac{l}{2} - \frac{t}{2}\right)}{w t^2} + \frac{R}{w t}
@@ -146,7 +148,7 @@ def web_stress(R, arm, l_pin, t, w):
     return 6 * R * lever / (w * t**2) + R / (w * t)
 
 
-def shaft_diameter(T, tau):
+def shaft_diameter(T: float, tau: float) -> float:
     r"""Diameter of a round shaft in torsion.
 
     .. math:: d = \sqrt[3]{\frac{16 T}{\pi\tau}}
@@ -177,7 +179,7 @@ def shaft_diameter(T, tau):
     return (16 * T / (np.pi * tau)) ** (1 / 3)
 
 
-def bending_stress(M, d):
+def bending_stress(M: Any, d: float) -> Any:
     r"""Bending stress of a round shaft.
 
     .. math:: \sigma = \frac{32 M}{\pi d^3}
@@ -207,7 +209,7 @@ def bending_stress(M, d):
     return 32 * M / (np.pi * d**3)
 
 
-def torsion_stress(T, d):
+def torsion_stress(T: Any, d: float) -> Any:
     r"""Shear stress of a round shaft in torsion.
 
     .. math:: \tau = \frac{16 T}{\pi d^3}
@@ -237,7 +239,7 @@ def torsion_stress(T, d):
     return 16 * T / (np.pi * d**3)
 
 
-def equivalent_stress(sigma, tau):
+def equivalent_stress(sigma: Any, tau: Any) -> Any:
     r"""Equivalent stress of distortion energy.
 
     .. math:: \sigma_v = \sqrt{\sigma^2 + 3\tau^2}

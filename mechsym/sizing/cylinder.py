@@ -11,7 +11,7 @@ Source: Nunes (2017), ch. 4.3, after Khurmi and Gupta (2005).
 from mechsym.sizing.checks import require
 
 
-def wall_thickness(p, B, sigma_c, reboring):
+def wall_thickness(p: float, B: float, sigma_c: float, reboring: float) -> float:
     r"""Thickness of a thin cylinder wall with an allowance for reboring or a liner.
 
     .. math:: t_{cw} = \frac{p B}{2\sigma_c} + C
@@ -48,7 +48,7 @@ def wall_thickness(p, B, sigma_c, reboring):
     return p * B / (2 * sigma_c) + reboring
 
 
-def hoop_stress(p, B, t):
+def hoop_stress(p: float, B: float, t: float) -> float:
     r"""Hoop stress of a thin cylinder wall.
 
     .. math:: \sigma = \frac{p B}{2 t}
@@ -80,7 +80,7 @@ def hoop_stress(p, B, t):
     return p * B / (2 * t)
 
 
-def flange_range(t_cw):
+def flange_range(t_cw: float) -> tuple[float, float]:
     r"""Usual thickness of the flange.
 
     .. math:: 1.2\,t_{cw} \le t_f \le 1.4\,t_{cw}
@@ -108,7 +108,7 @@ def flange_range(t_cw):
     return 1.2 * t_cw, 1.4 * t_cw
 
 
-def tdc_gap(V_c, A):
+def tdc_gap(V_c: float, A: float) -> float:
     r"""Distance between the piston heads at top dead centre.
 
     .. math:: d_{TDC} = V_c / A
@@ -139,7 +139,7 @@ def tdc_gap(V_c, A):
     return V_c / A
 
 
-def cylinder_length(d_TDC, L_piston, stroke):
+def cylinder_length(d_TDC: float, L_piston: float, stroke: float) -> float:
     r"""Shortest cylinder that guides both pistons at bottom dead centre, 15 % of a stroke to spare at each end.
 
     .. math:: L = d_{TDC} + 2 s + 2 (L_{piston} + 0.15 s)

@@ -4,6 +4,8 @@ Source: Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 6 and 
 charts in R. L. Norton, Machine Design, appendix.
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechsym.errors import BadInput
@@ -16,7 +18,7 @@ _BENDING = {1.2: (0.97098, -0.21796), 1.5: (0.93836, -0.25759), 2.0: (0.90879, -
 _TORSION = {1.2: (0.83425, -0.21649), 1.33: (0.84897, -0.23161), 2.0: (0.86331, -0.23865)}
 
 
-def endurance_limit(S_ut, d, surface):
+def endurance_limit(S_ut: float, d: float, surface: str) -> float:
     r"""Endurance limit of a steel shaft in rotating bending.
 
     .. math:: S_e = k_a k_b \min(0.5\,S_{ut}, 700\,\mathrm{MPa}), \quad k_a = a (S_{ut}/\mathrm{MPa})^b
@@ -58,7 +60,7 @@ def endurance_limit(S_ut, d, surface):
     return min(1.0, a * (S_ut / 1e6) ** b) * min(1.0, size) * min(0.5 * S_ut, 700e6)
 
 
-def fillet_factor_bending(r, d, D):
+def fillet_factor_bending(r: float, d: float, D: float) -> float:
     r"""Stress concentration of a shoulder fillet in bending.
 
     .. math:: K_t = A (r/d)^b
@@ -87,7 +89,7 @@ def fillet_factor_bending(r, d, D):
     return _fillet(r, d, D, _BENDING)
 
 
-def fillet_factor_torsion(r, d, D):
+def fillet_factor_torsion(r: float, d: float, D: float) -> float:
     r"""Stress concentration of a shoulder fillet in torsion.
 
     .. math:: K_{ts} = A (r/d)^b
@@ -116,7 +118,7 @@ def fillet_factor_torsion(r, d, D):
     return _fillet(r, d, D, _TORSION)
 
 
-def stress_cycle(stress):
+def stress_cycle(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     r"""Amplitude and mean of a stress history.
 
     .. math:: \sigma_a = \tfrac12(\sigma_{max} - \sigma_{min}), \qquad \sigma_m = \tfrac12(\sigma_{max} + \sigma_{min})
@@ -145,7 +147,7 @@ def stress_cycle(stress):
     return (high - low) / 2, (high + low) / 2
 
 
-def goodman_factor(sigma_a, sigma_m, S_e, S_ut):
+def goodman_factor(sigma_a: Any, sigma_m: Any, S_e: float, S_ut: float) -> Any:
     r"""Fatigue safety factor on the modified Goodman line.
 
     .. math:: \frac1n = \frac{\sigma_a}{S_e} + \frac{\sigma_m}{S_{ut}}
@@ -182,7 +184,9 @@ def goodman_factor(sigma_a, sigma_m, S_e, S_ut):
         return 1 / np.asarray(np.asarray(sigma_a) / S_e + np.maximum(sigma_m, 0) / S_ut)
 
 
-def shaft_diameter_goodman(moments, S_e, S_ut, n, K_f=1.0, K_fs=1.0):
+def shaft_diameter_goodman(
+    moments: tuple[float, float, float, float], S_e: float, S_ut: float, n: float, K_f: float = 1.0, K_fs: float = 1.0
+) -> float:
     r"""Diameter of a shaft in bending and torsion for a wanted fatigue factor.
 
     .. math:: d = \left[\frac{16 n}{\pi}\left(\frac{\sqrt{4 (K_f M_a)^2 + 3 (K_{fs} T_a)^2}}{S_e}

@@ -20,7 +20,7 @@ from mechsym.sizing.checks import require
 from mechsym.sizing.gear_geometry import Pair, action_line, contact_ratio, tooth_thickness
 
 
-def bending_geometry_factor(pair, member):
+def bending_geometry_factor(pair: Pair, member: int) -> float:
     r"""Geometry factor for bending strength, load at the highest point of single tooth contact.
 
     .. math:: J = \frac{Y}{K_f m_N}, \qquad
@@ -64,7 +64,7 @@ def bending_geometry_factor(pair, member):
     return float(Y / stress_correction_factor(pair, member))
 
 
-def load_height(pair, member):
+def load_height(pair: Pair, member: int) -> tuple[float, float]:
     r"""Load angle and height of the load point on the tooth's middle.
 
     .. math:: \varphi_L = \frac{\rho_{start} + p_b}{R_b} - \mathrm{inv}\,\varphi - \frac{s}{z}, \qquad
@@ -103,7 +103,7 @@ def load_height(pair, member):
     return float(phi_L), float(base / np.cos(phi_L))
 
 
-def critical_section(pair, member):
+def critical_section(pair: Pair, member: int) -> tuple[float, float]:
     r"""Height and thickness of the section where the Lewis parabola touches the fillet.
 
     .. math:: \frac{\mathrm{d}\eta}{\mathrm{d}\xi}\,\xi + 2 (r_L - \eta) = 0
@@ -153,7 +153,7 @@ def critical_section(pair, member):
     return float(r_L - eta), float(2 * xi)
 
 
-def fillet(pair, member, t):
+def fillet(pair: Pair, member: int, t: float) -> tuple[float, float]:
     r"""A point of the fillet that the tool's tip circle cuts.
 
     .. math:: r\,e^{i\delta}, \qquad \delta = \frac{\pi}{z} + \frac{D(t)}{R} - \arg(\text{contact point})
@@ -192,7 +192,7 @@ def fillet(pair, member, t):
     return np.hypot(x, y) * np.sin(delta), np.hypot(x, y) * np.cos(delta)
 
 
-def stress_correction_factor(pair, member):
+def stress_correction_factor(pair: Pair, member: int) -> float:
     r"""Stress correction factor of Dolan and Broghamer.
 
     .. math:: K_f = H + \left(\frac{s_F}{\rho_F}\right)^L\left(\frac{s_F}{h_F}\right)^M, \quad

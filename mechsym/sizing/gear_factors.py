@@ -6,6 +6,8 @@ Source: AGMA 2101 and 2001-D04 as used by Nunes (2017), ch. 4.4; numbers checked
 Shigley's Mechanical Engineering Design, example 14-4.
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechsym.errors import BadInput
@@ -20,7 +22,7 @@ ENCLOSURES = {
 }
 
 
-def accuracy_exponent(A_v):
+def accuracy_exponent(A_v: float) -> float:
     r"""Exponent of the dynamic factor.
 
     .. math:: B = 0.25\,(A_v - 5)^{0.667}
@@ -48,7 +50,7 @@ def accuracy_exponent(A_v):
     return 0.25 * (A_v - 5.0) ** 0.667
 
 
-def dynamic_factor(v, A_v, feet=196.85):
+def dynamic_factor(v: Any, A_v: float, feet: float = 196.85) -> Any:
     r"""Dynamic factor of a mesh.
 
     .. math:: K_v = \left(\frac{C + \sqrt{196.85\,v}}{C}\right)^B, \qquad C = 50 + 56 (1 - B)
@@ -88,7 +90,7 @@ def dynamic_factor(v, A_v, feet=196.85):
     return ((C + np.sqrt(feet * v)) / C) ** B
 
 
-def pinion_proportion_factor(b, d):
+def pinion_proportion_factor(b: float, d: float) -> float:
     r"""Pinion proportion factor.
 
     .. math:: C_{pf} = \max\left(\frac{b}{10 d}, 0.05\right) - 0.025 \quad (b \le 25\,\mathrm{mm})
@@ -122,7 +124,7 @@ def pinion_proportion_factor(b, d):
     return ratio - 0.025 if b <= 0.025 else ratio - 0.0375 + 0.492 * b
 
 
-def mesh_alignment_factor(b, enclosure):
+def mesh_alignment_factor(b: float, enclosure: str) -> float:
     r"""Mesh alignment factor.
 
     .. math:: C_{ma} = a + b_1\,FW + c\,FW^2
@@ -155,7 +157,7 @@ def mesh_alignment_factor(b, enclosure):
     return a + b1 * (b * 1e3) + c * (b * 1e3) ** 2
 
 
-def load_distribution_factor(b, d, C_pm, enclosure, C_e=1.0):
+def load_distribution_factor(b: float, d: float, C_pm: float, enclosure: str, C_e: float = 1.0) -> float:
     r"""Load distribution factor of a mesh with unmodified leads.
 
     .. math:: K_m = 1 + C_{pf} C_{pm} + C_{ma} C_e
@@ -193,7 +195,7 @@ def load_distribution_factor(b, d, C_pm, enclosure, C_e=1.0):
     return 1.0 + pinion_proportion_factor(b, d) * C_pm + mesh_alignment_factor(b, enclosure) * C_e
 
 
-def elastic_coefficient(E_1, nu_1, E_2, nu_2):
+def elastic_coefficient(E_1: float, nu_1: float, E_2: float, nu_2: float) -> float:
     r"""Elastic coefficient of two materials.
 
     .. math:: Z_E = \left[\pi\left(\frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}\right)\right]^{-1/2}
@@ -224,7 +226,7 @@ def elastic_coefficient(E_1, nu_1, E_2, nu_2):
     return (np.pi * ((1 - nu_1**2) / E_1 + (1 - nu_2**2) / E_2)) ** -0.5
 
 
-def rim_factor(t_R, h_t):
+def rim_factor(t_R: float, h_t: float) -> float:
     r"""Rim thickness factor.
 
     .. math:: K_B = 1.6\ln(2.242\,h_t/t_R) \quad (t_R < 1.2\,h_t), \qquad 1 \text{ else}
@@ -255,7 +257,7 @@ def rim_factor(t_R, h_t):
     return float(1.0 if t_R >= 1.2 * h_t else max(1.0, 1.6 * np.log(2.242 * h_t / t_R)))
 
 
-def size_factor(b, m, Y):
+def size_factor(b: float, m: float, Y: float) -> float:
     r"""Size factor.
 
     .. math:: K_s = 1.192\,(b\,m\,\sqrt{Y})^{0.0535} \quad \text{(b, m in inches)}

@@ -58,7 +58,7 @@ class Pair:
             )
 
 
-def action_line(pair):
+def action_line(pair: Pair) -> tuple[float, float, float]:
     r"""Ends of contact on the line of action, as radii of curvature of the pinion's flank.
 
     .. math:: \rho_{end} = \sqrt{R_{a1}^2 - R_{b1}^2}, \qquad
@@ -92,7 +92,7 @@ def action_line(pair):
     return start, end, np.pi * np.cos(phi)
 
 
-def contact_ratio(pair):
+def contact_ratio(pair: Pair) -> float:
     r"""Transverse contact ratio.
 
     .. math:: m_p = (\rho_{end} - \rho_{start}) / p_b
@@ -121,7 +121,7 @@ def contact_ratio(pair):
     return (end - start) / pitch
 
 
-def pitting_geometry_factor(pair):
+def pitting_geometry_factor(pair: Pair) -> float:
     r"""Geometry factor for pitting resistance, at the lowest point of single tooth contact of the pinion.
 
     .. math:: I = \frac{\cos\varphi}{\left(\frac{1}{\rho_1} \pm \frac{1}{\rho_2}\right) d_1}, \qquad
@@ -163,7 +163,7 @@ def pitting_geometry_factor(pair):
     return np.cos(phi) / ((1 / rho_1 + sign / rho_2) * pair.teeth_1)
 
 
-def tooth_thickness(pair, member):
+def tooth_thickness(pair: Pair, member: int) -> float:
     r"""Tooth thickness on the pitch circle, in modules.
 
     .. math:: s = \pi/2 \pm 2 x \tan\varphi - \Delta s

@@ -7,10 +7,10 @@ All lengths are in modules. Source: AGMA 908-B89, section 7; internal pairs as i
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.sizing.gear_geometry import action_line, tooth_thickness
+from mechsym.sizing.gear_geometry import Pair, action_line, tooth_thickness
 
 
-def top_land(pair):
+def top_land(pair: Pair) -> float:
     r"""Thickness of the pinion's tooth at its tip, in modules.
 
     .. math:: s_a = 2 R_a\left(\frac{s}{2R} + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_a\right)
@@ -31,7 +31,6 @@ def top_land(pair):
 
     Examples
     --------
-    >>> from mechsym.sizing.gear_geometry import Pair
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=17, teeth_2=35, pressure_angle=0.4363323129985824, shift=0.5)
     >>> top_land(pair) < 0.3  # table A.4 marks it T
     True
@@ -42,7 +41,7 @@ def top_land(pair):
     return float(2 * tip * (tooth_thickness(pair, 1) / (2 * R) + _inv(phi) - _inv(phi_a)))
 
 
-def undercut_shift(pair):
+def undercut_shift(pair: Pair) -> float:
     r"""Shift that a rack-cut pinion needs to keep its involute down to the base circle.
 
     .. math:: x_{min} = h_a - \rho_a (1 - \sin\varphi) - \tfrac12 z \sin^2\varphi
@@ -63,7 +62,6 @@ def undercut_shift(pair):
 
     Examples
     --------
-    >>> from mechsym.sizing.gear_geometry import Pair
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=12, teeth_2=26, pressure_angle=0.4363323129985824)
     >>> undercut_shift(pair) > 0  # table A.2 marks 12 teeth U
     True
@@ -73,7 +71,7 @@ def undercut_shift(pair):
     return float(straight - pair.teeth_1 / 2 * np.sin(phi) ** 2)
 
 
-def interference_margins(pair):
+def interference_margins(pair: Pair) -> dict[str, float]:
     r"""Margins against the three interferences of an internal pair; all must be positive.
 
     .. math::
@@ -103,7 +101,6 @@ def interference_margins(pair):
 
     Examples
     --------
-    >>> from mechsym.sizing.gear_geometry import Pair
     >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824, shift=0.5)
     >>> all(margin > 0 for margin in interference_margins(pair).values())
     True

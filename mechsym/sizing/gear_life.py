@@ -16,7 +16,7 @@ _Y_N = {
 }  # fmt: skip
 
 
-def life_factor_bending(N, surface="nitrided"):
+def life_factor_bending(N: float, surface: str = "nitrided") -> float:
     r"""Stress cycle factor for bending.
 
     .. math:: Y_N = 1.3558\,N^{-0.0178} \quad (N > 3\cdot10^6)
@@ -50,7 +50,7 @@ def life_factor_bending(N, surface="nitrided"):
     return float(upper if N > 3e6 else max(a * N**-e, upper))
 
 
-def life_factor_contact(N, surface="nitrided"):
+def life_factor_contact(N: float, surface: str = "nitrided") -> float:
     r"""Stress cycle factor for pitting.
 
     .. math:: Z_N = 1.4488\,N^{-0.023} \quad (N > 10^7)
@@ -84,7 +84,7 @@ def life_factor_contact(N, surface="nitrided"):
     return float(1.4488 * N**-0.023 if N > 1e7 else a * N**-e)
 
 
-def reliability_factor(R):
+def reliability_factor(R: float) -> float:
     r"""Reliability factor.
 
     .. math:: K_R = 0.658 - 0.0759\ln(1 - R) \ (R < 0.99), \qquad 0.5 - 0.109\ln(1 - R) \ (R \ge 0.99)
@@ -112,7 +112,7 @@ def reliability_factor(R):
     return float(0.658 - 0.0759 * np.log(1 - R) if R < 0.99 else 0.5 - 0.109 * np.log(1 - R))
 
 
-def temperature_factor(T):
+def temperature_factor(T: float) -> float:
     """Temperature factor: 1 up to 120 degC.
 
     Parameters
@@ -143,7 +143,7 @@ def temperature_factor(T):
     return 1.0
 
 
-def reversed_bending_factor(F_max, F_min):
+def reversed_bending_factor(F_max: float, F_min: float) -> float:
     r"""What a tooth root bears of its allowable stress when the load on it also turns round.
 
     .. math:: Y_M = \frac{1}{1 - \tfrac{3}{7} R}, \qquad R = F_{min}/F_{max} \in [-1, 0]

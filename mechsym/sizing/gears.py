@@ -8,6 +8,7 @@ I (`gear_geometry.py`) and J. AGMA gives no J for internal teeth; an external to
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,7 @@ class LoadFactors:
         check(self)
 
 
-def mesh_speed(d, omega):
+def mesh_speed(d: float, omega: Any) -> Any:
     r"""Pitch line velocity of a hypocycloid's planet relative to its carrier.
 
     .. math:: v = \tfrac12 d\,(2\omega) = d\,\omega
@@ -66,7 +67,7 @@ def mesh_speed(d, omega):
     return d * np.abs(omega)
 
 
-def bending_stress(F_t, b, m, J, factors):
+def bending_stress(F_t: float, b: float, m: float, J: float, factors: LoadFactors) -> float:
     r"""Bending stress number at the tooth root.
 
     .. math:: \sigma_F = F_t K_o K_v K_s \frac{1}{b\,m}\frac{K_m K_B}{J}
@@ -101,7 +102,7 @@ def bending_stress(F_t, b, m, J, factors):
     return face_width_bending(F_t, m, J, 1.0, factors) / _width(b)
 
 
-def contact_stress(F_t, b, d, I, Z_E, factors):
+def contact_stress(F_t: float, b: float, d: float, I: float, Z_E: float, factors: LoadFactors) -> float:
     r"""Contact stress number on the tooth flank.
 
     .. math:: \sigma_H = Z_E\sqrt{F_t K_o K_v K_s \frac{K_m}{d\,b}\frac{C_f}{I}}
@@ -138,7 +139,7 @@ def contact_stress(F_t, b, d, I, Z_E, factors):
     return np.sqrt(face_width_contact(F_t, d, I, Z_E, 1.0, factors) / _width(b))
 
 
-def bending_limit(sigma_FP, Y_N=1.0, S_F=1.0, K_T=1.0, K_R=1.0):
+def bending_limit(sigma_FP: float, Y_N: float = 1.0, S_F: float = 1.0, K_T: float = 1.0, K_R: float = 1.0) -> float:
     r"""Bending stress number that a tooth may have.
 
     .. math:: \sigma_F \le \frac{\sigma_{FP} Y_N}{S_F K_T K_R}
@@ -171,7 +172,9 @@ def bending_limit(sigma_FP, Y_N=1.0, S_F=1.0, K_T=1.0, K_R=1.0):
     return sigma_FP * Y_N / (S_F * K_T * K_R)
 
 
-def contact_limit(sigma_HP, Z_N=1.0, S_H=1.0, C_H=1.0, K_T=1.0, K_R=1.0):
+def contact_limit(
+    sigma_HP: float, Z_N: float = 1.0, S_H: float = 1.0, C_H: float = 1.0, K_T: float = 1.0, K_R: float = 1.0
+) -> float:
     r"""Contact stress number that a flank may have.
 
     .. math:: \sigma_H \le \frac{\sigma_{HP} Z_N C_H}{S_H K_T K_R}
@@ -204,7 +207,7 @@ def contact_limit(sigma_HP, Z_N=1.0, S_H=1.0, C_H=1.0, K_T=1.0, K_R=1.0):
     return sigma_HP * Z_N * C_H / (S_H * K_T * K_R)
 
 
-def face_width_bending(F_t, m, J, limit, factors):
+def face_width_bending(F_t: float, m: float, J: float, limit: float, factors: LoadFactors) -> float:
     r"""Face width that keeps the bending stress at its limit.
 
     .. math:: b = F_t K_o K_v K_s \frac{K_m K_B}{m\,J\,\sigma_F}
@@ -243,7 +246,7 @@ def face_width_bending(F_t, m, J, limit, factors):
     return F_t * factors.K_o * factors.K_v * factors.K_s * factors.K_m * factors.K_B / (m * J * limit)
 
 
-def face_width_contact(F_t, d, I, Z_E, limit, factors):
+def face_width_contact(F_t: float, d: float, I: float, Z_E: float, limit: float, factors: LoadFactors) -> float:
     r"""Face width that keeps the contact stress at its limit.
 
     .. math:: b = F_t K_o K_v K_s \frac{K_m C_f}{d\,I}\left(\frac{Z_E}{\sigma_H}\right)^2

@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.sizing.checks import require
 
 
-def contact_modulus(E_1, nu_1, E_2, nu_2):
+def contact_modulus(E_1: float, nu_1: float, E_2: float, nu_2: float) -> float:
     r"""Contact modulus of two materials.
 
     .. math:: \frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}
@@ -39,7 +39,7 @@ def contact_modulus(E_1, nu_1, E_2, nu_2):
     return 1 / ((1 - nu_1**2) / E_1 + (1 - nu_2**2) / E_2)
 
 
-def line_pressure(F, length, R_1, R_2, E_star):
+def line_pressure(F: float, length: float, R_1: float, R_2: float, E_star: float) -> float:
     r"""Largest pressure between two parallel cylinders.
 
     .. math:: p_0 = \sqrt{\frac{F E^*}{\pi\,l}\left(\frac{1}{R_1} + \frac{1}{R_2}\right)}
@@ -82,7 +82,7 @@ def line_pressure(F, length, R_1, R_2, E_star):
     return np.sqrt(F * E_star / (np.pi * length) * _curvature(R_1, R_2))
 
 
-def line_half_width(F, length, R_1, R_2, E_star):
+def line_half_width(F: float, length: float, R_1: float, R_2: float, E_star: float) -> float:
     r"""Half width of the contact strip of two parallel cylinders.
 
     .. math:: a = \sqrt{\frac{4 F}{\pi\,l\,E^*\left(1/R_1 + 1/R_2\right)}}

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.sizing.bearing_design import Choice, check_bearing, choices, choose, seat_diameter
+from mechsym.sizing.bearing_design import Choice, Seat, check_bearing, choices, choose, seat_diameter
 from mechsym.sizing.checks import Check, unsafe
-from mechsym.sizing.crank_design import size_output
+from mechsym.sizing.crank_design import check_crank, size_output
 from mechsym.sizing.gear_design import candidates, face_width
+from mechsym.sizing.hypocycloid_checks import check_all, check_pinion_shaft
 from mechsym.sizing.hypocycloid_engine import (
-    check_all,
     crank_loads,
     cylinder_loads,
     seats,
@@ -159,23 +159,29 @@ def _journals(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Parts
     pin = seat_diameter(rod)
     options = choices(stock.bearings.values(), (parts.gears.pinion_bore, pin), room)
     outer = [c for c in options if not c.ring_off and abs(c.bearing.bore - parts.gears.pinion_bore) < 1e-9]
-    best, least = parts, -np.inf
+    best, least = parts, (-np.inf, -np.inf)
     for choice in options:
         trial = _with_inner(parts, choice, pin, rod.count * rod.bearing.width, wants)
         trial = _with_outer(trial, outer, forces, wants, stock)
         weakest = _weakest(trial, forces, wants, stock)
         if weakest > least:
             best, least = trial, weakest
-        if weakest >= 1 - 1e-9:
+        if weakest[1] >= 1 - 1e-9:
             break
     return best
 
 
-def _weakest(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> float:
-    """Smallest factor over wanted factor among the checks that the journals decide."""
-    concerned = ("inner journal", "shaft", "crankpin", "crank web")
-    rows = [c for c in check_all(parts, forces, wants, stock) if c.component.startswith(concerned)]
-    return min(c.safety_factor / c.wanted for c in rows)
+def _weakest(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> tuple[float, float]:
+    """Smallest factor over wanted factor of the inner bearings, at most 1, and then of the crankshaft."""
+    inner = chosen(parts.bearings, stock)["inner"]
+    crankshaft = get(dict(stock.materials), wants.crankshaft)
+    rows = check_bearing(inner, seats(parts, forces, stock)["inner"], wants)
+    held = min(c.safety_factor / c.wanted for c in rows)
+    if held < 1 - 1e-9:  # the cheap checks first
+        return held, 0.0
+    rows = check_crank(parts.crank, crank_loads(parts, forces, wants, stock), wants, crankshaft)
+    rows += check_pinion_shaft(parts, forces, wants, stock)
+    return 1.0, min(c.safety_factor / c.wanted for c in rows)
 
 
 def _with_inner(parts: Parts, choice: Choice, pin: float, stack: float, wants: Wants) -> Parts:
@@ -209,7 +215,7 @@ def _outboard(parts: Parts, forces: Forces, wants: Wants, stock: Stock, output: 
     return replace(parts, crank=crank, bearings=replace(parts.bearings, outboard=found.bearing.designation))
 
 
-def _longest(options: list[Choice], seat, wants: Wants) -> Choice | None:
+def _longest(options: list[Choice], seat: Seat, wants: Wants) -> Choice | None:
     def weakest(choice: Choice) -> float:
         return min(c.safety_factor / c.wanted for c in check_bearing(choice, seat, wants))
 

@@ -1,24 +1,19 @@
-"""The hypocycloid engine as a whole: axial places, loads on every part, and all checks.
+"""The hypocycloid engine as a whole: axial places and loads on every part.
 
 Forces come from outside as arrays over speed and angle (`hypocycloid_parts.Forces`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable
 
 import numpy as np
 
-from mechsym.sizing.bearing_design import Choice, Seat, check_bearing
-from mechsym.sizing.checks import Check, at_least
-from mechsym.sizing.crank_design import CrankLoads, check_crank, check_output
-from mechsym.sizing.fatigue import endurance_limit
-from mechsym.sizing.gear_checks import check_gears
+from mechsym.sizing.bearing_design import Seat
+from mechsym.sizing.crank_design import CrankLoads
 from mechsym.sizing.gear_design import ToothLoads
 from mechsym.sizing.hypocycloid_parts import Forces, Parts, Stock, chosen
-from mechsym.sizing.loads import Spans, side_loads, tooth_share_one_end
-from mechsym.sizing.materials import get
-from mechsym.sizing.piston_design import CylinderLoads, check_cylinder, check_piston
-from mechsym.sizing.rounding import at_speed
-from mechsym.sizing.turning_shaft import Section, fatigue_factor
+from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
+from mechsym.sizing.piston_design import CylinderLoads
+from mechsym.sizing.shaft_beam import Shaft, moment, outer_shares
 from mechsym.sizing.wants import Wants
 
 _GAP = 2e-3  # between web, bearings and housing, as in the source's sizes [m]
@@ -70,6 +65,66 @@ def shaft_length(parts: Parts, stock: Stock) -> float:
     return end - parts.crank.pin_length / 2 - parts.crank.web
 
 
+def shaft(parts: Parts, stock: Stock) -> Shaft:
+    """Half the crankshaft as a beam.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    shaft : Shaft
+        The seat of the inner journal lies symmetrically about it
+    """
+    z, crank = spans(parts, stock), parts.crank
+    seat_end = 2 * z.inner - crank.pin_length / 2 - crank.web
+    thin = parts.gears.pinion_bore or crank.shaft
+    return Shaft(spans=z, pin=crank.pin, pin_bore=crank.pin_bore, pin_half=crank.pin_length / 2, web=crank.web,
+                 seat=crank.shaft, seat_end=min(seat_end, z.gear), thin=thin)  # fmt: skip
+
+
+def vectors(forces: Forces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Forces on one side of the planet.
+
+    Parameters
+    ----------
+    forces : Forces
+        Forces over the speeds
+
+    Returns
+    -------
+    vectors : tuple of ndarray, shape (2, k, n)
+        On the crankpin, from the teeth, from the masses [N]
+    """
+    return side_vectors(forces.net, forces.tooth, forces.radial, forces.spin, forces.theta)
+
+
+def bending_moment(parts: Parts, forces: Forces, stock: Stock) -> Callable[[float], np.ndarray]:
+    """Bending moment along the crankshaft.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    forces : Forces
+        Forces over the speeds
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    moment : callable
+        Distance from the middle of the crankpin [m] -> moment (2, k, n) [N*m]
+    """
+    force, teeth, centrifugal = vectors(forces)
+    z, shares = spans(parts, stock), outer_shares(shaft(parts, stock))
+    return lambda place: moment(place, z, shares, force, teeth + centrifugal)
+
+
 def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> ToothLoads:
     """Tooth loads of the harder loaded pair.
 
@@ -111,7 +166,7 @@ def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
     seats : dict of str to Seat
         `rod`, `inner`, `outer`, `main`, `outboard`
     """
-    loads = side_loads(forces.net, forces.tooth, forces.radial, forces.spin, forces.theta, spans(parts, stock))
+    loads = side_loads(vectors(forces), spans(parts, stock), outer_shares(shaft(parts, stock)))
     w = forces.omega
     # the planet turns backwards at the crank's speed: once against the rod, twice against the carrier
     places = {
@@ -145,47 +200,10 @@ def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Cra
     """
     pair = tooth_loads(parts, forces, wants, stock)
     return CrankLoads(
-        omega=forces.omega, F_x=-forces.net, F_y=np.zeros_like(forces.net), turn=-forces.theta,
+        omega=forces.omega, moment=bending_moment(parts, forces, stock), turn=-forces.theta,
         along_web=forces.net * np.cos(forces.theta), shaft_torque=forces.e * pair.tooth,
         output_torque=2 * forces.torque, arm=spans(parts, stock).inner,
     )  # fmt: skip
-
-
-def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
-    """Every check of the engine.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
-    Returns
-    -------
-    checks : list of Check
-        From the piston to the bearings
-    """
-    used = {place: get(dict(stock.materials), getattr(wants, place))
-            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
-    cylinder = cylinder_loads(forces)
-    crank = crank_loads(parts, forces, wants, stock)
-    teeth = tooth_loads(parts, forces, wants, stock)
-    places = chosen(parts.bearings, stock)
-    return [
-        *check_piston(parts.piston, cylinder, wants, used["piston"]),
-        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
-        *check_gears(parts.gears, teeth, wants, used["gears"]),
-        *check_crank(parts.crank, crank, wants, used["crankshaft"]),
-        *_check_pinion_shaft(parts, forces, wants, stock),
-        *check_output(parts.crank.output, crank, wants, used["shaft"]),
-        *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
-        _check_room(parts, wants, forces.e, places),
-    ]
 
 
 def cylinder_loads(forces: Forces) -> CylinderLoads:
@@ -203,29 +221,3 @@ def cylinder_loads(forces: Forces) -> CylinderLoads:
     """
     return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
                          bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
-
-
-def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choice]) -> Check:
-    largest = max(places["inner"].bearing.outside, places["outer"].bearing.outside)
-    wall = places["main"].bearing.bore / 2 - e - largest / 2
-    return at_least("carrier", "wall between journal and main bearing", wall, wants.carrier_wall, "m", wanted=1.0,
-                    rule="room in the main bearing's bore", source="geometry")  # fmt: skip
-
-
-def _check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
-    """Shaft under the pinion: the tooth load between two journals, and the tooth's torque."""
-    z, d, material = spans(parts, stock), parts.gears.pinion_bore, get(dict(stock.materials), wants.crankshaft)
-    if d <= 0:
-        return []
-    lever = (z.gear - z.inner) * (z.outer - z.gear) / (z.outer - z.inner)
-    scale = tooth_loads(parts, forces, wants, stock).tooth, forces.radial / 2
-    s, c = np.sin(forces.theta), np.cos(forces.theta)
-    M_x, M_y = lever * (-scale[0] * s - scale[1] * c), lever * (scale[0] * c - scale[1] * s)
-    section = Section(d=d, S_e=endurance_limit(material.ultimate, d, wants.surface), S_ut=material.ultimate)
-    factor = fatigue_factor(section, M_x, M_y, -forces.theta, forces.e * scale[0])
-    k = int(np.argmin(factor))
-    return [
-        Check(component="shaft, under the pinion", quantity="fatigue factor", value=float(factor[k]), limit=1.0,
-              unit="-", safety_factor=float(factor[k]), wanted=wants.fatigue, rule="Goodman, fibre by fibre",
-              source="Shigley eq. 7-7", note=at_speed(forces.omega, k))
-    ]  # fmt: skip

@@ -45,7 +45,7 @@ class Spans:
             )
 
 
-def over_period(theta, phi, p, rest):
+def over_period(theta: np.ndarray, phi: np.ndarray, p: np.ndarray, rest: float) -> np.ndarray:
     r"""Pressure over the four-stroke period from the closed part of the cycle.
 
     .. math:: p(\theta) = p_{closed}(\theta) \text{ for } |\theta| \le \pi, \quad p_{rest} \text{ else}
@@ -80,7 +80,7 @@ def over_period(theta, phi, p, rest):
     return np.array([np.interp(turn, a, b, left=rest, right=rest) for a, b in zip(phi, p, strict=True)])
 
 
-def tooth_load_printed(F, theta):
+def tooth_load_printed(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
     r"""Tangential tooth load of all gears on one crank, for a planet without mass.
 
     .. math:: W = F\sin\theta
@@ -109,7 +109,7 @@ def tooth_load_printed(F, theta):
     return np.asarray(F) * np.sin(theta)
 
 
-def journal_load_massless(F, theta):
+def journal_load_massless(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
     r"""Load of the planet's journals, both sides together, without mass and without separating force.
 
     .. math:: J = |F|\sqrt{1 + 3\sin^2\theta}
@@ -138,14 +138,13 @@ def journal_load_massless(F, theta):
     return np.abs(F) * np.sqrt(1 + 3 * np.sin(theta) ** 2)
 
 
-def side_loads(F, tooth, radial, spin, theta, spans):
-    r"""Loads of the bearings of one side, half of the crank's loads, as magnitudes.
+def side_vectors(
+    F: np.ndarray, tooth: np.ndarray, radial: np.ndarray, spin: np.ndarray, theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    r"""Forces on one side of the planet, as vectors along and across the cylinder.
 
-    .. math::
-        T &= \tfrac12 (W\,\hat t - N\,\hat r), \quad c = \tfrac12 m_2 e\omega^2, \quad
-        \lambda = \frac{z_g - z_i}{z_o - z_i} \\
-        J_{outer} &= -\lambda (T + c\,\hat r), \quad J_{inner} = \tfrac12 F\,\hat x - (1 - \lambda)(T + c\,\hat r) \\
-        B_{outboard} &= T\,\frac{z_g - z_i}{z_b - z_i}, \quad B_{main} = -\tfrac12 F\,\hat x + T - B_{outboard}
+    .. math:: \vec F = -\tfrac12 F\,\hat x, \qquad \vec T = \tfrac12 (W\,\hat t - N\,\hat r), \qquad
+              \vec c = \tfrac12 m_2 e\omega^2\,\hat r
 
     Parameters
     ----------
@@ -157,8 +156,47 @@ def side_loads(F, tooth, radial, spin, theta, spans):
         Centrifugal force m_2 e omega^2 of both sides' shafts and pinions [N]
     theta : ndarray, shape (n,)
         Crank angle from top dead centre [rad]
+
+    Returns
+    -------
+    force, teeth, centrifugal : ndarray, shape (2, k, n)
+        On the crankpin, at the gear from the teeth, at the gear from the masses [N]
+
+    Notes
+    -----
+    Source: balance of the planet; x towards the head as in derivations/hypocycloid.py.
+
+    Examples
+    --------
+    >>> one = np.ones((1, 1))
+    >>> force, teeth, _ = side_vectors(2 * one, 2 * one, 0 * one, np.zeros(1), np.array([np.pi / 2]))
+    >>> [round(float(v), 9) + 0.0 for v in (force[0, 0, 0], teeth[0, 0, 0], teeth[1, 0, 0])]
+    [-1.0, -1.0, 0.0]
+    """
+    s, c = np.sin(theta), np.cos(theta)
+    F = np.asarray(F, dtype=float)
+    force = np.array([-F / 2, np.zeros_like(F)])
+    teeth = np.array([-tooth * s - radial * c, tooth * c - radial * s]) / 2
+    return force, teeth, np.asarray(spin)[:, None] / 2 * np.array([c, s])[:, None, :]
+
+
+def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[float, float]) -> dict[str, np.ndarray]:
+    r"""Loads of the bearings of one side, as magnitudes.
+
+    .. math::
+        J_{outer} &= s_F\vec F - s_T(\vec T + \vec c), \quad
+        J_{inner} = (1 + s_F)\vec F + (1 - s_T)(\vec T + \vec c) \\
+        B_{outboard} &= (s_T\vec T - s_F\vec F)\,\frac{z_o - z_i}{z_b - z_i}, \quad
+        B_{main} = \vec F + \vec T - B_{outboard}
+
+    Parameters
+    ----------
+    vectors : tuple of ndarray, shape (2, k, n)
+        From `side_vectors` [N]
     spans : Spans
         Axial places
+    shares : (float, float)
+        Shares s_F, s_T of the outer journal, from `shaft_beam.outer_shares` [-]
 
     Returns
     -------
@@ -167,35 +205,31 @@ def side_loads(F, tooth, radial, spin, theta, spans):
 
     Notes
     -----
-    Source: statics; the shaft counts as hinged at the inner journal, which is the safe side for that journal. The
-    carrier's counterweight takes the centrifugal force. Valid: torque taken off at both ends alike
-    (`tooth_share_one_end` says what a single end does).
+    Source: statics. The carrier's counterweight takes the centrifugal force in its own plane. Valid: torque taken off
+    at both ends alike (`tooth_share_one_end` says what a single end does), rigid journals without play.
 
     Examples
     --------
     >>> spans = Spans(inner=0.043, gear=0.0715, outer=0.1, outboard=0.114)
-    >>> zero = np.zeros((1, 1))
-    >>> loads = side_loads(np.full((1, 1), 27140.0), zero, zero, np.zeros(1), np.zeros(1), spans)
-    >>> {name: round(float(load[0, 0])) for name, load in loads.items()}
-    {'inner_journal': 13570, 'outer_journal': 0, 'main': 13570, 'outboard': 0}
+    >>> one, none = np.ones((1, 1)), np.zeros((1, 1))
+    >>> vectors = side_vectors(27140.0 * one, none, none, np.zeros(1), np.zeros(1))
+    >>> {name: round(float(load[0, 0])) for name, load in side_loads(vectors, spans, (0.1, 0.4)).items()}
+    {'inner_journal': 14927, 'outer_journal': 1357, 'main': 14659, 'outboard': 1089}
     """
-    s, c = np.sin(theta), np.cos(theta)
-    F_x = np.asarray(F) / 2
-    T = np.array([-tooth * s - radial * c, tooth * c - radial * s]) / 2
-    pull = T + np.asarray(spin)[:, None] / 2 * np.array([c, s])[:, None, :]
-    lever = spans.gear - spans.inner
-    share, far = lever / (spans.outer - spans.inner), lever / (spans.outboard - spans.inner)
-    F_side = np.array([F_x, np.zeros_like(F_x)])
-    vectors = {
-        "inner_journal": F_side - (1 - share) * pull,
-        "outer_journal": share * pull,
-        "main": -F_side + (1 - far) * T,
-        "outboard": far * T,
+    force, teeth, centrifugal = vectors
+    s_F, s_T = shares
+    lever = (spans.outer - spans.inner) / (spans.outboard - spans.inner)
+    outboard = lever * (s_T * teeth - s_F * force)
+    found = {
+        "inner_journal": (1 + s_F) * force + (1 - s_T) * (teeth + centrifugal),
+        "outer_journal": s_F * force - s_T * (teeth + centrifugal),
+        "main": force + teeth - outboard,
+        "outboard": outboard,
     }
-    return {name: np.hypot(*vector) for name, vector in vectors.items()}
+    return {name: np.hypot(*vector) for name, vector in found.items()}
 
 
-def tooth_share_one_end(spans, stiffness_ratio):
+def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:
     r"""Share of the tooth load that the driving side's gear takes when the torque leaves at that end only.
 
     .. math:: \frac{W_1}{W} = \frac12 + \left[1 + \frac{k_j}{k_g}\frac{(z_o - z_i)^2}{2 z_g^2}\right]^{-1}
@@ -229,7 +263,7 @@ def tooth_share_one_end(spans, stiffness_ratio):
     return 0.5 + 1 / (1 + stiffness_ratio * lever)
 
 
-def reversed_tooth_load(W, returns):
+def reversed_tooth_load(W: np.ndarray, returns: int) -> np.ndarray:
     r"""Load on a tooth root that bends it as much as its own load history, loads of the other flank included.
 
     .. math:: W_{eq} = \max_\theta\left(A + \tfrac37 B\right)

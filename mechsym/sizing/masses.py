@@ -3,12 +3,15 @@
 Source: Nunes (2017), ch. 4.2, 4.10 and 5.1.2.
 """
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from mechsym.sizing.checks import require
 
 
-def cylinder_mass(density, d, length, bore=0.0):
+def cylinder_mass(density: float, d: float, length: float, bore: float = 0.0) -> float:
     r"""Mass of a round bar or tube.
 
     .. math:: m = \rho\,\tfrac{\pi}{4}(d^2 - d_i^2)\,l
@@ -41,7 +44,7 @@ def cylinder_mass(density, d, length, bore=0.0):
     return density * np.pi / 4 * (d**2 - bore**2) * length
 
 
-def web_outline(d_1, d_2, e, points=256):
+def web_outline(d_1: float, d_2: float, e: float, points: int = 256) -> tuple[np.ndarray, np.ndarray]:
     r"""Outline of the leanest crank web: two circles and their outer tangents.
 
     .. math:: \sin\beta = (R_1 - R_2)/e
@@ -79,7 +82,7 @@ def web_outline(d_1, d_2, e, points=256):
     return x, np.concatenate([d_1 / 2 * np.sin(far), d_2 / 2 * np.sin(near)])
 
 
-def area_and_centre(x, y):
+def area_and_centre(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     r"""Area of a polygon and where its centre lies along x.
 
     .. math:: A = \tfrac12\sum (x_i y_{i+1} - x_{i+1} y_i)
@@ -113,7 +116,7 @@ def area_and_centre(x, y):
     return abs(area), float(((x + u) * cross).sum() / (6 * area))
 
 
-def roll_up(parts):
+def roll_up(parts: Mapping[str, tuple[float, int]]) -> float:
     r"""Mass of an assembly.
 
     .. math:: m = \sum n_i m_i
@@ -141,7 +144,7 @@ def roll_up(parts):
     return float(sum(mass * count for mass, count in parts.values()))
 
 
-def power_to_weight(power, mass):
+def power_to_weight(power: Any, mass: float) -> Any:
     r"""Power per mass.
 
     .. math:: P/m

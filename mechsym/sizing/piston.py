@@ -17,7 +17,7 @@ import numpy as np
 from mechsym.sizing.checks import require
 
 
-def head_thickness_strength(p, B, sigma_t):
+def head_thickness_strength(p: float, B: float, sigma_t: float) -> float:
     r"""Thickness of a piston head that bears the gas pressure (Grashof).
 
     .. math:: t_H = \sqrt{\frac{3 p B^2}{16 \sigma_t}}
@@ -51,7 +51,7 @@ def head_thickness_strength(p, B, sigma_t):
     return np.sqrt(3 * p * B**2 / (16 * sigma_t))
 
 
-def head_stress(p, B, t_H):
+def head_stress(p: float, B: float, t_H: float) -> float:
     r"""Bending stress of a piston head of given thickness, the inverse of Grashof's formula.
 
     .. math:: \sigma = \frac{3 p B^2}{16\,t_H^2}
@@ -84,7 +84,7 @@ def head_stress(p, B, t_H):
     return 3 * p * B**2 / (16 * t_H**2)
 
 
-def head_heat(fuel_flow, heating_value, share=0.05):
+def head_heat(fuel_flow: float, heating_value: float, share: float = 0.05) -> float:
     r"""Heat that flows through one piston head.
 
     .. math:: H = C\,\dot m_f\,H_u
@@ -118,7 +118,7 @@ def head_heat(fuel_flow, heating_value, share=0.05):
     return share * fuel_flow * heating_value
 
 
-def head_thickness_heat(H, k, dT):
+def head_thickness_heat(H: float, k: float, dT: float) -> float:
     r"""Thickness of a piston head that conducts the heat to its edge.
 
     .. math:: t_H = \frac{H}{4\pi k\,\Delta T}
@@ -152,7 +152,7 @@ def head_thickness_heat(H, k, dT):
     return H / (4 * np.pi * k * dT)
 
 
-def ring_radial_thickness(B, p_w, sigma_t):
+def ring_radial_thickness(B: float, p_w: float, sigma_t: float) -> float:
     r"""Radial thickness of a compression ring.
 
     .. math:: t_1 = B\sqrt{3 p_w/\sigma_t}
@@ -185,7 +185,7 @@ def ring_radial_thickness(B, p_w, sigma_t):
     return B * np.sqrt(3 * p_w / sigma_t)
 
 
-def ring_axial_thickness(B, n_rings):
+def ring_axial_thickness(B: float, n_rings: int) -> float:
     r"""Axial thickness of a ring.
 
     .. math:: t_2 = B/(10 n)
@@ -215,7 +215,7 @@ def ring_axial_thickness(B, n_rings):
     return B / (10 * n_rings)
 
 
-def barrel_thickness(B, t_1):
+def barrel_thickness(B: float, t_1: float) -> float:
     r"""Largest thickness of the piston barrel.
 
     .. math:: t_3 = 0.03 B + t_1 + 4.9\,\mathrm{mm}
@@ -246,7 +246,7 @@ def barrel_thickness(B, t_1):
     return 0.03 * B + t_1 + 4.9e-3
 
 
-def head_height(b_1, b_2, t_2, n_rings):
+def head_height(b_1: float, b_2: float, t_2: float, n_rings: int) -> float:
     r"""Height of the piston head.
 
     .. math:: L_{piston} = b_1 + n (t_2 + b_2)

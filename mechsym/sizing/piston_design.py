@@ -63,12 +63,12 @@ def size_piston(loads: CylinderLoads, wants: Wants, material: Material, rod_leng
     strong = piston.head_thickness_strength(loads.dp_max.max(), B, need(material, "hot_ultimate") / wants.head)
     cool = piston.head_thickness_heat(loads.head_heat, need(material, "conductivity"), wants.head_dT)
     head = round_up(max(strong, cool), 0.25e-3)
-    axial = piston.ring_axial_thickness(B, wants.rings)
+    axial = piston.ring_axial_thickness(B, round(wants.rings))
     land = 0.75 * axial
     diameter = rod.rod_diameter(np.abs(loads.rod).max(), need(material, "fatigue") / wants.rod)
     return PistonPart(
         head=head, barrel=piston.barrel_thickness(B, wants.ring_thickness), ring_radial=wants.ring_thickness,
-        ring_axial=axial, land_top=head, land=land, height=piston.head_height(head, land, axial, wants.rings),
+        ring_axial=axial, land_top=head, land=land, height=piston.head_height(head, land, axial, round(wants.rings)),
         rod=round_up(diameter), rod_length=rod_length - head,
     )  # fmt: skip
 
@@ -128,7 +128,7 @@ def size_cylinder(loads: CylinderLoads, wants: Wants, material: Material, height
     """
     p = loads.dp_max.max()
     wall = round_up(cylinder.wall_thickness(p, loads.bore, need(material, "fatigue") / wants.wall, wants.reboring))
-    core = bolts.core_diameter(p, loads.bore, wants.bolts, wants.bolt_stress)
+    core = bolts.core_diameter(p, loads.bore, round(wants.bolts), wants.bolt_stress)
     return CylinderPart(
         wall=wall, flange=round_up(cylinder.flange_range(wall)[0]), bolts=wants.bolts,
         length=round_up(cylinder.cylinder_length(loads.gap, height, loads.stroke)), thread_mm=bolts.thread_for(core),
@@ -162,7 +162,7 @@ def check_cylinder(
     p, note = loads.dp_max[k], at_speed(loads.omega, k)
     hoop = cylinder.hoop_stress(p, loads.bore, part.wall - wants.reboring)
     core = bolts.root_diameter(round(part.thread_mm))
-    stress = bolts.bolt_stress(p, loads.bore, part.bolts, core)
+    stress = bolts.bolt_stress(p, loads.bore, round(part.bolts), core)
     needed = cylinder.cylinder_length(loads.gap, height, loads.stroke)
     return [
         at_most("cylinder wall", "hoop stress", hoop, need(material, "fatigue"), "Pa", wanted=wants.wall,

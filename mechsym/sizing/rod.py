@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.sizing.checks import require
 
 
-def rod_diameter(F, sigma):
+def rod_diameter(F: float, sigma: float) -> float:
     r"""Diameter of a straight round rod under axial load.
 
     .. math:: d_r = \sqrt{\frac{4 F}{\pi\sigma}}
@@ -39,7 +39,7 @@ def rod_diameter(F, sigma):
     return np.sqrt(4 * F / (np.pi * sigma))
 
 
-def rod_buckling_load(d, length, E, yield_strength):
+def rod_buckling_load(d: float, length: float, E: float, yield_strength: float) -> float:
     r"""Load at which a round rod between hinges buckles (Euler, or Johnson below the tangent point).
 
     .. math:: F = \begin{cases}\pi^2 E I/l^2 & l/i \ge \sqrt{2\pi^2 E/R_e}\\
@@ -77,7 +77,7 @@ def rod_buckling_load(d, length, E, yield_strength):
     return area * yield_strength * (1 - yield_strength * slenderness**2 / (4 * np.pi**2 * E))
 
 
-def rod_length(reach, e, d_TDC, t_H, ID_cap):
+def rod_length(reach: float, e: float, d_TDC: float, t_H: float, ID_cap: float) -> float:
     r"""Length of the rod between the piston head and the cap.
 
     .. math:: L_{rod} = reach - 2 e - \tfrac12 d_{TDC} - t_H - \tfrac12 ID_{cap}

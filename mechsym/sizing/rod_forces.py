@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.sizing.checks import require
 
 
-def slider_crank_chain(F, theta, r, l):
+def slider_crank_chain(F: np.ndarray, theta: np.ndarray, r: float, l: float) -> dict[str, np.ndarray]:
     r"""Forces of a slider crank with mass on the piston only.
 
     .. math:: \sin\psi = \tfrac{r}{l}\sin\theta, \quad S = F/\cos\psi, \quad N = F\tan\psi, \quad

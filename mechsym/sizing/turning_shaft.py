@@ -41,7 +41,7 @@ class Section:
         require("bore", self.bore, "m", below=self.d, hint="the bore must leave a wall")
 
 
-def fatigue_factor(section, M_x, M_y, turn, T):
+def fatigue_factor(section: Section, M_x: np.ndarray, M_y: np.ndarray, turn: np.ndarray, T: np.ndarray) -> np.ndarray:
     r"""Fatigue safety factor of a turning section at each speed.
 
     .. math:: \sigma(\alpha) = \frac{32}{\pi d^3}\left(M_x\cos(\beta + \alpha) + M_y\sin(\beta + \alpha)\right),
@@ -91,7 +91,7 @@ def fatigue_factor(section, M_x, M_y, turn, T):
         return 1 / used
 
 
-def static_factor(section, M_x, M_y, T, strength):
+def static_factor(section: Section, M_x: np.ndarray, M_y: np.ndarray, T: np.ndarray, strength: float) -> np.ndarray:
     r"""Factor against a static strength at each speed.
 
     .. math:: n = R / \max_\theta\sqrt{\sigma^2 + 3\tau^2}

@@ -16,6 +16,12 @@ class Wants:
 
     Parameters
     ----------
+    settings : tuple of str
+        Cycle settings for the loads, KEY=VALUE as for `--set`
+    speed_step : float
+        Step of the speeds at which parts are sized and checked [rad/s]
+    rival : str
+        Case of the engine to compare with
     head, rod, wall, shaft_static, fatigue : float
         Safety factors: piston head against the hot strength, rod against fatigue, cylinder wall against fatigue,
         shafts against static strength, shafts against fatigue (usual) [-]
@@ -65,6 +71,9 @@ class Wants:
         Stiffness of a journal over that of a gear mesh, for `one_end` (usual) [-]
     """
 
+    settings: tuple[str, ...] = ()
+    speed_step: float = quantity("rad/s", default=50 * np.pi / 30, above=0, about="step of the speeds")
+    rival: str = ""
     head: float = quantity("-", default=1.5, low=1, about="piston head")
     rod: float = quantity("-", default=1.5, low=1, about="piston rod")
     wall: float = quantity("-", default=2.0, low=1, about="cylinder wall")

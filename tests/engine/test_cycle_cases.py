@@ -8,9 +8,10 @@ from click.testing import CliRunner
 
 from mechsym.cases import load
 from mechsym.cli.compare import compare
-from mechsym.cli.cycle import cycle, parse_speeds
+from mechsym.cli.cycle import cycle
+from mechsym.cli.speeds import parse_speeds
 from mechsym.compare import crossovers
-from mechsym.cycle import RPM, curves, engine, speed_range
+from mechsym.cycle import RPM, curves, engine, over_speeds, speed_range
 from mechsym.engine.model import at_design, design_names
 from mechsym.errors import BadInput
 from mechsym.motion import motion
@@ -133,3 +134,57 @@ def test_speed_range_of_a_case():
     assert speeds.size == 800 and speeds[[0, -1]] / RPM == pytest.approx([10, 8000])
     with pytest.raises(BadInput, match="below lowest"):
         load("nunes-slider-crank", {"speeds.highest": "5 rpm"})
+
+
+def test_a_map_over_another_value_than_the_speed():
+    found = run_json(cycle, "nunes-slider-crank", "--over", "cycle.ignition=-30 deg:0 deg:10 deg", "--speeds", "4000")
+    assert found["cycle.ignition"] == pytest.approx(np.radians([-30, -20, -10, 0]))
+    assert np.argmax(found["efficiency"]) == 2 and np.all(np.diff(found["p_max_mpa"]) < 0)
+
+
+@pytest.mark.parametrize(
+    "arguments, reason",
+    [
+        (["--over", "chamber.compression_ratio=1:3:1"], "compression_ratio = 1 is out of range; it must be > 1"),
+        (["--over", "chamber.colour=1:3:1"], "chamber.colour' is not known"),
+        (["--over", "chamber.bore=1:3"], "write NAME=A:B:STEP"),
+        (["--over", "chamber.bore=1 s:3 s:1 s"], "wrong dimension"),
+        (["--over", "gas.gamma=1.3:1.4:0.1", "--speeds", "1000:2000:1000"], "runs at one speed"),
+        (["--over", "gas.gamma=1.3:1.4:0.1", "--set", "cycle.method=nunes2017_printed"], "speed alone"),
+    ],
+)
+def test_bad_maps_are_refused(arguments, reason):
+    with pytest.raises(BadInput, match=reason):
+        CliRunner().invoke(cycle, ["nunes-slider-crank", *arguments], catch_exceptions=False)
+
+
+def test_large_maps_are_made_in_blocks():
+    machine, done = engine(load("nunes-hypocycloid", {"cycle.method": "nunes2017_printed"})), []
+    omega = np.linspace(1000, 8000, 2300) * RPM
+    found = over_speeds(machine, omega, done.append)
+    assert done == [1000, 1000, 300] and found.loads["tooth_force"].shape == omega.shape
+    assert found.torque_avg[1500] == pytest.approx(over_speeds(machine, omega[1500:1501]).torque_avg[0], rel=1e-14)
+
+
+def test_friction_of_the_mechanism_makes_brake_figures():
+    case = {"friction_pressure.law": "mechanism"}
+    rod, planet = (engine(load(f"nunes-{name}", case)) for name in ("slider-crank", "hypocycloid"))
+    found = [over_speeds(machine, np.array([2000.0, 8000.0]) * RPM) for machine in (rod, planet)]
+    for one in found:
+        assert np.all((0.5e4 < one.friction_mep) & (one.friction_mep < 3e5))
+        assert one.brake_torque == pytest.approx(one.torque_avg - one.friction_mep * 2.94053e-4 / (4 * np.pi), rel=1e-5)
+    assert np.all(found[0].brake_efficiency < found[0].efficiency)
+
+
+@pytest.mark.parametrize("choice", ["heat_transfer.law=woschni", "heat_transfer.law=hohenberg", "gas.model=nasa",
+                                    "friction_pressure.law=chen_flynn"])  # fmt: skip
+def test_another_law_is_one_setting_away(choice):
+    plain, other = (run_json(cycle, "nunes-slider-crank", *more) for more in ([], ["--set", choice]))
+    figure = "brake_efficiency"
+    assert other[figure][0] != pytest.approx(plain[figure][0], rel=1e-3)
+    assert abs(other["energy_residual"][0]) < 1e-10
+
+
+def test_a_setting_of_the_old_law_is_refused_with_the_new_one():
+    with pytest.raises(BadInput, match="heat_transfer.a is not known"):
+        load("nunes-slider-crank", {"heat_transfer.law": "woschni", "heat_transfer.a": "0.3"})

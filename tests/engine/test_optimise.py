@@ -101,6 +101,7 @@ def test_a_peak_as_objective(machine):
     assert row["multiplier"] == pytest.approx((looser.objective - found.objective) / 0.001, rel=0.05)
 
 
+@pytest.mark.slow
 def test_pareto_front_trades_one_figure_for_the_other(machine):
     front = pareto(task(machine, IGNITION | RATIO, {"p_max": {"high": "8 MPa"}}), "p_max", "minimise", 5)
     assert [p.status for p in front] == ["optimal"] * 5
@@ -132,6 +133,7 @@ def test_bad_problems_are_refused(machine, section, reason):
         problem(machine, 4000 * RPM, Optimise(**section))
 
 
+@pytest.mark.slow
 def test_command(tmp_path):
     arguments = ["nunes-hypocycloid", "--set", "optimise.against=p_max", "--set", "optimise.points=3"]
     result = CliRunner().invoke(optimise, [*arguments, "--json", "--out", str(tmp_path)], catch_exceptions=False)

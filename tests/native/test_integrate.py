@@ -138,8 +138,8 @@ def test_first_of_two_surfaces_wins():
 def test_table_of_a_periodic_value_with_a_jump_at_a_kink():
     # torque 1 in the first half turn and -0.5 in the second; the angle runs through 5 turns
     period = 2 * np.pi
-    steps = Table(held=0, state=0, breaks=np.array([0, np.pi, period]), coefficients=np.array([[1.0, -0.5]]))
-    kinks = Kinks(state=0, angles=(0.0, np.pi), period=period)
+    steps = Table(held=0, state=0, polynomials=((np.array([0, np.pi, period]), np.array([[1.0, -0.5]])),))
+    kinks = Kinks(state=0, angles=np.array([0.0, np.pi]), period=period)
     system = rhs("jumps", 3, 1, lambda t, y, p: (y[1], p[0], p[0] * y[1]))
     common = dict(rhs=system, start=np.array([0.3, 2.0, 0.0]), until=np.array([12.0]), held=np.zeros((1, 1)))
     found = integrate(Runs(**common, tables=(steps,), kinks=kinks, rtol=1e-9, atol=1e-9))
@@ -156,10 +156,10 @@ def test_table_of_a_periodic_value_with_a_jump_at_a_kink():
 def test_motion_that_turns_back_over_a_kink():
     # a ball thrown against a floor that pushes harder below 0
     system = rhs("floor", 2, 1, lambda t, y, p: (y[1], p[0]))
-    force = Table(held=0, state=0, breaks=np.array([-5.0, 0.0, 5.0]), coefficients=np.array([[40.0, -10.0]]))
+    force = Table(held=0, state=0, polynomials=((np.array([-5.0, 0.0, 5.0]), np.array([[40.0, -10.0]])),))
     found = integrate(
         Runs(rhs=system, start=np.array([1.0, 0.0]), until=np.array([5.0]), held=np.zeros((1, 1)), tables=(force,),
-             kinks=Kinks(state=0, angles=(0.0,), period=10.0), times=np.linspace(0.01, 5, 500))
+             kinks=Kinks(state=0, angles=np.array([0.0]), period=10.0), times=np.linspace(0.01, 5, 500))
     )  # fmt: skip
     y, v = found.samples[0].T
     total = v**2 / 2 + np.where(y > 0, 10 * y, -40 * y)
@@ -171,7 +171,7 @@ def test_smooth_table_follows_any_angle():
     angles = np.linspace(0, 2 * np.pi, 3601)
     spline = CubicSpline(angles, np.r_[np.cos(angles[:-1]), 1.0], bc_type="periodic")
     poly = PPoly(spline.c, spline.x)
-    force = Table(held=0, state=0, breaks=poly.x, coefficients=poly.c)
+    force = Table(held=0, state=0, polynomials=((poly.x, poly.c),))
     found = integrate(
         Runs(rhs=FORCED, start=np.array([-100.0, 9.0]), until=np.array([10.0]), held=np.zeros((1, 1)), tables=(force,))
     )

@@ -9,25 +9,26 @@ from native.models import agree, chain, functions, interpreted
 
 from mechsym import native
 from mechsym.native import source
+from mechsym.native.factor import factored
 from mechsym.native.kernels import constant_table, kernels
-from mechsym.native.rewrite import fewer_divisions
+from mechsym.native.rewrite import cheaper
 from mechsym.native.tape import operation_counts, read
 
 # operations of the generated functions; a change of the derivations or of CasADi that makes them dearer must be seen
 BASELINE = {
-    ("crosshead", "kinematics"): {"strict": 54, "fast": 56},
-    ("crosshead", "acceleration"): {"strict": 68, "fast": 70},
+    ("crosshead", "kinematics"): {"strict": 54, "fast": 54},
+    ("crosshead", "acceleration"): {"strict": 68, "fast": 65},
     ("crosshead", "energy"): {"strict": 46, "fast": 46},
-    ("crosshead", "reactions"): {"strict": 93, "fast": 95},
-    ("crankshaft_flywheel", "kinematics"): {"strict": 27, "fast": 29},
-    ("crankshaft_flywheel", "acceleration"): {"strict": 36, "fast": 38},
+    ("crosshead", "reactions"): {"strict": 93, "fast": 93},
+    ("crankshaft_flywheel", "kinematics"): {"strict": 27, "fast": 27},
+    ("crankshaft_flywheel", "acceleration"): {"strict": 36, "fast": 36},
 }
 
 
 @pytest.mark.parametrize(("name", "function"), BASELINE)
 def test_operation_counts_do_not_grow(name, function):
-    tape = read(functions(name)[function])
-    found = {"strict": operation_counts(tape)["total"], "fast": operation_counts(fewer_divisions(tape))["total"]}
+    f = functions(name)[function]
+    found = {mode: operation_counts(source.program(f, mode).tape)["total"] for mode in ("strict", "fast")}
     assert found == BASELINE[name, function]
 
 
@@ -80,13 +81,34 @@ def test_division_rules():
     x, y, z = (ca.SX.sym(n) for n in "xyz")
     root = ca.sqrt(z)
     f = ca.Function("f", [x, y, z], [x / z, y / root, x / 3, 1 / root, y / ca.sin(x)])
-    tape = fewer_divisions(read(f))
+    tape = cheaper(read(f))
     counts = operation_counts(tape)
     assert counts["div"] == 1
     assert counts["inv"] == 1
     assert counts["sqrt"] == 1
     made = native.compiled(f, "fast").batch(*(v := np.random.default_rng(0).uniform(0.5, 2, (3, 100))))
     np.testing.assert_allclose(made, interpreted(f, list(v)), rtol=1e-15 * 8)
+
+
+def test_common_factors_are_taken_out_of_sums():
+    a, b, c, w = (ca.SX.sym(n) for n in "abcw")
+    shared = b * c
+    f = ca.Function(
+        "f", [a, b, c, w], [a * b * w**2 + 3.7 * c * w**2 - 5.3 * a * c * w**2, shared + shared * a, shared]
+    )
+    tape = factored(read(f))
+    assert operation_counts(tape)["mul"] + operation_counts(tape).get("sq", 0) <= 8
+    x = list(np.random.default_rng(4).uniform(-2, 2, (4, 200)))
+    assert agree(native.compiled(f, "fast").batch(*x), interpreted(f, x)) < 1e-12
+
+
+def test_broken_powers_become_exponentials():
+    x = ca.SX.sym("x")
+    f = ca.Function("f", [x], [x**0.7, x**1.25, x**0.5, x**3])
+    counts = operation_counts(cheaper(read(f)))
+    assert (counts["exp"], counts["log"], counts["sqrt"]) == (2, 1, 1)
+    values = np.array([0.0, 1e-300, 0.3, 1.0, 7.0, 1e200])
+    np.testing.assert_allclose(native.compiled(f).batch(values)[:2], [values**0.7, values**1.25], rtol=2e-13)
 
 
 def test_division_by_zero_constant_is_infinite():

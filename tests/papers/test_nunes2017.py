@@ -6,16 +6,18 @@ import pytest
 from mechsym.cases import load
 from mechsym.compare import crossovers
 from mechsym.cycle import RPM, columns, engine, over_speeds, speed_range
-from mechsym.reproduce.nunes2017 import last_digit, rows, verdict
+from mechsym.reproduce.nunes2017 import engine_rows, verdict
 from mechsym.reproduce.nunes2017_errata import errata
+from mechsym.reproduce.nunes2017_figures import figures
 from mechsym.reproduce.nunes2017_numbers import Item
+from mechsym.reproduce.rows import last_digit
 
 UNSETTLED = {"speed of the smallest difference in exhaust [rpm]"}  # the curve is flat to 3e-5 from 2350 to 2730 rpm
 
 
 @pytest.fixture(scope="module")
 def reproduced():
-    return rows()
+    return engine_rows()
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +44,18 @@ def test_chapter_3_gives_all_its_numbers_by_rounding_alone(reproduced):
     speeds = [r for r in chapter if "speed of" in r["item"]]
     slips = [r["item"] for r in speeds if r["computed"] != pytest.approx(float(r["published"]), abs=1e-6)]
     assert slips == ["OPGHE speed of the largest instantaneous torque [rpm]"]
+
+
+def test_items_have_names_of_their_own(reproduced):
+    names = [row["item"] for row in reproduced]
+    assert len(set(names)) == len(names)
+
+
+def test_figures_are_drawn():
+    drawn = figures()
+    numbers = [f"figure_3_{k}" for k in range(1, 14)] + [f"figure_5_{k}" for k in range(1, 20)]
+    assert sorted(drawn) == sorted(numbers)
+    assert all(axis.lines for figure in drawn.values() for axis in figure.axes)
 
 
 def test_verdicts_know_rounding_truncation_and_slips():

@@ -18,8 +18,9 @@ def test_docstring_examples(name):
     assert result.failed == 0
 
 
-RULES = ("gears", "gear_factors", "gear_life", "gear_geometry", "gear_bending", "agma908", "hertz", "piston", "cylinder",
-         "bolts", "crankshaft", "fatigue", "bearings", "balancing", "masses", "loads")  # fmt: skip
+RULES = ("gears", "gear_factors", "gear_life", "gear_geometry", "gear_bending", "gear_interference", "agma908", "hertz",
+         "piston", "rod", "cylinder", "bolts", "crankshaft", "fatigue", "turning_shaft", "shaft_beam", "bearings",
+         "balancing", "masses", "loads", "rod_forces")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", RULES)

@@ -1,1 +1,1 @@
-"""Every relation of the sources as printed, one module per source (two for the thesis)."""
+"""Every relation of the sources as printed, one module per source (several for the thesis)."""

@@ -4,7 +4,9 @@ S is the piston's distance from the shaft, r the crank radius (13 mm in the hypo
 """
 
 from mechsym.audit.entries import Entry, Listed, Printed, Source
+from mechsym.audit.sources.nunes2017_chapter4 import CHAPTER_4
 from mechsym.audit.sources.nunes2017_cycle import CLOSED_CYCLE, HEAT_MODELS, IDEAL_CYCLE
+from mechsym.audit.sources.nunes2017_engine import MODEL, RESULTS
 
 _CRANK = {"theta": "phi", "omega": "phid", "m_piston": "m", "S": "piston_position", "F_t": "total_force"}
 _HYPO = {"r": "e", "omega": "thetad", "S": "piston_position", "F_t": "total_force"}
@@ -108,5 +110,15 @@ SOURCE = Source(
     stem="004_e00ef50339108dab",
     short="nunes2017",
     title="Nunes (2017): Design of an opposed-piston engine, slider crank against geared hypocycloid",
-    entries=(*IDEAL_CYCLE, *HEAT_MODELS, *PERFORMANCE, *SLIDER_CRANK, *HYPOCYCLOID, *CLOSED_CYCLE),
+    entries=(
+        *IDEAL_CYCLE,
+        *HEAT_MODELS,
+        *PERFORMANCE,
+        *SLIDER_CRANK,
+        *HYPOCYCLOID,
+        *CLOSED_CYCLE,
+        *MODEL,
+        *CHAPTER_4,
+        *RESULTS,
+    ),
 )

@@ -7,7 +7,7 @@ from functools import cache, partial
 from typing import Any
 
 from mechsym import cases
-from mechsym.audit.theory import drives, engines, guides, rodless, sliders
+from mechsym.audit.theory import drives, engines, guides, parts, rodless, sliders
 from mechsym.audit.theory.record import Theory
 from mechsym.derive.build import scripts
 from mechsym.errors import BadInput
@@ -27,6 +27,7 @@ _THEORIES: dict[str, tuple[Build, str]] = {
     "opposed_hypocycloid": (engines.opposed_hypocycloid, ""),
     "otto": (engines.otto, ""),
     "cylinder": (engines.cylinder, ""),
+    "engine_parts": (parts.engine_parts, ""),
 }
 
 

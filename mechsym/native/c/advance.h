@@ -56,7 +56,7 @@ static void ms_choose_steps(const ms_run *run, ms_work *w)
 }
 
 /* Does the step just tried cross a level? With dense output also which one first, and at what share of the step. */
-static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, double *share, long *target)
+static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, double *share, long *target, double *at)
 {
     int found = 0;
     *share = INFINITY;
@@ -71,9 +71,22 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
         found = 1;
         const double u = dense ? ms_passing(w, state, l, level) : 1.0;
         if (u < *share)
-            *share = u, *target = i < 0 ? -1 : 1 + i;
+            *share = u, *target = i < 0 ? -1 : 1 + i, *at = level;
     }
     return found;
+}
+
+/* A step to a level ends where the dense output says, to about the tolerance; one Newton step or two make it exact. */
+static int ms_corrected(const ms_run *run, ms_work *w, int l)
+{
+    const int kink = w->target[l] < 0, state = kink ? run->kink_state : run->surface[w->target[l] - 1].state;
+    const double miss = w->next[state][l] - w->level[l], late = miss / w->q[12][state][l];
+    const double size = ms_fmax(fabs(w->level[l]), 1.0), length = w->step[l] - late;
+    if (fabs(miss) <= (kink ? 1e-10 : 1e-15) * size || w->tries[l] == 3 || !(length > 0.0) || !isfinite(length))
+        return 0;
+    w->tries[l]++;
+    w->forced[l] = length;
+    return 1;
 }
 
 static void ms_reject(const ms_run *run, ms_work *w, int l)
@@ -85,13 +98,29 @@ static void ms_reject(const ms_run *run, ms_work *w, int l)
     run->rejected[l]++;
 }
 
+/* The next wanted time of a lane. */
+static double ms_due(const ms_run *run, int l)
+{
+    return run->sampled[l] < run->times ? run->grid[run->sampled[l] * MS_L + l] : INFINITY;
+}
+
 static void ms_sample(const ms_run *run, ms_work *w, int l, double end)
 {
-    for (; run->sampled[l] < run->times && run->grid[run->sampled[l]] <= end; run->sampled[l]++) {
-        const double u = (run->grid[run->sampled[l]] - w->t[l]) / w->step[l];
+    for (; ms_due(run, l) <= end; run->sampled[l]++) {
+        const double u = (ms_due(run, l) - w->t[l]) / w->step[l];
         double *to = run->samples + run->sampled[l] * MS_N * MS_L + l;
         for (int i = 0; i < MS_N; i++)
             to[i * MS_L] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
+    }
+}
+
+/* A level that lies on a kink: the step that ends at the kink meets it too. */
+static void ms_share_kink(const ms_run *run, ms_work *w, int l)
+{
+    for (long i = 0; i < run->surfaces && w->target[l] < 0; i++) {
+        const ms_surface *s = run->surface + i;
+        if (ms_crosses(s->direction, w->y[s->state][l], w->next[s->state][l], s->level[l]))
+            w->target[l] = 1 + i;
     }
 }
 
@@ -101,6 +130,7 @@ static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
     const double proposed = w->step[l] * ms_fmin(6.0, 0.8 / sqrt(sqrt(sqrt(w->error[l]))));
     const int last = end == ms_until(run, w, l), cut = last || w->target[l];
     ms_sample(run, w, l, end);
+    ms_share_kink(run, w, l);
     w->t[l] = end;
     for (int i = 0; i < MS_N; i++) {
         w->y[i][l] = w->next[i][l];
@@ -135,15 +165,14 @@ static double ms_end(const ms_run *run, const ms_work *w, int l)
 static void ms_settle(const ms_run *run, ms_work *w)
 {
     int dense = 0, crosses[MS_L], fresh[MS_L] = {0}, again = 0, guess = 0;
-    double share;
+    double share, level = 0.0;
     long target = 0;
     for (int l = 0; l < MS_L; l++) {
         crosses[l] = 0;
         if (!w->active[l] || !(w->error[l] <= 1.0))
             continue;
-        crosses[l] = !w->target[l] && ms_crossed(run, w, l, 0, &share, &target);
-        const long due = run->sampled[l];
-        dense |= crosses[l] || (due < run->times && run->grid[due] <= ms_end(run, w, l));
+        crosses[l] = !w->target[l] && ms_crossed(run, w, l, 0, &share, &target, &level);
+        dense |= crosses[l] || ms_due(run, l) <= ms_end(run, w, l);
     }
     if (dense)
         ms_make_dense(run, w);
@@ -152,10 +181,12 @@ static void ms_settle(const ms_run *run, ms_work *w)
             continue;
         if (!(w->error[l] <= 1.0)) {
             ms_reject(run, w, l);
-        } else if (crosses[l] && ms_crossed(run, w, l, 1, &share, &target) && share < 1.0) {
+        } else if (crosses[l] && ms_crossed(run, w, l, 1, &share, &target, &level) && share < 1.0) {
             w->forced[l] = share * w->step[l];
             w->target[l] = target;
-        } else {
+            w->level[l] = level;
+            w->tries[l] = 0;
+        } else if (!w->target[l] || !ms_corrected(run, w, l)) {
             w->target[l] = crosses[l] ? target : w->target[l];
             const int entered = ms_accept(run, w, l, ms_end(run, w, l));
             fresh[l] = entered == 2;

@@ -4,10 +4,13 @@
  */
 typedef struct {
     ms_row x[MS_X], y[MS_N], next[MS_N], q[16][MS_N], dense[8][MS_N];
-    ms_row t, h, step, error, forced;
+    ms_row t, h, step, error;
     ms_window window;
-    long segment[MS_L], target[MS_L]; /* what a forced step is to meet: 1 + i surface i, -1 a kink, 0 nothing */
+    long segment[MS_L];
     int active[MS_L];
+    /* a step forced to meet a level, of surface i (target 1 + i) or of a kink (-1); 0 nothing */
+    ms_row forced, level;
+    long target[MS_L], tries[MS_L];
 } ms_work;
 
 #define MS_Q(j) w->q[j - 1][i][l]

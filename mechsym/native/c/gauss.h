@@ -99,8 +99,8 @@ static int ms_all(const ms_run *run, ms_work *w, double *t)
             for (int j = 0; j < MS_P; j++)
                 w->x[1 + MS_N + j][l] = run->held[(segment * MS_P + j) * MS_L + l];
         while (*t < until) {
-            const int wanted = sample < run->times && run->grid[sample] <= until;
-            const double end = wanted ? run->grid[sample] : until;
+            const int wanted = sample < run->times && run->grid[sample * MS_L] <= until;
+            const double end = wanted ? run->grid[sample * MS_L] : until;
             const int status = ms_stretch(run, w, *t, end);
             if (status != MS_DONE)
                 return status;

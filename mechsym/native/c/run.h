@@ -9,11 +9,10 @@ enum { MS_X = 1 + MS_N + MS_P };
 #define MS_STATES for (int i = 0; i < MS_N; i++) MS_EACH
 typedef double ms_row[MS_L];
 
-/* Held value `slot` follows state `state` as a periodic piecewise polynomial; coefficients by falling powers. */
+/* Held value `slot` of one lane follows state `state` as a periodic piecewise polynomial. */
 typedef struct {
-    long slot, state, pieces, terms, per_lane;
-    double start, period;
-    const double *breaks, *coefficients; /* [pieces + 1], [lane][piece][term] */
+    long slot, state, pieces, terms;
+    const double *breaks, *coefficients; /* [pieces + 1], [piece][term] by falling powers */
 } ms_table;
 
 /* A level of a state at which a run ends; direction 1 rising, -1 falling, 0 either. */
@@ -28,9 +27,9 @@ typedef struct {
     const double *constants;   /* [constant][lane] */
     const double *until;       /* [segment][lane] */
     const double *held;        /* [segment][held value][lane] */
-    const double *grid;        /* [time], ascending, after the start */
-    const double *kink_angles; /* [kink], in [0, period) */
-    const ms_table *table;
+    const double *grid;        /* [time][lane], ascending, after the start */
+    const double *kink_angles; /* [kink][lane], in [0, period) */
+    const ms_table *table;     /* [table][lane] */
     const ms_surface *surface;
     double *t, *y;       /* [lane], [state][lane]: the start, then the end */
     double *samples;     /* [time][state][lane] */
@@ -43,10 +42,10 @@ typedef struct {
     double below[MS_L], above[MS_L], low[MS_L], high[MS_L];
 } ms_window;
 
-static double ms_periodic(const ms_table *table, double angle, int lane)
+static double ms_periodic(const ms_table *table, double angle)
 {
-    const double a = angle - table->period * floor((angle - table->start) / table->period);
-    const double *c = table->coefficients + lane * table->per_lane;
+    const double start = table->breaks[0], period = table->breaks[table->pieces] - start;
+    const double a = angle - period * floor((angle - start) / period);
     long piece = 0;
     for (long high = table->pieces; high - piece > 1;) {
         const long middle = (piece + high) / 2;
@@ -55,23 +54,22 @@ static double ms_periodic(const ms_table *table, double angle, int lane)
         else
             high = middle;
     }
-    const double u = a - table->breaks[piece];
+    const double u = a - table->breaks[piece], *c = table->coefficients + piece * table->terms;
     double y = 0.0;
     for (long i = 0; i < table->terms; i++)
-        y = y * u + c[piece * table->terms + i];
+        y = y * u + c[i];
     return y;
 }
 
 static __attribute__((noinline)) void ms_rates(const ms_run *run, const ms_window *window, ms_row *x, ms_row *rate)
 {
-    for (long i = 0; i < run->tables; i++) {
+    for (long i = 0; i < run->tables * MS_L; i++) {
         const ms_table *table = run->table + i;
-        for (int l = 0; l < MS_L; l++) {
-            double a = x[1 + table->state][l];
-            if (table->state == run->kink_state && run->kinks)
-                a = ms_fmin(ms_fmax(a, window->low[l]), window->high[l]);
-            x[1 + MS_N + table->slot][l] = ms_periodic(table, a, l);
-        }
+        const int l = i % MS_L;
+        double a = x[1 + table->state][l];
+        if (table->state == run->kink_state && run->kinks)
+            a = ms_fmin(ms_fmax(a, window->low[l]), window->high[l]);
+        x[1 + MS_N + table->slot][l] = ms_periodic(table, a);
     }
     MS_RATES(run->constants, x[0], rate[0]);
 }
@@ -84,7 +82,7 @@ static void ms_look_around(const ms_run *run, ms_window *window, int l, double a
     window->below[l] = -INFINITY, window->above[l] = INFINITY;
     for (int shift = -1; shift <= 1; shift++)
         for (long i = 0; i < run->kinks; i++) {
-            const double kink = run->kink_angles[i] + run->kink_period * (turn + shift);
+            const double kink = run->kink_angles[i * MS_L + l] + run->kink_period * (turn + shift);
             if (kink > here)
                 window->above[l] = ms_fmin(window->above[l], kink);
             else

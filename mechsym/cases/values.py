@@ -1,0 +1,142 @@
+"""Values of a case file: from what TOML holds to what a record's field takes, and overrides by key."""
+
+import dataclasses
+import difflib
+from collections.abc import Mapping
+from types import NoneType, UnionType
+from typing import Any, get_args, get_origin
+
+from mechsym.cases import schema
+from mechsym.errors import BadInput, shown, suggest
+from mechsym.quantities import parse, units
+
+_WORDS = {str: "a text", int: "a whole number", bool: "true or false"}
+
+
+def convert(field: dataclasses.Field, value: Any, key: str) -> Any:
+    """The value of a field, in SI.
+
+    Parameters
+    ----------
+    field : dataclasses.Field
+        Field of a record
+    value : object
+        Text, number or list of them
+    key : str
+        Name of the value, for the message
+
+    Returns
+    -------
+    value : object
+        Of the field's type; a list becomes a tuple
+
+    Raises
+    ------
+    BadInput
+        Another type, another dimension, or a list where one value is wanted, or the reverse
+    """
+    kinds = get_args(field.type) if isinstance(field.type, UnionType) else (field.type,)
+    lists = [k for k in kinds if get_origin(k) is tuple]
+    single = [k for k in kinds if k not in lists and k is not NoneType]
+    if isinstance(value, list):
+        if not lists:
+            raise BadInput(f"{key} = {shown(value)} is a list; give one value")
+        return tuple(_single(field, get_args(lists[0])[0], item, key) for item in value)
+    if not single:
+        raise BadInput(f"{key} = {shown(value)} is no list; write for example {key.rpartition('.')[2]} = [1, 2]")
+    return _single(field, single[0], value, key)
+
+
+def _single(field: dataclasses.Field, kind: Any, value: Any, key: str) -> Any:
+    if "unit" in field.metadata:
+        return parse(value, field.metadata["unit"], key)
+    if kind in _WORDS and type(value) is not kind and "options" not in field.metadata:
+        raise BadInput(f"{key} = {shown(value)} is not {_WORDS[kind]}")
+    return value
+
+
+def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) -> tuple[str, Any]:
+    """A key that names its unit, as the key alone and a value with that unit.
+
+    Parameters
+    ----------
+    key : str
+        For example `speed_rpm`
+    value : object
+        A number, or a list of numbers
+    fields : mapping of str to dataclasses.Field
+        Fields of the record by name
+
+    Returns
+    -------
+    key : str
+        Name of a field, or the key as it is
+    value : object
+        With its unit
+    """
+    stem, _, unit = key.rpartition("_")
+    if key in fields or unit not in units() or "unit" not in getattr(fields.get(stem), "metadata", ()):
+        return key, value
+    return stem, [f"{item} {unit}" for item in value] if isinstance(value, list) else f"{value} {unit}"
+
+
+def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> None:
+    """Replace one value of a case.
+
+    Parameters
+    ----------
+    tables : dict
+        Sections with their raw values; changed in place
+    mechanism : str
+        Name of the mechanism
+    key : str
+        Dotted key; a bare key works if it is unique
+    value : object
+        Text or number
+
+    Raises
+    ------
+    BadInput
+        Unknown or ambiguous key
+    """
+    section, dot, name = key.partition(".")
+    if not dot:
+        section, name = _home(tables, mechanism, key), key
+    table = tables.setdefault(section, {})
+    if not isinstance(table, dict):
+        raise BadInput(f"--set {key}: {section!r} is no section; {suggest(section, schema.sections())}")
+    before = _keys(mechanism, section, table) if name == schema.selector(section) else set()
+    stem = name.rpartition("_")[0]
+    table.pop(stem if stem in table and name not in table else name, None)
+    for other in [k for k in table if k.rpartition("_")[0] == name and k.rpartition("_")[2] in units()]:
+        table.pop(other)
+    table[name] = value
+    # another variant has other keys; those that only the old one knew go with it
+    for gone in before - (_keys(mechanism, section, table) if before else set()):
+        table.pop(gone, None)
+
+
+def _home(tables: dict[str, Any], mechanism: str, key: str) -> str:
+    """The only section that has a bare key."""
+    sections = {s: t for s, t in tables.items() if isinstance(t, dict)}
+    keys = {s: _keys(mechanism, s, t) for s, t in sections.items()}
+    stem, _, unit = key.rpartition("_")
+    homes = [s for s, names in keys.items() if key in names or (stem in names and unit in units())]
+    # a key that the file gives in one section only is meant, although others may know it too
+    homes = [s for s in homes if {key, stem} & sections[s].keys()] or homes
+    if len(homes) == 1:
+        return homes[0]
+    if homes:
+        raise BadInput(f"--set {key} is in several sections; write {' or '.join(f'{s}.{key}' for s in homes)}")
+    near = difflib.get_close_matches(key, sorted(set().union(*keys.values())), n=3)
+    hint = f"did you mean {' or '.join(near)}? " if near else ""
+    raise BadInput(f"--set {key} is not known; {hint}give section.key, sections here are {', '.join(sections)}")
+
+
+def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:
+    selector = schema.selector(section)
+    known = {selector} if selector else set()
+    try:
+        return known | {f.name for f in dataclasses.fields(schema.record(mechanism, section, table))}
+    except (KeyError, BadInput):
+        return known | set(table)

@@ -1,0 +1,68 @@
+"""`mechsym size`: the parts of an engine for the loads of its cycle, or a check of the parts that a source printed."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+
+_SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
+
+
+@click.command()
+@click.argument("case")
+@click.option("--as-printed", is_flag=True, help="Check the parts of the case instead of sizing new ones.")
+@json_option
+@out_option
+@set_option
+def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+    """Size the engine of CASE for its loads over the speed range, with the factor of every rule.
+
+    Exit status 1 when a factor is below the wanted one. Loads come from the case's cycle with the settings of its
+    section [sizing]; the masses in the loads are those of the sized parts.
+
+    \b
+    Examples: mechsym size nunes-hypocycloid --out parts
+              mechsym size nunes-hypocycloid --as-printed --json
+              mechsym size nunes-slider-crank --set sizing.life="500 h"
+    """
+    from mechsym.sized import sized
+
+    found = sized(case, pairs(overrides), as_printed)
+    files = _write(out, found) if out else []
+    emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    if found.failing or not found.converged:
+        raise click.exceptions.Exit(1)
+
+
+def _text(found: Any) -> str:
+    sizes = [row for row in found.rows if row["limit"] is None]
+    checks = [row for row in found.rows if row["limit"] is not None]
+    marked = [row | {"": "" if row["holds"] else "BELOW"} for row in checks]
+    lines = [
+        "Sizes and figures",
+        table(sizes, ["component", "quantity", "value", "unit", "note"]),
+        "",
+        "Checks",
+        table(marked, ["", *_SHOWN]),
+        "",
+    ]  # fmt: skip
+    state = "masses and loads agree" if found.converged else "masses and loads do NOT agree"
+    below = f"{len(found.failing)} of {len(checks)} factors are below the wanted ones"
+    return "\n".join([*lines, f"{below if found.failing else 'every factor holds'}; {state} ({found.rounds} rounds)"])
+
+
+def _write(out: Path, found: Any) -> list[Path]:
+    from mechsym.files import to_json, write_csv, write_text
+    from mechsym.sizing.drawing import section_view
+    from mechsym.sizing.rows import COLUMNS
+
+    columns: dict[str, Any] = {
+        name: [row[name] if row[name] is not None else "" for row in found.rows] for name in COLUMNS
+    }
+    return [
+        write_csv(out / "parts.csv", columns),
+        write_text(out / "parts.json", to_json(found.rows) + "\n"),
+        section_view(out / "section.svg", found.parts, found.forces, found.stock),
+    ]

@@ -1,0 +1,181 @@
+"""Slider crank, hypocycloid and rodless at equal stroke, reciprocating mass and gas force: loads, shaking, friction.
+
+Equal gas force means the same indicator diagram: equal pressure at equal travel of the piston, so that every mechanism
+gets the same work from the gas. Equal pressure at equal crank angle would not: the pistons move differently.
+Rods, planets, links and cranks have no mass here, so that only the arrangement differs. The rodless mechanism stands
+there with one piston and with four (two on each axis), each under both closing rules: what the guides carry depends on
+how the parts give way.
+"""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.forces.friction import Friction, losses, pistons
+from mechsym.forces.gas import Gas, at_same_travel, one_cylinder, travel
+from mechsym.forces.harmonics import whole
+from mechsym.forces.loads import loads, power_residual
+from mechsym.forces.rings import Rings
+from mechsym.forces.shaking import shaking
+from mechsym.forces.turn import Turn, at, one_coordinate
+from mechsym.mechanisms.crosshead import CrossheadParameters
+from mechsym.mechanisms.hypocycloid import HypocycloidParameters
+from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
+from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.quantities import check, quantity
+
+_INERTIA = 1.0  # of a crank at constant speed: without effect
+_EQUAL = Stiffnesses(k_a=1.0, k_b=1.0, k_c=1.0)  # only their ratios matter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ComparisonSettings:
+    """Section `[comparison]`: what the compared mechanisms need besides the case.
+
+    Parameters
+    ----------
+    lam : float
+        Crank radius over rod length of the slider crank [-]
+    alpha_n : float
+        Pressure angle of the hypocycloid's teeth [rad]
+    """
+
+    lam: float = quantity("-", default=26 / 90, above=0, below=1, about="crank radius over rod length")
+    alpha_n: float = quantity("rad", default=math.radians(25), low=0, below=math.pi / 2, about="pressure angle")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: ComparisonSettings) -> list[dict[str, Any]]:
+    """The mechanisms side by side with the stroke, mass and gas of a case.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of the case, with a gas
+    friction : Friction or None
+        The same coefficients for all; None leaves friction out
+    rings : NoRings, Patton1989 or ContactPressure
+        The same rule for all
+    settings : ComparisonSettings
+        Rod ratio, pressure angle
+
+    Returns
+    -------
+    rows : list of dict
+        One a mechanism; forces in N, torque in N*m, `friction_per_piston` in W
+
+    Raises
+    ------
+    BadInput
+        The case has no gas force
+    """
+    if turn.gas is None:
+        raise BadInput(f"{turn.case.file}: a comparison at equal gas force needs a [cycle]")
+    machines = _machines(turn, turn.gas, settings)
+    return [_row(name, turn, machine, friction, rings) for name, machine in machines.items()]
+
+
+def reciprocating_mass(turn: Turn) -> float:
+    """Mass that moves with one piston.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of any mechanism
+
+    Returns
+    -------
+    mass : float
+        Mass [kg]
+    """
+    p = turn.mechanism.parameters
+    if turn.case.mechanism == "crosshead":
+        return float(p["m3"] + p["m4"] + p["m5"])
+    if turn.case.mechanism == "hypocycloid":
+        return float(p["m3"])
+    if turn.case.mechanism == "rodless":
+        on_a = sum(side[0] == "a" for side in turn.case.need("faces").sides)
+        return float(p["m_a"]) / max(on_a, 1)
+    mass = p["m_piston"]
+    return float(mass[0] if isinstance(mass, tuple) else mass)
+
+
+def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, Case]:
+    s, m = gas.stroke, reciprocating_mass(turn)
+    l = s / 2 / settings.lam
+    nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
+    crosshead = CrossheadParameters(**nothing, r2=s / 2, m5=m, I01=_INERTIA)
+    planet = HypocycloidParameters(e=s / 4, I1=_INERTIA, m2=0, I2=0, m3=m, alpha_n=settings.alpha_n)
+    one = RodlessParameters(r=s / 4, I1=_INERTIA, m_link=0, I_link=0, m_a=m, m_b=0)
+    four = dataclasses.replace(one, m_a=2 * m, m_b=2 * m)
+    single = RodlessFaces(sides=("a+",), areas=(gas.area,), firing=(0.0,))
+    machines = {"slider crank": _case("crosshead", crosshead), "hypocycloid": _case("hypocycloid", planet)}
+    for rule_name, rule in (("crank free radially", CrankFreeRadially()), ("equal stiffnesses", _EQUAL)):
+        for count, parameters, faces in (("one piston", one, single), ("four pistons", four, _four_faces(gas))):
+            machines[f"rodless, {count}, {rule_name}"] = _case("rodless", parameters, faces=faces, closing=rule)
+    return machines
+
+
+def _four_faces(gas: Gas) -> RodlessFaces:
+    # a four-stroke star of four dead centres a quarter turn apart fires as evenly as it can: gaps 270, 180, 90, 180
+    late = {"a+": 0, "b-": 270, "b+": 450, "a-": 540} if gas.period > 7 else {"a+": 0, "b+": 90, "a-": 180, "b-": 270}
+    firing = tuple(math.radians(d) for d in late.values())
+    return RodlessFaces(sides=tuple(late), areas=(gas.area,) * 4, firing=firing)
+
+
+def _case(mechanism: str, parameters: Any, **sections: Any) -> Case:
+    return Case(
+        name=mechanism,
+        file=f"comparison, {mechanism}",
+        mechanism=mechanism,
+        source="",
+        about="",
+        sections={"parameters": parameters, **sections},
+    )
+
+
+def _row(name: str, turn: Turn, case: Case, friction: Friction | None, rings: Rings) -> dict[str, Any]:
+    gas = at_same_travel(turn.gas, *(travel(one_cylinder(c)) for c in (turn.case, case))) if turn.gas else None
+    machine = at(case, one_coordinate(case), gas, turn.omega, turn.phi)
+    found, shake, count = loads(machine), shaking(machine), len(pistons(machine))
+    pin = np.hypot(found.pins[0].x, found.pins[0].y)
+    main = np.hypot(*found.bearings["main_bearing"])
+    row = {
+        "mechanism": name,
+        "pistons": count,
+        "side_force_max": max(float(np.abs(v).max()) for v in found.guides.values()),
+        "crank_pin_max": float(pin.max()),
+        "crank_pin_mean": float(pin.mean()),
+        "main_bearing_max": float(main.max()),
+        "tooth_force_max": _tooth_force(machine),
+        "torque_max": float(machine.torque.max()),
+        "torque_mean": float(machine.torque.mean()),
+        "shaking_order_1": _amplitude(shake, 1),
+        "shaking_order_2": _amplitude(shake, 2),
+        "shaking_rms_after_counterweight": shake.counterweight.rms_after,
+        "power_residual": power_residual(machine, found),
+    }
+    if friction is None:
+        return row
+    lost = losses(machine, found, friction, rings)
+    return row | {
+        "friction_per_piston": sum(lost.places.values()) / count,
+        "friction_places": {place: power / count for place, power in lost.places.items()},
+        "mechanical_efficiency": lost.mechanical_efficiency,
+        "friction_mean_pressure": lost.friction_mean_pressure,
+    }
+
+
+def _tooth_force(machine: Turn) -> float | None:
+    force = machine.reactions.get("tooth_force")
+    return None if force is None else float(np.abs(force).max())
+
+
+def _amplitude(shake: Any, order: int) -> float:
+    return max(abs(whole(shake.orders[n], order)) for n in ("force_x", "force_y"))

@@ -1,0 +1,275 @@
+r"""The force chains that the sources print, with the rod as two masses, beside the exact rigid-body forces.
+
+              F (on the piston, away from the head)     beta = psi, the rod's angle; alpha = phi
+              |
+     N <------+------   B = F / cos beta along the rod  Z towards the shaft, T in the sense of rotation
+              |\
+              | \ B     Z_B = B cos(alpha + beta), T = B sin(alpha + beta)
+
+Two masses that carry the rod's mass and centre of mass have the inertia m_b a b instead of I_C2; Terskih's rule moves
+the centre of mass as well. Their error in the torque is (I_C2 - m_b a b) omega^2 psi' psi''.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.forces.loads import loads, radial, tangential
+from mechsym.forces.turn import Turn, at, one_coordinate
+
+_FREE_FALL = 9.81  # [m/s^2]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SliderCrank:
+    """A slider crank in the letters of the sources.
+
+    Parameters
+    ----------
+    R, L : float
+        Crank radius and rod length [m]
+    L_m : float
+        Crank pin to the rod's centre of mass [m]
+    m_b, I_b : float
+        Mass of the rod [kg] and its inertia about the centre of mass [kg*m^2]
+    m_p : float
+        Mass that moves with the piston: piston, piston rod, crosshead [kg]
+    u_c : float
+        Unbalance of the crank on the pin's side [kg*m]
+    """
+
+    R: float
+    L: float
+    L_m: float
+    m_b: float
+    I_b: float
+    m_p: float
+    u_c: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Chain:
+    """The whole chain of Moroianu (2017), arrays of shape (n,).
+
+    Parameters
+    ----------
+    F_p, F_it, F : ndarray
+        Pressure force, inertia force of the masses in translation, their sum [N]
+    B, N : ndarray
+        Along the rod, across the cylinder [N]
+    Z_B, T : ndarray
+        On the crank pin towards the shaft, and in the sense of rotation [N]
+    F_ibm : ndarray
+        Inertia force of the rod's share on the crank pin, towards the shaft [N]
+    Z : ndarray
+        Total towards the shaft [N]
+    M : ndarray
+        Torque [N*m]
+    """
+
+    F_p: np.ndarray
+    F_it: np.ndarray
+    F: np.ndarray
+    B: np.ndarray
+    N: np.ndarray
+    Z_B: np.ndarray
+    T: np.ndarray
+    F_ibm: np.ndarray
+    Z: np.ndarray
+    M: np.ndarray
+
+
+def terskih(omega: float) -> float:
+    r"""Place of a rod's centre of mass after Terskih, as part of its length from the crank pin.
+
+    .. math:: L_m / L = 0.2\,\frac{(0.001 n)^2 + 2}{(0.001 n)^2 + 1}, \quad n \text{ in rpm}
+
+    Parameters
+    ----------
+    omega : float
+        Crank speed [rad/s]
+
+    Returns
+    -------
+    ratio : float
+        Between 0.2 (fast) and 0.4 (slow) [-]
+
+    Notes
+    -----
+    Source: Moroianu (2017), eq. (3). Empirical.
+
+    Examples
+    --------
+    >>> round(terskih(89 * math.pi / 30), 4)
+    0.3984
+    """
+    n = (0.001 * omega * 30 / math.pi) ** 2
+    return 0.2 * (n + 2) / (n + 1)
+
+
+def slider_crank(turn: Turn) -> SliderCrank:
+    """The slider crank of a turn in the letters of the sources.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crosshead or crank_throw
+
+    Returns
+    -------
+    slider_crank : SliderCrank
+        With the true centre of mass of the rod
+
+    Raises
+    ------
+    BadInput
+        Another mechanism
+    """
+    p = turn.mechanism.parameters
+    if turn.case.mechanism == "crosshead":
+        return SliderCrank(R=p["r1"] + p["r2"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m2"], I_b=p["IC2"],
+                           m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
+    if turn.case.mechanism == "crank_throw":
+        return SliderCrank(R=p["r"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m_rod"], I_b=p["I_rod"],
+                           m_p=p["m_piston"], u_c=p["u0"])  # fmt: skip
+    raise BadInput(f"{turn.case.file}: the chain of Moroianu is that of a slider crank, not of {turn.case.mechanism}")
+
+
+def chain(turn: Turn, ratio: float) -> Chain:
+    r"""Moroianu's chain with the rod's mass at its two ends.
+
+    .. math::
+        F = F_p + F_{it}, \; B = F/\cos\beta, \; N = F\tan\beta, \;
+        Z = B\cos(\alpha+\beta) + F_{ibm}, \; T = B\sin(\alpha+\beta), \; M = T R
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crosshead or crank_throw
+    ratio : float
+        L_m / L: the rod's centre of mass from the crank pin, as part of its length [-]
+
+    Returns
+    -------
+    chain : Chain
+        Forces over the turn
+
+    Notes
+    -----
+    Source: Moroianu (2017), eqs. (2), (4), (6) to (13). The share on the crank pin, m_b (1 - L_m/L), is not printed.
+    Valid: constant speed, no weight.
+    """
+    s, alpha, beta = slider_crank(turn), turn.phi, turn.kinematics["psi"]
+    m_bp, m_bm = s.m_b * ratio, s.m_b * (1 - ratio)
+    F_p = turn.inputs.get("F", np.zeros_like(alpha))
+    F_it = -(s.m_p + m_bp) * turn.kinematics["d2x_dphi2"] * turn.omega**2
+    F = F_p + F_it
+    B = F / np.cos(beta)
+    Z_B, T = B * np.cos(alpha + beta), B * np.sin(alpha + beta)
+    F_ibm = np.full_like(alpha, -m_bm * s.R * turn.omega**2)
+    return Chain(F_p=F_p, F_it=F_it, F=F, B=B, N=F * np.tan(beta), Z_B=Z_B, T=T, F_ibm=F_ibm, Z=Z_B + F_ibm, M=T * s.R)
+
+
+def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
+    """How far a chain is from the exact rigid-body forces without weight, which the chain leaves out.
+
+    Parameters
+    ----------
+    turn : Turn
+        Cycle
+    approximate : Chain
+        Of `chain`
+
+    Returns
+    -------
+    errors : dict of str to float
+        For N, Z, T, M and the loads of crank pin and main bearing: largest difference over the largest exact value [-]
+    """
+    exact = _exact(with_weight(turn, 0.0))
+    return _shares(_approximate(turn, approximate), exact)
+
+
+def weight_shares(turn: Turn) -> dict[str, float]:
+    """What the weights do to the forces, which the chain leaves out; also where the case leaves them out (g = 0).
+
+    Parameters
+    ----------
+    turn : Turn
+        Cycle
+
+    Returns
+    -------
+    shares : dict of str to float
+        For the same quantities as `errors`: largest change by the weights over the largest value without [-]
+    """
+    return _shares(_exact(with_weight(turn, _FREE_FALL)), _exact(with_weight(turn, 0.0)))
+
+
+def with_weight(turn: Turn, g: float) -> Turn:
+    """The same cycle under another gravity.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crosshead or crank_throw
+    g : float
+        Acceleration of free fall [m/s^2]
+
+    Returns
+    -------
+    turn : Turn
+        Forces with these weights
+    """
+    parameters = dataclasses.replace(turn.case.need("parameters"), g=g)
+    case = dataclasses.replace(turn.case, sections={**turn.case.sections, "parameters": parameters})
+    return at(case, one_coordinate(case), turn.gas, turn.omega, turn.phi)
+
+
+def _exact(turn: Turn) -> dict[str, np.ndarray]:
+    found = loads(turn)
+    pin = found.pins[0]
+    return {
+        "N": found.guides["side_force"],
+        "Z": -radial(pin),
+        "T": tangential(pin),
+        "M": turn.torque,
+        "crank_pin": np.hypot(pin.x, pin.y),
+        "main_bearing": np.hypot(*found.bearings["main_bearing"]),
+    }
+
+
+def _approximate(turn: Turn, chain: Chain) -> dict[str, np.ndarray]:
+    # the crank's own unbalance pulls the main bearing outwards, against Z
+    pull = slider_crank(turn).u_c * turn.omega**2
+    loads = {"crank_pin": np.hypot(chain.Z, chain.T), "main_bearing": np.hypot(chain.Z - pull, chain.T)}
+    return {n: getattr(chain, n) for n in "NZTM"} | loads
+
+
+def _shares(found: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[str, float]:
+    return {n: float(np.abs(found[n] - v).max() / np.abs(v).max()) for n, v in exact.items()}
+
+
+def piston_inertia_printed(turn: Turn) -> np.ndarray:
+    r"""Inertia force of the reciprocating mass to the first order in R/L.
+
+    .. math:: P_j = -m_j R \omega^2 (\cos\varphi + \lambda\cos 2\varphi)
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crosshead or crank_throw
+
+    Returns
+    -------
+    P_j : ndarray, shape (n,)
+        Positive away from the head [N]
+
+    Notes
+    -----
+    Source: Prymak, eq. (6). m_j is the piston's mass with the rod's share by its true centre of mass.
+    """
+    s = slider_crank(turn)
+    m_j, lam = s.m_p + s.m_b * s.L_m / s.L, s.R / s.L
+    return -m_j * s.R * turn.omega**2 * (np.cos(turn.phi) + lam * np.cos(2 * turn.phi))

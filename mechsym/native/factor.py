@@ -1,0 +1,117 @@
+"""Common factors taken out of sums: a b w + c d w becomes (a b + c d) w.
+
+Equations of motion are full of them: every term of the bias carries the square of a speed. Only products that are used
+once are taken apart, so nothing is computed twice. The order of the factors changes, so only the mode `fast` does it.
+"""
+
+import collections
+import dataclasses
+
+from mechsym.native.tape import Tape, prune
+
+_PRODUCTS, _SUMS = ("mul", "sq"), ("add", "sub")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class _Work:
+    # nodes written so far, the node of each key, where old nodes went, and products that are not written yet
+    nodes: list[tuple[str, tuple]] = dataclasses.field(default_factory=list)
+    known: dict[tuple[str, tuple], int] = dataclasses.field(default_factory=dict)
+    place: dict[int, int] = dataclasses.field(default_factory=dict)
+    waiting: dict[int, list[int]] = dataclasses.field(default_factory=dict)
+
+
+def factored(tape: Tape) -> Tape:
+    """The same program with common factors of two terms taken out.
+
+    Parameters
+    ----------
+    tape : Tape
+        A program
+
+    Returns
+    -------
+    tape : Tape
+        With as many sums and fewer products
+    """
+    users = collections.defaultdict(list)
+    for i, (op, args) in enumerate(tape.nodes):
+        for a in args if op not in ("input", "constant") else ():
+            users[a].append(i)
+    for r in tape.results:
+        users[r].append(-1)
+    work = _Work()
+    for i, (op, args) in enumerate(tape.nodes):
+        once = len(users[i]) == 1 and users[i][0] >= 0 and tape.nodes[users[i][0]][0] in (*_PRODUCTS, *_SUMS)
+        once = once and tape.nodes[users[i][0]][0] != "sq"
+        factors = _factors(work, op, args)
+        if factors and once:
+            work.waiting[i] = factors
+        elif factors:
+            work.place[i] = _written(work, factors)
+        elif op in ("input", "constant"):
+            work.place[i] = _put(work, op, args)
+        else:
+            work.place[i] = _put(work, op, tuple(_value(work, a) for a in args))
+    nodes, results = prune(work.nodes, [work.place[r] for r in tape.results])
+    return dataclasses.replace(tape, nodes=tuple(nodes), results=tuple(results))
+
+
+def _factors(work: _Work, op: str, args: tuple) -> list[int]:
+    """The node as a product, empty when it is none."""
+    if op == "mul":
+        return _parts(work, args[0]) + _parts(work, args[1])
+    if op == "sq":
+        return [work.place[args[0]]] * 2
+    if op not in _SUMS:
+        return []
+    left, right = (_parts(work, a) for a in args)
+    rest = collections.Counter(right)
+    common = []
+    for factor in list(left):
+        if rest[factor] and len(left) > 1 and sum(rest.values()) > 1:
+            rest[factor] -= 1
+            left.remove(factor)
+            common.append(factor)
+    if not common:
+        return []
+    remaining = [f for f in right if _taken(rest, f)]
+    return [*common, _put(work, op, (_written(work, left), _written(work, remaining)))]
+
+
+def _taken(rest: collections.Counter, factor: int) -> bool:
+    if rest[factor]:
+        rest[factor] -= 1
+        return True
+    return False
+
+
+def _parts(work: _Work, node: int) -> list[int]:
+    return list(work.waiting.get(node) or [work.place[node]])
+
+
+def _value(work: _Work, node: int) -> int:
+    return work.place[node] if node in work.place else _written(work, work.waiting[node])
+
+
+def _written(work: _Work, factors: list[int]) -> int:
+    """Multiply factors; constants among them become one."""
+    constants = [f for f in factors if work.nodes[f][0] == "constant"]
+    others = [f for f in factors if work.nodes[f][0] != "constant"]
+    if len(constants) > 1:
+        value = 1.0
+        for f in constants:
+            value *= work.nodes[f][1][0]
+        constants = [_put(work, "constant", (value,))]
+    # what is known first is multiplied first, so that the latest value waits for one product only
+    product, *more = sorted(constants + others)
+    for f in more:
+        product = _put(work, "sq", (f,)) if f == product else _put(work, "mul", (product, f))
+    return product
+
+
+def _put(work: _Work, op: str, args: tuple) -> int:
+    if (op, args) not in work.known:
+        work.known[op, args] = len(work.nodes)
+        work.nodes.append((op, args))
+    return work.known[op, args]

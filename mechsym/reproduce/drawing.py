@@ -1,0 +1,52 @@
+"""What the figures of all sources share: panels with a quiet grid. matplotlib is imported in figure modules only."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+
+def panels(
+    rows: int = 1, columns: int = 1, size: tuple[float, float] = (7.2, 4.2), **options: Any
+) -> tuple[Figure, list[Any]]:
+    """A figure with panels in rows and columns.
+
+    Parameters
+    ----------
+    rows, columns : int
+        Number of panels
+    size : tuple of float
+        Width and height [inch]
+    **options
+        For `Figure.subplots`
+
+    Returns
+    -------
+    figure : Figure
+        Never shown, only saved
+    axes : list of Axes
+        Row by row
+    """
+    figure = Figure(figsize=size, layout="constrained")
+    axes = list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
+    for axis in axes:
+        axis.grid(True, color="#e3e6ea", linewidth=0.7)
+        axis.set_axisbelow(True)
+    return figure, axes
+
+
+def turn_axis(axis: Any, degrees: float = 360.0, label: str = "crank angle [deg]") -> None:
+    """Crank angle along an axis, in eighths.
+
+    Parameters
+    ----------
+    axis : Axes
+        A panel
+    degrees : float
+        Last angle [deg]
+    label : str
+        Label of the axis
+    """
+    axis.set_xlim(0, degrees)
+    axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))
+    axis.set_xlabel(label)

@@ -1,0 +1,158 @@
+"""A whole run in compiled C: jumps, kinks and stops are handled inside, so one call takes the place of all phases."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mechsym.native.compiler import NoCompiler, find
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import STATUS, Kinks, Outcome, Runs, Surface, Table
+from mechsym.simulate.equations import System, fitted, held
+from mechsym.simulate.phase import Raw
+from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
+from mechsym.simulate.settings import Settings
+from mechsym.simulate.watch import Watch, watch
+
+_DONE, _MET, _TOO_MANY = 0, 1, 2
+
+
+def unsuited(problem: Problem) -> str:
+    """Why a problem cannot be run in C.
+
+    Parameters
+    ----------
+    problem : Problem
+        What is to be run
+
+    Returns
+    -------
+    reason : str
+        Empty when it can
+    """
+    plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | Formula)]
+    if plain:
+        return f"part {plain[0]!r} is a plain Python callable; give it as Formula, Periodic or Steps"
+    if len({k.coordinate for k in problem.kinks if k.angles}) > 1:
+        return "kinks lie on more than one coordinate"
+    try:
+        find()
+    except NoCompiler as error:
+        return str(error)
+    return ""
+
+
+def run(problem: Problem, equations: System, settings: Settings, times: np.ndarray, ends: Sequence[float]) -> Raw:
+    """Integrate a problem with DOP853 in C.
+
+    Parameters
+    ----------
+    problem : Problem
+        What is to be run
+    equations : System
+        Its equations
+    settings : Settings
+        Tolerance and limit of steps
+    times : ndarray, shape (n,)
+        Wanted times [s]
+    ends : sequence of float
+        Ends of the smooth stretches of time [s]
+
+    Returns
+    -------
+    raw : Raw
+        States at the wanted times
+
+    Raises
+    ------
+    mechsym.native.compiler.NoCompiler
+        The compiler failed
+    """
+    outcome = integrate(runs(problem, equations, settings, times, ends))
+    return raw(problem, equations, times, outcome, 0)
+
+
+def runs(problem: Problem, equations: System, settings: Settings, times: np.ndarray, ends: Sequence[float]) -> Runs:
+    """A problem as the native integrator takes it.
+
+    Parameters
+    ----------
+    problem, equations, settings, times, ends
+        See `run` [s]
+
+    Returns
+    -------
+    runs : Runs
+        One run
+    """
+    starts = [problem.t_start, *ends[:-1]]
+    return Runs(
+        rhs=equations.function,
+        start=np.concatenate([problem.q0, problem.u0, np.zeros(len(equations.columns) - 2 * equations.size)]),
+        t=problem.t_start,
+        until=np.array(ends),
+        held=np.array([held(equations, t) for t in starts]),
+        times=times,
+        tables=tuple(_table(equations, i, v) for i, v in enumerate(equations.values) if isinstance(v, Periodic)),
+        surfaces=tuple(
+            Surface(state=s.state, level=s.level, direction=s.direction) for s in _ends(problem, equations).surfaces
+        ),
+        kinks=_kinks(problem, equations),
+        rtol=settings.tolerance,
+        atol=settings.tolerance,
+        max_steps=settings.max_steps,
+    )
+
+
+def raw(problem: Problem, equations: System, times: np.ndarray, outcome: Outcome, index: int) -> Raw:
+    """One run of an outcome as the result of a simulation takes it.
+
+    Parameters
+    ----------
+    problem, equations : Problem, System
+        What was run
+    times : ndarray, shape (n,)
+        Wanted times [s]
+    outcome : Outcome
+        What came out
+    index : int
+        Which run
+
+    Returns
+    -------
+    raw : Raw
+        Series with the start, and the end when no wanted time is there
+    """
+    t_end, status = float(outcome.t[index]), int(outcome.status[index])
+    reached = times[times <= t_end]
+    start = np.zeros(outcome.y.shape[1])
+    start[: 2 * len(problem.q0)] = [*problem.q0, *problem.u0]
+    t = np.concatenate([[problem.t_start], reached])
+    y = np.vstack([start, outcome.samples[index, : len(reached)]])
+    if t[-1] < t_end:
+        t, y = np.append(t, t_end), np.vstack([y, outcome.y[index]])
+    failure = "" if status in (_DONE, _MET) else f"stopped at t = {t_end:.6g} s: {STATUS[status]}"
+    if status == _TOO_MANY:
+        failure = f"stopped at t = {t_end:.6g} s: {int(outcome.steps[index])} steps were not enough"
+    end = _ends(problem, equations).ends[int(outcome.met[index])] if status == _MET else "t_end"
+    return Raw(t=t, y=y, steps=int(outcome.steps[index]), end="failure" if failure else end, failure=failure)
+
+
+def _ends(problem: Problem, equations: System) -> Watch:
+    # kinks are the integrator's own business
+    return watch(replace(problem, kinks=()), equations.columns, np.zeros(len(equations.columns)))
+
+
+def _table(equations: System, index: int, value: Periodic) -> Table:
+    poly: Any = fitted(value)
+    state = equations.columns.index(value.coordinate)
+    return Table(held=index, state=state, polynomials=((poly.x, poly.c),))
+
+
+def _kinks(problem: Problem, equations: System) -> Kinks | None:
+    for kinks in problem.kinks:
+        if kinks.angles:
+            state = equations.columns.index(kinks.coordinate)
+            return Kinks(state=state, angles=np.array(kinks.angles), period=kinks.period)
+    return None

@@ -1,0 +1,106 @@
+"""`mechsym forces` from end to end: keys, files, exit status."""
+
+import csv
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from mechsym import cases
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+
+CASES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid")
+
+
+def run(*words):
+    return CliRunner().invoke(mechsym, ["forces", *words], catch_exceptions=False)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_chain_and_pictures_are_written(name, tmp_path):
+    result = run(name, "--json", "--out", str(tmp_path))
+    assert result.exit_code == 0
+    found = json.loads(result.output)
+    assert found["power_residual"] < 1e-10
+    with open(tmp_path / "forces.csv") as file:
+        rows = list(csv.DictReader(file))
+    for key in ("torque", "crank_pin_load"):
+        assert max(float(r[key]) for r in rows) == pytest.approx(found["max"][key], rel=1e-10)
+        assert min(float(r[key]) for r in rows) == pytest.approx(found["min"][key], rel=1e-10)
+    for picture in ("forces", "polar", "orders", "mechanism", "friction"):
+        assert (tmp_path / f"{picture}.svg").read_text().startswith("<svg")
+    for file in ("mechanism.html", "report.html"):
+        page = (tmp_path / file).read_text()
+        assert "{{" not in page and 'src="http' not in page and 'href="http' not in page
+
+
+def test_equal_runs_give_equal_files(tmp_path):
+    for folder in ("a", "b"):
+        run("moroianu", "--out", str(tmp_path / folder))
+    for file in ("forces.csv", "forces.svg", "mechanism.html"):
+        assert (tmp_path / "a" / file).read_bytes() == (tmp_path / "b" / file).read_bytes()
+
+
+def test_text_names_what_matters():
+    text = run("balandin", "--comparison").output
+    assert "rank 3 of 4" in text and "Stiffnesses" in text
+    assert "rodless, four pistons, equal stiffnesses" in text
+
+
+def test_much_friction_is_called_first_order():
+    assert "first order only" in run("balandin").output
+    assert "first order only" not in run("moroianu").output
+
+
+def test_moroianu_shows_the_two_mass_error():
+    found = json.loads(run("moroianu", "--json").output)["two_mass"]
+    assert 0.001 < found["two_mass"]["M"] < 0.05
+    assert found["terskih"]["Z"] > found["two_mass"]["Z"]
+
+
+def test_balandin_turns_with_the_crank_not_along_the_rod():
+    """Prymak's conclusion 3 is wrong: the constant resultant 4 m r omega^2 (with the link) turns with the crank."""
+    found = json.loads(run("balandin", "--json").output)["rodless"]
+    omega = 4000 * 3.141592653589793 / 30
+    wanted = (2 * 2.1 + 0.8) * 0.02 * omega**2
+    assert found["inertia_resultant_min"] == pytest.approx(wanted, rel=1e-12)
+    assert found["inertia_resultant_max"] == pytest.approx(wanted, rel=1e-12)
+    assert found["resultant_off_crank_deg"] < 1e-9
+
+
+def test_balance_that_is_not_reached_ends_with_status_1():
+    result = run("balandin", "--set", "u1=0", "--json")
+    assert result.exit_code == 1
+    assert not json.loads(result.output)["balance"]["reached"]
+
+
+def test_report_shows_comparison_and_claims(tmp_path):
+    run("nunes-hypocycloid", "--comparison", "--out", str(tmp_path))
+    page = (tmp_path / "report.html").read_text()
+    for text in ("At equal stroke", "rodless, four pistons, equal stiffnesses", "unsupported claim", "first order"):
+        assert text in page
+
+
+def test_friction_as_a_section_of_the_case(tmp_path):
+    """The printed lines make a law of the cycle whose brake efficiency is that of the mechanism's friction."""
+    result = run("nunes-slider-crank", "--law", "6000:8000:1000")
+    lines = result.output.split("fitted within")[1].splitlines()[1:6]
+    case = tmp_path / "braked.toml"
+    text = cases.text("nunes-slider-crank").split("[friction_pressure]")
+    rest = text[1].split("\n\n", 1)[1]
+    case.write_text(text[0] + "\n".join(["[friction_pressure]", *lines]) + "\n\n" + rest)
+    cycle = json.loads(CliRunner().invoke(mechsym, ["cycle", str(case), "--json"], catch_exceptions=False).output)
+    lost = json.loads(run("nunes-slider-crank", "--json").output)["friction"]
+    wanted = lost["mechanical_efficiency"] * cycle["efficiency"][0]
+    assert cycle["brake_efficiency"][0] == pytest.approx(wanted, rel=2e-3)
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (("chmielewski",), "forces of crankshaft_flywheel are not known"),
+    (("moroianu", "--set", "l1=0.1", "--set", "l2=0.2"), "rod too short"),
+    (("nunes-slider-crank", "--law", "x"), "--law = 'x'"),
+])  # fmt: skip
+def test_what_cannot_be_done_is_explained(words, message):
+    with pytest.raises(BadInput, match=message):
+        run(*words)
