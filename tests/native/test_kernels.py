@@ -95,14 +95,8 @@ def test_division_rules():
 def test_common_factors_are_taken_out_of_sums():
     a, b, c, w = (ca.SX.sym(n) for n in "abcw")
     shared = b * c
-<<<<<<< HEAD
-    f = ca.Function(
-        "f", [a, b, c, w], [a * b * w**2 + 3.7 * c * w**2 - 5.3 * a * c * w**2, shared + shared * a, shared]
-    )
-=======
     bias = a * b * w**2 + 3.7 * c * w**2 - 5.3 * a * c * w**2
     f = ca.Function("f", [a, b, c, w], [bias, shared + shared * a, shared])
->>>>>>> native
     tape = factored(read(f))
     assert operation_counts(tape)["mul"] + operation_counts(tape).get("sq", 0) <= 8
     x = list(np.random.default_rng(4).uniform(-2, 2, (4, 200)))
