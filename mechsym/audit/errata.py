@@ -95,7 +95,13 @@ def _numbers(row: Row) -> str:
 
 
 def _sentences(note: str) -> str:
-    return " ".join(f"{part[0].upper()}{part[1:]}." for part in note.split("; ") if part)
+    return " ".join(f"{_capital(part)}." for part in note.split("; ") if part)
+
+
+def _capital(sentence: str) -> str:
+    # a letter of a formula keeps its case
+    word = sentence.split()[0]
+    return sentence[0].upper() + sentence[1:] if word.isalpha() and len(word) > 1 or word == "a" else sentence
 
 
 def _small(error: float) -> str:

@@ -38,7 +38,9 @@ def constant_size() -> Decided:
     """
     size = np.hypot(*computed.inertia_resultant(_TURN))
     change = float(np.ptp(size) / np.mean(size))
-    return Decided(supported=change < 1e-12, note=f"it changes by {change:.0e} over a turn", rel_error=change)
+    supported = change < 1e-12
+    size_of_change = "less than 1e-12" if supported else f"{change:.2g}"
+    return Decided(supported=supported, note=f"it changes by {size_of_change} of itself over a turn", rel_error=change)
 
 
 def along_the_rod() -> Decided:
