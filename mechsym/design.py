@@ -98,6 +98,8 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     runs = trials.side_by_side(engine, wanted, usable, load, turns)
     progress()
     wheels = steadiness.flywheels(engine, wanted, usable, load)
+    if wheels.steady.inertia:
+        runs.append(trials.with_flywheel(engine, wanted, load, wheels.steady.inertia, turns))
     progress()
     errors = steadiness.sensitivities(engine, wanted, usable, load) if usable else []
     progress()

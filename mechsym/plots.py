@@ -230,6 +230,7 @@ def speeds(design: Design) -> Figure:
     figure, (left, right) = _axes(9, 3.4, 1, 2)
     colors = {
         "without": GREY,
+        "flywheel": "black",
         "hinge_constant": BLUE,
         "hinge_propeller": GREEN,
         "off_constant": RED,
@@ -239,7 +240,7 @@ def speeds(design: Design) -> Figure:
     for trial in design.trials:
         turns = trial.result.columns[q] / (2 * np.pi)
         share = trial.result.columns[u] / design.assembly.omega
-        for axis in (left, right) if trial.name != "without" else (right,):
+        for axis in (right,) if trial.name in ("without", "flywheel") else (left, right):
             axis.plot(turns, share, color=colors[trial.name], linewidth=1.1, label=trial.about)
     left.set_title("with the hinge", fontsize=9)
     right.set_title("all, first two turns", fontsize=9)

@@ -12,9 +12,11 @@ from mechsym.assembly import Assembly, running
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
 from mechsym.loads import ConstantLoad, Load, PropellerLoad
-from mechsym.mechanism import velocities
+from mechsym.mechanism import bind, velocities
 from mechsym.simulate import Result, Settings, simulate
-from mechsym.simulate.engine import Engine, problem
+from mechsym.simulate.engine import Engine, machine, problem
+from mechsym.simulate.machine import tabulate
+from mechsym.simulate.steady import steady_state
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -116,3 +118,32 @@ def side_by_side(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: L
         trials.append(run(f"hinge_{key}", f"hinge, {words}", engine, omega, turns, Settings()))
         trials.append(run(f"off_{key}", f"hinge, {words}, started 1 % fast", engine, 1.01 * omega, turns))
     return trials
+
+
+def with_flywheel(assembly: Assembly, wanted: Hinge, load: Load, inertia: float, turns: float) -> Trial:
+    """The engine without hinge and with a flywheel, run in time from its steady motion.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Engine
+    wanted : Hinge
+        Gives the mean torque for the load
+    load : record of mechsym.loads
+        Load law of the case
+    inertia : float
+        Flywheel on top of what the case keeps [kg*m^2]
+    turns : float
+        Turns to run [-]
+
+    Returns
+    -------
+    trial : Trial
+        Key flywheel
+    """
+    mechanism = assembly.mechanism
+    heavier = bind(mechanism.name, {**mechanism.parameters, "I01": mechanism.parameters["I01"] + inertia})
+    engine = running(dataclasses.replace(assembly, mechanism=heavier), wanted, load)
+    steady = steady_state(tabulate(machine(engine)), assembly.omega)
+    speed = float(steady.omega[0]) if len(steady.omega) else assembly.omega
+    return run("flywheel", f"no hinge, flywheel of {inertia:.4g} kg m²", engine, speed, turns)

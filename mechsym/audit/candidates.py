@@ -3,7 +3,7 @@
 import ast
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -13,11 +13,12 @@ import numpy as np
 
 from mechsym.audit.algebra import evaluate
 from mechsym.audit.bench import Bench, names, part_values, shaped
-from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled, without_double_signs
-from mechsym.audit.insertion import Vocabulary, candidate_words, is_unit, product, product_tree, simple, vocabulary
+from mechsym.audit.edits import Edit, is_product, places, scaled, without_double_signs
+from mechsym.audit.insertion import candidate_words, is_unit, simple, vocabulary
 from mechsym.audit.printer import to_python
+from mechsym.audit.put_back import insertions
 from mechsym.audit.question import Question
-from mechsym.audit.required import Required, required
+from mechsym.audit.required import Required, quotient, required
 from mechsym.audit.slips import single_edits
 from mechsym.audit.theory.record import known
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
@@ -133,7 +134,7 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
         if insert:
             words = vocabulary(asked, candidate_words(question, tree))
-            edits += _insertions(asked, tree, wishes, memo, words)
+            edits += insertions(asked, tree, wishes, memo, words)
         else:
             edits += _numbers(asked, tree, wishes, memo)
         known = names(asked, {n for edit in edits for n in letters(edit.new)})
@@ -156,18 +157,24 @@ def _meets(asked: Bench, nodes: dict[Path, Node], wishes: Required, values: _Val
     found = shaped(asked, evaluate(new, values.names, asked.algebra, values.memo, asked.calls))
     wish, old = wishes[path], values.memo[nodes[path]]
     valid = ~np.isnan(np.asarray(wish, dtype=float))
-    wrong, left = np.abs(old - wish)[valid], np.abs(found - wish)[valid]
-    if len(wrong) < _VALID * len(valid) or not np.all(wrong > 0):
+    wrong, left = (_away(v, wish)[valid] for v in (old, found))
+    if len(wrong) < _VALID * len(valid):
         return False
-    noise = 0 if asked.digits else 1e-9 * np.abs(wish)[valid]
+    noise = 0.0 if asked.digits else 1e-9 * np.abs(wish)[valid]
     return bool(np.all(left <= np.maximum(_MET * wrong, noise)) and np.all(wrong > 10 * noise))
+
+
+def _away(values: Any, wish: Any) -> np.ndarray:
+    # a part without a value is as far away as can be
+    differences = np.asarray(np.abs(values - wish), dtype=float)
+    return np.where(np.isnan(differences), np.inf, differences)
 
 
 def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) -> Iterator[Edit]:
     for place in places(tree):
         if place.path not in wishes or not is_product(place):
             continue
-        factor = simple(np.asarray(_quotient(asked, wishes[place.path], memo[place.node]), dtype=float))
+        factor = simple(np.asarray(quotient(asked, wishes[place.path], memo[place.node]), dtype=float))
         if factor is None or factor == 1:
             continue
         if factor == -1:
@@ -179,42 +186,3 @@ def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) 
                     continue  # a unit is not hidden in a number that stands there for another reason
                 kind = "number"
             yield Edit(kind=kind, path=place.path, new=scaled(place.node, factor))
-
-
-def _quotient(asked: Bench, above: Any, below: Any) -> Any:
-    return asked.algebra.operations[ast.Div](above, below)
-
-
-def _insertions(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any], words: Vocabulary) -> Iterator[Edit]:
-    # what is put back must not be more than what stands there, or any formula could be mended
-    most = sum(not children(p.node) for p in places(tree))
-    for place in places(tree):
-        if place.path not in wishes or value_of(place.node) is not None:
-            continue
-        wish, old = wishes[place.path], memo[place.node]
-        if is_product(place):
-            yield from _put_back(asked, place, words, _quotient(asked, wish, old), _times, most)
-        if is_term(place):
-            yield from _put_back(asked, place, words, wish - old, _plus, most)
-
-
-Join = Callable[[Node, Any, Any], Node]
-
-
-def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join, most: int) -> Iterable[Edit]:
-    found = product(asked, words, missing)
-    if found is not None and 1 <= len(found[1]) <= most:
-        yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
-
-
-def _times(node: Node, factor: Any, used: Any) -> Node:
-    above = [(w, e) for w, e in used if e > 0]
-    below = [(w, -e) for w, e in used if e < 0]
-    new = scaled(negative(node) if factor < 0 else node, abs(factor))
-    if above:
-        new = binary(ast.Mult, new, product_tree(type(factor)(1), above))
-    return binary(ast.Div, new, product_tree(type(factor)(1), below)) if below else new
-
-
-def _plus(node: Node, factor: Any, used: Any) -> Node:
-    return binary(ast.Sub if factor < 0 else ast.Add, node, product_tree(abs(factor), used))

@@ -49,7 +49,8 @@ class Vocabulary:
     basis: tuple[int, ...]
 
 
-Product = tuple[Fraction, list[tuple[Node, Fraction]]]
+Words = list[tuple[Node, Fraction]]  # with their exponents
+Product = tuple[Fraction, Words]
 
 
 def candidate_words(question: Question, tree: Node) -> list[Node]:

@@ -126,11 +126,18 @@ def _operation(node: ast.BinOp, spelled: Mapping[str, str]) -> tuple[str, int]:
         signed = _is_signed(node.left)
         left = _at_least(node.left, _SUM if signed else _PRODUCT, spelled)
         right = _at_least(node.right, _POWER, spelled)
-        digits = left[-1:].isdigit() and right[:1].isdigit()
-        return f"{left} \\cdot {right}" if digits else f"{left} {right}", _SUM if signed else _PRODUCT
+        apart = left[-1:].isdigit() and right[:1].isdigit() or _ends_bare(node.left)
+        return f"{left} \\cdot {right}" if apart else f"{left} {right}", _SUM if signed else _PRODUCT
     sign = "+" if isinstance(node.op, ast.Add) else "-"
     right = _at_least(node.right, _PRODUCT, spelled)
     return f"{_latex(node.left, spelled)[0]} {sign} {right}", _SUM
+
+
+def _ends_bare(node: Node) -> bool:
+    # after \sin\varphi a letter would join the argument
+    while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Pow)):
+        node = node.right if isinstance(node.op, ast.Mult) else node.left
+    return isinstance(node, ast.Call) and isinstance(node.args[0], ast.Name)
 
 
 def _power(node: ast.BinOp, spelled: Mapping[str, str]) -> str:

@@ -48,6 +48,24 @@ def required(asked: Bench, tree: Node, memo: Mapping[Node, Any]) -> Required:
     return found
 
 
+def quotient(asked: Bench, above: Any, below: Any) -> Any:
+    """Quotient of values, nan where it has none.
+
+    Parameters
+    ----------
+    asked : Bench
+        Gives the number system
+    above, below : array, shape (n,)
+        Values
+
+    Returns
+    -------
+    quotient : array, shape (n,)
+        State by state
+    """
+    return asked.algebra.operations[ast.Div](above, below)
+
+
 def _below(asked: Bench, node: Node, step: str, wish: Any, memo: Mapping[Node, Any]) -> Any:
     if isinstance(node, ast.UnaryOp):
         return -wish

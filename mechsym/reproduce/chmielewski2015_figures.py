@@ -78,7 +78,7 @@ def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25, **option
     """Thousands of turns as the band that they fill: extremes within short stretches."""
     edges = np.searchsorted(t, np.arange(t[0], t[-1], width))
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
-    axis.fill_between(t[edges], low, high, step="post", **{"color": BLUE, "linewidth": 0, **options})
+    axis.fill_between(t[edges], low, high, step="post", **{"color": BLUE, "linewidth": 0.8, **options})
 
 
 def _speeds() -> Figure:
@@ -91,7 +91,7 @@ def _speeds() -> Figure:
         (t, y[:, 2], RED, f"as printed, Runge-Kutta 4 with a fixed step of {1e3 * TELLING_STEP:g} ms"),
     ):
         axis.plot(*_mean(times, speed), color=color, linewidth=1.4, label=label)
-    _band(axis, t, y[:, 2], color=RED, alpha=0.15, label="the same, momentary speed")
+    _band(axis, t, y[:, 2], color=RED, alpha=0.15, linewidth=0, label="the same, momentary speed")
     end = float(exact.t[-1])
     axis.plot([1, end], [0, rigid_speed_with_piston(end)], "--", color=GREY, label="rigid shaft, hand check")
     axis.plot([CLAIMED_TIME, end], [CLAIMED_SPEED] * 2, color="black", linewidth=2, label="printed: 194 rad/s")

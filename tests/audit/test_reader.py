@@ -14,7 +14,9 @@ from mechsym.audit.printer import to_latex, to_python
 from mechsym.audit.reader import letter_pairs, read, read_expression, write
 from mechsym.errors import BadInput
 
-KNOWN = "r1 r2 l1 l2 m1 m2 I01 IC2 phi phid phidd g F M_r lam psi r l x dx_dphi d2x_dphi2 phi0 phi2 x0dd phi0dd P_jx".split()
+KNOWN = (
+    "r1 r2 l1 l2 m1 m2 I01 IC2 phi phid phidd g F M_r lam psi r l x dx_dphi d2x_dphi2 phi0 phi2 x0dd phi0dd P_jx"
+).split()
 
 READ = [
     (r"\sin\varphi\left(1+\lambda\right)", "sin(phi)*(1 + lam)"),
@@ -47,15 +49,20 @@ REFUSED = [
     ("", "empty"), ("   ", "empty"), ("q + 1", "unknown letter 'q'"), ("r1 r2", "cannot be read"),
     ("2r1", "write products with"), ("__import__('os').system('true')", "not a known function"),
     ("r1.__class__", "not arithmetic"), ("lambda x: x", "cannot be read"), ("r1 if g else r2", "not arithmetic"),
-    ("[r1]", "not arithmetic"), ("r1 @ r2", "operators are"), ("r1 // r2", "operators are"), ("r1 == r2", "not arithmetic"),
+    ("[r1]", "not arithmetic"), ("r1 @ r2", "operators are"), ("r1 // r2", "operators are"), ("r1 == r2",
+    "not arithmetic"),
     ("~r1", "only the signs"), ("'a'", "not a number"), ("True", "not a number"), ("1j", "not a number"),
-    ("1e999", "not a number"), ("f(r1)", "not a known function"), ("sin()", "one argument"), ("sin(r1, r2)", "one argument"),
+    ("1e999", "not a number"), ("f(r1)", "not a known function"), ("sin()", "one argument"), ("sin(r1, r2)",
+    "one argument"),
     ("sin(x=r1)", "cannot be read"), ("sin(*r1)", "not arithmetic"), ("(x := 3)", "quantity alone"),
     ("r1 = r2 = g", "more than one equals sign"), ("r1 + r2 = g", "quantity alone"), ("= r1", "quantity alone"),
     ("x = 0", "right side is 0"), ("r1 =", "empty"), ("9" * 5000, "cannot be read"), ("r" * 7000, "at most 6000"),
-    ("(" * 90 + "r1" + ")" * 89, "cannot be read"), ("-" * 3000 + "r1", "nested too deep"), ("1+" * 2500 + "1", "nested more"),
-    ("2**" * 1500 + "2", "nested"), (r"\sin\varphi^2", "does the power belong"), (r"r_1/g m_{2}", "where the divisor ends"),
-    (r"\int F dx", r"'\\\\int' is not read"), (r"\varphi'", "primes are not read"), (r"\sin", "no argument"), (r"\frac{1}", "an end"),
+    ("(" * 90 + "r1" + ")" * 89, "cannot be read"), ("-" * 3000 + "r1", "nested too deep"), ("1+" * 2500 + "1",
+    "nested more"),
+    ("2**" * 1500 + "2", "nested"), (r"\sin\varphi^2", "does the power belong"), (r"r_1/g m_{2}",
+    "where the divisor ends"),
+    (r"\int F dx", r"'\\\\int' is not read"), (r"\varphi'", "primes are not read"), (r"\sin", "no argument"),
+    (r"\frac{1}", "an end"),
     (r"\frac{1}{2", "missing"), ("\\", "not read"), ("{" * 2000, "nested more"), ("\\frac" * 1000, "nested more"),
     ("2^{" * 400, "nested more"), ("x_{" * 500, "closing brace"), ("\\mathrm{" * 50, "missing"), (r"r\cdot", "an end"),
     (r"\begin{equation} r \end{equation}", "not read"), ("$r$ $q$", "unknown letter"),

@@ -1,0 +1,85 @@
+"""Edits that put back a term or a factor that was left out."""
+
+import ast
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+from mechsym.audit.bench import Bench
+from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled
+from mechsym.audit.insertion import Vocabulary, Words, product, product_tree
+from mechsym.audit.required import Required, quotient
+from mechsym.audit.tree import Node, binary, children, is_operation, negative, value_of
+
+
+def insertions(
+    asked: Bench, tree: Node, wishes: Required, memo: Mapping[Node, Any], words: Vocabulary
+) -> Iterator[Edit]:
+    """Terms and factors that would make a part of the formula what it is required to be.
+
+    Parameters
+    ----------
+    asked : Bench
+        States
+    tree : Node
+        The formula as it stands
+    wishes : mapping of path to array
+        Required values of its parts
+    memo : mapping of Node to array
+        Their values
+    words : Vocabulary
+        What missing terms and factors may be made of
+
+    Yields
+    ------
+    edit : Edit
+        Candidates
+    """
+    # what is put back must not be more than what stands there, or any formula could be mended
+    most = sum(not children(p.node) for p in places(tree))
+    for place in places(tree):
+        if place.path not in wishes or value_of(place.node) is not None:
+            continue
+        wish, old = wishes[place.path], memo[place.node]
+        if is_product(place):
+            yield from _put_back(asked, place, words, quotient(asked, wish, old), _times, most)
+        if is_term(place):
+            yield from _put_back(asked, place, words, wish - old, _plus, most)
+
+
+Join = Callable[[Node, Fraction, Words], Node]
+
+
+def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join, most: int) -> Iterable[Edit]:
+    found = product(asked, words, missing)
+    if found is not None and 1 <= len(found[1]) <= most and not (join is _times and _cancels(place.node, found[1])):
+        yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
+
+
+def _cancels(node: Node, used: Words) -> bool:
+    # R*R times sin(phi)/R puts nothing back: it takes an R away
+    above = {ast.dump(f) for f in _factors(node, above=True)}
+    below = {ast.dump(f) for f in _factors(node, above=False)}
+    return any(ast.dump(word) in (below if exponent > 0 else above) for word, exponent in used)
+
+
+def _factors(node: Node, above: bool) -> Iterator[Node]:
+    if is_operation(node, ast.Mult, ast.Div):
+        assert isinstance(node, ast.BinOp)
+        yield from _factors(node.left, above)
+        yield from _factors(node.right, above == isinstance(node.op, ast.Mult))
+    elif above:
+        yield node.left if is_operation(node, ast.Pow) else node  # type: ignore[attr-defined]
+
+
+def _times(node: Node, factor: Fraction, used: Words) -> Node:
+    above = [(w, e) for w, e in used if e > 0]
+    below = [(w, -e) for w, e in used if e < 0]
+    new = scaled(negative(node) if factor < 0 else node, abs(factor))
+    if above:
+        new = binary(ast.Mult, new, product_tree(Fraction(1), above))
+    return binary(ast.Div, new, product_tree(Fraction(1), below)) if below else new
+
+
+def _plus(node: Node, factor: Fraction, used: Words) -> Node:
+    return binary(ast.Sub if factor < 0 else ast.Add, node, product_tree(abs(factor), used))

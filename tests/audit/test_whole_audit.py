@@ -1,0 +1,90 @@
+"""The whole audit: what it finds is what was recorded, docs/errata.md is fresh, and the auditor can be trusted."""
+
+import time
+
+import pytest
+
+from mechsym import recorded
+from mechsym.audit import errata, findings, registry
+from mechsym.audit.trust import trust
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def audited():
+    begin = time.process_time()
+    sources = registry.sources()
+    rows = findings.rows(sources)
+    return sources, rows, time.process_time() - begin
+
+
+@pytest.fixture(scope="module")
+def trusted(audited):
+    sources, rows, _ = audited
+    return trust(sources, rows)
+
+
+def row(audited, source, equation, words):
+    return next(
+        r for r in audited[1] if r["source"][:3] == source and r["equation"] == equation and words in r["claim"]
+    )
+
+
+def test_it_takes_less_than_two_minutes(audited):
+    assert audited[2] < 120
+
+
+def test_findings_are_as_recorded(audited):
+    assert not recorded.differences("mechsym.audit", audited[1], findings.NAME, findings.COMPARED)
+
+
+def test_errata_are_fresh(audited, trusted, pytestconfig):
+    stored = (pytestconfig.rootpath / errata.PATH).read_text()
+    assert errata.text(audited[0], audited[1], trusted) == stored, "docs/errata.md is stale; run `make audit`"
+
+
+def test_zotov_inertia(audited):
+    found = row(audited, "000", "2", "moment of inertia")
+    assert found["verdict"] == "misprint" and "sign" in found["note"]
+    assert found["max_rel_error"] == pytest.approx(0.111, abs=5e-4)
+    assert found["corrected_max_rel_error"] == pytest.approx(0.0098, abs=5e-5)
+    assert "of its peak" in found["effect"]
+
+
+@pytest.mark.parametrize("equation", ["10", "11", "14"])
+def test_zotov_guide_is_exact(audited, equation):
+    assert row(audited, "000", equation, "")["verdict"] == "exact"
+
+
+def test_chmielewski_mixed_model_is_neither(audited):
+    for words in ("exact Lagrange", "of (9)"):
+        found = row(audited, "002", "6", words)
+        assert found["verdict"] == "approximate" and found["order"] == 3
+        assert "N m off" in found["effect"]
+    assert "energy drifts" in row(audited, "002", "6", "exact Lagrange")["effect"]
+    assert "= 0" in row(audited, "002", "6", "angular acceleration")["note"]
+
+
+def test_chmielewski_speed_is_not_supported(audited):
+    found = row(audited, "002", "text", "194")
+    assert found["verdict"] == "unsupported claim"
+    assert "rigid drive has 159 rad/s" in found["note"] and "second integrator" in found["note"]
+
+
+def test_prymak_root(audited):
+    found = row(audited, "003", "4", "resultant")
+    assert found["verdict"] == "misprint"
+    assert found["correction"] == "sqrt(sum(P_jy)**2 + sum(P_jx)**2)"
+
+
+def test_every_mutant_is_refuted_or_proved_the_same(trusted):
+    assert trusted.kills.refuted >= 500
+    assert not trusted.kills.survivors
+    assert trusted.kills.refuted + trusted.kills.equivalent == trusted.kills.mutants
+
+
+def test_spoiled_formulas_come_back(trusted):
+    assert trusted.returns.spoiled >= 300
+    assert trusted.returns.returned / trusted.returns.spoiled >= 0.8
+    assert len(trusted.returns.misses) == trusted.returns.spoiled - trusted.returns.returned
