@@ -70,7 +70,7 @@ def load_distribution() -> Decided:
     mesh = printed.load_distribution_printed(1)
     return against(1.1349, mesh, (
         f"both are the AGMA formula, but it belongs to the mesh and has the pinion's diameter: {mesh:.4f} for both; "
-        f"the ring's widths become {100 * (mesh / 1.1349 - 1):.1f} % more"
+        f"the ring needs {100 * (mesh / 1.1349 - 1):.1f} % more width"
     ))  # fmt: skip
 
 

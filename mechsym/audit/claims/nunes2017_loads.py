@@ -50,8 +50,8 @@ def unbalance_unit() -> Decided:
     fits = dimension("g*mm") == dimension("g*mm/s^2")
     return Decided(
         supported=fits,
-        note="the unit of m b is g mm; no acceleration is left in (4.37), and that of (4.36) is the centripetal omega^2 b; the "
-        "numbers are right",
+        note="the unit of m b is g mm; no acceleration is left in (4.37), and that of (4.36) is the centripetal "
+        "omega^2 b; the numbers are right",
     )
 
 
