@@ -66,15 +66,15 @@ long hand_dop853(double t_end, double M, double tol, double *y)
             three += e3 * e3;
         }
         const double both = five + 0.01 * three, error = fabs(h) * five / sqrt(N * (both > 0 ? both : 1));
-        const double factor = 0.8 / sqrt(sqrt(sqrt(error)));
+        const double root = sqrt(sqrt(sqrt(error)));
         if (!(error <= 1.0)) {
-            h *= fmax(factor, 1.0 / 3.0);
+            h *= fmax(0.9 / root, 1.0 / 3.0);
             continue;
         }
         t = last ? t_end : t + h;
         memcpy(y, next, sizeof next);
         memcpy(q[0], q[12], sizeof q[0]);
-        h = last ? fmax(usual, h) : h * fmin(factor, 6.0);
+        h = last ? fmax(usual, h) : h * fmin(0.9 / sqrt(root), 6.0);
         steps++;
     }
     return steps;

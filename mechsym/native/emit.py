@@ -209,7 +209,7 @@ def _tables(kernel: Kernel, name: str) -> str:
     text = ""
     for suffix, table in (("in", kernel.inputs), ("out", kernel.outputs)):
         places = ",\n    ".join("{" + ", ".join(map(str, row or (0,))) + "}" for row in table)
-        text += f"static const short {name}_{suffix}[{len(table)}][{max(len(table[0]), 1)}] = {{\n    {places}}};\n"
+        text += f"static const int {name}_{suffix}[{len(table)}][{max(len(table[0]), 1)}] = {{\n    {places}}};\n"
     return text
 
 

@@ -5,13 +5,16 @@ at which CasADi looks for them. Mapping it over the nodes of a collocation then 
 """
 
 import logging
+from collections.abc import Sequence
 
 import casadi
 
 from mechsym.native import cache, emit
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.kernels import constant_table
-from mechsym.native.source import Program, header, preamble, program
+from mechsym.native.kernels import constant_table, kernels
+from mechsym.native.source import header, preamble, prepared
+from mechsym.native.stages import split
+from mechsym.native.tape import Tape
 
 _LOG = logging.getLogger("mechsym.native")
 
@@ -31,44 +34,47 @@ def external(function: casadi.Function, mode: str = "fast") -> casadi.Function:
     function : casadi.Function
         Same name, inputs and outputs; the given function itself when there is no compiler
     """
+    reverse = function.reverse(1)
     try:
-        path = cache.shared_object(text(function, mode), mode)
+        return externals([function, function.jacobian(), reverse, reverse.jacobian()], mode)[0]
     except NoCompiler as error:
         _LOG.warning("interpreted instead of C: %s", error)
         return function
-    return casadi.external(function.name(), str(path))
 
 
-def text(function: casadi.Function, mode: str) -> str:
-    """A file with a function and its derivatives in CasADi's calling convention.
+def externals(functions: Sequence[casadi.Function], mode: str = "fast") -> list[casadi.Function]:
+    """Functions compiled into one file, each without derivatives of its own unless they are among the others.
 
     Parameters
     ----------
-    function : casadi.Function
-        SX function
+    functions : sequence of casadi.Function
+        Functions with different names
     mode : str
         `fast` or `strict`
 
     Returns
     -------
-    text : str
-        C text
+    functions : list of casadi.Function
+        In the same order
+
+    Raises
+    ------
+    mechsym.native.compiler.NoCompiler
+        No compiler, or it failed
     """
-    reverse = function.reverse(1)
-    family = [function, function.jacobian(), reverse, reverse.jacobian()]
-    return "\n".join([preamble(), *(_one(f, mode) for f in family)])
+    path = cache.shared_object("\n".join([preamble(), *(_one(f, mode) for f in functions)]), mode)
+    return [casadi.external(f.name(), str(path)) for f in functions]
 
 
 def _one(function: casadi.Function, mode: str) -> str:
     expanded = function if function.is_a("SXFunction") else function.expand()
-    found = program(_stored(expanded), mode)
-    name = found.tape.name
+    tape = prepared(_stored(expanded), mode)
+    name = tape.name
     return "\n".join(
         [
-            emit.bodies(found.kernels, name),
-            emit.rows(found.kernels, name, 1),
-            _tables(function, found),
-            f"#define MS_NAME {name}\n#define MS_NX {len(found.tape.inputs)}\n#define MS_NY {len(found.tape.outputs)}",
+            _point(tape),
+            _tables(function),
+            f"#define MS_NAME {name}\n#define MS_NX {len(tape.inputs)}\n#define MS_NY {len(tape.outputs)}",
             f"#define MS_INPUTS {function.n_in()}\n#define MS_OUTPUTS {function.n_out()}",
             header("external.h"),
             *(f"#undef MS_{macro}" for macro in ("NAME", "NX", "NY", "INPUTS", "OUTPUTS")),
@@ -83,10 +89,33 @@ def _stored(function: casadi.Function) -> casadi.Function:
     return casadi.Function(function.name(), [s.nz[:] for s in symbols], outputs, {"allow_free": False})
 
 
-def _tables(function: casadi.Function, found: Program) -> str:
-    name = function.name()
-    numbers = ", ".join(repr(v) for v in constant_table(found.kernels).tolist())
-    text = [f"static const double {name}_constants[] = {{{numbers}}};"]
+def _point(tape: Tape) -> str:
+    """The function `<name>_at(x, y)` at one point, in two stages where that lets equal parts be rolled."""
+    name, parts = tape.name, split(tape)
+    if parts is None:
+        return "\n".join([_stage(tape), f"#define {name}_at(x, y) {name}_rows1({name}_constants, x, y)"])
+    first, second = parts
+    nx, values = len(first.inputs), len(first.outputs)
+    return f"""{_stage(first)}
+{_stage(second)}
+static void {name}_at(const double *x, double *y)
+{{
+    double all[{nx + values}];
+    memcpy(all, x, {nx} * sizeof(double));
+    {first.name}_rows1({first.name}_constants, x, all + {nx});
+    {second.name}_rows1({second.name}_constants, all, y);
+}}"""
+
+
+def _stage(tape: Tape) -> str:
+    name, found = tape.name, kernels(tape)
+    numbers = ", ".join(repr(v) for v in constant_table(found).tolist())
+    constants = f"static const double {name}_constants[] = {{{numbers}}};"
+    return "\n".join([constants, emit.bodies(found, name), emit.rows(found, name, 1)])
+
+
+def _tables(function: casadi.Function) -> str:
+    name, text = function.name(), []
     for side in ("in", "out"):
         count = function.n_in() if side == "in" else function.n_out()
         sparsities = [getattr(function, f"sparsity_{side}")(i) for i in range(count)]

@@ -7,15 +7,17 @@ once are taken apart, so nothing is computed twice. The order of the factors cha
 import collections
 import dataclasses
 
-from mechsym.native.tape import Tape, prune
+from mechsym.native.tape import Tape, prune, wait
 
 _PRODUCTS, _SUMS = ("mul", "sq"), ("add", "sub")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class _Work:
-    # nodes written so far, the node of each key, where old nodes went, and products that are not written yet
+    # nodes written so far and when they are known, the node of each key, where old nodes went, and products that are
+    # not written yet
     nodes: list[tuple[str, tuple]] = dataclasses.field(default_factory=list)
+    ready: list[int] = dataclasses.field(default_factory=list)
     known: dict[tuple[str, tuple], int] = dataclasses.field(default_factory=dict)
     place: dict[int, int] = dataclasses.field(default_factory=dict)
     waiting: dict[int, list[int]] = dataclasses.field(default_factory=dict)
@@ -103,8 +105,9 @@ def _written(work: _Work, factors: list[int]) -> int:
         for f in constants:
             value *= work.nodes[f][1][0]
         constants = [_put(work, "constant", (value,))]
-    # what is known first is multiplied first, so that the latest value waits for one product only
-    product, *more = sorted(constants + others)
+    # what is known first is multiplied first, so that the latest value waits for one product only; equal ones keep
+    # their order, so that equal parts of a program stay equal
+    product, *more = sorted(constants + others, key=lambda f: work.ready[f])
     for f in more:
         product = _put(work, "sq", (f,)) if f == product else _put(work, "mul", (product, f))
     return product
@@ -114,4 +117,5 @@ def _put(work: _Work, op: str, args: tuple) -> int:
     if (op, args) not in work.known:
         work.known[op, args] = len(work.nodes)
         work.nodes.append((op, args))
+        work.ready.append(wait(op) + (0 if op in ("input", "constant") else max(work.ready[a] for a in args)))
     return work.known[op, args]

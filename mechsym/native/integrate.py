@@ -15,8 +15,8 @@ from mechsym.native.kernels import constant_table
 from mechsym.native.runs import Outcome, Runs, Surface, Table
 from mechsym.native.source import Program, program
 
-# runs in one block of an ensemble; the width of one or two vector registers
-LANES = 8
+# runs in one block of an ensemble: one vector register of doubles, or two, which wait less for each other
+LANES = (1, 8, 16)
 
 _LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kink_state", "max_steps")
 _DOUBLES = ("rtol", "atol", "first_step", "kink_period")
@@ -91,7 +91,7 @@ def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome
         _check_gauss(batch)
     elif method != "dop853":
         raise BadInput(f"method = {method!r} is not an option; options are dop853, gauss")
-    lanes = 1 if count == 1 else LANES
+    lanes = next((n for n in LANES if n >= count), LANES[-1])
     texts = [getattr(integrators, method)(p, lanes) for p in batch.programs]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
     blocks = _blocks(texts if len(texts) > 1 else texts * count, lanes)

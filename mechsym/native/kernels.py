@@ -15,7 +15,7 @@ import numpy as np
 from mechsym.native.dialects import literal
 from mechsym.native.tape import CHEAP, Tape
 
-# a loop is worth its index tables only when it saves this many operations
+# a loop is worth its index tables only when it saves this many operations and assignments
 _WORTH = 32
 # rolling computes shared cheap values once per instance; not if that costs more than this factor
 _DEARER = 1.2
@@ -70,14 +70,13 @@ def kernels(tape: Tape) -> tuple[Kernel, ...]:
     for group in _groups(tape):
         part = _part(tape, group)
         families.setdefault((part.nodes, part.results), []).append(part)
-    rolled = [parts for parts in families.values() if _operations(parts[0]) * (len(parts) - 1) >= _WORTH]
+    rolled = [parts for parts in families.values() if _size(parts[0]) * (len(parts) - 1) >= _WORTH]
     single = sorted(o for parts in families.values() if parts not in rolled for p in parts for o in p.outputs)
     loops = [_kernel(parts) for parts in rolled]
     rest = [_kernel([_part(tape, single)])] if single else []
     found = tuple(loops + rest)
     total = sum(_operations(p) * len(p.inputs) for p in found)
-    single_kernel = whole(tape)
-    return found if total <= _DEARER * _operations(single_kernel) else (single_kernel,)
+    return found if total <= _DEARER * _operations(tape) else (whole(tape),)
 
 
 def whole(tape: Tape) -> Kernel:
@@ -96,8 +95,12 @@ def whole(tape: Tape) -> Kernel:
     return _kernel([_part(tape, list(range(len(tape.results))))])
 
 
-def _operations(part: _Part | Kernel) -> int:
+def _operations(part: _Part | Kernel | Tape) -> int:
     return sum(op not in ("input", "constant", "literal") for op, _ in part.nodes)
+
+
+def _size(part: _Part) -> int:
+    return _operations(part) + len(part.outputs)
 
 
 def _groups(tape: Tape) -> list[list[int]]:
@@ -158,13 +161,13 @@ def _part(tape: Tape, outputs: list[int]) -> _Part:
 def _order(tape: Tape, root: int, done: dict[int, int]) -> list[int]:
     # operands before their users, visited from left to right: equal programs come out in equal order
     order: list[int] = []
-    seen = set(done)
+    seen: set[int] = set()
     stack = [(root, False)]
     while stack:
         node, ready = stack.pop()
         if ready:
             order.append(node)
-        elif node not in seen:
+        elif node not in seen and node not in done:
             seen.add(node)
             stack.append((node, True))
             if tape.nodes[node][0] not in ("input", "constant"):

@@ -1,17 +1,20 @@
 """Cheaper forms: a quotient costs as much as ten products, and expressions for machines are full of them.
 
-    a / c                 becomes  a * (1 / c), the reciprocal of a constant being a constant
-    a / d and b / d       become   a * r and b * r with one r = 1 / d
-    a / d and b / sqrt(d) become   a * r * r and b * r with one r = 1 / sqrt(d)
-    x ** c                becomes  exp(c * log(x)) for a constant c that is no multiple of one half
+    a / c                    becomes  a * (1 / c), the reciprocal of a constant being a constant
+    a / d and b / d          become   a * r and b * r with one r = 1 / d
+    a / sqrt(d)              becomes  a * (sqrt(d) * r), so that root and reciprocal do not wait for each other
+    a / d, d known before a  becomes  a * (1 / d), so that the reciprocal is there when a is
+    x ** c                   becomes  exp(c * log(x)) for a constant c that is no multiple of one half
 
-The first three cost one more rounding, the last |c log x| units of the last place, so only the mode `fast` does it.
+The quotients cost one or two more roundings, the power |c log x| units of the last place, so only the mode `fast` does
+this.
 """
 
+import collections
 import dataclasses
 import math
 
-from mechsym.native.tape import Tape, prune
+from mechsym.native.tape import Tape, prune, wait
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -35,15 +38,13 @@ def cheaper(tape: Tape) -> Tape:
     tape : Tape
         By the rules of this module
     """
-    denominators = [_denominator(op, args) for op, args in tape.nodes]
-    uses = {d: denominators.count(d) for d in denominators if d is not None}
-    roots = {args[0]: i for i, (op, args) in enumerate(tape.nodes) if op == "sqrt"}
+    multiplied = _multiplied(tape)
     work = _Work()
     for i, (op, args) in enumerate(tape.nodes):
         if op in ("input", "constant"):
             work.place[i] = _put(work, op, args)
-        elif op in ("div", "inv") and _shared(tape, uses, roots, args[-1]):
-            inverse = _reciprocal(tape, work, uses, roots, args[-1])
+        elif op == "inv" or i in multiplied:
+            inverse = _reciprocal(tape, work, args[-1])
             work.place[i] = inverse if op == "inv" else _put(work, "mul", (work.place[args[0]], inverse))
         elif op == "pow" and _broken(tape, args[1]):
             exponent = _put(work, "mul", (work.place[args[1]], _put(work, "log", (work.place[args[0]],))))
@@ -54,18 +55,30 @@ def cheaper(tape: Tape) -> Tape:
     return dataclasses.replace(tape, nodes=tuple(nodes), results=tuple(results))
 
 
-def _denominator(op: str, args: tuple) -> int | None:
-    return args[-1] if op in ("div", "inv") else None
+def _multiplied(tape: Tape) -> set[int]:
+    """Quotients that are better products with a reciprocal."""
+    ready: list[int] = []
+    uses: collections.Counter[int] = collections.Counter()
+    for op, args in tape.nodes:
+        ready.append(wait(op) + (0 if op in ("input", "constant") else max(ready[a] for a in args)))
+        if op in ("div", "inv"):
+            uses[_base(tape, args[-1])] += 1
+    return {
+        i
+        for i, (op, args) in enumerate(tape.nodes)
+        if op == "div"
+        and (
+            tape.nodes[args[1]][0] in ("constant", "sqrt")
+            or uses[_base(tape, args[1])] > 1
+            or ready[args[0]] > ready[args[1]]
+        )
+    }
 
 
-def _broken(tape: Tape, exponent: int) -> bool:
-    op, args = tape.nodes[exponent]
-    return op == "constant" and math.isfinite(args[0]) and 2 * args[0] != int(2 * args[0])
-
-
-def _shared(tape: Tape, uses: dict[int, int], roots: dict[int, int], d: int) -> bool:
+def _base(tape: Tape, d: int) -> int:
+    """What is really divided by: sqrt(d) and d * d go through the reciprocal of d."""
     op, args = tape.nodes[d]
-    return op == "constant" or uses[d] > 1 or roots.get(d) in uses or (op == "sq" and args[0] in uses)
+    return args[0] if op in ("sqrt", "sq") else d
 
 
 def _put(work: _Work, op: str, args: tuple) -> int:
@@ -75,14 +88,17 @@ def _put(work: _Work, op: str, args: tuple) -> int:
     return work.known[op, args]
 
 
-def _reciprocal(tape: Tape, work: _Work, uses: dict[int, int], roots: dict[int, int], d: int) -> int:
+def _broken(tape: Tape, exponent: int) -> bool:
+    op, args = tape.nodes[exponent]
+    return op == "constant" and math.isfinite(args[0]) and 2 * args[0] != int(2 * args[0])
+
+
+def _reciprocal(tape: Tape, work: _Work, d: int) -> int:
     op, args = tape.nodes[d]
     if op == "constant":
         return _put(work, "constant", (1.0 / args[0] if args[0] else float("inf"),))
-    if roots.get(d) in uses:
-        # the root may come later in the program; what it is taken of is there already
-        root = _put(work, "sqrt", (work.place[d],))
-        return _put(work, "sq", (_put(work, "inv", (root,)),))
-    if op == "sq" and args[0] in uses:
+    if op == "sqrt":
+        return _put(work, "mul", (work.place[d], _put(work, "inv", (work.place[args[0]],))))
+    if op == "sq":
         return _put(work, "sq", (_put(work, "inv", (work.place[args[0]],)),))
     return _put(work, "inv", (work.place[d],))

@@ -45,8 +45,27 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
     program : Program
         What the emitter takes
     """
-    tape = factored(cheaper(read(function))) if mode == "fast" else read(function)
+    tape = prepared(function, mode)
     return Program(tape=tape, kernels=kernels(tape))
+
+
+def prepared(function: casadi.Function, mode: str) -> Tape:
+    """The tape of a function in the form that a mode compiles.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        Function of scalars or small vectors
+    mode : str
+        `fast` or `strict`
+
+    Returns
+    -------
+    tape : Tape
+        Straight-line program
+    """
+    tape = read(function)
+    return factored(cheaper(tape)) if mode == "fast" else tape
 
 
 @functools.cache

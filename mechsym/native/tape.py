@@ -17,6 +17,9 @@ from mechsym.errors import BadInput
 _SAME = {"constpow": "pow"}
 # operators that cost about one cycle; everything else is called expensive here
 CHEAP = frozenset({"add", "sub", "mul", "neg", "sq", "twice", "fabs"})
+# processor cycles until a result is there, roughly alike on all processors of today; 4 where nothing is said
+_WAIT = {"input": 0, "constant": 0, "div": 14, "inv": 14, "sqrt": 18, "sin": 45, "cos": 45, "exp": 60, "log": 50,
+         "pow": 120}  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -175,6 +178,22 @@ def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tupl
             place[i] = len(kept)
             kept.append((op, args if op in ("input", "constant") else tuple(place[a] for a in args)))
     return kept, [place[r] for r in results]
+
+
+def wait(op: str) -> int:
+    """How long a result has to be waited for.
+
+    Parameters
+    ----------
+    op : str
+        Operator
+
+    Returns
+    -------
+    cycles : int
+        Of the processor, roughly
+    """
+    return _WAIT.get(op, 4)
 
 
 def operation_counts(tape: Tape) -> dict[str, int]:

@@ -9,6 +9,7 @@ from native.models import functions
 
 from mechsym.native import cache
 from mechsym.native.external import external
+from mechsym.native.nlp import nlpsol
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 
@@ -63,6 +64,34 @@ def test_optimum_is_the_interpreted_one():
         return ca.nlpsol("solver", "ipopt", problem, options)(x0=guess, lbg=0, ubg=0)["x"].full().ravel()
 
     np.testing.assert_allclose(solve(external(node())), solve(node()), rtol=1e-6, atol=1e-6)
+
+
+@needs_compiler
+@pytest.mark.parametrize("kind", ["MX", "SX"])
+def test_whole_problem_compiled(kind):
+    symbol = ca.MX.sym if kind == "MX" else ca.SX.sym
+    x, u, p = symbol("x", 2, 41), symbol("u", 1, 40), symbol("p")
+    steps = [node()(x[:, k], x[:, k + 1], u[k] - p, 0.01) for k in range(40)]
+    constraints = ca.vertcat(*(s[0] for s in steps), x[:, 0] - ca.DM([0.1, 9.0]), x[1, -1] - 9.0)
+    problem = {"x": ca.vertcat(ca.vec(x), ca.vec(u)), "p": p, "f": ca.sumsqr(u) * 1e-6, "g": constraints}
+    options = {"ipopt.print_level": 0, "print_time": False, "ipopt.sb": "yes"}
+    guess = np.concatenate([np.tile([0.1, 9.0], 41), np.zeros(40)])
+    compiled = nlpsol("solver", problem, options)
+    interpreted = ca.nlpsol("solver", "ipopt", problem, options)
+    assert compiled.get_function("nlp_hess_l").is_a("External")
+    for load in (0.0, 100.0):
+        found, wanted = (s(x0=guess, p=load, lbg=0, ubg=0) for s in (compiled, interpreted))
+        np.testing.assert_allclose(found["x"].full(), wanted["x"].full(), rtol=1e-5, atol=1e-5)
+        np.testing.assert_allclose(found["lam_p"].full(), wanted["lam_p"].full(), rtol=1e-4, atol=1e-9)
+
+
+def test_without_a_compiler_the_problem_is_interpreted(monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    x = ca.SX.sym("x")
+    solver = nlpsol(
+        "solver", {"x": x, "f": (x - 3) ** 2}, {"ipopt.print_level": 0, "print_time": False, "ipopt.sb": "yes"}
+    )
+    assert float(solver(x0=0)["x"]) == pytest.approx(3)
 
 
 def test_without_a_compiler_the_function_itself_comes_back(monkeypatch):

@@ -187,7 +187,7 @@ def test_smooth_table_follows_any_angle():
 
 
 def test_lanes_give_what_single_runs_give():
-    count = LANES + 3
+    count = LANES[-1] + 3
     start = np.stack([np.linspace(0.1, 2.5, count), np.zeros(count)], axis=1)
     until = np.stack([np.full(count, 3.0), np.linspace(4.0, 9.0, count)], axis=1)
     held = np.stack([np.zeros(count), np.linspace(-1, 1, count)], axis=1)[:, :, None]

@@ -91,7 +91,7 @@ static int ms_corrected(const ms_run *run, ms_work *w, int l)
 
 static void ms_reject(const ms_run *run, ms_work *w, int l)
 {
-    const double error = w->error[l], factor = 0.8 / sqrt(sqrt(sqrt(error)));
+    const double error = w->error[l], factor = 0.9 / sqrt(sqrt(sqrt(error)));
     w->h[l] = w->step[l] * (error < INFINITY ? ms_fmax(factor, 1.0 / 3.0) : 0.1);
     w->forced[l] = 0.0;
     w->target[l] = 0;
@@ -127,7 +127,8 @@ static void ms_share_kink(const ms_run *run, ms_work *w, int l)
 /* Take a step over. Returns 2 when the lane enters another segment, 1 when it passes a kink, else 0. */
 static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
 {
-    const double proposed = w->step[l] * ms_fmin(6.0, 0.8 / sqrt(sqrt(sqrt(w->error[l]))));
+    /* half the usual gain: where the error swings within a turn, a step grown for its valley is rejected at its peak */
+    const double proposed = w->step[l] * ms_fmin(6.0, 0.9 / sqrt(sqrt(sqrt(sqrt(w->error[l])))));
     const int last = end == ms_until(run, w, l), cut = last || w->target[l];
     ms_sample(run, w, l, end);
     ms_share_kink(run, w, l);

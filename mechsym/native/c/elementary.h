@@ -2,7 +2,7 @@
  *
  * gcc turns sin(x) and cos(x) of one angle into a call that blocks vectorisation; these do not. Largest error against
  * 60 digits (tests/native/test_elementary.py checks these bounds): sine and cosine 2 ulp for |x| < 1e8 and 3e-16 up to
- * 1e13, tan 3 ulp, exp and log 1.5 ulp, pow 1.5 ulp where |y log x| < 30 and 16 ulp beyond, asin 3 ulp.
+ * 1e10, tan 3 ulp, exp and log 1.5 ulp, pow 1.5 ulp where |y log x| < 30 and 16 ulp beyond, asin 3 ulp.
  * Where digits cancel the subtraction is inside an fma, which no compiler option may reorder.
  */
 #include <math.h>
@@ -30,22 +30,30 @@ MS_INLINE double ms_from_bits(ms_bits u)
     return x;
 }
 
-/* Cody and Waite: x - n pi/2 in three pieces of 33, 33 and 53 bits; kernels on [-pi/4, pi/4] from fdlibm. */
+/* a * b + c in a polynomial, where the rounding between does not matter */
+#ifdef __FP_FAST_FMA
+#define MS_MADD(a, b, c) fma(a, b, c)
+#else
+#define MS_MADD(a, b, c) ((a) * (b) + (c))
+#endif
+
+/* Cody and Waite: x - n pi/2 in three pieces of 33, 53 and 53 bits; kernels on [-pi/4, pi/4] from fdlibm, summed in
+ * pairs, because a single run waits for this result in every stage. */
 MS_INLINE void ms_sincos(double x, double *sine, double *cosine)
 {
-    const double n = rint(x * 0x1.45f306dc9c883p-1);
-    double r = fma(-n, 0x1.921fb544p+0, x);
-    r = fma(-n, 0x1.0b4611a6p-34, r);
-    r = fma(-n, 0x1.3198a2e037073p-69, r);
-    const double z = r * r;
-    const double s = r + r * z * (-1.66666666666666324348e-01 + z * (8.33333333332248946124e-03
-        + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
-        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-    const double c = 1.0 - 0.5 * z + z * z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
-        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07
-        + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-    /* adding 1.5 * 2^52 puts the integer n into the low bits */
-    const ms_bits q = ms_to_bits(n + 6755399441055744.0);
+    /* adding 1.5 * 2^52 rounds to an integer and puts it into the low bits */
+    const double shifted = MS_MADD(x, 0x1.45f306dc9c883p-1, 6755399441055744.0), n = shifted - 6755399441055744.0;
+    const double near = fma(-n, 0x1.0b4611a626331p-34, fma(-n, 0x1.921fb544p+0, x));
+    const double r = fma(-n, 0x1.1701b839a2520p-88, near), z = near * near, z2 = z * z;
+    const double s12 = MS_MADD(z, 8.33333333332248946124e-03, -1.66666666666666324348e-01);
+    const double s34 = MS_MADD(z, 2.75573137070700676789e-06, -1.98412698298579493134e-04);
+    const double s56 = MS_MADD(z, 1.58969099521155010221e-10, -2.50507602534068634195e-08);
+    const double s = MS_MADD(r * z, MS_MADD(z2, MS_MADD(z2, s56, s34), s12), r);
+    const double c12 = MS_MADD(z, -1.38888888888741095749e-03, 4.16666666666666019037e-02);
+    const double c34 = MS_MADD(z, -2.75573143513906633035e-07, 2.48015872894767294178e-05);
+    const double c56 = MS_MADD(z, -1.13596475577881948265e-11, 2.08757232129817482790e-09);
+    const double c = MS_MADD(z2, MS_MADD(z2, MS_MADD(z2, c56, c34), c12), MS_MADD(z, -0.5, 1.0));
+    const ms_bits q = ms_to_bits(shifted);
     const double a = (q & 1) ? c : s, b = (q & 1) ? s : c;
     *sine = ms_from_bits(ms_to_bits(a) ^ ((q & 2) << 62));
     *cosine = ms_from_bits(ms_to_bits(b) ^ (((q + 1) & 2) << 62));

@@ -9,7 +9,7 @@ MS_EXPORT int MS_NAME(const double **arg, double **res, long long *iw, double *w
     for (int i = 0; i < MS_INPUTS; i++)
         for (long j = 0; j < MS_(_size_in)[i]; j++)
             x[place++] = arg[i] ? arg[i][j] : 0.0;
-    MS_(_rows1)(MS_(_constants), x, y);
+    MS_(_at)(x, y);
     place = 0;
     for (int i = 0; i < MS_OUTPUTS; place += MS_(_size_out)[i++])
         if (res[i])
