@@ -25,7 +25,7 @@ def displacement() -> Decided:
     """
     volume = math.pi * 0.060**2 / 4 * 0.104
     return against(2.9405e-5, volume, (
-        f"{volume:.5g} m^3, the 294.05 cc beside it; the 2.86e-5 m^3 (286 cc) of section 3.1 have the same slip"
+        f"{volume:.4e} m^3, the 294.05 cc beside it; the 2.86e-5 m^3 (286 cc) of section 3.1 have the same slip"
     ))  # fmt: skip
 
 

@@ -70,7 +70,7 @@ def load_distribution() -> Decided:
     mesh = printed.load_distribution_printed(1)
     return against(1.1349, mesh, (
         f"both are the AGMA formula, but it belongs to the mesh and has the pinion's diameter: {mesh:.4f} for both; "
-        f"the ring's widths are {100 * (mesh / 1.1349 - 1):.1f} % too small"
+        f"the ring needs {100 * (mesh / 1.1349 - 1):.1f} % more width"
     ))  # fmt: skip
 
 
@@ -152,7 +152,7 @@ def ring_contact() -> Decided:
     width = float(items()[item]["computed"])
     shared = width * printed.D_RING / printed.D_PINION
     return against(width, shared, (
-        "d_pitch in (2.78) is the pinion's for both members (AGMA 2101), since both flanks touch with one pressure; "
+        "AGMA 2101 has the pinion's diameter in (2.78) for both members, since both flanks touch with one pressure; "
         f"the ring's {width:.2f} mm are {shared:.2f} mm, and all twelve ring widths of tables 4.11 and 4.12 are halved"
     ))  # fmt: skip
 

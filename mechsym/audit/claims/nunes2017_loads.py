@@ -29,12 +29,12 @@ def moving_mass() -> Decided:
     mass = found["mass_kg"]
 
     def change(name: str) -> str:
-        return f"{found[f'{name} as printed']:.0f} becomes {found[f'{name} own parts']:.0f} N"
+        return f"from {found[f'{name} as printed']:.0f} to {found[f'{name} own parts']:.0f} N"
 
     return against(0.250, mass, (
         f"crankpin, webs and their bearings move on the cylinder axis too: {mass:.3f} kg with the thesis's own parts; "
-        f"at 8000 rpm the largest force of {change('force_max')}, the force at the exhaust dead centre of "
-        f"{change('force_at_exhaust_tdc')}, the reversed tooth load of {change('tooth_load_reversed')}; the peaks that "
+        f"at 8000 rpm the largest force goes {change('force_max')}, the force at the exhaust dead centre "
+        f"{change('force_at_exhaust_tdc')}, the reversed tooth load {change('tooth_load_reversed')}; the peaks that "
         "size the parts lie at low speed and change little"
     ))  # fmt: skip
 
@@ -50,8 +50,8 @@ def unbalance_unit() -> Decided:
     fits = dimension("g*mm") == dimension("g*mm/s^2")
     return Decided(
         supported=fits,
-        note="m b is g mm; no acceleration is left in (4.37), and that of (4.36) is the centripetal omega^2 b; the "
-        "numbers are right",
+        note="the unit of m b is g mm; no acceleration is left in (4.37), and that of (4.36) is the centripetal "
+        "omega^2 b; the numbers are right",
     )
 
 
@@ -157,7 +157,7 @@ def chosen_parts() -> Decided:
     checks = [row for row in found.rows if row["limit"] is not None]
     below = [row for row in checks if not row["holds"]]
     told = ", ".join(
-        f"{row['component']} ({row['quantity']}, {row['safety_factor']:.2g} for {row['wanted']:g})" for row in below
+        f"{row['component']} ({row['quantity']}, {row['safety_factor']:.3g} for {row['wanted']:g})" for row in below
     )
     return Decided(
         supported=not below,

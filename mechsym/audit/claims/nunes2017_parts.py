@@ -28,8 +28,8 @@ def piston_area() -> Decided:
     drawn = 1 + _STROKES * 1e-3 / tdc_gap(_V_C, _AREA_PRINTED)
     cylinder, length = items()["length of the cylinder [mm]"], items()["length of the rod [mm]"]
     return against(_AREA_PRINTED, area, (
-        f"pi B^2/4 is {area:.7f} m^2, a tenth; chapter 3 was computed with the right area, chapter 4 with the printed "
-        f"one: heads {tdc_gap(_V_C, _AREA_PRINTED) * 1e3:.1f} mm apart for {tdc_gap(_V_C, area) * 1e3:.1f} mm, "
+        f"the bore gives {area:.7f} m^2, a tenth; chapter 3 was computed with the right area, chapter 4 with the "
+        f"printed one: heads {tdc_gap(_V_C, _AREA_PRINTED) * 1e3:.1f} mm apart for {tdc_gap(_V_C, area) * 1e3:.1f} mm, "
         f"compression ratio {drawn:.0f} as drawn for 10, cylinder {cylinder['computed']:.1f} mm long for "
         f"{cylinder['corrected']:.1f} mm, rod {length['computed']:.1f} mm for {length['corrected']:.1f} mm"
     ))  # fmt: skip
@@ -196,5 +196,5 @@ def output_shaft() -> Decided:
     return against(7.82, one, (
         f"(4.35) with {torque:.1f} N m and 1250/1.5 MPa gives {one:.2f} mm; no reading gives 7.82 mm, which carry "
         f"{would:.1f} N m; unsafe: the 8 mm shaft has {stress:.0f} MPa at the peak of one crank's torque, more than "
-        f"the ultimate shear strength of 1250 MPa; the one that drives with both cranks' torque needs {both:.2f} mm"
+        f"the ultimate shear strength of 1250 MPa; with both cranks' torque it needs {both:.2f} mm"
     ))  # fmt: skip
