@@ -155,7 +155,7 @@ def test_acceleration_agrees_with_t_minus_v_in_the_common_frame(p, s):
     q = [s[n] for n in ("phi1", "phi2", "phi_f")]
     u = [s[n] for n in ("phi1d", "phi2d", "phi_fd")]
     truth = np.asarray(t_minus_v(p, s)(q, u)).ravel()
-    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-9, abs=1e-9 * (1 + np.abs(truth).max()))
+    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-10, abs=1e-10 * (1 + np.abs(truth).max()))
 
 
 @settings(deadline=None, derandomize=True, max_examples=25)
@@ -235,19 +235,19 @@ def test_reactions_agree_with_absolute_coordinates(p, s):
     out = found["outputs"]
     s = s | {"torque": out["shaft_torque_1"] - out["shaft_torque_2"]}
     truth = motion(two_rods(p, s), pose(p, s["phi2"]), 2, p.sense[1] * s["phi2"], p.sense[1] * s["phi2d"])
-    assert found["acceleration"][1] == pytest.approx(p.sense[1] * truth.acceleration[2], rel=1e-9, abs=1e-8)
+    assert found["acceleration"][1] == pytest.approx(p.sense[1] * truth.acceleration[2], rel=1e-10, abs=1e-10)
     forces = truth.joint_forces
     scale = 1 + np.abs(forces).max()
     bearing = [out["main_bearing_force_x_2"], out["main_bearing_force_y_2"]]
-    assert bearing == pytest.approx(forces[:2], abs=1e-8 * scale)
+    assert bearing == pytest.approx(forces[:2], abs=1e-9 * scale)
     for j, i in enumerate((2, 3)):
         rows = forces[2 + 6 * j : 8 + 6 * j]
         along, across = (np.asarray(v).ravel() for v in points(p, ca.DM([0, 0, 0]))[i - 1][5:])
         pin = [out[f"pin_force_x_{i}"], out[f"pin_force_y_{i}"]]
         piston_pin = out[f"piston_pin_force_along_{i}"] * along + out[f"piston_pin_force_across_{i}"] * across
-        assert pin == pytest.approx(rows[:2], abs=1e-8 * scale)
-        assert piston_pin == pytest.approx(rows[2:4], abs=1e-8 * scale)
-        assert out[f"side_force_{i}"] == pytest.approx(rows[4], abs=1e-8 * scale)
+        assert pin == pytest.approx(rows[:2], abs=1e-9 * scale)
+        assert piston_pin == pytest.approx(rows[2:4], abs=1e-9 * scale)
+        assert out[f"side_force_{i}"] == pytest.approx(rows[4], abs=1e-9 * scale)
 
 
 @settings(deadline=None, derandomize=True, max_examples=15)

@@ -60,7 +60,7 @@ def test_motion_and_rod_force_agree_with_absolute_coordinates(p, s):
     guess = np.array([0, 0, s["phi0"], p.r * c + math.sqrt(p.l**2 - (p.r * n) ** 2), 0, 0])
     truth = motion(system, guess, 2, s["phi0"], s["phi0d"])
     found = state(build(p), s)
-    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-9, abs=1e-9)
+    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-10)
     assert found["acceleration"][1] == pytest.approx(shaft_torque(p, s) / p.I2, rel=1e-12, abs=1e-12)
     assert p.r + p.l - found["outputs"]["x0"] == pytest.approx(truth.pose[3], rel=1e-13)
     # the multiplier stretches the rod: positive multiplier, compressed rod
@@ -82,7 +82,7 @@ def test_acceleration_agrees_with_t_minus_v(p, s):
 
     function = lagrange(kinetic, lambda q: p.k1 * (q[0] - q[1]) ** 2 / 2, force, 2)
     truth = np.asarray(function([s["phi0"], s["phi2"]], [s["phi0d"], s["phi2d"]])).ravel()
-    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-9, abs=1e-9)
+    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-10, abs=1e-10)
 
 
 def test_acceleration_agrees_with_sympy_mechanics(chmielewski):

@@ -82,7 +82,7 @@ def test_motion_and_reactions_agree_with_absolute_coordinates(p, s):
     out = found["outputs"]
     truth = motion(absolute(p, s), guess(p, s["phi"]), 2, s["phi"], s["phid"])
     scale = 1 + np.abs(truth.joint_forces).max()
-    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-9, abs=1e-9)
+    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-10)
     assert p.r1 + p.r2 + p.l1 + p.l2 - out["x"] == pytest.approx(truth.pose[6], rel=1e-13)
     assert -out["dx_dphi"] * s["phid"] == pytest.approx(truth.velocity[6], abs=1e-11)
     assert out["psi"] == pytest.approx(-truth.pose[5], abs=1e-13)
@@ -114,7 +114,7 @@ def test_acceleration_agrees_with_t_minus_v(p, s):
         return -s["F"] * ca.gradient(places(q)[2], q) + s["M_h"] - s["M_r"]
 
     truth = float(lagrange(kinetic, potential, force, 1)(s["phi"], s["phid"]))
-    assert state(build(p), s)["acceleration"][0] == pytest.approx(truth, rel=1e-9, abs=1e-9)
+    assert state(build(p), s)["acceleration"][0] == pytest.approx(truth, rel=1e-10, abs=1e-10)
 
 
 def test_acceleration_agrees_with_sympy_mechanics(zotov):
