@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from typing import NoReturn
 
 from mechsym.audit.latex_letters import WORDS, Cursor, derivative, letter, place
 from mechsym.audit.limits import MAX_DEPTH
@@ -225,18 +226,30 @@ def _function(cursor: Cursor, function: str) -> Node:
 
 
 def _run(cursor: Cursor, function: str) -> Node:
-    # \sin 2\varphi: numbers, letters and fractions up to a bracket, an operator or the next function
+    # \sin 2\varphi: a number and one letter or fraction; what follows without a sign would leave a doubt
     tree: Node | None = None
-    while cursor.peek() not in _STOP | _TIMES | _OVER | set(_CLOSING) | {"\\sqrt", "\\sum"}:
-        if cursor.peek()[1:] in _FUNCTIONS or cursor.peek() in WORDS:
-            break
+    while not _ends_run(cursor):
+        if tree is not None and not isinstance(tree, ast.Constant):
+            _ask(cursor, function, cursor.peek())
         factor = _factor(cursor)
         if cursor.peek() == "^":
-            raise BadInput(
-                f"LaTeX: does the power belong to the argument or to \\{function}, {place(cursor)}? "
-                f"Write \\{function}^2 x or \\{function}(x^2)"
-            )
+            _ask(cursor, function, "the power")
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:
         raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}")
+    if cursor.peek() in _OVER and cursor.peek(1)[:1].isdigit():
+        _ask(cursor, function, f"{cursor.peek()}{cursor.peek(1)}")
     return tree
+
+
+def _ends_run(cursor: Cursor) -> bool:
+    token = cursor.peek()
+    stops = _STOP | _TIMES | _OVER | set(_CLOSING) | {"\\sqrt", "\\sum"}
+    return token in stops or token[1:] in _FUNCTIONS or token in WORDS
+
+
+def _ask(cursor: Cursor, function: str, what: str) -> NoReturn:
+    raise BadInput(
+        f"LaTeX: does {what} belong to the argument of \\{function} or to the whole, {place(cursor)}? "
+        f"Write brackets, \\{function}(..), or a sign, \\{function} x \\cdot .."
+    )

@@ -1,15 +1,15 @@
 """Edits that put back a term or a factor that was left out."""
 
 import ast
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeGuard
 
 from mechsym.audit.bench import Bench
-from mechsym.audit.edits import Edit, Place, is_product, is_term, places, scaled
-from mechsym.audit.insertion import Vocabulary, Words, product, product_tree
+from mechsym.audit.edits import Edit, is_product, is_term, places, scaled
+from mechsym.audit.insertion import Product, Vocabulary, Words, product, product_tree
 from mechsym.audit.required import Required, quotient
-from mechsym.audit.tree import Node, binary, children, is_operation, negative, value_of
+from mechsym.audit.tree import Node, Path, binary, children, is_operation, negative, value_of
 
 
 def insertions(
@@ -37,30 +37,33 @@ def insertions(
     """
     # what is put back must not be more than what stands there, or any formula could be mended
     most = sum(not children(p.node) for p in places(tree))
+    nodes = {p.path: p.node for p in places(tree)}
     for place in places(tree):
         if place.path not in wishes or value_of(place.node) is not None:
             continue
         wish, old = wishes[place.path], memo[place.node]
         if is_product(place):
-            yield from _put_back(asked, place, words, quotient(asked, wish, old), _times, most)
+            found = product(asked, words, quotient(asked, wish, old))
+            if _is_little(found, most) and not _cancels(nodes, place.path, found[1]):
+                yield Edit(kind="put back", path=place.path, new=_times(place.node, *found))
         if is_term(place):
-            yield from _put_back(asked, place, words, wish - old, _plus, most)
+            found = product(asked, words, wish - old)
+            if _is_little(found, most):
+                yield Edit(kind="put back", path=place.path, new=_plus(place.node, *found))
 
 
-Join = Callable[[Node, Fraction, Words], Node]
+def _is_little(found: Product | None, most: int) -> TypeGuard[Product]:
+    return found is not None and 1 <= len(found[1]) <= most
 
 
-def _put_back(asked: Bench, place: Place, words: Vocabulary, missing: Any, join: Join, most: int) -> Iterable[Edit]:
-    found = product(asked, words, missing)
-    if found is not None and 1 <= len(found[1]) <= most and not (join is _times and _cancels(place.node, found[1])):
-        yield Edit(kind="put back", path=place.path, new=join(place.node, *found))
-
-
-def _cancels(node: Node, used: Words) -> bool:
+def _cancels(nodes: Mapping[Path, Node], path: Path, used: Words) -> bool:
     # R*R times sin(phi)/R puts nothing back: it takes an R away
-    above = {ast.dump(f) for f in _factors(node, above=True)}
-    below = {ast.dump(f) for f in _factors(node, above=False)}
-    return any(ast.dump(word) in (below if exponent > 0 else above) for word, exponent in used)
+    top, above = path, True
+    while top and is_operation(nodes[top[:-1]], ast.Mult, ast.Div):
+        above ^= top[-1] == "right" and is_operation(nodes[top[:-1]], ast.Div)
+        top = top[:-1]
+    factors = {a: {ast.dump(f) for f in _factors(nodes[top], a)} for a in (True, False)}
+    return any(ast.dump(word) in factors[(exponent < 0) == above] for word, exponent in used)
 
 
 def _factors(node: Node, above: bool) -> Iterator[Node]:
