@@ -1,11 +1,12 @@
 """C text of a program: one body for each kernel, and loops of that body over points or lanes.
 
-    body      f_0(k, s, x0, x1, .., *y0, ..)   one instance at one point; constants k[j * s]
+    body      f_0(k0, .., x0, .., *y0, ..)     one instance at one point: constants, inputs, results
     rows      f_rows8(k, x, y)                 8 lanes; row i of x holds input i of all lanes; constants per lane
     block     f_block(m, k, x, y)              m points; x[i] and y[i] point to columns
     stage     f_stage(m, k, state, stage, ..)  m lanes; some inputs are the same in all of them
 
-No value of a parameter is in the text: constants are read from a table.
+No value of a parameter is in the text: constants are read from a table, before the loop where all points share them.
+Inside it a compiler moves the reading into branches, which then cannot become vector code.
 """
 
 from collections.abc import Callable, Container
@@ -56,8 +57,7 @@ def body(kernel: Kernel, name: str) -> str:
     """
     count = len(kernel.inputs[0])
     arguments = [
-        "const double *restrict k",
-        "const long s",
+        *(f"const double k{i}" for i in range(len(kernel.constants[0]))),
         *(f"const double x{i}" for i in range(count)),
         *(f"double *restrict y{i}" for i in range(len(kernel.results))),
     ]
@@ -85,7 +85,7 @@ def _value(kernel: Kernel, names: list[str], op: str, args: tuple) -> tuple[str,
         case "literal":
             return str(dialects.literal(args[0])), False
         case "constant":
-            return f"k[{args[0]} * s]", False
+            return f"k{args[0]}", False
         case "sin" | "cos":
             return f"{op[0]}{args[0]}", False
     kind, value = kernel.nodes[args[-1]][0], kernel.nodes[args[-1]][1]
@@ -111,8 +111,8 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
         C function `<name>_rows<lanes>(k, x, y)` with x[input * lanes + lane]
     """
     head = f"MS_INLINE void {name}_rows{lanes}(const double *restrict k, const double *restrict x, double *restrict y)"
-    lines = [f"enum {{ m = {lanes}, s = {lanes}, move = 1 }};"]
-    lines += _loops(kernels, name, lambda i: f"x + {i} * m", lambda i: f"y + {i} * m")
+    lines = [f"enum {{ m = {lanes} }};"]
+    lines += _loops(kernels, name, (lambda i: f"x + {i} * m", lambda i: f"y + {i} * m"), lanes)
     return _function(head, lines)
 
 
@@ -132,9 +132,7 @@ def block(kernels: tuple[Kernel, ...], name: str) -> str:
         C function `<name>_block(m, k, x, y)`
     """
     head = f"static void {name}_block(const long m, const double *restrict k, const double **x, double **y)"
-    lines = ["enum { s = 1, move = 0 };"]
-    lines += _loops(kernels, name, lambda i: f"x[{i}]", lambda i: f"y[{i}]")
-    return _function(head, lines)
+    return _function(head, _loops(kernels, name, (lambda i: f"x[{i}]", lambda i: f"y[{i}]")))
 
 
 def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
@@ -173,34 +171,35 @@ def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
         return f"next + {i} * MS_W" if i < states else f"record + {i - states} * lanes"
 
     common = range(states, states + stages)
-    lines = ["enum { s = 1, move = 0 };", _loop(kernel, f"{name}_0", source, target, common)]
-    return _function(head, lines)
+    return _function(head, [_loop(kernel, f"{name}_0", (source, target), common=common)])
 
 
-def _loops(kernels: tuple[Kernel, ...], name: str, source: Place, target: Place) -> list[str]:
+def _loops(kernels: tuple[Kernel, ...], name: str, places: tuple[Place, Place], lanes: int = 1) -> list[str]:
     lines = []
     for number, kernel in enumerate(kernels):
-        lines.append(_loop(kernel, f"{name}_{number}", source, target))
+        lines.append(_loop(kernel, f"{name}_{number}", places, lanes))
         if number < len(kernels) - 1:
-            lines.append(f"k += {len(kernel.constants[0]) * len(kernel.inputs)} * s;")
+            lines.append(f"k += {len(kernel.constants[0]) * len(kernel.inputs) * lanes};")
     return lines
 
 
-def _loop(kernel: Kernel, name: str, source: Place, target: Place, common: Container[int] = ()) -> str:
-    single = len(kernel.inputs) == 1
-    inputs = (
-        [str(i) for i in kernel.inputs[0]] if single else [f"{name}_in[i][{j}]" for j in range(len(kernel.inputs[0]))]
-    )
-    outputs = (
-        [str(o) for o in kernel.outputs[0]] if single else [f"{name}_out[i][{j}]" for j in range(len(kernel.results))]
-    )
-    constants = "k" if single else f"k + i * {len(kernel.constants[0])} * s"
-    lines = [f"const double *restrict x{j} = {source(i)};" for j, i in enumerate(inputs)]
-    lines += [f"double *restrict y{j} = {target(o)};" for j, o in enumerate(outputs)]
-    lines.append(f"const double *restrict c = {constants};")
-    points = [f"x{j}[0]" if i in common else f"x{j}[p]" for j, i in enumerate(kernel.inputs[0])]
+def _loop(kernel: Kernel, name: str, places: tuple[Place, Place], lanes: int = 1, common: Container[int] = ()) -> str:
+    """Loop of a body over m points, for every instance; inputs in `common` are the same at all of them."""
+    single, count = len(kernel.inputs) == 1, len(kernel.constants[0])
+    inputs = [str(i) if single else f"{name}_in[i][{j}]" for j, i in enumerate(kernel.inputs[0])]
+    outputs = [str(o) if single else f"{name}_out[i][{j}]" for j, o in enumerate(kernel.outputs[0])]
+    same = [i in common for i in kernel.inputs[0]]
+    lines = [f"const double *restrict c = k{'' if single else f' + i * {count * lanes}'};"] if count else []
+    lines += [f"const double k{j} = c[{j}];" for j in range(count) if lanes == 1]
+    for j, i in enumerate(inputs):
+        place = places[0](i)
+        # not const: gcc 12 has no vector type for a conditional load of a const double
+        lines.append(f"const double x{j} = *({place});" if same[j] else f"double *restrict x{j} = (double *)({place});")
+    lines += [f"double *restrict y{j} = {places[1](o)};" for j, o in enumerate(outputs)]
+    points = [f"k{j}" if lanes == 1 else f"c[{j * lanes} + p]" for j in range(count)]
+    points += [f"x{j}" if same[j] else f"x{j}[p]" for j in range(len(inputs))]
     points += [f"y{j} + p" for j in range(len(outputs))]
-    lines += ["MS_LANES", "for (long p = 0; p < m; p++)", f"    {name}({', '.join(['c + move * p', 's', *points])});"]
+    lines += ["MS_LANES", "for (long p = 0; p < m; p++)", f"    {name}({', '.join(points)});"]
     head = "{" if single else f"for (int i = 0; i < {len(kernel.inputs)}; i++) {{"
     return "\n    ".join([head, *("    " + line for line in lines), "}"])
 

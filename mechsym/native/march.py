@@ -2,6 +2,7 @@
 
 import ctypes
 import logging
+from collections.abc import Callable
 
 import casadi
 import numpy as np
@@ -15,10 +16,11 @@ from mechsym.native.source import Program, header, preamble, program
 _LOG = logging.getLogger("mechsym.native")
 
 
-def march(
-    step: casadi.Function, start: np.ndarray, stages: np.ndarray, lanes: np.ndarray, mode: str = "fast"
-) -> tuple[np.ndarray, np.ndarray]:
-    r"""March all lanes through all stages.
+March = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def marcher(step: casadi.Function, mode: str = "fast") -> March:
+    r"""A function that marches lanes through stages.
 
     .. math:: x_{k+1} = f(x_k, s_k, z), \qquad r_k = g(x_k, s_k, z)
 
@@ -26,47 +28,64 @@ def march(
     ----------
     step : casadi.Function
         (state, stage, lane) -> state, or state and record
-    start : ndarray, shape (states, n)
-        State of each lane at the start [SI]
-    stages : ndarray, shape (k, values)
-        Values of each stage, the same for all lanes [SI]
-    lanes : ndarray, shape (values, n)
-        Values of each lane, the same in all stages [SI]
     mode : str
         `fast` or `strict`
 
     Returns
     -------
-    state : ndarray, shape (states, n)
-        After the last stage [SI]
-    record : ndarray, shape (k, records, n)
-        Recorded values of every stage [SI]
+    march : callable
+        start (states, n), stages (k, values), lanes (values, n) -> state after the last stage (states, n) and what
+        every stage recorded (k, records, n). Stage values are the same in all lanes, lane values in all stages; the
+        callable raises BadInput for arrays that do not fit
 
     Raises
     ------
     BadInput
-        Arrays that do not fit the function
+        The function is no step
     """
-    sizes = _sizes(step)
-    state = np.array(start, dtype=float, order="C")
-    stages, lanes = (np.ascontiguousarray(a, dtype=float) for a in (stages, lanes))
-    if state.ndim != 2 or (len(state), stages.shape[1], len(lanes)) != sizes or lanes.shape[1] != state.shape[1]:
-        raise BadInput(
-            f"{step.name()} takes {sizes[0]} states, {sizes[1]} stage values and {sizes[2]} lane values; start has "
-            f"shape {state.shape}, stages {stages.shape}, lanes {lanes.shape}"
-        )
-    found = program(step, mode)
-    record = np.empty((len(stages), len(found.tape.outputs) - sizes[0], state.shape[1]))
+    sizes, found = _sizes(step), program(step, mode)
     try:
-        loaded = library.load(text(found, sizes), mode)
+        advance = _compiled(found, sizes, mode)
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
-        _numpy(found, state, stages, lanes, record)
-    else:
-        constants = constant_table((whole(found.tape),))
-        places = [a.ctypes.data for a in (constants, stages, lanes, state, record)]
-        loaded.ms_march(ctypes.c_long(len(stages)), ctypes.c_long(state.shape[1]), *map(ctypes.c_void_p, places))
-    return state, record
+        advance = _interpreted(found)
+
+    def march(start: np.ndarray, stages: np.ndarray, lanes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        state = np.array(start, dtype=float, order="C")
+        stages, lanes = (np.ascontiguousarray(a, dtype=float) for a in (stages, lanes))
+        if state.ndim != 2 or (len(state), stages.shape[1], len(lanes)) != sizes or lanes.shape[1:] != state.shape[1:]:
+            raise BadInput(
+                f"{step.name()} takes {sizes[0]} states, {sizes[1]} stage values and {sizes[2]} lane values; start has "
+                f"shape {state.shape}, stages {stages.shape}, lanes {lanes.shape}"
+            )
+        record = np.empty((len(stages), len(found.tape.outputs) - sizes[0], state.shape[1]))
+        advance(state, stages, lanes, record)
+        return state, record
+
+    return march
+
+
+def _compiled(found: Program, sizes: tuple[int, int, int], mode: str) -> Callable[..., None]:
+    loaded, constants = library.load(text(found, sizes), mode), constant_table((whole(found.tape),))
+
+    def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
+        places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, stages, lanes, state, record)]
+        loaded.ms_march(ctypes.c_long(len(stages)), ctypes.c_long(state.shape[1]), *places)
+
+    return advance
+
+
+def _interpreted(found: Program) -> Callable[..., None]:
+    run = fallback.numpy_function(found.tape)
+
+    def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
+        following = np.empty_like(state)
+        with np.errstate(all="ignore"):
+            for values, kept in zip(stages, record, strict=True):
+                run([*state, *values, *lanes], [*following, *kept])
+                state[:] = following
+
+    return advance
 
 
 def text(found: Program, sizes: tuple[int, int, int]) -> str:
@@ -106,12 +125,3 @@ def _sizes(step: casadi.Function) -> tuple[int, int, int]:
             f"{step.name()} is no step: it must take (state, stage, lane) and return (state) or (state, record)"
         )
     return step.numel_in(0), step.numel_in(1), step.numel_in(2)
-
-
-def _numpy(found: Program, state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
-    run = fallback.numpy_function(found.tape)
-    following = np.empty_like(state)
-    with np.errstate(all="ignore"):
-        for values, kept in zip(stages, record, strict=True):
-            run([*state, *values, *lanes], [*following, *kept])
-            state[:] = following

@@ -6,7 +6,7 @@ import pytest
 
 from mechsym.errors import BadInput
 from mechsym.native import library
-from mechsym.native.march import march
+from mechsym.native.march import marcher
 
 
 def step(records: bool = True) -> ca.Function:
@@ -40,7 +40,7 @@ def test_against_a_plain_loop(route, lanes, monkeypatch, tmp_path):
         monkeypatch.setenv("CC", "no-such-compiler")
         library.load.cache_clear()
     given = data(lanes)
-    state, record = march(step(), *given, "fast" if route == "numpy" else route)
+    state, record = marcher(step(), "fast" if route == "numpy" else route)(*given)
     wanted, wanted_record = by_hand(*given)
     np.testing.assert_allclose(state, wanted, rtol=1e-12)
     np.testing.assert_allclose(record, wanted_record, rtol=1e-12)
@@ -49,7 +49,7 @@ def test_against_a_plain_loop(route, lanes, monkeypatch, tmp_path):
 def test_start_is_left_alone_and_records_are_optional():
     start, stages, lanes = data(5)
     kept = start.copy()
-    state, record = march(step(records=False), start, stages, lanes)
+    state, record = marcher(step(records=False))(start, stages, lanes)
     np.testing.assert_array_equal(start, kept)
     assert record.shape == (40, 0, 5)
     np.testing.assert_allclose(state, by_hand(start, stages, lanes)[0], rtol=1e-12)
@@ -58,6 +58,6 @@ def test_start_is_left_alone_and_records_are_optional():
 def test_shapes_are_checked():
     start, stages, lanes = data(5)
     with pytest.raises(BadInput, match="takes 2 states, 2 stage values and 1 lane values"):
-        march(step(), start[:1], stages, lanes)
+        marcher(step())(start[:1], stages, lanes)
     with pytest.raises(BadInput, match="is no step"):
-        march(ca.Function("f", [ca.SX.sym("x")], [1]), start, stages, lanes)
+        marcher(ca.Function("f", [ca.SX.sym("x")], [1]))

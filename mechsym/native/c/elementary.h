@@ -157,10 +157,12 @@ MS_INLINE double ms_asin(double x)
 /* A NaN gives way to the other number, as fmin and fmax of C have it. */
 MS_INLINE double ms_fmin(double a, double b)
 {
-    return (a < b) | (b != b) ? a : b;
+    const double smaller = a < b ? a : b;
+    return b != b ? a : smaller;
 }
 
 MS_INLINE double ms_fmax(double a, double b)
 {
-    return (a > b) | (b != b) ? a : b;
+    const double larger = a > b ? a : b;
+    return b != b ? a : larger;
 }
