@@ -60,7 +60,7 @@ REFUSED = [
     ("sin(x=r1)", "cannot be read"), ("sin(*r1)", "not arithmetic"), ("(x := 3)", "quantity alone"),
     ("r1 = r2 = g", "more than one equals sign"), ("r1 + r2 = g", "quantity alone"), ("= r1", "quantity alone"),
     ("x = 0", "right side is 0"), ("r1 =", "empty"), ("9" * 5000, "cannot be read"), ("r" * 7000, "at most 6000"),
-    ("(" * 90 + "r1" + ")" * 89, "cannot be read"), ("-" * 3000 + "r1", "nested too deep"), ("1+" * 2500 + "1",
+    ("(" * 90 + "r1" + ")" * 89, "cannot be read"), ("-" * 3000 + "r1", "nested"), ("1+" * 2500 + "1",
     "nested more"),
     ("2**" * 1500 + "2", "nested"), (r"\sin\varphi^2", "does the power belong to the argument"), (r"r_1/g m_{2}",
     "where the divisor ends"),
