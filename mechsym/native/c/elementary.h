@@ -3,6 +3,7 @@
  * gcc turns sin(x) and cos(x) of one angle into a call that blocks vectorisation; these do not. Largest error against
  * 60 digits (tests/native/test_elementary.py checks these bounds): sine and cosine 2 ulp for |x| < 1e8 and 3e-16 up to
  * 1e10, tan 3 ulp, exp and log 1.5 ulp, pow 1.5 ulp where |y log x| < 30 and 16 ulp beyond, asin 3 ulp.
+ * Infinite exponents, and powers of what is not a number, give what is not a number.
  * Where digits cancel the subtraction is inside an fma, which no compiler option may reorder.
  */
 #include <math.h>
@@ -131,11 +132,13 @@ MS_INLINE double ms_pow(double x, double y)
     const double rest = fma(y, low, fma(y, high, -product));
     const double r = fma(-n, 0x1.a39ef35793c76p-33, fma(-n, 0x1.62e42feep-1, product)) + rest;
     const double inside = ms_exp_scaled(n, clamped == full ? r : 0.0);
-    const double size = (a == 0.0) | (a == INFINITY) ? ((a == 0.0) == (y > 0.0) ? 0.0 : INFINITY) : inside;
-    const double whole = rint(y), odd = whole == y ? fma(-2.0, floor(0.5 * whole), whole) : 0.0;
-    const double value = odd == 1.0 ? copysign(size, x) : size;
-    const double real = (x < 0.0) & (whole != y) ? NAN : value;
-    return (y == 0.0) | (x == 1.0) ? 1.0 : (x != x) | (y != y) ? NAN : real;
+    /* what depends on the exponent alone is a number, not a condition: it may be the same for all points of a loop */
+    const double at_zero = y > 0.0 ? 0.0 : y < 0.0 ? INFINITY : 1.0, at_infinity = 1.0 / at_zero;
+    const double whole = rint(y), broken = whole == y ? 1.0 : NAN;
+    const double odd = fma(-2.0, floor(0.5 * whole), whole) == 1.0 ? broken : 0.0, flip = odd == 1.0 ? -1.0 : 1.0;
+    const double usual = a == 0.0 ? at_zero : inside, size = a == INFINITY ? at_infinity : usual;
+    const double value = copysign(1.0, x) < 0.0 ? flip * size : size, real = x < 0.0 ? broken * value : value;
+    return x != x ? x : real;
 }
 
 /* fdlibm's rational function on [0, 1/2]; beyond it asin x = pi/2 - 2 asin sqrt((1 - x)/2). */
