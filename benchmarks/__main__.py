@@ -1,51 +1,46 @@
-"""`python -m benchmarks [P2 P5 ...]`: run problems, print times and ratios of this run, write benchmarks.json."""
+"""python -m benchmarks [--out FOLDER] [P1 P2 P3 P4 P5]"""
 
-import json
-import platform
+import importlib
 import sys
-from dataclasses import asdict
-from importlib import import_module
-from importlib.metadata import version
-from itertools import groupby
+import time
 from pathlib import Path
 
-from benchmarks.measure import Row
+from benchmarks.report import table, write
 
-PROBLEMS = {"P2": "p2_evaluate", "P3": "p3_simulate", "P4": "p4_optimise", "P5": "p5_cycle"}
+_PROBLEMS = {"P1": "p1_derive", "P2": "p2_evaluate", "P3": "p3_simulate", "P4": "p4_optimise", "P5": "p5_cycle"}
 
 
-def main(chosen: list[str]) -> int:
-    unknown = [name for name in chosen if name not in PROBLEMS]
+def main(arguments: list[str]) -> int:
+    """Run the problems that are named, or all.
+
+    Parameters
+    ----------
+    arguments : list of str
+        Names of problems, and perhaps `--out FOLDER`
+
+    Returns
+    -------
+    status : int
+        0, or 2 for a name that is not known
+    """
+    folder = Path(__file__).parent
+    if "--out" in arguments[:-1]:
+        place = arguments.index("--out")
+        folder = Path(arguments[place + 1])
+        arguments = arguments[:place] + arguments[place + 2 :]
+    unknown = [a for a in arguments if a not in _PROBLEMS]
     if unknown:
-        print(f"no problem is called {', '.join(unknown)}; there are {', '.join(PROBLEMS)}", file=sys.stderr)
+        print(f"no problem {', '.join(unknown)}; there are {', '.join(_PROBLEMS)}", file=sys.stderr)
         return 2
-    found: list[Row] = []
-    skipped: list[str] = []
-    for name in chosen or PROBLEMS:
-        rows = import_module(f"benchmarks.{PROBLEMS[name]}").rows(skipped)
-        print("\n".join(table(rows)), flush=True)
-        found += rows
-    for line in sorted(set(skipped)):
-        print(f"skipped: {line}")
-    packages = {p: version(p) for p in ("casadi", "numpy", "scipy", "sympy")}
-    record = {"processor": platform.processor() or platform.machine(), "python": platform.python_version(), **packages}
-    Path("out").mkdir(exist_ok=True)
-    Path("out/benchmarks.json").write_text(json.dumps({**record, "rows": [asdict(r) for r in found]}, indent=1) + "\n")
-    print("wrote out/benchmarks.json")
+    begin, skipped, rows = time.perf_counter(), [], []
+    for name in arguments or _PROBLEMS:
+        print(f"{name} ..", file=sys.stderr, flush=True)
+        rows += importlib.import_module(f"benchmarks.{_PROBLEMS[name]}").rows(skipped)
+    seconds = time.perf_counter() - begin
+    print(table(rows, skipped))
+    if not arguments:
+        print(f"\n{seconds:.0f} s; wrote {', '.join(map(str, write(folder, rows, skipped, seconds)))}")
     return 0
-
-
-def table(rows: list[Row]) -> list[str]:
-    """One line a route, with its time and how often that is of the fastest route of the same case."""
-    lines = []
-    for (problem, case), group in groupby(rows, key=lambda r: (r.problem, r.case)):
-        routes = list(group)
-        fastest = min(r.median_s for r in routes)
-        lines.append(f"{problem} {case}")
-        for r in routes:
-            error = "" if r.error is None else f"   error {r.error:.1e}"
-            lines.append(f"  {r.route:44s} {r.median_s * 1e9:14.1f} ns {r.median_s / fastest:10.2f} x{error}")
-    return lines
 
 
 if __name__ == "__main__":

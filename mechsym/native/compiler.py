@@ -18,7 +18,9 @@ MODES = {
     "strict": ("-ffp-contract=off",),
     "fast": ("-ffp-contract=fast",),
 }
-_COMMON = ("-std=gnu11", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-fno-math-errno", "-fno-trapping-math")
+_COMMON = ("-std=gnu11", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-fno-math-errno", "-fno-trapping-math",
+           # the few points after the last full vector are not worth a second vector loop to compile
+           "--param", "vect-epilogues-nomask=0")  # fmt: skip
 
 
 class NoCompiler(Exception):

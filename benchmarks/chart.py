@@ -1,0 +1,69 @@
+"""One picture of a run: every route of every problem as a dot on a logarithmic axis of time."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.measure import Row
+
+# panel: (title, problem, case, unit, factor)
+_PANELS = (
+    ("P1 derive 12 throws", "P1 derive + callable", "N = 12", "ms", 1e3),
+    ("P2 batch, 1 coordinate", "P2 batch", "1-DOF", "ns a point", 1e9),
+    ("P2 batch, 7 coordinates", "P2 batch", "N = 6", "ns a point", 1e9),
+    ("P2 one call from Python", "P2 scalar", "1-DOF", "ns", 1e9),
+    ("P3 99 s at 1e-8", "P3 single run", "1e-08", "ms", 1e3),
+    ("P3 sixteen runs, each", "P3 ensemble of 16", "1e-08", "ms", 1e3),
+    ("P4 optimal torque", "P4 repeated solve", "200 nodes", "ms", 1e3),
+    ("P5 cycle at 800 speeds", "P5 cycle map", "800 speeds", "ms", 1e3),
+)
+_OURS, _HAND, _OTHERS = "#1a6fb0", "#222222", "#b0b0b0"
+
+
+def chart(path: Path, rows: Sequence[Row]) -> Path:
+    """Draw the chart.
+
+    Parameters
+    ----------
+    path : Path
+        SVG file
+    rows : sequence of Row
+        Measured routes
+
+    Returns
+    -------
+    path : Path
+        The same
+    """
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    panels = [p for p in _PANELS if any((r.problem, r.case) == p[1:3] for r in rows)]
+    with plt.rc_context({"svg.hashsalt": "mechsym", "font.size": 8}):
+        figure, axes = plt.subplots(-(-len(panels) // 2), 2, figsize=(9, 1.5 * len(panels) / 2 + 1), squeeze=False)
+        for axis in axes.ravel()[len(panels) :]:
+            axis.set_visible(False)
+        for axis, (title, problem, case, unit, factor) in zip(axes.ravel(), panels, strict=False):
+            found = sorted((r for r in rows if (r.problem, r.case) == (problem, case)), key=lambda r: -r.median_s)
+            values = [r.median_s * factor for r in found]
+            colours = [_colour(r.route) for r in found]
+            axis.barh(range(len(found)), values, color=colours, height=0.65)
+            axis.set_yticks(range(len(found)), [r.route for r in found])
+            axis.set_xscale("log")
+            axis.set_xlim(min(values) / 2, max(values) * 4)
+            for i, value in enumerate(values):
+                axis.text(value * 1.08, i, f"{value:.3g}", va="center")
+            axis.set_title(f"{title} [{unit}]", loc="left", fontsize=9)
+            axis.spines[["top", "right"]].set_visible(False)
+        figure.tight_layout()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path, metadata={"Date": None})
+        plt.close(figure)
+    return path
+
+
+def _colour(route: str) -> str:
+    if route.startswith("mechsym"):
+        return _OURS
+    return _HAND if route.startswith("hand") else _OTHERS
