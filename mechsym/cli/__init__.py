@@ -23,6 +23,7 @@ COMMANDS = {
     "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
     "size": "mechsym.cli.size:size",
+    "sweep": "mechsym.cli.sweep:sweep",
 }
 
 
