@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mechsym.mechanism import Mechanism
+from mechsym.native import compiled
 from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Energy
 
@@ -29,8 +30,7 @@ def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.nda
     """
     if "energy" not in mechanism.functions:
         return None
-    values = mechanism.functions["energy"](*(row[None, :] for row in (*q, *u)))
-    kinetic, potential = (np.broadcast_to(np.asarray(v).ravel(), (q.shape[1],)) for v in values)
+    kinetic, potential = compiled(mechanism.functions["energy"]).batch(*q, *u)
     return kinetic, potential
 
 
