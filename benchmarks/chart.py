@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from benchmarks.measure import Row
 
@@ -41,26 +42,40 @@ def chart(path: Path, rows: Sequence[Row]) -> Path:
 
     panels = [p for p in _PANELS if any((r.problem, r.case) == p[1:3] for r in rows)]
     with plt.rc_context({"svg.hashsalt": "mechsym", "font.size": 8}):
-        figure, axes = plt.subplots(-(-len(panels) // 2), 2, figsize=(9, 1.5 * len(panels) / 2 + 1), squeeze=False)
+        figure, axes = plt.subplots(-(-len(panels) // 2), 2, figsize=(9, 1.45 * len(panels) / 2 + 1), squeeze=False)
         for axis in axes.ravel()[len(panels) :]:
             axis.set_visible(False)
         for axis, (title, problem, case, unit, factor) in zip(axes.ravel(), panels, strict=False):
-            found = sorted((r for r in rows if (r.problem, r.case) == (problem, case)), key=lambda r: -r.median_s)
-            values = [r.median_s * factor for r in found]
-            colours = [_colour(r.route) for r in found]
-            axis.barh(range(len(found)), values, color=colours, height=0.65)
-            axis.set_yticks(range(len(found)), [r.route for r in found])
-            axis.set_xscale("log")
-            axis.set_xlim(min(values) / 2, max(values) * 4)
-            for i, value in enumerate(values):
-                axis.text(value * 1.08, i, f"{value:.3g}", va="center")
-            axis.set_title(f"{title} [{unit}]", loc="left", fontsize=9)
-            axis.spines[["top", "right"]].set_visible(False)
+            found = [r for r in rows if (r.problem, r.case) == (problem, case)]
+            _panel(axis, f"{title} [{unit}]", {r.route: r.median_s * factor for r in found})
         figure.tight_layout()
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)
     return path
+
+
+def _panel(axis: Any, title: str, times: dict[str, float]) -> None:
+    """Dots from slow to fast; their times stand beside them."""
+    names = sorted(times, key=lambda name: -times[name])
+    low, high = min(times.values()), max(times.values())
+    axis.set_xscale("log")
+    axis.set_xlim(low / 1.5, max(high * (high / low) ** 0.3, low * 4))
+    for i, name in enumerate(names):
+        axis.plot([low / 1.5, times[name]], [i, i], color=_colour(name), linewidth=1.2)
+        axis.plot(times[name], i, "o", color=_colour(name), markersize=5)
+        axis.annotate(_number(times[name]), (times[name], i), (6, 0), textcoords="offset points", va="center")
+    axis.set_yticks(range(len(names)), names)
+    axis.set_ylim(-0.6, len(names) - 0.4)
+    axis.xaxis.set_major_formatter("")
+    axis.xaxis.set_minor_formatter("")
+    axis.set_title(title, loc="left", fontsize=9)
+    axis.spines[["top", "right", "bottom"]].set_visible(False)
+    axis.tick_params(axis="x", which="both", length=0)
+
+
+def _number(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
 
 
 def _colour(route: str) -> str:
