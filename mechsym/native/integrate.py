@@ -73,9 +73,9 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
         What to run
     method : str
         `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
-        all lanes, for equations without kinks. `auto`: `collocation` for few runs of analytic equations without
-        tables, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
-        `first_step`, for conservative runs without kinks and surfaces
+        all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations,
+        else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most `first_step`, for conservative
+        runs without kinks and surfaces
     mode : str
         `fast` or `strict`
 
@@ -125,8 +125,8 @@ def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
         case "dop853":
             return lanes, lanes
         case "collocation":
-            if runs.kinks:
-                raise BadInput("method 'collocation' knows no kinks; use dop853")
+            if runs.kinks or runs.tables:
+                raise BadInput("method 'collocation' knows no kinks and tables; use dop853")
             return integrators.STAGES, 1
         case "gauss":
             _check_gauss(batch)

@@ -305,7 +305,7 @@ def test_smooth_equations_are_collocated_and_others_are_not():
 
 def test_collocation_needs_smooth_equations():
     kinks = Kinks(state=0, angles=np.array([0.0]), period=1.0)
-    with pytest.raises(BadInput, match="knows no kinks; use dop853"):
+    with pytest.raises(BadInput, match="knows no kinks and tables; use dop853"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0]), kinks=kinks), "collocation")
 
 

@@ -18,7 +18,6 @@ typedef struct {
     double y[MS_N], lost[MS_N], next[MS_N], rest[MS_N], scale[MS_N];
     double slope[MS_OTHERS][MS_ANGLES];
     double t, h, origin, length;
-    ms_window window;
     long segment, slopes_age;
 } ms_work;
 
@@ -68,6 +67,11 @@ static void ms_predict(ms_work *w, double h)
     w->x[0] = w->t + h * *(const ms_eight *)ms_nodes;
 }
 
+static __attribute__((noinline)) void ms_evaluate(const ms_run *run, const ms_work *w, ms_eight *rate)
+{
+    MS_RATES(run->constants, (const double *)w->x, (double *)rate);
+}
+
 /* Differences of the rates over the angles, several angles in the lanes of one evaluation. */
 static void ms_take_slopes(const ms_run *run, ms_work *w)
 {
@@ -80,7 +84,7 @@ static void ms_take_slopes(const ms_run *run, ms_work *w)
             w->x[1 + i] = ms_all(w->y[i]);
         for (int a = first, l = 1; a < last; a++, l++)
             ((double *)&w->x[1 + ms_angle[a]])[l] += size[l] = 1e-7 * ms_fmax(1.0, fabs(w->y[ms_angle[a]]));
-        ms_rates(run, &w->window, (ms_row *)w->x, (ms_row *)rate);
+        ms_evaluate(run, w, rate);
         for (int o = 0; o < ms_others; o++)
             for (int a = first, l = 1; a < last; a++, l++) {
                 const double *f = (const double *)&rate[ms_other[o]];
@@ -100,7 +104,7 @@ static double ms_sweep(const ms_run *run, ms_work *w, double h)
                                                      + h * h * ms_weigh(ms_twice, &w->k[ms_speed[a]]));
     MS_UNROLL for (int o = 0; o < ms_others; o++)
         w->x[1 + ms_other[o]] = w->y[ms_other[o]] + h * ms_weigh(ms_once, &w->k[ms_other[o]]);
-    ms_rates(run, &w->window, (ms_row *)w->x, (ms_row *)w->k);
+    MS_RATES(run->constants, (double *)w->x, (double *)w->k);
     MS_UNROLL for (int o = 0; o < ms_others; o++) {
         change[ms_other[o]] = w->k[ms_other[o]] - change[ms_other[o]];
         most = ms_larger(most, change[ms_other[o]] * w->scale[ms_other[o]]);

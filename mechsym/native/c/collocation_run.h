@@ -77,7 +77,7 @@ static void ms_restart(const ms_run *run, ms_work *w)
     w->x[0] = ms_all(w->t);
     for (int i = 0; i < MS_N; i++)
         w->x[1 + i] = ms_all(w->y[i]);
-    ms_rates(run, &w->window, (ms_row *)w->x, (ms_row *)rate);
+    ms_evaluate(run, w, rate);
     for (int i = 0; i < MS_N; i++) {
         const double scale = 1.0 / (run->atol + run->rtol * fabs(w->y[i])), f = rate[i][0];
         w->series[i] = (ms_eight){f};
