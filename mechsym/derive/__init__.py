@@ -6,7 +6,7 @@ tape.py       named intermediates and their named derivatives
 rates.py      velocities and accelerations of named expressions
 lagrange.py   mass matrix, bias, generalised forces, energies, reactions
 textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
-identity.py   is an expression zero? numbers at 50 digits and a polynomial certificate
+identity.py   is an expression zero? numbers at 50 digits refute, a polynomial certificate proves
 printer.py    sympy -> CasADi text and expressions
 emit.py       one readable module of Python per mechanism
 listing.py    the equations as LaTeX and MathML for reports
