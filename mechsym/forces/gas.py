@@ -48,6 +48,8 @@ class Gas:
         Largest over smallest volume of one cylinder [-]
     facts : tuple of str
         What was assumed, one sentence each
+    kinks : tuple of float
+        Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
     """
 
     absolute: Callable[[Any], Any]
@@ -58,6 +60,7 @@ class Gas:
     stroke: float
     compression_ratio: float
     facts: tuple[str, ...]
+    kinks: tuple[float, ...] = ()
 
 
 def gas(case: Case) -> Gas | None:
@@ -96,6 +99,7 @@ def gas(case: Case) -> Gas | None:
         stroke=cylinder.stroke,
         compression_ratio=cylinder.compression_ratio,
         facts=pressure.facts,
+        kinks=pressure.kinks,
     )
 
 
@@ -224,7 +228,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
     Returns
     -------
     gas : Gas
-        Over the motion `other`
+        Over the motion `other`, whose kinks are not looked for
     """
 
     # travel is even in the angle, so one cosine is a smooth function of the other: a polynomial found once
@@ -236,7 +240,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
         return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
-    return dataclasses.replace(found, absolute=absolute)
+    return dataclasses.replace(found, absolute=absolute, kinks=())
 
 
 def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:
