@@ -16,7 +16,8 @@ from numpy.polynomial import Chebyshev
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.engine.cylinder import piston_area
-from mechsym.engine.kinds import back_pressure, cylinder_pressure
+from mechsym.engine.diagram import Diagram
+from mechsym.engine.kinds import back_pressure, cylinder_pressure, with_diagram
 from mechsym.engine.pressure import periodic
 from mechsym.engine.schmidt import Schmidt, schmidt_pressure
 from mechsym.engine.spark_ignition import SparkIgnition
@@ -101,6 +102,39 @@ def gas(case: Case) -> Gas | None:
         facts=pressure.facts,
         kinks=pressure.kinks,
     )
+
+
+def measured(case: Case, file: str) -> Case:
+    """The case with a measured diagram in place of its cycle.
+
+    Parameters
+    ----------
+    case : Case
+        With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
+    file : str
+        CSV file
+
+    Returns
+    -------
+    case : Case
+        For `gas`
+
+    Raises
+    ------
+    BadInput
+        A cycle whose cylinder is not known
+    """
+    cycle = case.need("cycle")
+    if isinstance(cycle, SparkIgnition):
+        room = case.need("chamber")
+        cycle = Diagram(
+            bore=room.bore,
+            compression_ratio=room.compression_ratio,
+            working_cycle="four-stroke",
+            inlet_pressure=cycle.intake_pressure,
+            p_back=room.back_pressure,
+        )
+    return dataclasses.replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)})
 
 
 def _spark(case: Case) -> Gas:
