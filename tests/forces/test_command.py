@@ -163,3 +163,12 @@ def test_a_diagram_that_cannot_be_used_is_refused(name, content, words, tmp_path
     with pytest.raises(BadInput) as refused:
         run(name, "--diagram", str(path))
     assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["zotov-89", "zotov-142"])
+def test_the_engines_of_the_hinge_lose_a_few_per_cent(name):
+    found = json.loads(run(name, "--json").output)["friction"]
+    assert 0.94 < found["mechanical_efficiency"] < 0.98
+    assert sum(found["places"].values()) == pytest.approx(found["power"], rel=1e-12)
+    # the coefficients are small and the shoes carry little: the rings take most, as in large engines
+    assert max(found["places"], key=found["places"].get) == "rings"
