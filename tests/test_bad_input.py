@@ -33,7 +33,7 @@ COMMAND_LINE = [
 OVERRIDES = [
     ("no equals sign", "spring.p0", ["'spring.p0'", "KEY=VALUE"]),
     ("no value", "spring.p0=", ["'spring.p0='", "KEY=VALUE"]),
-    ("ambiguous bare key", "law=coil", ["law", "spring.law or load.law"]),
+    ("ambiguous bare key", "law=coil", ["law", "spring.law or rings.law or load.law"]),
     ("unknown bare key", "borre=0.3", ["borre", "did you mean bore?", "section.key"]),
     ("unknown dotted key", "cycle.boore=0.3", ["cycle.boore", "did you mean 'bore'?"]),
     ("unknown section", "sprng.p0=5e6", ["[sprng]", "did you mean 'spring'?"]),
