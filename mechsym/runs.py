@@ -243,7 +243,8 @@ def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | t
         raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
     turn_time = 2 * math.pi / speed
     # a shaft that takes ten times as long has stopped for every purpose
-    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS  # type: ignore[operator]
+    assert wanted.turns is not None  # the section has one of the two
+    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
 
 
 def _times(t_end: float, step: float, window: float | None) -> tuple[float, ...]:
