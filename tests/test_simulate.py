@@ -15,7 +15,7 @@ from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.phase import Phase, Surface
 from mechsym.simulate.result import write_series
 from mechsym.simulate.scipy_backend import advance
-from mechsym.simulate.summary import last_turn, speed_over, speed_ripple, summary
+from mechsym.simulate.summary import last_period, speed_over, speed_ripple, summary
 
 JUMP = 0.731  # no multiple of any output step
 
@@ -318,7 +318,7 @@ def test_summary_of_a_braked_run():
     speed = speed_over(result, "phi", 0.0)
     assert speed == pytest.approx({"mean": 5.0, "min": 0.0, "max": 10.0}, abs=1e-9)
     # the last turn begins where phi = phi_end - 2 pi, M (t_end - t)^2 / (2 I) = 2 pi
-    assert last_turn(result, "phi") == pytest.approx(7.5 - np.sqrt(4 * np.pi * 3.0 / 4.0), abs=0.011)
+    assert last_period(result, "phi") == pytest.approx(7.5 - np.sqrt(4 * np.pi * 3.0 / 4.0), abs=0.011)
     assert summary(result, ("phi",), 1.0)["event"]["name"] == "stall"
 
 
