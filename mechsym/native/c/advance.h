@@ -11,9 +11,41 @@ static void ms_finish(const ms_run *run, ms_work *w, int l, long status)
     w->step[l] = 0.0;
 }
 
-static double ms_until(const ms_run *run, const ms_work *w, int l)
+/* The held values at the lane's time; returns 0 when all segments are over. */
+static int ms_enter(const ms_run *run, ms_work *w, int l)
 {
-    return run->until[w->segment[l] * MS_L + l];
+    const int more = ms_hold(run, &w->segment[l], w->t[l], w->x, l);
+    w->until[l] = more ? run->until[w->segment[l] * MS_L + l] : INFINITY;
+    return more;
+}
+
+static void ms_look_ahead(const ms_run *run, ms_work *w, int l)
+{
+    w->due[l] = run->sampled[l] < run->times ? run->grid[run->sampled[l] * MS_L + l] : INFINITY;
+}
+
+/* x^(-1/p), p = 2^n, to two hundredths below: enough for a step size, and without four roots in a row. The bits of a
+ * double are nearly its logarithm; one step of Newton's method follows. */
+MS_INLINE double ms_rough_root(double x, int n)
+{
+    const ms_bits one = 0x3ff0000000000000ULL;
+    const double y = ms_from_bits(one + (one >> n) - 0x0000b00000000000ULL - (ms_to_bits(x) >> n)), p = 1 << n;
+    double power = y * y * y * y;
+    for (int i = 2; i < n; i++)
+        power *= power;
+    return y * ((p + 1.0) - x * power) * (1.0 / p);
+}
+
+/* The next step after an error: half the usual gain, for where the error swings within a turn a step that has grown
+ * in its valley is rejected at its peak. */
+MS_INLINE double ms_longer(double step, double error)
+{
+    return step * ms_fmin(6.0, 0.9 * ms_rough_root(error, 4));
+}
+
+MS_INLINE double ms_shorter(double step, double error)
+{
+    return step * (error < INFINITY ? ms_fmax(0.9 * ms_rough_root(error, 3), 1.0 / 3.0) : 0.1);
 }
 
 static int ms_begin(const ms_run *run, ms_work *w)
@@ -29,7 +61,8 @@ static int ms_begin(const ms_run *run, ms_work *w)
         run->met[l] = -1;
         w->active[l] = 1;
         ms_look_around(run, &w->window, l, w->y[run->kink_state][l], 0.0);
-        if (ms_hold(run, &w->segment[l], w->t[l], w->x, l))
+        ms_look_ahead(run, w, l);
+        if (ms_enter(run, w, l))
             count++;
         else
             ms_finish(run, w, l, MS_DONE);
@@ -43,11 +76,16 @@ static int ms_begin(const ms_run *run, ms_work *w)
 
 static void ms_choose_steps(const ms_run *run, ms_work *w)
 {
-    for (int l = 0; l < MS_L; l++) {
+    long stuck = 0;
+    MS_EACH
+    {
+        const double left = w->until[l] - w->t[l], usual = w->h[l] * 1.01 >= left ? left : w->h[l];
+        w->step[l] = !w->active[l] ? 0.0 : w->forced[l] > 0.0 ? w->forced[l] : usual;
+        stuck |= !(w->h[l] > 4e-16 * fabs(w->t[l])) | (run->steps[l] + run->rejected[l] >= run->max_steps);
+    }
+    for (int l = 0; l < MS_L && stuck; l++) {
         if (!w->active[l])
             continue;
-        const double left = ms_until(run, w, l) - w->t[l];
-        w->step[l] = w->forced[l] > 0.0 ? w->forced[l] : w->h[l] * 1.01 >= left ? left : w->h[l];
         if (!(w->h[l] > 4e-16 * fabs(w->t[l])))
             ms_finish(run, w, l, MS_TOO_SMALL);
         else if (run->steps[l] + run->rejected[l] >= run->max_steps)
@@ -91,26 +129,20 @@ static int ms_corrected(const ms_run *run, ms_work *w, int l)
 
 static void ms_reject(const ms_run *run, ms_work *w, int l)
 {
-    const double error = w->error[l], factor = 0.9 / sqrt(sqrt(sqrt(error)));
-    w->h[l] = w->step[l] * (error < INFINITY ? ms_fmax(factor, 1.0 / 3.0) : 0.1);
+    w->h[l] = ms_shorter(w->step[l], w->error[l]);
     w->forced[l] = 0.0;
     w->target[l] = 0;
     run->rejected[l]++;
 }
 
-/* The next wanted time of a lane. */
-static double ms_due(const ms_run *run, int l)
-{
-    return run->sampled[l] < run->times ? run->grid[run->sampled[l] * MS_L + l] : INFINITY;
-}
-
 static void ms_sample(const ms_run *run, ms_work *w, int l, double end)
 {
-    for (; ms_due(run, l) <= end; run->sampled[l]++) {
-        const double u = (ms_due(run, l) - w->t[l]) / w->step[l];
+    for (; w->due[l] <= end; ms_look_ahead(run, w, l)) {
+        const double u = (w->due[l] - w->t[l]) / w->step[l];
         double *to = run->samples + run->sampled[l] * MS_N * MS_L + l;
         for (int i = 0; i < MS_N; i++)
             to[i * MS_L] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
+        run->sampled[l]++;
     }
 }
 
@@ -127,9 +159,8 @@ static void ms_share_kink(const ms_run *run, ms_work *w, int l)
 /* Take a step over. Returns 2 when the lane enters another segment, 1 when it passes a kink, else 0. */
 static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
 {
-    /* half the usual gain: where the error swings within a turn, a step grown for its valley is rejected at its peak */
-    const double proposed = w->step[l] * ms_fmin(6.0, 0.9 / sqrt(sqrt(sqrt(sqrt(w->error[l])))));
-    const int last = end == ms_until(run, w, l), cut = last || w->target[l];
+    const double proposed = ms_longer(w->step[l], w->error[l]);
+    const int last = end == w->until[l], cut = last || w->target[l];
     ms_sample(run, w, l, end);
     ms_share_kink(run, w, l);
     w->t[l] = end;
@@ -149,17 +180,43 @@ static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
     }
     if (target < 0)
         ms_look_around(run, &w->window, l, w->y[run->kink_state][l], w->q[0][run->kink_state][l]);
-    if (last && !ms_hold(run, &w->segment[l], end, w->x, l)) {
+    if (last && !ms_enter(run, w, l)) {
         ms_finish(run, w, l, MS_DONE);
         return 0;
     }
     return last ? 2 : target < 0;
 }
 
-static double ms_end(const ms_run *run, const ms_work *w, int l)
+static double ms_end(const ms_work *w, int l)
 {
-    const double until = ms_until(run, w, l), end = w->t[l] + w->step[l];
+    const double until = w->until[l], end = w->t[l] + w->step[l];
     return w->step[l] == until - w->t[l] || end > until ? until : end;
+}
+
+/* After a try in which no lane meets anything: accept or reject in all lanes at once. Returns 0 if one does. */
+static int ms_settle_plain(const ms_run *run, ms_work *w)
+{
+    long special = run->surfaces | run->kinks;
+    MS_EACH special |= w->active[l] & (ms_fmin(w->due[l], w->until[l]) <= w->t[l] + 1.001 * w->step[l]);
+    if (special)
+        return 0;
+    ms_row taken;
+    MS_EACH
+    {
+        const int good = w->error[l] <= 1.0;
+        const double next = good ? ms_longer(w->step[l], w->error[l]) : ms_shorter(w->step[l], w->error[l]);
+        taken[l] = good ? w->step[l] : 0.0;
+        w->h[l] = w->active[l] ? next : w->h[l];
+        w->t[l] += taken[l];
+        run->steps[l] += w->active[l] & good;
+        run->rejected[l] += w->active[l] & !good;
+    }
+    MS_STATES
+    {
+        w->y[i][l] = taken[l] > 0.0 ? w->next[i][l] : w->y[i][l];
+        w->q[0][i][l] = taken[l] > 0.0 ? w->q[12][i][l] : w->q[0][i][l];
+    }
+    return 1;
 }
 
 /* After a try: reject, force a shorter step, or accept, lane by lane. */
@@ -173,7 +230,7 @@ static void ms_settle(const ms_run *run, ms_work *w)
         if (!w->active[l] || !(w->error[l] <= 1.0))
             continue;
         crosses[l] = !w->target[l] && ms_crossed(run, w, l, 0, &share, &target, &level);
-        dense |= crosses[l] || ms_due(run, l) <= ms_end(run, w, l);
+        dense |= crosses[l] || w->due[l] <= ms_end(w, l);
     }
     if (dense)
         ms_make_dense(run, w);
@@ -189,7 +246,7 @@ static void ms_settle(const ms_run *run, ms_work *w)
             w->tries[l] = 0;
         } else if (!w->target[l] || !ms_corrected(run, w, l)) {
             w->target[l] = crosses[l] ? target : w->target[l];
-            const int entered = ms_accept(run, w, l, ms_end(run, w, l));
+            const int entered = ms_accept(run, w, l, ms_end(w, l));
             fresh[l] = entered == 2;
             guess |= fresh[l];
             again |= entered > 0;
@@ -207,6 +264,8 @@ MS_EXPORT void ms_dop853(const ms_run *run)
     for (int left = ms_begin(run, w); left;) {
         ms_choose_steps(run, w);
         ms_try(run, w);
+        if (ms_settle_plain(run, w))
+            continue;
         ms_settle(run, w);
         left = 0;
         for (int l = 0; l < MS_L; l++)

@@ -5,9 +5,9 @@
 typedef struct {
     ms_row x[MS_X], y[MS_N], next[MS_N], q[16][MS_N], dense[8][MS_N];
     ms_row t, h, step, error;
+    ms_row until, due; /* end of the lane's segment, and its next wanted time */
     ms_window window;
-    long segment[MS_L];
-    int active[MS_L];
+    long segment[MS_L], active[MS_L];
     /* a step forced to meet a level, of surface i (target 1 + i) or of a kink (-1); 0 nothing */
     ms_row forced, level;
     long target[MS_L], tries[MS_L];
