@@ -264,9 +264,8 @@ MS_EXPORT void ms_dop853(const ms_run *run)
     for (int left = ms_begin(run, w); left;) {
         ms_choose_steps(run, w);
         ms_try(run, w);
-        if (ms_settle_plain(run, w))
-            continue;
-        ms_settle(run, w);
+        if (!ms_settle_plain(run, w))
+            ms_settle(run, w);
         left = 0;
         for (int l = 0; l < MS_L; l++)
             left += w->active[l];
