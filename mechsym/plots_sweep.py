@@ -56,7 +56,7 @@ def _words(result: Sweep, axes: list[int]) -> bool:
 
 
 def _panels(result: Sweep, shown: Mapping[str, Any], rows: int = 1) -> tuple[Figure, Any]:
-    columns = len(shown) if rows > 1 else min(len(shown), 3)
+    columns = len(shown) if rows > 1 else {4: 2}.get(len(shown), min(len(shown), 3))
     down = rows if rows > 1 else -(-len(shown) // columns)
     figure = Figure(figsize=(max(4.4, 3.5 * columns), 3.0 * down + 0.4), layout="constrained")
     axes = np.atleast_1d(figure.subplots(down, columns)).ravel()

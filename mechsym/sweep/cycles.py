@@ -1,6 +1,7 @@
 """Engine cycles at many points: what differs in numbers only is one map, integrated side by side."""
 
 import dataclasses
+import functools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.engine.spark_ignition import SparkIgnition
+from mechsym.sweep.outcomes import Gap, Outcome
 
 BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
 _SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
@@ -92,8 +94,8 @@ def _text(record: Any, numbers: bool) -> str:
     return repr((type(record), {k: v for k, v in values.items() if numbers or not isinstance(v, float)}))
 
 
-def map_of(family: Sequence[Case]) -> list[dict[str, Any]]:
-    """Figures of one family.
+def map_of(family: Sequence[Case]) -> list[Outcome]:
+    """Figures of one family, each with the steps that it would take alone.
 
     Parameters
     ----------
@@ -102,21 +104,35 @@ def map_of(family: Sequence[Case]) -> list[dict[str, Any]]:
 
     Returns
     -------
-    figures : list of dict
-        As `mechsym.cycle.columns`, each with one value
+    figures : list of dict or Gap
+        As `mechsym.cycle.columns`, each with one value; a gap where there is no cycle
 
     Raises
     ------
     BadInput
-        One of the cycles cannot be made
+        The engine itself cannot be made
     """
     from mechsym.cycle import columns, engine, over_design
     from mechsym.forces.gas import one_cylinder
 
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
-    found = columns(over_design(engine(seen[0]), design))
-    return [_at(found, i) for i in range(len(family))]
+    machine = engine(seen[0])
+    steps, reasons = _steps(machine, design)
+    outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
+    for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
+        found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
+        outcomes |= {int(i): _at(found, k) for k, i in enumerate(group)}
+    return [outcomes[i] for i in range(len(family))]
+
+
+def _steps(machine: Any, design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
+    from mechsym.engine.model import closed_period
+    from mechsym.engine.run import steps_needed
+
+    if machine.cycle.method == "nunes2017_printed":
+        return np.ones(design["omega"].size, dtype=int), {}
+    return steps_needed(functools.partial(closed_period, machine), design)
 
 
 def _varied(seen: Sequence[Case]) -> dict[str, np.ndarray]:

@@ -20,7 +20,7 @@ MAIN = {
         "guide.margin", "guide.z_max", "guide.roller_reaction_max", "hinge_torque_max", "hinge_torque_min",
         "flywheel_inertia_saved", "check.speed_ripple",
     ),
-    "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa", "sfc_g_kwh"),
+    "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa"),
 }  # fmt: skip
 
 
