@@ -5,7 +5,7 @@ r"""A shaft with one coordinate over the angle: kinetic energy instead of speed,
 
 Q is the torque of everything that depends on the angle only (gas, hinge, gravity), M_r the load, J a flywheel. Kinks of
 the torque are known angles, so panels end at them; a shaft that stops is T = 0, where nothing is singular. Each panel
-carries Gauss points, and a turn costs less than a millisecond under constant load, some milliseconds otherwise.
+carries Gauss points, and a turn costs less than a millisecond.
 """
 
 from collections.abc import Callable
@@ -159,7 +159,7 @@ def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
     """
     if isinstance(panels.load, ConstantLoad):
         return _turn_constant(panels, energy)
-    return _turn_panel_by_panel(panels, flywheel, energy)
+    return _turn_together(panels, flywheel, energy) or _turn_panel_by_panel(panels, flywheel, energy)
 
 
 def _turn_constant(panels: Panels, energy: float) -> Turn:
@@ -168,6 +168,50 @@ def _turn_constant(panels: Panels, energy: float) -> Turn:
     net = panels.torque - panels.load.torque  # type: ignore[union-attr]
     edges = energy + np.concatenate([[0.0], np.cumsum(half * net @ weights[:, None])])
     return Turn(energy=edges[:-1, None] + half * net @ matrix.T, energy_edges=edges, multiplier=1.0)
+
+
+def _turn_together(panels: Panels, flywheel: float, energy: float) -> Turn | None:
+    """All panels in one Newton iteration; a linear law, such as the propeller's, needs one step. None if it fails."""
+    inertia, half = panels.inertia + flywheel, np.diff(panels.edges)[:, None] / 2
+    found, edges = np.full_like(panels.phi, energy), np.full(len(panels.edges), energy)
+    for _ in range(20):
+        omega = np.sqrt(2 * np.maximum(found, 0.0) / inertia)
+        net = panels.torque - load_torque(panels.load, omega)
+        slope = _slope(panels.load, omega, inertia)
+        # a shaft that has stopped feels the load of standing still, whatever its energy
+        lively = np.where(found > 0, slope, 0.0)
+        before, (found, edges, multiplier) = found, _linear(net + lively * found, lively, half, energy)
+        if not np.all(np.isfinite(found)):
+            return None
+        if np.max(np.abs(found - before)) <= 1e-13 * np.max(np.abs(found)):
+            if np.any(found <= 0):
+                multiplier = _linear(net, slope, half, energy)[2]
+            return Turn(energy=found, energy_edges=edges, multiplier=multiplier)
+    return None
+
+
+def _linear(
+    constant: np.ndarray, slope: np.ndarray, half: np.ndarray, energy: float
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Energies at the points and the edges, and the multiplier, for the net torque constant - slope * energy."""
+    _, weights, matrix = _gauss()
+    whole = half[..., None] * matrix
+    right = np.stack([np.ones_like(constant), (whole @ constant[..., None])[..., 0]], axis=-1)
+    solved = np.linalg.solve(np.eye(_POINTS) + whole * slope[:, None, :], right)
+    of_start, rest = solved[..., 0], solved[..., 1]
+    grown = 1 - (half * slope * of_start) @ weights
+    gained = (half * (constant - slope * rest)) @ weights
+    edges = [energy]
+    for a, b in zip(grown.tolist(), gained.tolist(), strict=True):
+        edges.append(a * edges[-1] + b)
+    starts = np.array(edges[:-1])[:, None]
+    return starts * of_start + rest, np.array(edges), float(np.prod(grown))
+
+
+def _slope(load: Load, omega: np.ndarray, inertia: np.ndarray) -> np.ndarray:
+    """Slope of the load over the energy."""
+    turning = np.maximum(omega, _SLOWEST)
+    return load_slope(load, turning) / (inertia * turning)
 
 
 def _turn_panel_by_panel(panels: Panels, flywheel: float, energy: float) -> Turn:
@@ -192,7 +236,7 @@ def _collocate(
     for _ in range(20):
         omega = np.sqrt(2 * np.maximum(energy, 0.0) / inertia)
         net = torque - load_torque(load, omega)
-        slope = load_slope(load, np.maximum(omega, _SLOWEST)) / (inertia * np.maximum(omega, _SLOWEST))
+        slope = _slope(load, omega, inertia)
         residual = energy - start - matrix @ net
         change = np.linalg.solve(np.eye(_POINTS) + matrix * slope, residual)
         energy = energy - change
