@@ -8,7 +8,7 @@ spring gets its hinge designed, an engine without one runs its cycle (as one map
 gap with a reason, not the end of the sweep.
 
 axes.py      what to run over: ranges, lists, distributions
-run.py       the points in chunks, on threads, with interrupts
+run.py       the points in chunks, and interrupts
 points.py    how a chunk is computed: simulations, hinges, cycles
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason

@@ -1,6 +1,7 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
 import dataclasses
+import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -8,7 +9,6 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.sweep import cycles
 from mechsym.sweep.outcomes import Gap, Outcome, known
-from mechsym.sweep.threads import cores
 
 ANALYSES = ("simulate", "hinge", "cycle")
 # verdicts on a run whose numbers cannot be trusted
@@ -29,15 +29,12 @@ class Route:
     run : callable
         Cases to outcomes, in the same order
     together : int
-        Most cases in one call
-    threads : int
-        Calls at the same time
+        Most cases in one call; an interrupt loses one call
     """
 
     analysis: str
     run: Callable[[Sequence[Case]], list[Outcome]]
     together: int
-    threads: int
 
 
 def route(case: Case, analysis: str | None) -> Route:
@@ -53,7 +50,7 @@ def route(case: Case, analysis: str | None) -> Route:
     Returns
     -------
     route : Route
-        Function, size of its calls, threads
+        Function, and the size of its calls
 
     Raises
     ------
@@ -62,13 +59,13 @@ def route(case: Case, analysis: str | None) -> Route:
     """
     analysis = analysis or _meant(case)
     if analysis == "simulate":
-        return Route(analysis=analysis, run=_simulated, together=_LANES, threads=cores())
-    # these are Python throughout, which runs on one core at a time
+        # the integrator puts blocks of lanes on threads; threads around it would only wait for Python
+        return Route(analysis=analysis, run=_simulated, together=_LANES * (os.cpu_count() or 1))
     if analysis == "hinge":
-        return Route(analysis=analysis, run=_each(_hinged), together=1, threads=1)
+        return Route(analysis=analysis, run=_each(_hinged), together=1)
     if cycles.mapped(case):
-        return Route(analysis=analysis, run=_maps, together=cycles.BLOCK, threads=1)
-    return Route(analysis=analysis, run=_each(cycles.single), together=1, threads=1)
+        return Route(analysis=analysis, run=_maps, together=cycles.BLOCK)
+    return Route(analysis=analysis, run=_each(cycles.single), together=1)
 
 
 def _meant(case: Case) -> str:

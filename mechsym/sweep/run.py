@@ -1,8 +1,7 @@
-"""Many runs of a case: points in chunks, chunks on threads, finished points kept whatever happens to the others."""
+"""Many runs of a case: points in chunks, finished points kept whatever happens to the others."""
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from mechsym import cases
@@ -163,13 +162,10 @@ def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
     base, place = cases.load(plan.case, plan.overrides), layout(plan)
     chosen = route(base, plan.analysis)
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
-
-    def work(members: range) -> list[Outcome]:
-        return _run(plan, place, chosen, members)
-
     interrupted = False
     try:
-        for members, found in _in_order(work, _chunks(len(place.points), chosen.together), chosen.threads):
+        for members in _chunks(len(place.points), chosen.together):
+            found = _run(plan, place, chosen, members)
             outcomes[members.start : members.stop] = found
             _check_shown(plan.show, found)
             progress(len(members))
@@ -188,24 +184,6 @@ def _chunks(count: int, together: int) -> list[range]:
     parts = -(-count // together)
     ends = [count * i // parts for i in range(parts + 1)]
     return [range(a, b) for a, b in zip(ends, ends[1:], strict=False)]
-
-
-def _in_order(
-    work: Callable[[range], list[Outcome]], chunks: list[range], threads: int
-) -> Iterable[tuple[range, list[Outcome]]]:
-    """Chunks as they are finished. The first runs alone: what it compiles and caches serves the others."""
-    yield chunks[0], work(chunks[0])
-    if threads == 1:
-        yield from ((chunk, work(chunk)) for chunk in chunks[1:])
-        return
-    pool = ThreadPoolExecutor(max_workers=threads)
-    futures: dict[Future[list[Outcome]], range] = {pool.submit(work, chunk): chunk for chunk in chunks[1:]}
-    try:
-        for future in as_completed(futures):
-            yield futures[future], future.result()
-    finally:
-        # after an interrupt nobody waits here for chunks that are under way
-        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _run(plan: Plan, place: Layout, chosen: Route, members: range) -> list[Outcome]:
