@@ -92,15 +92,12 @@ class Place:
         SI unit of a number, None for a word
     written : str
         Unit that the key itself names, as in `speed_rpm`; empty when it names none
-    whole : bool
-        Whether it is a whole number without a unit
     """
 
     section: str
     field: str
     unit: str | None
     written: str
-    whole: bool
 
 
 def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Place:
@@ -133,16 +130,13 @@ def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Plac
     if not isinstance(tables.get(section), dict):
         raise BadInput(f"{option} {key}: no section [{section}] here; {suggest(section, tables)}")
     if name == schema.selector(section):
-        return Place(section=section, field=name, unit=None, written="", whole=False)
+        return Place(section=section, field=name, unit=None, written="")
     fields = {f.name: f for f in dataclasses.fields(schema.record(mechanism, section, tables[section]))}
     stem = without_unit(name, 0.0, fields)[0]
     if stem not in fields:
         raise BadInput(f"{option} {key} is not known; {suggest(name, fields)}")
-    field = fields[stem]
-    kinds = get_args(field.type) if isinstance(field.type, UnionType) else (field.type,)
-    whole = "unit" not in field.metadata and int in kinds
     written = "" if stem == name else name.rpartition("_")[2]
-    return Place(section=section, field=stem, unit=field.metadata.get("unit"), written=written, whole=whole)
+    return Place(section=section, field=stem, unit=fields[stem].metadata.get("unit"), written=written)
 
 
 def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> None:

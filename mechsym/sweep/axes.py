@@ -100,7 +100,7 @@ def parse_axis(text: str, place: Place) -> Axis:
         Not of that form, a unit of another dimension, or numbers and words mixed up
     """
     key, span = split(text)
-    if place.unit is None and not place.whole:
+    if place.unit is None:
         words = tuple(part.strip() for part in span.split(","))
         _check_words(text, words)
         return Axis(key=key, place=place, unit="", suffix="", kind="grid", values=words)
@@ -116,7 +116,7 @@ def parse_axis(text: str, place: Place) -> Axis:
     return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=kind, values=numbers)
 
 
-def _read(text: str, key: str, span: str, unit: str | None) -> tuple[str, tuple[float, ...], int | None, set[str]]:
+def _read(text: str, key: str, span: str, unit: str) -> tuple[str, tuple[float, ...], int | None, set[str]]:
     """Kind, numbers, how many, and the units that were written."""
     if found := _RANGE.fullmatch(span):
         numbers = float(found[1]), float(found[3])
@@ -125,7 +125,7 @@ def _read(text: str, key: str, span: str, unit: str | None) -> tuple[str, tuple[
         return "normal", (float(found[1]), float(found[2])), None, {found[3]} - {None}
     parts = [_ONE.fullmatch(part.strip()) for part in span.split(",")]
     if not all(parts):
-        forms = _FORMS.format(key=key, unit="" if unit in (None, "-") else f" {unit}")
+        forms = _FORMS.format(key=key, unit="" if unit == "-" else f" {unit}")
         raise BadInput(f"--over {shown(text)}: {key} takes numbers; write {forms}")
     found_parts = [part for part in parts if part]
     return "grid", tuple(float(p[1]) for p in found_parts), None, {p[2] for p in found_parts} - {None}
@@ -136,13 +136,12 @@ def _unit(text: str, units: set[str], place: Place) -> str:
     if len(units) > 1:
         raise BadInput(f"--over {shown(text)}: units {' and '.join(sorted(units))}; write all values in one unit")
     written = "".join(units)
-    if written and (place.written or place.whole):
-        why = f"the key names {place.written}" if place.written else "it is a count"
+    if written and place.written:
+        why = f"the key names {place.written}"
         raise BadInput(f"--over {shown(text)}: unit {written!r} is one too many, {why}; leave it away")
-    unit = written or place.written or place.unit or "-"
-    if place.unit is not None:
-        parse(f"1 {unit}" if unit != "-" else 1.0, place.unit, f"--over {place.section}.{place.field}")
-    return unit
+    if written:
+        parse(f"1 {written}", place.unit or "-", f"--over {place.section}.{place.field}")
+    return written or place.written or place.unit or "-"
 
 
 def _few(text: str, count: int) -> int:
@@ -224,6 +223,4 @@ def override(axis: Axis, value: Any) -> str | float:
     text : str or float
         With the unit, if the key needs it
     """
-    if axis.place.whole and float(value).is_integer():
-        return int(value)
     return f"{value!r} {axis.suffix}" if axis.suffix else value

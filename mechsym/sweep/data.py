@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.errors import MissingExtra
+from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_csv
 from mechsym.sweep.outcomes import WORDS, Gap, flat
 from mechsym.sweep.run import Sweep
@@ -54,10 +54,7 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
         Not a number in a gap, an empty text for words [SI, or as the name says]
     """
     rows = [{} if isinstance(o, Gap) else flat(o) for o in result.outcomes]
-    names = dict.fromkeys(name for row in rows for name in row)
-    # what is nothing at some points and has parts at others, such as an event, is told by its parts
-    whole = {name for name in names if any(other.startswith(f"{name}.") for other in names)}
-    gaps = {name: "" if name in WORDS else math.nan for name in names if name not in whole}
+    gaps = {name: "" if name in WORDS else math.nan for row in rows for name in row}
     return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
 
 
@@ -179,6 +176,8 @@ def write_netcdf(result: Sweep, folder: Path) -> Path:
     ------
     MissingExtra
         xarray or h5netcdf is not installed
+    BadInput
+        The file cannot be written
     """
     data, target = dataset(result), folder / "sweep.nc"
     handle, name = tempfile.mkstemp(dir=folder, prefix=".sweep.nc.")
@@ -189,6 +188,8 @@ def write_netcdf(result: Sweep, folder: Path) -> Path:
         os.replace(name, target)
     except (ImportError, ValueError) as error:
         raise _missing(error) from None
+    except OSError as error:
+        raise BadInput(f"{target}: cannot be written ({error}); choose another folder with --out") from None
     finally:
         Path(name).unlink(missing_ok=True)
     return target

@@ -11,8 +11,8 @@ from mechsym.errors import BadInput
 
 # results that are words worth keeping
 WORDS = ("status", "end", "guide.reason")
-# another run of the same sweep gives another number
-_NO_RESULT = ("wall_s",)
+# the clock tells nothing of the machine, and an event is told by its parts
+_NO_RESULT = ("wall_s", "event")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -75,8 +75,10 @@ def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
             found |= flat(value, f"{name}.")
         elif isinstance(value, str):
             found |= {name: value} if name in WORDS else {}
+        elif key in _NO_RESULT:
+            continue
         elif value is None:
             found[name] = math.nan
-        elif name not in _NO_RESULT and np.size(value) == 1 and np.asarray(value).dtype.kind in "bif":
+        elif np.size(value) == 1 and np.asarray(value).dtype.kind in "bif":
             found[name] = float(np.ravel(value)[0])
     return found
