@@ -12,6 +12,7 @@ from mechsym.sweep.units import unit_of
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
+_ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 _COLORS = (BLUE, RED, GREEN, ORANGE)
 
 
@@ -44,9 +45,10 @@ def picture(result: Sweep) -> Figure | None:
 
 
 def _worth_drawing(result: Sweep) -> dict[str, np.ndarray]:
-    """Main results, without those that stay the same; all when none changes."""
+    """Main results, without those that stay the same or are round-off; all when none is left."""
     found = main_results(result)
-    lively = {n: v for n, v in found.items() if np.ptp(v[np.isfinite(v)]) > 1e-9 * np.nanmax(np.abs(v))}
+    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
+    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
     chosen = found if result.show or not lively else lively
     return dict(list(chosen.items())[:_MOST])
 
@@ -121,6 +123,8 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         if gaps.any():
             foot = axis.get_xaxis_transform()
             axis.plot(x[gaps], np.zeros(gaps.sum()), "x", color=GREY, transform=foot, clip_on=False)
+        if np.nanmin(values) < 0 < np.nanmax(values):
+            axis.axhline(0, color="black", linewidth=0.6)
         axis.set_xlabel(_label(along.key, along.unit))
         axis.set_ylabel(_label(name, unit_of(name)))
     if other is not None:
@@ -139,6 +143,9 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
         axis.set_facecolor("#f0f1f3")
         axis.grid(False)
         drawn = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
+        if np.nanmin(values) < 0 < np.nanmax(values):
+            # where a margin ends
+            axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors="white", linestyles="--")
         gaps = np.argwhere(np.isnan(values))
         if gaps.size:
             axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
