@@ -13,7 +13,7 @@ from mechsym.sweep.units import unit_of
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
-_COLORS = (BLUE, RED, GREEN, ORANGE)
+_COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
 
 
 def picture(result: Sweep) -> Figure | None:
@@ -35,7 +35,8 @@ def picture(result: Sweep) -> Figure | None:
     if "sample" in result.dims:
         return _samples(result, shown)
     long = sorted(range(len(result.axes)), key=lambda i: -len(result.axes[i].values))[:2]
-    first, *second = long
+    # words are better told apart by colours than by places
+    first, *second = sorted(long, key=lambda i: len(result.axes[i].values) > 1 and _words(result, [i]))
     if second and len(result.axes[second[0]].values) > 1:
         wide = len(result.axes[second[0]].values) > _FEW and not _words(result, long)
         # the axis that was named first goes to the right
@@ -123,7 +124,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         if gaps.any():
             foot = axis.get_xaxis_transform()
             axis.plot(x[gaps], np.zeros(gaps.sum()), "x", color=GREY, transform=foot, clip_on=False)
-        if np.nanmin(values) < 0 < np.nanmax(values):
+        if _changes_sign(values):
             axis.axhline(0, color="black", linewidth=0.6)
         axis.set_xlabel(_label(along.key, along.unit))
         axis.set_ylabel(_label(name, unit_of(name)))
@@ -142,18 +143,23 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
         values = _slice(result, list(over), column).T
         axis.set_facecolor("#f0f1f3")
         axis.grid(False)
-        drawn = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
-        if np.nanmin(values) < 0 < np.nanmax(values):
+        if np.isfinite(values).any():
+            filled = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
+            figure.colorbar(filled, ax=axis)
+        if _changes_sign(values):
             # where a margin ends
             axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors="white", linestyles="--")
         gaps = np.argwhere(np.isnan(values))
         if gaps.size:
             axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
-        figure.colorbar(drawn, ax=axis)
         axis.set_title(_label(name, unit_of(name)), fontsize=9)
         axis.set_xlabel(_label(right.key, right.unit))
         axis.set_ylabel(_label(up.key, up.unit))
     return figure
+
+
+def _changes_sign(values: np.ndarray) -> bool:
+    return bool(np.any(values < 0) and np.any(values > 0))
 
 
 def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:

@@ -149,6 +149,9 @@ PICTURES = {
     "maps with gaps": Plan(case="nunes-slider-crank", over=(SPEEDS, ANGLES.format(-200))),
     "maps": Plan(case="nunes-slider-crank", over=(SPEEDS, ANGLES.format(-20), "bore=0.08,0.09")),
     "samples": Plan(case="chmielewski", over=("k1=6500+-200", "m0=1..1.2"), samples=20, overrides=SHORT),
+    "words and numbers": Plan(
+        case="chmielewski", over=("simulation.backend=native,scipy-dop853,scipy-rk45", "c1=0,1"), overrides=SHORT
+    ),
     "one shown": Plan(case="chmielewski", over=("c1=0..2:3",), overrides=SHORT, show=("steps",)),
 }
 
@@ -163,6 +166,21 @@ def test_pictures(plan):
     assert shown == list(plan.show) or len(shown) >= 2
     assert len(svg(figure)) > 5000
     assert ("failed" in figure.get_suptitle()) == bool(failures(result))
+
+
+def test_a_map_may_be_empty_where_it_is_cut():
+    plan = Plan(
+        case="nunes-slider-crank", over=(SPEEDS, ANGLES.format(-20), "inlet_closes=-170,-2 deg"), show=("mep_kpa",)
+    )
+    result = sweep(plan)
+    assert len(failures(result)) == 30
+    svg(plots_sweep.picture(result))
+
+
+def test_words_are_colours():
+    figure = plots_sweep.picture(sweep(PICTURES["words and numbers"]))
+    assert figure.axes[0].get_xlabel() == "c1 [N*m*s/rad]"
+    assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "simulation.backend = native"
 
 
 def test_pictures_of_nothing():

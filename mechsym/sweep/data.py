@@ -73,7 +73,9 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
     """
     found = columns(result)
     wanted = result.show or MAIN[result.analysis]
-    return {n: found[n] for n in wanted if n in found and found[n].dtype.kind == "f" and np.isfinite(found[n]).any()}
+    numbers = {n: found[n] for n in wanted if n in found and found[n].dtype.kind == "f"}
+    # a limit that is never reached is as far away as a gap
+    return {n: np.where(np.isfinite(v), v, math.nan) for n, v in numbers.items() if np.isfinite(v).any()}
 
 
 def dataset(result: Sweep) -> Any:
