@@ -96,6 +96,11 @@ def test_values_go_back_with_their_unit():
     assert override(axis_of("speed_rpm=89,90", "zotov-89"), 89.0) == 89.0
 
 
+def test_a_section_that_the_case_leaves_out():
+    found = layout(Plan(case="zotov-89", over=("trials.turns=2,3",)))
+    assert (found.axes[0].unit, found.points) == ("-", ((2.0,), (3.0,)))
+
+
 def test_units_mean_the_same_value():
     plans = [
         ("speed_rpm=80,89",),

@@ -127,11 +127,13 @@ def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Plac
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, option), key
-    if not isinstance(tables.get(section), dict):
+    # a section that is left out has its defaults, unless a key has to choose its record first
+    table = tables.get(section, {} if section in schema.sections() and not schema.selector(section) else None)
+    if not isinstance(table, dict):
         raise BadInput(f"{option} {key}: no section [{section}] here; {suggest(section, tables)}")
     if name == schema.selector(section):
         return Place(section=section, field=name, unit=None, written="")
-    fields = {f.name: f for f in dataclasses.fields(schema.record(mechanism, section, tables[section]))}
+    fields = {f.name: f for f in dataclasses.fields(schema.record(mechanism, section, table))}
     stem = without_unit(name, 0.0, fields)[0]
     if stem not in fields:
         raise BadInput(f"{option} {key} is not known; {suggest(name, fields)}")
