@@ -6,6 +6,7 @@ Numbers are SI; texts may carry a unit; a key may name its unit instead (`speed_
 """
 
 import dataclasses
+import functools
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -184,6 +185,8 @@ def _read(name: str) -> tuple[str, str]:
         raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
 
 
+# the points of a sweep read one file; `_raw` copies the sections before it changes them
+@functools.lru_cache(maxsize=8)
 def _tables(file: str, content: str) -> dict[str, Any]:
     try:
         return tomllib.loads(content)
