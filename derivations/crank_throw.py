@@ -11,7 +11,7 @@ mechsym/mechanisms/crank_train.py puts any number of these on an elastic shaft; 
 Rigid links; friction is not in the equations.
 """
 
-from mechsym.derive import Mechanism, cos, sin, sqrt
+from mechsym.derive import Mechanism, cos, output, sin, sqrt
 
 
 def crank_throw():
@@ -51,6 +51,6 @@ def crank_throw():
     m.weight(-g * sin(axis_tilt), -g * cos(axis_tilt))
     m.force(F, along=x)
     m.torque(M, along=phi)
-    m.output(x, order=2)
-    m.output(psi, order=1)
+    output(m, x, order=2)
+    output(m, psi, order=1)
     return m

@@ -6,7 +6,7 @@
 Massless rod, no gravity, no friction; c1 (torsional damping) is 0 in the paper. The rod force is positive in tension.
 """
 
-from mechsym.derive import Mechanism, acceleration, cos, sin
+from mechsym.derive import Mechanism, acceleration, cos, output, output_dynamic, sin
 
 
 def crankshaft_flywheel():
@@ -32,7 +32,7 @@ def crankshaft_flywheel():
     m.damper(c1, stretch=twist)
     m.torque(M, along=phi0)
     m.force(F, along=x0)
-    m.output(x0, order=2)
-    m.output(gamma0)
-    m.output_dynamic("rod_force", (m0 * acceleration(m, x0) - F) / cos(gamma0), "N")  # (3) with gas force
+    output(m, x0, order=2)
+    output(m, gamma0)
+    output_dynamic(m, "rod_force", (m0 * acceleration(m, x0) - F) / cos(gamma0), "N")  # (3) with gas force
     return m

@@ -4,7 +4,7 @@ The transmission in (6) is exact, the piston's acceleration (11) is truncated: t
 neither kinematics, so it is declared by its equations and has no energies. The trailing "= 0" of (6) is a misprint.
 """
 
-from mechsym.derive import Mechanism, Rational, cos, sin, sqrt, velocities
+from mechsym.derive import Mechanism, Rational, cos, given_equations, output, sin, sqrt, velocities
 
 
 def crankshaft_flywheel_printed():
@@ -28,10 +28,11 @@ def crankshaft_flywheel_printed():
     curvature = m.let("curvature", r * (c + lam * cos(2 * phi0)), "m")  # (11)
     shaft = m.let("shaft", k1 * (phi0 - phi2) + c1 * (phi0d - phi2d), "N*m")
 
-    m.equations(
+    given_equations(
+        m,
         mass_matrix=[[I0 + transmission * r * m0 * slope, Rational(0)], [Rational(0), I2]],
         bias=[transmission * r * m0 * curvature * phi0d**2, Rational(0)],
         force=[M - shaft, shaft],
     )
-    m.output(x0)
+    output(m, x0)
     return m

@@ -10,7 +10,7 @@
 Rigid links; friction is not in the equations. P_i of the paper are weights m_i g.
 """
 
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, cos, output, sin
 
 
 def crosshead():
@@ -45,6 +45,6 @@ def crosshead():
     m.weight(-g * sin(axis_tilt), -g * cos(axis_tilt))
     m.force(F, along=x)
     m.torque(M_h - M_r, along=phi)
-    m.output(x, order=2)
-    m.output(psi, order=1)
+    output(m, x, order=2)
+    output(m, psi, order=1)
     return m

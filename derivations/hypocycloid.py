@@ -13,7 +13,7 @@ pin force lies on the axis. The tooth force is positive in the sense of rotation
 flanks press the planet towards O with tan(alpha_n) of its size.
 """
 
-from mechsym.derive import Abs, Mechanism, acceleration, cos, reaction, sin, tan
+from mechsym.derive import Abs, Mechanism, acceleration, cos, output, output_dynamic, reaction, sin, tan
 
 
 def hypocycloid():
@@ -47,7 +47,7 @@ def hypocycloid():
     m.torque(-M, along=theta)
     separating = Abs(reaction(m, s_T)) * tan(alpha_n)
     m.force(-separating, along=radial)
-    m.output(x, order=2)
-    m.output_dynamic("tooth_force_radial", separating, "N")
-    m.output_dynamic("piston_torque", (F - m3 * acceleration(m, x)) * m.tape.diff(x, theta), "N*m")
+    output(m, x, order=2)
+    output_dynamic(m, "tooth_force_radial", separating, "N")
+    output_dynamic(m, "piston_torque", (F - m3 * acceleration(m, x)) * m.tape.diff(x, theta), "N*m")
     return m

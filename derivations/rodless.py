@@ -13,7 +13,7 @@ X_a, X_b and the pin force need a closing rule (mechsym/mechanisms/rodless.py), 
 rank. Each joint displacement below is therefore one that S does no work on.
 """
 
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, cos, output, sin
 
 
 def rodless():
@@ -45,6 +45,6 @@ def rodless():
     m.force(F_a, along=x_a)
     m.force(F_b, along=x_b)
     m.torque(-M, along=alpha)
-    m.output(x_a, order=2)
-    m.output(x_b, order=2)
+    output(m, x_a, order=2)
+    output(m, x_b, order=2)
     return m

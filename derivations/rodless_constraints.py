@@ -5,7 +5,7 @@ pin force of the crank on the link (pin_x, pin_y) and the guide reactions on the
 along x). Rank 3 of 4: no multiplier is determined by the rigid mechanism alone.
 """
 
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, cos, output, sin
 
 
 def rodless_constraints():
@@ -42,6 +42,6 @@ def rodless_constraints():
     m.constraint("pin_y", y_C - r * sin(alpha))
     m.constraint("guide_a", y_a)
     m.constraint("guide_b", y_b)
-    m.output(x_a, order=1)
-    m.output(x_b, order=1)
+    output(m, x_a, order=1)
+    output(m, x_b, order=1)
     return m

@@ -14,7 +14,8 @@ from scipy.interpolate import PPoly
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge import Hinge
-from mechsym.ripple import constant_load_speed, even_angles, propeller_load_speed, ripple
+from mechsym.periodic import even_angles
+from mechsym.speed_from_work import constant_load_speed, propeller_load_speed, ripple
 
 KINDS = ("whole_cycle", "every_turn")
 _TURN = 2 * math.pi

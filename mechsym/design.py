@@ -1,7 +1,7 @@
-"""The whole job: case -> mechanism -> pressure -> hinge -> guide -> verdict -> trials -> retuning."""
+"""The whole job: case -> mechanism -> pressure -> hinge -> guide -> verdict -> trials -> retuning and other loads."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from mechsym import cases, hinge, steadiness, trials
@@ -15,6 +15,7 @@ from mechsym.guide import Guide
 from mechsym.hinge import Hinge
 from mechsym.loads import Load
 from mechsym.offers import Offer, offers
+from mechsym.other_loads import AtLoad, design_load, guide_at_loads
 from mechsym.steadiness import Flywheels, Retuned, Sensitivity
 from mechsym.trials import Trial
 
@@ -49,6 +50,8 @@ class Design:
         The same guide at the other speed of the case
     flywheel_kept : float
         Flywheel of the case [kg*m^2]
+    loads : tuple of AtLoad
+        The same guide at other loads, as far as they were asked for
     """
 
     assembly: Assembly
@@ -62,9 +65,15 @@ class Design:
     sensitivities: tuple[Sensitivity, ...]
     retuned: Retuned | None
     flywheel_kept: float
+    loads: tuple[AtLoad, ...] = ()
 
 
-def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] = lambda: None) -> Design:
+def design(
+    case: Case,
+    diagram: str | None = None,
+    progress: Callable[[], Any] = lambda: None,
+    loads: Sequence[float] = (),
+) -> Design:
     """Design the elastic hinge of an engine and prove it by simulation.
 
     Parameters
@@ -75,6 +84,8 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
         CSV file of a measured diagram in place of the case's cycle
     progress : callable, optional
         Called after each of the six steps
+    loads : sequence of float
+        Other loads to try the guide at, as shares of the case's mean indicated pressure [-]
 
     Returns
     -------
@@ -84,11 +95,12 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
     Raises
     ------
     BadInput
-        A section is missing, or a value is impossible
+        A section is missing, a value is impossible, or the cycle has one load only and others are asked for
     """
     spring, choices = case.need("spring"), case.need("guide")
     rollers, limits, load = case.need("rollers"), case.need("limits"), load_of(case)
     turns = case.sections.get("trials", TrialSettings()).turns
+    pressures = _pressures(case, diagram, loads)
     engine, other = assemble(case, diagram), _other(case)
     progress()
     wanted = hinge.build(engine.torques, engine.omega)
@@ -117,7 +129,14 @@ def design(case: Case, diagram: str | None = None, progress: Callable[[], Any] =
         sensitivities=tuple(errors),
         retuned=again,
         flywheel_kept=kept_flywheel(case),
+        loads=tuple(guide_at_loads(case, usable, pressures) if usable else ()),
     )
+
+
+def _pressures(case: Case, diagram: str | None, loads: Sequence[float]) -> list[float]:
+    if loads and diagram is not None:
+        raise BadInput(f"{diagram}: a measured diagram has one load; leave the diagram or the other loads out")
+    return [share * design_load(case) for share in loads]
 
 
 def _other(case: Case) -> Assembly | None:

@@ -5,6 +5,7 @@ import math
 from typing import Any
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from mechsym import periodic
 from mechsym.guide import Guide, Spring, closing, path
@@ -218,7 +219,7 @@ def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
         "hertz_stress_max": highest(turn.theta, turn.hertz_stress),
         "tilting_couple_max": highest(turn.theta, turn.tilting_couple),
         "inertia_force_max": highest(turn.theta, np.abs(turn.inertia_force)),
-        "loss_torque_mean": float(np.trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
+        "loss_torque_mean": float(trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
         "closure": guide.closure,
     }
 

@@ -12,7 +12,7 @@ from mechsym.assembly import assemble, load_of
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.retune import retune
-from mechsym.setting import with_setting
+from mechsym.setting import setting_of, with_setting
 from mechsym.simulate.steady import Steady
 from mechsym.steadiness import with_spring
 
@@ -23,20 +23,48 @@ class AtLoad:
 
     Parameters
     ----------
+    share : float
+        Load over that of the design [-]
     mean_indicated_pressure : float
         Load [Pa]
     as_cut : Steady
         With the spring as designed
     reset : Steady
         With the spring setting that fits this load's work best
-    setting : float
-        That setting: p0 [Pa], F0 of a coil [N]
+    setting, ratio : float
+        That setting, p0 [Pa] or F0 of a coil [N], and over that of the design [-]
     """
 
+    share: float
     mean_indicated_pressure: float
     as_cut: Steady
     reset: Steady
     setting: float
+    ratio: float
+
+
+def design_load(case: Case) -> float:
+    """The load that a case is designed for.
+
+    Parameters
+    ----------
+    case : Case
+        As for `design`
+
+    Returns
+    -------
+    mean_indicated_pressure : float
+        Of its cycle [Pa]
+
+    Raises
+    ------
+    BadInput
+        The cycle has no mean indicated pressure to change
+    """
+    cycle = case.need("cycle")
+    if not hasattr(cycle, "mean_indicated_pressure"):
+        raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed; it has one load")
+    return float(cycle.mean_indicated_pressure)
 
 
 def hinge_at_loads(case: Case, loads: Sequence[float]) -> list[AtLoad]:
@@ -59,14 +87,32 @@ def hinge_at_loads(case: Case, loads: Sequence[float]) -> list[AtLoad]:
     BadInput
         The cycle has no mean indicated pressure to change, or the guide cannot be cut
     """
-    cycle = case.need("cycle")
-    if not hasattr(cycle, "mean_indicated_pressure"):
-        raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed")
+    design_load(case)
     engine = assemble(case)
     part = balance.build(hinge.build(engine.torques, engine.omega), case.need("guide").balance)
     cut = guide.build(part, case.need("spring"), case.need("guide"))
     if cut.rho is None:
         raise BadInput(f"{case.file}: the guide cannot be cut; see 'mechsym hinge'")
+    return guide_at_loads(case, cut, loads)
+
+
+def guide_at_loads(case: Case, cut: guide.Guide, loads: Sequence[float]) -> list[AtLoad]:
+    """Steady running of a guide at other loads, at the speed of operation.
+
+    Parameters
+    ----------
+    case : Case
+        As for `hinge_at_loads`
+    cut : Guide
+        Guide of its hinge, status `cut`
+    loads : sequence of float
+        Mean indicated pressures to try [Pa]
+
+    Returns
+    -------
+    rows : list of AtLoad
+        One a load
+    """
     return [_at(case, cut, load) for load in loads]
 
 
@@ -77,4 +123,11 @@ def _at(case: Case, cut: guide.Guide, load: float) -> AtLoad:
     setting = retune(cut, wanted, "least_squares_work").setting
     springs = (cut.spring, with_setting(cut.spring, setting))
     as_cut, reset = (with_spring(other, wanted, cut, load_of(case), spring) for spring in springs)
-    return AtLoad(mean_indicated_pressure=load, as_cut=as_cut, reset=reset, setting=setting)
+    return AtLoad(
+        share=load / design_load(case),
+        mean_indicated_pressure=load,
+        as_cut=as_cut,
+        reset=reset,
+        setting=setting,
+        ratio=setting / setting_of(cut.spring),
+    )

@@ -27,6 +27,24 @@ _FIRST_PIECES = 12  # evenly over the period, so that no narrow feature hides be
 _LEVELS = 44  # halvings of a piece; beyond that the angle itself is not resolved
 
 
+def even_angles(period: float, count: int = 4096) -> np.ndarray:
+    """Even crank angles over a period, without its end.
+
+    Parameters
+    ----------
+    period : float
+        Period [rad]
+    count : int
+        Number of angles
+
+    Returns
+    -------
+    phi : ndarray, shape (count,)
+        Angles [rad]
+    """
+    return np.arange(count) * period / count
+
+
 def fit(
     function: Callable[[np.ndarray], np.ndarray], breaks: Iterable[float], period: float, tol: float = 1e-12
 ) -> PPoly:

@@ -1,13 +1,16 @@
-"""Pictures of torsional analysis: Campbell diagram and start-up. Both return a matplotlib figure."""
+"""Pictures of torsional analysis: Campbell diagram, start-up, twist. Each returns a matplotlib figure."""
 
 from collections.abc import Sequence
+from itertools import cycle
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.plots import BLUE, GREEN, GREY, ORANGE, RED
+from mechsym.simulate import Result
 from mechsym.startup import StartUp
+from mechsym.twist import pairs
 
 _INK = "#1b2a41"
 _SERIES = (RED, BLUE, GREEN, ORANGE, _INK)
@@ -84,6 +87,36 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
     speed.legend(loc="upper left", bbox_to_anchor=(0.0, 0.9), frameon=False, fontsize=8)
     twist.set(xlabel="t [s]", ylabel="twist amplitude [rad]")
     for axes in (speed, twist):
+        _bare(axes)
+    return figure
+
+
+def twist(result: Result, shafts: int) -> Figure:
+    """Speed of the ends of a shaft and twist of its sections over time.
+
+    Parameters
+    ----------
+    result : Result
+        A run of an elastic shaft
+    shafts : int
+        Number of sections
+
+    Returns
+    -------
+    figure : matplotlib.figure.Figure
+        Two panels over time
+    """
+    figure = Figure(figsize=(7.5, 6.0), layout="constrained")
+    speed, twisted = figure.subplots(2, 1, sharex=True)
+    found = pairs(result, shafts)
+    for name, color in ((found[0][0], RED), (found[-1][1], BLUE)):
+        speed.plot(result.t, result.columns[f"{name}d"], color=color, lw=0.9, label=name)
+    for (a, b), color in zip(found, cycle((*_SERIES, GREY)), strict=False):
+        twisted.plot(result.t, result.columns[a] - result.columns[b], color=color, lw=0.9, label=f"{a} - {b}")
+    speed.set(ylabel="speed [rad/s]", title="Speed of both ends, and twist of the shaft")
+    twisted.set(xlabel="t [s]", ylabel="twist [rad]")
+    for axes in (speed, twisted):
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
         _bare(axes)
     return figure
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym import plots
+from mechsym import plots, plots_loads
 from mechsym.design import Design
 from mechsym.files import to_json, write_csv, write_text
 from mechsym.mechanism import curves, listing
@@ -117,6 +117,8 @@ def _figures(design: Design) -> dict[str, str]:
         figures |= {"track": plots.track(design, turn, radius), "contact": plots.contact(turn)}
     if design.retuned is not None:
         figures["retuning"] = plots.retuning(design)
+    if design.loads:
+        figures["loads"] = plots_loads.loads(design.loads)
     return {name: plots.svg(figure) for name, figure in figures.items()}
 
 

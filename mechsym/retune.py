@@ -6,7 +6,8 @@ setting s, so torque and work of the guide are too, and two criteria have a clos
 .. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad
           s = \frac{\langle M_h - M_0, M_1\rangle}{\langle M_1, M_1\rangle}
 
-The speed follows the missing work, not the missing torque (see `ripple`), so the criteria on work serve it better.
+The speed follows the missing work, not the missing torque (see `speed_from_work`), so the criteria on work serve it
+better.
 
 Source: Zotov et al. (2024), eqs. (12) to (14) and fig. 6, who raise p0 by 1.9 and compare torques by eye.
 """
@@ -20,8 +21,8 @@ from scipy.optimize import minimize_scalar
 from mechsym.errors import BadInput
 from mechsym.guide import Guide, Spring
 from mechsym.hinge import Hinge
-from mechsym.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.setting import Affine, affine, missing_work, setting_of, with_setting, work_swing
+from mechsym.speed_from_work import constant_load_speed, propeller_load_speed, ripple
 from mechsym.springs import Coil
 
 CRITERIA = (

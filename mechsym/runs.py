@@ -6,19 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechsym import balance, guide, hinge, mechanisms
+from mechsym import balance, guide, hinge, mechanisms, trains
 from mechsym.assembly import assemble, load_of, running
 from mechsym.cases import Case
 from mechsym.errors import BadInput
+from mechsym.mechanisms import crank_train
 from mechsym.quantities import check, choice, quantity
 from mechsym.simulate import engine as engines
 from mechsym.simulate.backends import BACKENDS, DEFAULT
 from mechsym.simulate.engine import Engine
-from mechsym.simulate.problem import Part, Problem, Steps
+from mechsym.simulate.problem import Part, Problem, Steps, Stop
 from mechsym.simulate.settings import Settings
 
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
+_TURN_POINTS = 360  # results a turn of a run over turns
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,15 +74,15 @@ class StepTorque:
 
     Parameters
     ----------
-    input : str
-        The mechanism's input
+    input : str or None
+        The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
     time : float
         When it is switched on [s]
     torque : float
         Torque from then on, 0 before [N*m]
     """
 
-    input: str = "M"
+    input: str | None = None
     time: float = quantity("s", default=0.0, about="when the torque is switched on")
     torque: float = quantity("N*m", about="driving torque")
 
@@ -111,7 +113,8 @@ def problem_of(case: Case) -> Problem:
     Parameters
     ----------
     case : Case
-        With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine)
+        With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
+        train may have both
 
     Returns
     -------
@@ -124,6 +127,8 @@ def problem_of(case: Case) -> Problem:
         A section is missing or names what the mechanism has not
     """
     wanted: Simulation = case.need("simulation")
+    if case.mechanism == "crank_train":
+        return _train(case, wanted)
     if "drive" in case.sections:
         return _driven(case, wanted)
     engine = engine_of(case)
@@ -184,24 +189,63 @@ def window_of(case: Case, problem: Problem) -> float | None:
     return wanted.window
 
 
-def _driven(case: Case, wanted: Simulation) -> Problem:
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
+def _drive(case: Case, usual: str) -> Part:
     drive: StepTorque = case.need("drive")
-    if wanted.t_end is None:
-        raise BadInput(f"{case.file}: a driven run needs simulation.t_end, for example '100 s'")
     steps = Steps(times=(drive.time,), values=(0.0, drive.torque))
     if drive.time <= 0:
         steps = Steps(values=(drive.torque,))
+    return Part(name="drive", input=drive.input or usual, value=steps)
+
+
+def _driven(case: Case, wanted: Simulation) -> Problem:
+    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
+    if wanted.t_end is None:
+        raise BadInput(f"{case.file}: a driven run needs simulation.t_end, for example '100 s'")
     n = len(mechanism.coordinates)
     return Problem(
         mechanism=mechanism,
-        parts=(Part(name="drive", input=drive.input, value=steps),),
+        parts=(_drive(case, "M"),),
         q0=(wanted.phi_start,) * n,
         u0=(wanted.speed_start or 0.0,) * n,
         t_end=wanted.t_end,
         turns=wanted.turns,
         output=_times(wanted.t_end, wanted.output_step, wanted.window),
     )
+
+
+def _train(case: Case, wanted: Simulation) -> Problem:
+    gas, driven = trains.cylinders(case), "drive" in case.sections
+    if not (gas.parts or driven):
+        raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
+    usual = case.need("operation").speed if gas.parts and not driven else 0.0
+    speed = usual if wanted.speed_start is None else wanted.speed_start
+    mechanism = crank_train.build_driven(case.need("parameters"))
+    torque = gas.torque + (case.need("drive").torque if driven else 0.0)
+    t_end, output = _end(case, wanted, speed)
+    return Problem(
+        mechanism=mechanism,
+        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *trains.load(case, torque, speed)),
+        q0=(wanted.phi_start,) * len(mechanism.coordinates),
+        u0=(speed,) * len(mechanism.coordinates),
+        t_end=t_end,
+        turns=wanted.turns,
+        kinks=gas.kinks,
+        # a crank may swing back within a turn; the flywheel does only when the shaft stops
+        stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
+        output=output,
+    )
+
+
+def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:
+    """Last time and wanted times: of a run to t_end, or of turns from a speed."""
+    if wanted.t_end is not None:
+        return wanted.t_end, _times(wanted.t_end, wanted.output_step, wanted.window)
+    if speed <= 0:
+        raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
+    turn_time = 2 * math.pi / speed
+    # a shaft that takes ten times as long has stopped for every purpose
+    assert wanted.turns is not None  # the section has one of the two
+    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
 
 
 @functools.lru_cache(maxsize=8)

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsym.guide import Guide, Spring, closing, crank_torque, path
 from mechsym.hinge import Hinge
-from mechsym.ripple import even_angles
+from mechsym.periodic import even_angles
 from mechsym.springs import Coil, law
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from mechsym import mechanisms, torsion
 from mechsym.cases import Case
+from mechsym.errors import BadInput
 from mechsym.quantities import check, quantity
 from mechsym.runs import StepTorque, problem_of, settings_of
 from mechsym.simulate import Result, simulate, simulate_many
@@ -134,7 +135,16 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
     -------
     start_up : StartUp
         Natural frequencies, critical speeds, captures
+
+    Raises
+    ------
+    BadInput
+        Another mechanism
     """
+    if case.mechanism != "crankshaft_flywheel":
+        raise BadInput(
+            f"{case.file}: [startup] explains a crankshaft_flywheel, not a {case.mechanism}; leave the section out"
+        )
     if result is None:
         result = simulate(problem_of(case), settings_of(case))
     parameters, drive = case.need("parameters"), case.need("drive")

@@ -8,6 +8,7 @@ from mechsym.assembly import load_of
 from mechsym.design import Design
 from mechsym.loads import PropellerLoad
 from mechsym.offers import Offer
+from mechsym.other_loads import AtLoad
 from mechsym.rollers import parallel
 from mechsym.steadiness import RIPPLE
 from mechsym.turn import Turn, at_angles
@@ -62,6 +63,7 @@ def summary(design: Design) -> dict[str, Any]:
         "runs": {t.name: _run(t) for t in design.trials},
         "retune": _retune(design),
         "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
+        "loads": [_at_load(row) for row in design.loads],
         "flywheel_inertia_saved": _saved(design),
         "flywheel_inertia_to_turn": design.flywheels.turns.inertia,
         "flywheel_inertia_beside_faulty": getattr(design.flywheels.beside_faulty, "inertia", None),
@@ -128,6 +130,19 @@ def _retune(design: Design) -> dict[str, Any]:
         "torque_ratio_max": wanted.torque_max / hinge.torque_max,
         "torque_ratio_min": wanted.torque_min / hinge.torque_min,
         "torque_ratio_peak": peaks[0] / peaks[1],
+    }
+
+
+def _at_load(row: AtLoad) -> dict[str, Any]:
+    return {
+        "share": row.share,
+        "mep_bar": row.mean_indicated_pressure / 1e5,
+        "speed_ripple": row.as_cut.speed_ripple,
+        "reason": row.as_cut.reason,
+        "p0": row.setting,
+        "p0_ratio": row.ratio,
+        "speed_ripple_reset": row.reset.speed_ripple,
+        "reason_reset": row.reset.reason,
     }
 
 

@@ -6,17 +6,16 @@ from the table it was designed from. `steadiness.py` finds steady motions withou
 
 import dataclasses
 
-import numpy as np
-
 from mechsym.assembly import Assembly, running
 from mechsym.guide import Guide
 from mechsym.hinge import Hinge
 from mechsym.loads import ConstantLoad, Load, PropellerLoad
-from mechsym.mechanism import bind, velocities
+from mechsym.mechanism import bind
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.engine import Engine, machine, problem
 from mechsym.simulate.machine import tabulate
 from mechsym.simulate.steady import steady_state
+from mechsym.simulate.summary import speed_ripple
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -61,31 +60,10 @@ def run(name: str, about: str, engine: Engine, speed: float, turns: float, setti
         Result and ripple
     """
     result = simulate(problem(engine, speed, turns), settings or Settings(check="none"))
-    return Trial(name=name, about=about, result=result, speed_ripple=last_ripple(engine, result))
-
-
-def last_ripple(engine: Engine, result: Result) -> float | None:
-    """Ripple of the speed over the last period of a run.
-
-    Parameters
-    ----------
-    engine : Engine
-        What ran
-    result : Result
-        Its series
-
-    Returns
-    -------
-    ripple : float or None
-        (max - min) / mean [-]; None if the run ended by an event
-    """
-    if result.event is not None or result.status == "failed":
-        return None
-    (q,), (u,) = engine.mechanism.coordinates, velocities(engine.mechanism)
-    angle, omega = result.columns[q], result.columns[u]
-    last = angle >= angle[-1] - engine.period * (1 + 1e-9)
-    mean = np.ptp(angle[last]) / np.ptp(result.t[last])
-    return float(np.ptp(omega[last]) / mean)
+    (angle,) = engine.mechanism.coordinates
+    stopped = result.event is not None or result.status == "failed"
+    ripple = None if stopped else speed_ripple(result, angle, engine.period)
+    return Trial(name=name, about=about, result=result, speed_ripple=ripple)
 
 
 def side_by_side(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load, turns: float) -> list[Trial]:

@@ -33,7 +33,7 @@ COMMAND_LINE = [
 OVERRIDES = [
     ("no equals sign", "spring.p0", ["'spring.p0'", "KEY=VALUE"]),
     ("no value", "spring.p0=", ["'spring.p0='", "KEY=VALUE"]),
-    ("ambiguous bare key", "law=coil", ["law", "spring.law or load.law"]),
+    ("ambiguous bare key", "law=coil", ["law", "spring.law or rings.law or load.law"]),
     ("unknown bare key", "borre=0.3", ["borre", "did you mean bore?", "section.key"]),
     ("unknown dotted key", "cycle.boore=0.3", ["cycle.boore", "did you mean 'bore'?"]),
     ("unknown section", "sprng.p0=5e6", ["[sprng]", "did you mean 'spring'?"]),
@@ -178,16 +178,18 @@ def test_file(refused, tmp_path, content, words):
     expect(refused(["hinge", str(file)]), ["mine.toml", *words])
 
 
+@pytest.mark.parametrize("command", ["hinge", "forces"])
 @pytest.mark.parametrize(("text", "words"), [row[1:] for row in DIAGRAMS], ids=ids(DIAGRAMS))
-def test_diagram(refused, tmp_path, text, words):
+def test_diagram(refused, tmp_path, text, words, command):
     file = tmp_path / "diagram.csv"
     file.write_text(text, encoding="utf-8")
-    expect(refused(["hinge", "generator", "--diagram", str(file)]), ["diagram.csv", *words])
+    expect(refused([command, "generator", "--diagram", str(file)]), ["diagram.csv", *words])
 
 
+@pytest.mark.parametrize("command", ["hinge", "forces"])
 @pytest.mark.parametrize("path", ["nowhere.csv", "."], ids=["missing", "folder"])
-def test_diagram_that_cannot_be_read(refused, path):
-    expect(refused(["hinge", "generator", "--diagram", path]), [path])
+def test_diagram_that_cannot_be_read(refused, path, command):
+    expect(refused([command, "generator", "--diagram", path]), [path])
 
 
 def test_diagram_of_bytes(refused, tmp_path):
@@ -196,8 +198,9 @@ def test_diagram_of_bytes(refused, tmp_path):
     expect(refused(["hinge", "generator", "--diagram", str(file)]), ["diagram.csv", "not UTF-8", "CSV"])
 
 
-def test_measured_cycle_without_its_diagram(refused):
-    expect(refused(["hinge", "generator"]), ["no file", "--diagram FILE"])
+@pytest.mark.parametrize("command", ["hinge", "forces"])
+def test_measured_cycle_without_its_diagram(refused, command):
+    expect(refused([command, "generator"]), ["no file", "--diagram FILE"])
 
 
 @pytest.mark.parametrize("command", ["hinge", "simulate", "cycle"])

@@ -211,3 +211,42 @@ def rounded(value, name=""):
     if isinstance(value, float):
         return [f"{name} = {value:.3g}" if abs(value) >= 1e-7 else f"{name} below 1e-7"]
     return [f"{name} = {value}"]
+
+
+def test_other_loads_have_their_own_key_table_and_picture(tmp_path, monkeypatch, capsys):
+    words = ["--set", "trials.turns=4", "--loads", "0.5,0.9,1", "--out", str(tmp_path)]
+    monkeypatch.setattr(sys, "argv", ["mechsym", "hinge", "zotov-89", "--json", *words])
+    with pytest.raises(SystemExit) as end:
+        main()
+    half, nine, full = strict_json(capsys.readouterr().out)["loads"]
+    assert (end.value.code or 0) == 0
+    assert [row["mep_bar"] for row in (half, nine, full)] == pytest.approx([4.0, 7.2, 8.0])
+    assert full["speed_ripple"] < 1e-9 and full["p0_ratio"] == pytest.approx(1.0, rel=1e-9)
+    assert 0.05 < nine["speed_ripple_reset"] < nine["speed_ripple"] and nine["p0_ratio"] < 1
+    assert half["speed_ripple"] is None and "it stops after" in half["reason"]
+    page = (tmp_path / "report.html").read_text()
+    assert "<h2>The same guide at other loads</h2>" in page and half["reason"] in page
+    assert (tmp_path / "loads.svg").read_text().startswith("<svg")
+
+
+def test_no_other_loads_unless_asked_for(run, written):
+    assert run()[1]["loads"] == [] and "other loads" not in written["report.html"].read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--loads", "0"], "--loads 0: shares"),
+        (["--loads", "50"], "--loads 50: shares"),
+        (["--loads", "half"], "--loads"),
+        (["--loads", "0.5,"], "--loads"),
+        (["--loads", "0.5", "--diagram", "own.csv"], "one load"),
+    ],
+)
+def test_other_loads_that_make_no_sense_are_refused(words, message, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["mechsym", "hinge", "zotov-89", "--json", *words])
+    with pytest.raises(SystemExit) as end:
+        main()
+    printed = capsys.readouterr()
+    assert end.value.code == 2 and printed.out == ""
+    assert message in printed.err and printed.err.count("\n") == 1

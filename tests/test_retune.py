@@ -6,7 +6,7 @@ from hinges import HIGHER, LOWER, assembly, built, section, whole
 
 from mechsym import guide, retune, setting
 from mechsym.errors import BadInput
-from mechsym.ripple import even_angles
+from mechsym.periodic import even_angles
 from mechsym.springs import AirGauge, Coil
 
 PHI = even_angles(2 * np.pi)

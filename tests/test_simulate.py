@@ -15,7 +15,7 @@ from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.phase import Phase, Surface
 from mechsym.simulate.result import write_series
 from mechsym.simulate.scipy_backend import advance
-from mechsym.simulate.summary import last_turn, speed_over, speed_ripple, summary
+from mechsym.simulate.summary import last_period, speed_over, speed_ripple, summary
 
 JUMP = 0.731  # no multiple of any output step
 
@@ -70,13 +70,15 @@ def test_jump_of_a_callable_is_split_where_it_is_announced():
     assert told.steps < 0.7 * untold.steps  # without the split the step size must shrink to nothing at the jump
 
 
-def test_error_follows_the_tolerance():
-    errors = []
-    for tolerance in (1e-5, 1e-7, 1e-9):
-        result = simulate(stepped(), Settings(tolerance=tolerance, check="none"))
+@pytest.mark.parametrize("name", ["auto", "scipy-dop853"])
+def test_error_follows_the_tolerance(name):
+    errors, tolerances = [], (1e-5, 1e-7, 1e-9)
+    for tolerance in tolerances:
+        result = simulate(stepped(), Settings(backend=name, tolerance=tolerance, check="none"))
         errors.append(np.abs(result.columns["phi"] - step_response(result.t)).max())
-    assert errors[0] / errors[1] > 20 and errors[1] / errors[2] > 20
-    assert errors[2] < 1e-9
+    assert np.all(np.array(errors) < 5 * np.array(tolerances))
+    # where the equations are linear, steps of order 16 are exact at any tolerance
+    assert name == "auto" or (errors[0] > 20 * errors[1] and errors[1] > 20 * errors[2])
 
 
 def test_fixed_step_has_its_order():
@@ -316,7 +318,7 @@ def test_summary_of_a_braked_run():
     speed = speed_over(result, "phi", 0.0)
     assert speed == pytest.approx({"mean": 5.0, "min": 0.0, "max": 10.0}, abs=1e-9)
     # the last turn begins where phi = phi_end - 2 pi, M (t_end - t)^2 / (2 I) = 2 pi
-    assert last_turn(result, "phi") == pytest.approx(7.5 - np.sqrt(4 * np.pi * 3.0 / 4.0), abs=0.011)
+    assert last_period(result, "phi") == pytest.approx(7.5 - np.sqrt(4 * np.pi * 3.0 / 4.0), abs=0.011)
     assert summary(result, ("phi",), 1.0)["event"]["name"] == "stall"
 
 

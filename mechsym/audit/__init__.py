@@ -4,7 +4,7 @@ reader.py, latex.py, printer.py   text to tree and back (tree.py, limits.py, spe
 algebra.py                        one tree in floats, in many digits and in symbols
 theory/                           the derived quantities that formulas are compared with
 question.py                       states at which formula and quantity are compared
-prover.py, certificate.py         exact? digits decide, polynomials prove
+prover.py                         exact? digits decide, polynomials prove
 orders.py, dimensions.py          how good an approximation is; does it rescale
 edits.py, required.py,            single edits; what each part would have to be; what was left out;
 insertion.py, candidates.py       edits that meet it

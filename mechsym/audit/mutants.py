@@ -5,10 +5,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from mechsym.audit.certificate import proves_equal
 from mechsym.audit.edits import Edit, apply
 from mechsym.audit.printer import to_python
-from mechsym.audit.prover import is_exact, judges
+from mechsym.audit.prover import is_exact, judges, proves_equal
 from mechsym.audit.question import Question
 from mechsym.audit.repair import Examination, examine, fingerprint, standing
 from mechsym.audit.slips import single_edits

@@ -4,12 +4,16 @@ from dataclasses import dataclass
 
 import mpmath
 import numpy as np
+import sympy
+from sympy import Expr
 
-from mechsym.audit.algebra import DIGITS, FLOATS
-from mechsym.audit.bench import Bench, bench, value
-from mechsym.audit.certificate import proves_equal
+from mechsym.audit.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
+from mechsym.audit.bench import Bench, bench, used_names, value
 from mechsym.audit.question import Question, digit_values, float_values, random_fractions
+from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node
+from mechsym.derive.identity import vanishes
+from mechsym.errors import BadInput
 
 POINTS = 20
 WORKING_DIGITS = 50
@@ -120,3 +124,46 @@ def certified(question: Question) -> bool:
         False means that the digits are the only evidence
     """
     return proves_equal(question, question.formula.tree)
+
+
+def proves_equal(question: Question, tree: Node, other: Node | None = None) -> bool:
+    """Whether a formula is provably the derived quantity, or another formula.
+
+    Parameters
+    ----------
+    question : Question
+        Letters and theory
+    tree : Node
+        Expression in the formula's letters
+    other : Node, optional
+        Expression in the same letters; the derived quantity when left out
+
+    Returns
+    -------
+    proved : bool
+        False means that no proof was found
+    """
+    try:
+        names = _symbolic_names(question)
+        first = evaluate(tree, names, SYMBOLS)
+        second = names[question.quantity] if other is None else evaluate(other, names, SYMBOLS)
+        return vanishes(sympy.sympify(first - second))
+    except (BadInput, sympy.PolynomialError, RecursionError):
+        return False
+
+
+def _symbolic_names(question: Question) -> dict[str, Expr]:
+    """Symbols for the theory's letters, closed forms for its names and the author's letters."""
+    theory, formula = question.theory, question.formula
+    letters = {k: _symbol(theory, k) for k in theory.letters} | {
+        k: sympy.Rational(str(v)) for k, v in question.hold.items()
+    }
+    names: dict[str, Expr] = {"pi": sympy.pi, **letters}
+    complete(theory, names, [question.quantity, *used_names(formula)], SYMBOLS)
+    return names | {k: evaluate(t, names, SYMBOLS) for k, t in formula.letters.items()}
+
+
+def _symbol(theory: Theory, letter: str) -> sympy.Symbol:
+    record = theory.letters[letter]
+    positive = record.value > 0 and not record.unit.startswith("rad")
+    return sympy.Symbol(letter, real=True, positive=positive or None)

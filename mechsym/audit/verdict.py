@@ -9,10 +9,10 @@ import numpy as np
 
 from mechsym.audit.bench import max_rel_error, names, value
 from mechsym.audit.candidates import listed_edits
-from mechsym.audit.certificate import proves_equal
 from mechsym.audit.dimensions import is_consistent
 from mechsym.audit.edits import apply
 from mechsym.audit.orders import EXACT, is_truncation, lowest
+from mechsym.audit.prover import proves_equal
 from mechsym.audit.question import Question
 from mechsym.audit.repair import Examination, Repair, better, examine, repairs, standing
 from mechsym.audit.rounding import rounded_constant

@@ -11,6 +11,7 @@ from mechsym.cli.speeds import parse_speeds
 
 @click.command()
 @click.argument("case")
+@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")
 @click.option("--law", metavar="A:B:STEP", help="Fit the friction over these speeds (rpm) for [friction_pressure].")
 @set_option
@@ -20,6 +21,7 @@ from mechsym.cli.speeds import parse_speeds
 def forces(
     ctx: click.Context,
     case: str,
+    diagram: str | None,
     comparison: bool,
     law: str | None,
     overrides: tuple[str, ...],
@@ -32,13 +34,16 @@ def forces(
 
     \b
     Examples: mechsym forces moroianu --comparison --out forces
+              mechsym forces generator --diagram measured.csv
               mechsym forces nunes-hypocycloid --law 1000:8000:1000
     """
     from mechsym import cases
+    from mechsym.forces.gas import measured
     from mechsym.forces.result import forces as run
     from mechsym.forces.result import summary
 
-    found = run(cases.load(case, pairs(overrides)), comparison)
+    loaded = cases.load(case, pairs(overrides))
+    found = run(loaded if diagram is None else measured(loaded, diagram), comparison)
     report = summary(found)
     report["friction_law"] = _law(found.turn.case, law) if law else None
     report["files"] = [] if out is None else [str(file) for file in _write(found, report, out)]

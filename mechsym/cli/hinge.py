@@ -6,32 +6,39 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option
+from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+
+_MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
 
 @click.command()
 @click.argument("case_name", metavar="CASE")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
+@click.option("--loads", metavar="A,B..", help="Try the guide at other loads too, as shares of the case's: 0.5,0.75,1.")
 @out_option
 @set_option
 @json_option
-def hinge(case_name: str, diagram: str | None, out: Path | None, overrides: tuple[str, ...], as_json: bool) -> None:
+def hinge(
+    case_name: str, diagram: str | None, loads: str | None, out: Path | None, overrides: tuple[str, ...], as_json: bool
+) -> None:
     """Design hinge and guide, simulate the engine with them, write the report.
 
-    Exit status 1 when the guide cannot be built; everything is computed and written all the same.
+    Exit status 1 when the guide cannot be built; everything is computed and written all the same. At other loads the
+    guide stays as it was cut, with the spring as designed and with the setting that fits that load best.
 
     \b
-    Example: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
+    Examples: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
+              mechsym hinge zotov-89 --loads 0.5,0.75,0.9,1
     """
     from mechsym import cases, design
     from mechsym.files import make_folder
     from mechsym.summary import summary
 
-    case = cases.load(case_name, pairs(overrides))
+    case, shares = cases.load(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
         make_folder(out)
     with progress(design.STEPS + bool(out), f"hinge of {case.name}") as bar:
-        found = design.design(case, diagram, lambda: bar.update(1))
+        found = design.design(case, diagram, lambda: bar.update(1), shares)
         files: list[Path] = []
         if out is not None:
             from mechsym.report import write
@@ -42,6 +49,17 @@ def hinge(case_name: str, diagram: str | None, out: Path | None, overrides: tupl
     emit(numbers, as_json, lambda: _text(numbers, files))
     if not numbers["guide"]["feasible"]:
         sys.exit(1)
+
+
+def _shares(loads: str | None) -> list[float]:
+    from mechsym.errors import BadInput
+    from mechsym.quantities import parse
+
+    shares = [parse(part.strip(), "-", "--loads") for part in loads.split(",")] if loads is not None else []
+    for share in shares:
+        if not 0 < share <= _MOST:
+            raise BadInput(f"--loads {share:g}: shares of the case's load must be above 0 and at most {_MOST:g}")
+    return shares
 
 
 def _text(numbers: dict[str, Any], files: list[Path]) -> str:
@@ -67,7 +85,16 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
             f"at {again['speed_rpm']:.4g} rpm       best setting {again['p0']:.5g} ({again['p0_ratio']:.3g} times), "
             f"ripple {_number(again['speed_ripple'])}"
         )
+    if numbers["loads"]:
+        columns = ["share", "mep_bar", "speed_ripple", "p0", "p0_ratio", "speed_ripple_reset"]
+        lines += ["", table(numbers["loads"], columns), *_stopped(numbers["loads"])]
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+
+
+def _stopped(rows: list[dict[str, Any]]) -> list[str]:
+    """Why there is no ripple, once for each load."""
+    kinds = (("speed_ripple", "reason", "as cut"), ("speed_ripple_reset", "reason_reset", "reset"))
+    return [f"share {r['share']:g}, {words}: {r[why]}" for r in rows for key, why, words in kinds if r[key] is None]
 
 
 def _number(value: float | None) -> str:

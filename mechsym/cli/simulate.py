@@ -36,15 +36,19 @@ def simulate(
 ) -> None:
     """Simulate CASE over time, with an energy audit and a check of the tolerance.
 
-    Exit status 1 when the run did not converge; a stall is an event, not a failure.
+    Exit status 1 when the run did not converge; a stall is an event, not a failure. An elastic shaft reports the
+    twist of each section. A crank train takes [drive] (a torque at the free end, switched on at a time), [cycle] (gas
+    on every piston) or both, [load] at the flywheel, and [simulation] with t_end or turns.
 
     \b
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
+             mechsym simulate alpha-stirling --set c="5 N*m*s/rad"
     """
     from mechsym.runs import problem_of, settings_of, window_of
     from mechsym.simulate import simulate as run
     from mechsym.simulate.summary import summary
     from mechsym.startup_findings import findings, numbers
+    from mechsym.twist import natural_frequencies, sections
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
@@ -52,12 +56,15 @@ def simulate(
     settings = settings_of(found)
     problem = problem_of(found)
     result = run(problem, dataclasses.replace(settings, check="none") if no_check else settings)
-    report = {"case": found.name, "backend": settings.backend, "tolerance": settings.tolerance}
+    report: dict[str, Any] = {"case": found.name, "backend": settings.backend, "tolerance": settings.tolerance}
     report |= summary(result, problem.mechanism.coordinates, window_of(found, problem))
+    twists = sections(found, result, result.t[-1] - report["window"])
+    report["natural_frequencies"] = list(natural_frequencies(found))
+    report["twist"] = [dataclasses.asdict(s) for s in twists]
     starts = _start_ups(found, result, dampings)
     report["findings"] = list(findings(starts[0])) if starts else []
     report["start_up"] = [numbers(s) for s in starts]
-    report["files"] = [] if out is None else _write(result, starts, out)
+    report["files"] = [] if out is None else _write(result, len(twists), starts, out)
     emit(report, as_json, lambda: _text(report))
     ctx.exit(1 if result.status in ("failed", "not converged", "chaotic") else 0)
 
@@ -76,7 +83,9 @@ def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]
     return [start_up(case, result), *start_up_map(case, values)]
 
 
-def _write(result: Any, starts: list[Any], out: Path) -> list[str]:
+def _write(result: Any, shafts: int, starts: list[Any], out: Path) -> list[str]:
+    from mechsym import plots_torsion
+    from mechsym.plots import svg
     from mechsym.simulate import write_netcdf, write_series
 
     files = [write_series(result, out / "series.csv")]
@@ -84,12 +93,11 @@ def _write(result: Any, starts: list[Any], out: Path) -> list[str]:
         files.append(write_netcdf(result, out / "series.nc"))
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
+    figures = {"twist": plots_torsion.twist(result, shafts)} if shafts else {}
     if starts:
-        from mechsym import plots_torsion
-        from mechsym.plots import svg
-
-        figures = {"campbell": plots_torsion.campbell(starts[0])}
+        figures["campbell"] = plots_torsion.campbell(starts[0])
         figures["startup"] = plots_torsion.start_up(starts, starts[0].claim.claim_speed)
+    if figures:
         files += [write_text(out / f"{name}.svg", svg(figure)) for name, figure in figures.items()]
     return [str(f) for f in files]
 
@@ -102,6 +110,10 @@ def _text(report: dict[str, Any]) -> str:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
     rows = [{"speed over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
     lines += ["", table(rows, ["speed over the last", "of", "mean", "min", "max"])]
+    if report["twist"]:
+        columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
+        natural = ", ".join(f"{f:.6g}" for f in report["natural_frequencies"])
+        lines += ["", table(report["twist"], columns), f"natural frequencies {natural} rad/s"]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
         lines += ["", table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"])]

@@ -2,7 +2,7 @@
 
 Positions are functions of the coordinates and of joint displacements. A joint displacement enters the closed form
 like a coordinate and is held at zero: it gives the relative displacement of the second body against the first, and
-its generalised force is the reaction of the first body on the second.
+its generalised force is the reaction of the first body on the second. What shall come out is said by outputs.py.
 """
 
 from sympy import Expr, Integer, Symbol, sympify
@@ -286,55 +286,6 @@ class Mechanism:
             Expression in the coordinates that vanishes
         """
         self.constraints[name] = self.tape.named(sympify(value))
-
-    def equations(self, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
-        """Declare a model by its equations only: mass_matrix * qdd + bias = force. It has no energies.
-
-        Parameters
-        ----------
-        mass_matrix : list of list of Expr
-            Coefficients of the accelerations
-        bias : list of Expr
-            Terms with velocities, on the left
-        force : list of Expr
-            Right-hand sides
-        """
-        named = self.tape.named
-        rows = [[named(sympify(e)) for e in row] for row in mass_matrix]
-        self.given = (rows, [named(sympify(e)) for e in bias], [named(sympify(e)) for e in force])
-
-    def output(self, *symbols: Symbol, order: int = 0) -> None:
-        """Make names part of the kinematic outputs, with their derivatives by the coordinates.
-
-        Parameters
-        ----------
-        *symbols : Symbol
-            Names on the tape
-        order : int
-            Highest derivative, 0 to 2
-        """
-        for symbol in symbols:
-            found = [symbol]
-            for _ in range(order):
-                self.kinematic_outputs += found
-                found = [d for f in found for v in self.q if (d := self.tape.derivative(f, v)).is_Symbol]
-            self.kinematic_outputs += found
-        self.kinematic_outputs = list(dict.fromkeys(self.kinematic_outputs))
-
-    def output_dynamic(self, name: str, value: Expr, unit: str) -> None:
-        """Add an output that needs velocities, accelerations or inputs.
-
-        Parameters
-        ----------
-        name : str
-            Name of the output
-        value : Expr
-            Expression in names, `velocity` and `acceleration` of names, reactions, inputs and parameters
-        unit : str
-            Its unit
-        """
-        self.units[name] = unit
-        self.dynamic_outputs[name] = self.tape.named(sympify(value))
 
 
 def _one_or_all(symbols: list[Symbol]) -> list[Symbol] | Symbol:

@@ -1,17 +1,22 @@
-"""Is an expression identically zero? Numbers decide quickly, a polynomial certificate decides exactly.
+"""Is an expression identically zero? Numbers refute quickly, a polynomial certificate proves.
 
-The certificate writes every root as a letter D with D^2 = radicand and every sine and cosine as letters with
-s^2 + c^2 = 1, and reduces the numerator: what vanishes as a polynomial vanishes everywhere.
+The certificate: sines and cosines of multiples and sums become polynomials in s and c with s^2 + c^2 = 1; roots become
+letters D with D^2 = radicand, the radicand made square-free where signs allow; powers with letters in the exponent
+become letters. What then vanishes as a polynomial vanishes everywhere. A failure to reduce proves nothing.
 """
 
 import random
 from collections.abc import Sequence
+from functools import reduce
 
 import mpmath
-from sympy import Dummy, Expr, Pow, Rational, Symbol, cos, expand, fraction, lambdify, sin, together
+import sympy
+from sympy import Dummy, Expr, Integer, Pow, Rational, Symbol, cos, lambdify, sin
 
+# beyond these an expression takes minutes to expand, and is not tried
+MAX_OPERATIONS = 4000
+MAX_POWER = 12
 _DIGITS = 50
-_POINTS = 20
 
 
 def random_state(symbols: Sequence[Symbol], generator: random.Random) -> dict[Symbol, Rational]:
@@ -60,36 +65,108 @@ def vanishes_at_random_points(expression: Expr, scale: Expr, states: Sequence[di
     return True
 
 
-def certificate(expression: Expr) -> bool:
-    """Whether the expression reduces to the zero polynomial modulo D^2 = radicand and s^2 + c^2 = 1.
+def vanishes(expression: Expr) -> bool:
+    """Whether an expression reduces to the zero polynomial.
 
     Parameters
     ----------
     expression : Expr
-        Rational expression in letters, sines, cosines and square roots
+        In letters, sines, cosines, roots and powers
 
     Returns
     -------
     zero : bool
-        True is a proof; False means that this reduction found no proof
+        True is a proof wherever the expression is real; False means that this reduction found none
     """
-    roots = sorted({p.base for p in expression.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2}, key=str)
-    letters = {base: Dummy(f"D{i}", positive=True) for i, base in enumerate(roots)}
-
-    def as_letter(power: Pow) -> Expr:
-        return letters[power.base] ** (2 * power.exp)
-
-    polynomial = expression.replace(lambda e: isinstance(e, Pow) and e.base in letters and e.exp.q == 2, as_letter)
-    numerator = expand(fraction(together(polynomial))[0])
-    for base, letter in letters.items():
-        numerator = expand(fraction(together(_reduce(numerator, letter, base)))[0])
-    for angle in sorted({f.args[0] for f in numerator.atoms(sin, cos)}, key=str):
-        numerator = expand(_reduce(numerator, cos(angle), 1 - sin(angle) ** 2))
-    return numerator == 0
+    if expression.count_ops() > MAX_OPERATIONS or any(abs(p.exp) > MAX_POWER for p in _number_powers(expression)):
+        return False
+    expression = _circular(expression)
+    letters: dict[Expr, Dummy] = {}
+    polynomial = _without_roots(expression, letters)
+    numerator = sympy.fraction(sympy.together(polynomial))[0]
+    for _ in range(len(letters) + 1):
+        numerator = sympy.fraction(sympy.together(_lower_roots(sympy.expand(numerator), letters)))[0]
+    return _lower_cosines(sympy.expand(numerator)) == 0
 
 
-def _reduce(polynomial: Expr, letter: Expr, square: Expr) -> Expr:
+def _number_powers(expression: Expr) -> list[Pow]:
+    return [p for p in expression.atoms(Pow) if p.exp.is_number]
+
+
+def _circular(expression: Expr) -> Expr:
+    expression = expression.replace(sympy.tan, lambda x: sin(x) / cos(x)).replace(sympy.cot, lambda x: cos(x) / sin(x))
+    arguments = [sympy.expand(f.args[0]) for f in expression.atoms(sin, cos)]
+    divisors: dict[Expr, int] = {}
+    for argument in arguments:
+        for atom, coefficient in argument.as_coefficients_dict().items():
+            divisors[atom] = sympy.ilcm(divisors.get(atom, 1), getattr(coefficient, "q", 1))
+    halves = {atom: divisor * atom for atom, divisor in divisors.items() if atom.is_Symbol and divisor > 1}
+    return sympy.expand_trig(expression.xreplace(halves))
+
+
+def _without_roots(expression: Expr, letters: dict[Expr, Dummy]) -> Expr:
+    # innermost first: a radicand may hold roots
+    if not expression.args:
+        return expression
+    expression = expression.func(*(_without_roots(a, letters) for a in expression.args))
+    if not isinstance(expression, Pow) or expression.exp.is_Integer:
+        return expression
+    base, exponent = expression.args
+    if exponent.is_Rational:
+        return _root(base, exponent.q, letters) ** exponent.p
+    whole, rest = exponent.expand().as_coeff_Add()
+    coefficient, rest = rest.as_coeff_Mul()
+    if not (whole.is_Integer and coefficient.is_Integer):
+        return expression
+    return base**whole * letters.setdefault(base**rest, Dummy("P", positive=True)) ** coefficient
+
+
+def _root(base: Expr, degree: int, letters: dict[Expr, Dummy]) -> Expr:
+    if degree != 2:
+        return letters.setdefault(Pow(base, Rational(1, degree), evaluate=False), Dummy("R", positive=True))
+    above, below = sympy.fraction(sympy.together(base))
+    if not below.is_positive:
+        # a denominator that may be negative stays in the radicand
+        return _letter_of(sympy.together(_lower_cosines(sympy.expand(base))), letters)
+    content, factors = sympy.sqf_list(_lower_cosines(sympy.expand(above * below)))
+    outside, inside = _letter_of(content, letters), Integer(1)
+    for factor, power in factors:
+        if factor.is_positive:
+            outside *= factor ** (power // 2)
+            inside *= factor ** (power % 2)
+        else:
+            inside *= factor**power
+    return outside * _letter_of(sympy.expand(inside), letters) / below
+
+
+def _letter_of(square: Expr, letters: dict[Expr, Dummy]) -> Expr:
+    root = sympy.sqrt(square)
+    if root.is_Symbol or root.is_Rational:
+        return root
+    return letters.setdefault(square, Dummy("D", positive=True))
+
+
+def _lower_roots(polynomial: Expr, letters: dict[Expr, Dummy]) -> Expr:
+    def lower(power: Pow, square: Expr) -> Expr:
+        return square ** (power.exp // 2) * power.base ** (power.exp % 2)
+
+    for square, letter in letters.items():
+        if letter.name == "D":
+            polynomial = polynomial.replace(
+                lambda e, d=letter: isinstance(e, Pow) and e.base == d and e.exp.is_Integer,
+                lambda e, s=square: lower(e, s),
+            )
+    return sympy.expand(polynomial)
+
+
+def _lower_cosines(polynomial: Expr) -> Expr:
+    angles = sorted({f.args[0] for f in polynomial.atoms(cos)}, key=str)
+    return reduce(_lower_cosine, angles, polynomial)
+
+
+def _lower_cosine(polynomial: Expr, angle: Expr) -> Expr:
     def lower(power: Pow) -> Expr:
-        return square ** (power.exp // 2) * letter ** (power.exp % 2)
+        return (1 - sin(angle) ** 2) ** (power.exp // 2) * cos(angle) ** (power.exp % 2)
 
-    return polynomial.replace(lambda e: isinstance(e, Pow) and e.base == letter and e.exp.is_Integer, lower)
+    found = polynomial.replace(lambda e: isinstance(e, Pow) and e.base == cos(angle) and e.exp.is_Integer, lower)
+    return sympy.expand(found)

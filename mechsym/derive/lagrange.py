@@ -10,7 +10,7 @@ displacement is one more coordinate whose acceleration is zero: its equation giv
 
 from dataclasses import dataclass
 
-from sympy import Expr, Integer, Rational, Symbol
+from sympy import Expr, Integer, Rational, Symbol, sympify
 
 from mechsym.derive.declare import Body, Mechanism
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
@@ -53,6 +53,25 @@ class Equations:
     momentum: dict[str, Expr]
     constraint_jacobian: tuple[tuple[Expr, ...], ...] = ()
     constraint_bias: tuple[Expr, ...] = ()
+
+
+def given_equations(m: Mechanism, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
+    """Declare a model by its equations only: mass_matrix * qdd + bias = force. It has no energies.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration, without bodies
+    mass_matrix : list of list of Expr
+        Coefficients of the accelerations
+    bias : list of Expr
+        Terms with velocities, on the left
+    force : list of Expr
+        Right-hand sides
+    """
+    named = m.tape.named
+    rows = [[named(sympify(e)) for e in row] for row in mass_matrix]
+    m.given = (rows, [named(sympify(e)) for e in bias], [named(sympify(e)) for e in force])
 
 
 def derive(m: Mechanism) -> Equations:

@@ -9,7 +9,7 @@ import random
 
 from sympy import Expr, Integer, Symbol
 
-from mechsym.derive.identity import certificate, random_state, vanishes_at_random_points
+from mechsym.derive.identity import random_state, vanishes, vanishes_at_random_points
 from mechsym.derive.lagrange import Equations
 from mechsym.derive.rates import accelerations, velocities
 
@@ -105,4 +105,4 @@ def proved(equations: Equations) -> bool:
         True is a proof for all states and parameters
     """
     pairs = zip(lagrange_left_side(equations), geometric_left_side(equations), strict=True)
-    return all(certificate(textbook - geometric) for textbook, geometric in pairs)
+    return all(vanishes(textbook - geometric) for textbook, geometric in pairs)

@@ -15,6 +15,7 @@ from mechsym.engine.pressure import Pressure
 from mechsym.engine.two_stroke import TwoStrokeMarine
 from mechsym.engine.two_stroke_solve import two_stroke_pressure
 from mechsym.engine.two_stroke_zone import TwoStrokeZone, two_stroke_zone_pressure
+from mechsym.errors import BadInput
 
 _PRESSURES: dict[type, Callable[[Any, Cylinder], Pressure]] = {
     TwoStrokeMarine: two_stroke_pressure,
@@ -85,10 +86,20 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
     -------
     diagram : Diagram
         For `cylinder_pressure`
+
+    Raises
+    ------
+    BadInput
+        A cycle of another kind, whose cylinder is not known
     """
     if isinstance(cycle, Diagram):
         return dataclasses.replace(cycle, file=file)
-    known = _two_stroke_line(cycle) if isinstance(cycle, TwoStrokeMarine) else {"working_cycle": "four-stroke"}
+    if not isinstance(cycle, TwoStrokeMarine | TwoStrokeZone):
+        raise BadInput(
+            f"{file}: a measured diagram has no cylinder in this case; give [cycle] kind = 'diagram' with bore, "
+            "compression_ratio and working_cycle"
+        )
+    known = _two_stroke_line(cycle) if isinstance(cycle, TwoStrokeMarine) else {"working_cycle": "two-stroke"}
     return Diagram(
         bore=cycle.bore,
         compression_ratio=cycle.compression_ratio,

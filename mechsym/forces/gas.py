@@ -16,7 +16,8 @@ from numpy.polynomial import Chebyshev
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.engine.cylinder import piston_area
-from mechsym.engine.kinds import back_pressure, cylinder_pressure
+from mechsym.engine.diagram import Diagram
+from mechsym.engine.kinds import back_pressure, cylinder_pressure, with_diagram
 from mechsym.engine.pressure import periodic
 from mechsym.engine.schmidt import Schmidt, schmidt_pressure
 from mechsym.engine.spark_ignition import SparkIgnition
@@ -48,6 +49,8 @@ class Gas:
         Largest over smallest volume of one cylinder [-]
     facts : tuple of str
         What was assumed, one sentence each
+    kinks : tuple of float
+        Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
     """
 
     absolute: Callable[[Any], Any]
@@ -58,6 +61,7 @@ class Gas:
     stroke: float
     compression_ratio: float
     facts: tuple[str, ...]
+    kinks: tuple[float, ...] = ()
 
 
 def gas(case: Case) -> Gas | None:
@@ -96,7 +100,41 @@ def gas(case: Case) -> Gas | None:
         stroke=cylinder.stroke,
         compression_ratio=cylinder.compression_ratio,
         facts=pressure.facts,
+        kinks=pressure.kinks,
     )
+
+
+def measured(case: Case, file: str) -> Case:
+    """The case with a measured diagram in place of its cycle.
+
+    Parameters
+    ----------
+    case : Case
+        With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
+    file : str
+        CSV file
+
+    Returns
+    -------
+    case : Case
+        For `gas`
+
+    Raises
+    ------
+    BadInput
+        A cycle whose cylinder is not known
+    """
+    cycle = case.need("cycle")
+    if isinstance(cycle, SparkIgnition):
+        room = case.need("chamber")
+        cycle = Diagram(
+            bore=room.bore,
+            compression_ratio=room.compression_ratio,
+            working_cycle="four-stroke",
+            inlet_pressure=cycle.intake_pressure,
+            p_back=room.back_pressure,
+        )
+    return dataclasses.replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)})
 
 
 def _spark(case: Case) -> Gas:
@@ -224,7 +262,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
     Returns
     -------
     gas : Gas
-        Over the motion `other`
+        Over the motion `other`, whose kinks are not looked for
     """
 
     # travel is even in the angle, so one cosine is a smooth function of the other: a polynomial found once
@@ -236,7 +274,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
         return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
-    return dataclasses.replace(found, absolute=absolute)
+    return dataclasses.replace(found, absolute=absolute, kinks=())
 
 
 def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:

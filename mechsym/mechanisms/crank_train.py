@@ -8,7 +8,8 @@
         Y ------O                          throw turns the other way round (geared crank of an opposed-piston engine).
 
 One throw is derived (derivations/crank_throw.py) and instantiated; `build` has the coordinates phi1..phiN, phi_f,
-`build_rigid` the one coordinate phi. A value for all cylinders or throws may be given once.
+`build_driven` a torque at the free end besides, `build_rigid` the one coordinate phi. A value for all cylinders or
+throws may be given once.
 """
 
 import dataclasses
@@ -197,6 +198,24 @@ def build_rigid(parameters: CrankTrainParameters) -> Mechanism:
     from mechsym.mechanisms import crank_train_assembly
 
     return crank_train_assembly.rigid(parameters)
+
+
+def build_driven(parameters: CrankTrainParameters) -> Mechanism:
+    """The crank train on its elastic shaft, turned by a torque at the free end.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Data
+
+    Returns
+    -------
+    mechanism : Mechanism
+        As of `build`, with the further input M_drive (torque on throw 1, forward)
+    """
+    from mechsym.mechanisms import crank_train_assembly
+
+    return crank_train_assembly.driven(parameters)
 
 
 def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:

@@ -126,6 +126,33 @@ def elastic(p: CrankTrainParameters) -> Mechanism:
     return _mechanism(p, s, outputs, torques, strain)
 
 
+def driven(p: CrankTrainParameters) -> Mechanism:
+    """The elastic train with a torque on its first throw as a further input.
+
+    Parameters
+    ----------
+    p : CrankTrainParameters
+        Crank train
+
+    Returns
+    -------
+    mechanism : Mechanism
+        Named CasADi functions; reactions take the input too, though none of them feels it at given accelerations
+    """
+    plain, torque = elastic(p), ca.SX.sym("M_drive")
+    functions = dict(plain.functions)
+    for group in ("dynamics", "reactions"):
+        function = plain.functions[group]
+        inputs = {name: ca.SX.sym(name) for name in function.name_in()}
+        outputs = {name: ca.SX(value) for name, value in function(**inputs).items()}
+        if group == "dynamics":
+            force = outputs["generalized_force"]
+            outputs["generalized_force"] = ca.vertcat(force[0] + torque, force[1:])
+        ordered = {name: outputs[name] for name in function.name_out()}
+        functions[group] = _function(group, [*inputs.values(), torque], ordered)
+    return dataclasses.replace(plain, inputs=(*plain.inputs, "M_drive"), functions=functions)
+
+
 def rigid(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before.
 

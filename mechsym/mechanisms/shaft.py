@@ -51,12 +51,11 @@ def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) ->
     matrices : ShaftMatrices
         One row a coordinate
     """
+    k, c = springs(parameters)
     if isinstance(parameters, CrankTrainParameters):
-        mechanism = build(parameters)
-        discs, k, c = [*each(parameters, "I0"), parameters.I_f], each(parameters, "k"), each(parameters, "c")
+        mechanism, discs = build(parameters), [*each(parameters, "I0"), parameters.I_f]
     else:
-        mechanism = build_two(parameters)
-        discs, k, c = [parameters.I0, parameters.I2], (parameters.k1,), (parameters.c1,)
+        mechanism, discs = build_two(parameters), [parameters.I0, parameters.I2]
     return ShaftMatrices(
         coordinates=mechanism.coordinates,
         inertia=np.diag(discs),
@@ -64,6 +63,26 @@ def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) ->
         stiffness=chain(k),
         damping=chain(c),
     )
+
+
+def springs(
+    parameters: CrankTrainParameters | CrankshaftFlywheelParameters,
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Stiffness and damping of each section of the shaft, from the free end to the flywheel.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters or CrankshaftFlywheelParameters
+        Data
+
+    Returns
+    -------
+    k, c : tuple of float
+        One a section [N*m/rad, N*m*s/rad]
+    """
+    if isinstance(parameters, CrankTrainParameters):
+        return each(parameters, "k"), each(parameters, "c")
+    return (parameters.k1,), (parameters.c1,)
 
 
 def chain(values: tuple[float, ...]) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 import ctypes
 import dataclasses
+import functools
 import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -14,9 +15,12 @@ from mechsym.native import integrators, library
 from mechsym.native.kernels import constant_table
 from mechsym.native.runs import Outcome, Runs, Surface, Table
 from mechsym.native.source import Program, program
+from mechsym.native.tape import ANALYTIC
 
 # runs in one block of an ensemble: one vector register of doubles, or two, which wait less for each other
 LANES = (1, 8, 16)
+# runs that one by one, in all lanes, take less time than side by side in one lane each
+_FEW = 3
 
 _LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kink_state", "max_steps")
 _DOUBLES = ("rtol", "atol", "first_step", "kink_period")
@@ -48,10 +52,10 @@ class _Run(ctypes.Structure):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class _Batch:
-    """Runs with every array spread to shape (runs, ..), and the program of each."""
+    """Runs with every array spread to shape (runs, ..), and their functions as CasADi stores them."""
 
     runs: Runs
-    programs: list[Program]
+    functions: list[str]
     constants: list[np.ndarray]
     start: np.ndarray
     until: np.ndarray
@@ -60,7 +64,7 @@ class _Batch:
     kinks: np.ndarray
 
 
-def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome:
+def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     """Integrate runs in C.
 
     Parameters
@@ -68,8 +72,10 @@ def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome
     runs : Runs
         What to run
     method : str
-        `dop853`: adaptive steps of order 8 in each lane. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at
-        most `first_step`, for conservative runs without kinks and surfaces
+        `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
+        all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations,
+        else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most `first_step`, for conservative
+        runs without kinks and surfaces
     mode : str
         `fast` or `strict`
 
@@ -87,14 +93,11 @@ def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome
     """
     batch = _spread(runs, mode)
     count = len(batch.start)
-    if method == "gauss":
-        _check_gauss(batch)
-    elif method != "dop853":
-        raise BadInput(f"method = {method!r} is not an option; options are dop853, gauss")
-    lanes = next((n for n in LANES if n >= count), LANES[-1])
-    texts = [getattr(integrators, method)(p, lanes) for p in batch.programs]
+    method = _chosen(batch, count, mode) if method == "auto" else method
+    lanes, together = _shape(batch, method, count)
+    texts = [_text(f, mode, method, lanes) for f in batch.functions]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
-    blocks = _blocks(texts if len(texts) > 1 else texts * count, lanes)
+    blocks = _blocks(texts if len(texts) > 1 else texts * count, together)
     result = _empty(count, batch.start.shape[1], batch.times.shape[1])
 
     def work(block: tuple[str, list[int]]) -> None:
@@ -106,6 +109,29 @@ def integrate(runs: Runs, method: str = "dop853", mode: str = "fast") -> Outcome
         with ThreadPoolExecutor(max_workers=min(len(blocks), os.cpu_count() or 1)) as pool:
             list(pool.map(work, blocks))
     return Outcome(**result)
+
+
+def _chosen(batch: _Batch, count: int, mode: str) -> str:
+    """The faster method that is safe: long steps of high order need rates with all derivatives."""
+    analytic = all({op for op, _ in _program(f, mode).tape.nodes} <= ANALYTIC for f in batch.functions)
+    smooth = analytic and not batch.runs.tables and not batch.runs.kinks
+    return "collocation" if smooth and count <= _FEW else "dop853"
+
+
+def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
+    """Lanes of a block, and how many runs lie in them."""
+    runs, lanes = batch.runs, next((n for n in LANES if n >= count), LANES[-1])
+    match method:
+        case "dop853":
+            return lanes, lanes
+        case "collocation":
+            if runs.kinks or runs.tables:
+                raise BadInput("method 'collocation' knows no kinks and tables; use dop853")
+            return integrators.STAGES, 1
+        case "gauss":
+            _check_gauss(batch)
+            return lanes, lanes
+    raise BadInput(f"method = {method!r} is not an option; options are auto, dop853, collocation, gauss")
 
 
 def _check_gauss(batch: _Batch) -> None:
@@ -121,7 +147,8 @@ def _check_gauss(batch: _Batch) -> None:
 def _spread(runs: Runs, mode: str) -> _Batch:
     single = isinstance(runs.rhs, casadi.Function)
     functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
-    programs = [program(f, mode) for f in functions]
+    stored = [f.serialize() for f in functions]
+    programs = [_program(f, mode) for f in stored]
     n, p = integrators.sizes(programs[0])
     arrays: dict[str, tuple[Any, int]] = {
         "start": (runs.start, 1),
@@ -145,7 +172,18 @@ def _spread(runs: Runs, mode: str) -> _Batch:
         )
     spread = {name: np.broadcast_to(a, (count, *a.shape[-arrays[name][1] :])) for name, a in found.items()}
     constants = [constant_table(q.kernels) for q in programs]
-    return _Batch(runs=runs, programs=programs, constants=constants, **spread)
+    return _Batch(runs=runs, functions=stored, constants=constants, **spread)
+
+
+# reading a function takes as long as a short run of it, and trials call with the same one again and again
+@functools.lru_cache(maxsize=1024)
+def _program(stored: str, mode: str) -> Program:
+    return program(casadi.Function.deserialize(stored), mode)
+
+
+@functools.lru_cache(maxsize=256)
+def _text(stored: str, mode: str, method: str, lanes: int) -> str:
+    return getattr(integrators, method)(_program(stored, mode), lanes)
 
 
 def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:

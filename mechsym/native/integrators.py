@@ -3,11 +3,15 @@
 import functools
 
 import numpy as np
+from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
 from mechsym.native import emit
 from mechsym.native.source import Program, header, preamble
+
+# of the collocation method: one vector register of doubles
+STAGES = 8
 
 
 def sizes(program: Program) -> tuple[int, int]:
@@ -136,20 +140,87 @@ def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.n
     -----
     Source: E. Hairer, Ch. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Springer 2006, section II.1.3.
     """
-    roots, weights = np.polynomial.legendre.leggauss(stages)
-    nodes = (1 + roots) / 2
-    basis = [np.poly1d(np.delete(nodes, j), r=True) / np.prod(nodes[j] - np.delete(nodes, j)) for j in range(stages)]
-    a = np.array([[np.polyint(p)(c) for p in basis] for c in nodes])
-    ahead = np.array([[p(1 + c) for p in basis] for c in nodes])
-    return a, weights / 2, nodes, ahead
+    roots, weights = legendre.leggauss(stages)
+    to_series = legendre_coefficients(stages)
+    integrals = np.array([legendre.legval(roots, legendre.legint(row, lbnd=-1)) for row in np.eye(stages)])
+    ahead = legendre.legvander(roots + 2, stages - 1) @ to_series
+    return integrals.T @ to_series / 2, weights / 2, (1 + roots) / 2, ahead
 
 
+@functools.cache
 def _gauss_numbers(stages: int) -> str:
     a, b, c, ahead = gauss_tableau(stages)
-    lines = [f"enum {{ MS_S = {stages} }};"]
-    for name, values in (("b", b), ("c", c), ("a", a), ("ahead", ahead)):
-        shape = "".join(f"[{n}]" for n in values.shape)
-        rows = ["{" + ", ".join(map(repr, row)) + "}" for row in np.atleast_2d(values).tolist()]
-        text = rows[0] if values.ndim == 1 else "{" + ", ".join(rows) + "}"
-        lines.append(f"static const double ms_gauss_{name}{shape} = {text};")
-    return "\n".join(lines)
+    named = {"ms_gauss_b": b, "ms_gauss_c": c, "ms_gauss_a": a, "ms_gauss_ahead": ahead}
+    return "\n".join([f"enum {{ MS_S = {stages} }};", *(_array(name, values) for name, values in named.items())])
+
+
+def _array(name: str, values: np.ndarray) -> str:
+    shape = "".join(f"[{n}]" for n in values.shape)
+    rows = ["{" + ", ".join(map(repr, row)) + "}" for row in np.atleast_2d(values).tolist()]
+    text = rows[0] if values.ndim == 1 else "{" + ", ".join(rows) + "}"
+    kind = "long" if values.dtype.kind == "i" else "double"
+    return f"static const {kind} {name}{shape} __attribute__((aligned(64))) = {text};"
+
+
+def collocation(program: Program, lanes: int = STAGES) -> str:
+    """A file that exports `ms_collocation`, see `c/run.h` for its argument.
+
+    Parameters
+    ----------
+    program : Program
+        Right-hand side
+    lanes : int
+        Stages of the one run, always `STAGES`
+
+    Returns
+    -------
+    text : str
+        C text
+    """
+    parts = [_system(program, lanes), _collocation_numbers(lanes), _structure(program)]
+    return "\n".join([*parts, header("collocation.h"), header("collocation_run.h")])
+
+
+@functools.cache
+def _collocation_numbers(stages: int) -> str:
+    a, b, c, _ = gauss_tableau(stages)
+    # a row of stages is a vector, so matrices are transposed: weights[j] belongs to k_j in all stages
+    named = {
+        "ms_nodes": c, "ms_weights": b, "ms_double_weights": b @ a, "ms_once": a.T, "ms_twice": (a @ a).T,
+        "ms_to_series": legendre_coefficients(stages).T,
+    }  # fmt: skip
+    return "\n".join([f"enum {{ MS_S = {stages} }};", *(_array(name, values) for name, values in named.items())])
+
+
+def legendre_coefficients(stages: int) -> np.ndarray:
+    r"""Matrix from values at Gauss points to coefficients of Legendre polynomials.
+
+    .. math:: c_n = \tfrac{2 n + 1}{2} \sum_j w_j P_n(x_j) f_j
+
+    Parameters
+    ----------
+    stages : int
+        Number of points s
+
+    Returns
+    -------
+    matrix : ndarray, shape (s, s)
+        Row n gives the coefficient of P_n [-]
+    """
+    roots, weights = legendre.leggauss(stages)
+    values = legendre.legvander(roots, stages - 1).T
+    return (np.arange(stages)[:, None] + 0.5) * weights * values
+
+
+def _structure(program: Program) -> str:
+    """Which states are angles, which are their speeds, and which others the rates depend on."""
+    n, tape = len(program.tape.outputs), program.tape
+    rates = [tape.nodes[r] for r in tape.results]
+    speeds = {i: args[0] - 1 for i, (op, args) in enumerate(rates) if op == "input" and 1 <= args[0] <= n}
+    used = {args[0] for op, args in tape.nodes if op == "input"}
+    others = [i for i in range(n) if i not in speeds and 1 + i in used]
+    lists = {"ms_angle": list(speeds), "ms_speed": list(speeds.values()), "ms_other": others}
+    # C has no empty arrays
+    sizes = (f"ms_angles = {len(speeds)}, ms_others = {len(others)}",
+             f"MS_ANGLES = {len(speeds) or 1}, MS_OTHERS = {len(others) or 1}")  # fmt: skip
+    return "\n".join([f"enum {{ {', '.join(sizes)} }};", *(_array(k, np.array(v or [0])) for k, v in lists.items())])

@@ -17,6 +17,11 @@ from mechsym.errors import BadInput
 _SAME = {"constpow": "pow"}
 # operators that cost about one cycle; everything else is called expensive here
 CHEAP = frozenset({"add", "sub", "mul", "neg", "sq", "twice", "fabs"})
+# operators that have all derivatives wherever they have a value
+ANALYTIC = frozenset({
+    "input", "constant", "add", "sub", "mul", "div", "neg", "inv", "sq", "twice", "sqrt", "exp", "log", "pow", "sin",
+    "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+})  # fmt: skip
 # processor cycles until a result is there, roughly alike on all processors of today; 4 where nothing is said
 _WAIT = {"input": 0, "constant": 0, "div": 14, "inv": 14, "sqrt": 18, "sin": 45, "cos": 45, "exp": 60, "log": 50,
          "pow": 120}  # fmt: skip

@@ -13,14 +13,12 @@ from mechsym.reproduce.chmielewski2015_runs import (
     EXACT,
     FINEST,
     PRINTED,
-    Reached,
-    convergence,
     mean_speed,
     piston,
     rigid_speed_with_piston,
     run,
-    step_study,
 )
+from mechsym.reproduce.chmielewski2015_studies import Reached, convergence, step_study
 from mechsym.reproduce.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
 from mechsym.simulate import Result
 

@@ -14,12 +14,12 @@ from mechsym.reproduce.chmielewski2015_runs import (
     EXACT,
     FINEST,
     PRINTED,
-    TELLING_STEP,
     fixed,
     piston,
     rigid_speed_with_piston,
     run,
 )
+from mechsym.reproduce.chmielewski2015_studies import TELLING_STEP
 from mechsym.reproduce.drawing import panels
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]

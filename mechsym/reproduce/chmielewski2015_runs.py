@@ -1,8 +1,8 @@
-"""Chmielewski et al. (2015): the start-up of section 2.2, converged, and what a fixed step makes of it.
+"""Chmielewski et al. (2015): the start-up of section 2.2, run and looked at.
 
-The paper solved (6) with (11) and (2), reports a speed of 194 rad/s from 90 s on, and warns that its curves depend on
-the step. Here: the printed model and the exact one, each to convergence; a rigid shaft as a hand check; and runs with
-a fixed step, because those end where the paper's do.
+The paper solved (6) with (11) and (2) and reports a speed of 194 rad/s from 90 s on. Here: the printed model and the
+exact one, adaptive or with a fixed step; a rigid shaft as a hand check; the speeds and the motion of the piston. What
+the runs say about convergence stands in chmielewski2015_studies.py.
 """
 
 import dataclasses
@@ -14,14 +14,10 @@ from mechsym import cases, mechanisms, torsion
 from mechsym.mechanism import acceleration_function
 from mechsym.runs import problem_of
 from mechsym.simulate import Problem, Result, Settings, simulate
-from mechsym.simulate.audit import energies
 from mechsym.simulate.fixed_step import fixed_step
 
 CASE = "chmielewski"
 CLAIMED_SPEED, CLAIMED_TIME = 194.0, 90.0  # section 2.2 [rad/s, s]
-# steps with which classical Runge-Kutta and the third-order formula of Bogacki and Shampine hold the shaft at resonance
-# with a peak speed of about the paper's; the paper prints neither formula nor step [s]
-TELLING_STEP, TELLING_STEP_3 = 2.57e-3, 0.88e-3
 EXACT, PRINTED = "crankshaft_flywheel", "crankshaft_flywheel_printed"
 # integrator and tolerance, from rough to fine, the last by a second integrator
 SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
@@ -49,28 +45,6 @@ class Speeds:
     lowest: float
     highest: float
     peak_at_claim: float
-    energy_residual: float | None
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Reached:
-    """What a run reaches from 90 s on.
-
-    Parameters
-    ----------
-    name : str
-        Integrator with its tolerance or step
-    mean : float
-        Angle over time until the end [rad/s]
-    peak : float
-        Largest momentary speed within two seconds [rad/s]
-    energy_residual : float or None
-        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
-    """
-
-    name: str
-    mean: float
-    peak: float
     energy_residual: float | None
 
 
@@ -172,12 +146,6 @@ def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np
     return float(np.ptp(angle[inside]) / np.ptp(t[inside]))
 
 
-def _reached(name: str, t: np.ndarray, angle: np.ndarray, speed: np.ndarray, residual: float | None) -> Reached:
-    claim = (t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)
-    mean = mean_speed(t, angle, CLAIMED_TIME)
-    return Reached(name=name, mean=mean, peak=float(speed[claim].max()), energy_residual=residual)
-
-
 def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> Speeds:
     """What a run says about the paper's claim.
 
@@ -208,44 +176,6 @@ def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) 
     )
 
 
-def energy_gained(model: str, t: np.ndarray, q: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Energy of the exact mechanism minus the work of the torque, along a run of any model.
-
-    Parameters
-    ----------
-    model : str
-        Mechanism that has energies
-    t : ndarray, shape (n,)
-        Times [s]
-    q, u : ndarray, shape (2, n)
-        Angles [rad] and speeds [rad/s]
-
-    Returns
-    -------
-    share : ndarray, shape (n,)
-        As a share of the work done by the end [-]
-    """
-    case = cases.load(CASE)
-    drive = case.need("drive")
-    found = energies(mechanisms.build(model, case.need("parameters")), q, u)
-    assert found is not None
-    work = drive.torque * (q[0] - np.interp(drive.time, t, q[0]))
-    return np.where(t < drive.time, 0.0, (found[0] + found[1] - work) / work[-1])
-
-
-def mixed_model_energy() -> np.ndarray:
-    """Energy that the printed model makes or loses over the start-up.
-
-    Returns
-    -------
-    share : ndarray, shape (n,)
-        As a share of the work done by the end [-]
-    """
-    result = run("crankshaft_flywheel_printed")
-    q, u = (np.array([result.columns[f"{a}{d}"] for a in ("phi0", "phi2")]) for d in ("", "d"))
-    return energy_gained("crankshaft_flywheel", result.t, q, u)
-
-
 @cache
 def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
     """A start-up with a fixed step.
@@ -268,42 +198,6 @@ def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
     """
     with np.errstate(all="ignore"):
         return fixed_step(problem(model), step, order)
-
-
-@cache
-def convergence() -> dict[str, tuple[Reached, ...]]:
-    """Both models along `SWEEP`.
-
-    Returns
-    -------
-    study : dict of str to tuple of Reached
-        Model to one entry per run
-    """
-    return {model: tuple(_adaptive(model, tol, backend) for backend, tol in SWEEP) for model in (EXACT, PRINTED)}
-
-
-def _adaptive(model: str, tolerance: float, backend: str) -> Reached:
-    result = run(model, tolerance, backend)
-    columns, name = result.columns, f"{backend} at {tolerance:g}"
-    return _reached(name, result.t, columns["phi0"], columns["phi0d"], result.energy.residual)
-
-
-@cache
-def step_study() -> tuple[Reached, ...]:
-    """The printed model with fixed steps; the energy residual is what the formula loses of the work.
-
-    Returns
-    -------
-    study : tuple of Reached
-        One per order and step
-    """
-    found = []
-    for order, step in ((4, 5e-3), (4, TELLING_STEP), (3, TELLING_STEP_3)):
-        t, y = fixed(PRINTED, step, order)
-        gained = energy_gained(EXACT, t, y[:, :2].T, y[:, 2:4].T)
-        name = f"Runge-Kutta {order}, {1000 * step:g} ms"
-        found.append(_reached(name, t, y[:, 0], y[:, 2], -float(gained[-1])))
-    return tuple(found)
 
 
 @cache

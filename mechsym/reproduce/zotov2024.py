@@ -16,8 +16,8 @@ from mechsym.guide import Guide
 from mechsym.guide_family import Member, family
 from mechsym.hinge import Hinge
 from mechsym.hinge_printed import hinge_torque_printed, load_torque_printed
+from mechsym.periodic import even_angles
 from mechsym.retune import Retuning, at_setting
-from mechsym.ripple import even_angles
 from mechsym.springs import AirGauge
 
 CASES = ("zotov-89", "zotov-142")

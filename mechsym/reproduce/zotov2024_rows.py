@@ -13,6 +13,7 @@ from mechsym import balance, guide, retune, trials
 from mechsym.assembly import running
 from mechsym.guide import Guide
 from mechsym.loads import ConstantLoad
+from mechsym.periodic import even_angles
 from mechsym.reproduce.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
 from mechsym.reproduce.zotov2024 import (
     PRESSURES,
@@ -27,7 +28,6 @@ from mechsym.reproduce.zotov2024 import (
     printed_torque,
     retuned,
 )
-from mechsym.ripple import even_angles
 from mechsym.setting import setting_of, with_setting
 
 SOURCE = "000_9f2b746dc1abd296"

@@ -162,7 +162,7 @@ def problem(engine: Engine, speed: float, turns: float, phi_start: float = 0.0, 
     kinks = (Kinks(coordinate=engine.mechanism.coordinates[0], angles=engine.kinks, period=engine.period),)
     return Problem(
         mechanism=engine.mechanism,
-        parts=(*parts, Part(name="load", input=engine.load_input, role="load", value=_load(engine.load))),
+        parts=(*parts, Part(name="load", input=engine.load_input, role="load", value=load_value(engine.load))),
         q0=(phi_start,),
         u0=(speed,),
         # a shaft so slow that it takes ten times as long has stopped for every purpose
@@ -184,7 +184,21 @@ def _at_angle(engine: Engine, force: AngleForce) -> Periodic:
     )
 
 
-def _load(load: Load) -> Formula | Callable[[float, list[float], list[float]], float]:
+def load_value(load: Load, index: int = 0) -> Formula | Callable[[float, list[float], list[float]], float]:
+    """A load law as the value of a part.
+
+    Parameters
+    ----------
+    load : record of mechsym.loads
+        Settled load law
+    index : int
+        Coordinate whose speed it follows; -1 for the last
+
+    Returns
+    -------
+    value : Formula or callable
+        A formula where the law has one; a table is a plain callable
+    """
     if isinstance(load, TableLoad):
-        return lambda t, q, u: float(load_torque(load, u[0]))
-    return Formula(function=lambda t, q, u: load_torque(load, u[0]))
+        return lambda t, q, u: float(load_torque(load, u[index]))
+    return Formula(function=lambda t, q, u: load_torque(load, u[index]))

@@ -44,7 +44,7 @@ def unsuited(problem: Problem) -> str:
 
 
 def run(problem: Problem, equations: System, settings: Settings, times: np.ndarray, ends: Sequence[float]) -> Raw:
-    """Integrate a problem with DOP853 in C.
+    """Integrate a problem in C.
 
     Parameters
     ----------

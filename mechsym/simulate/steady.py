@@ -3,6 +3,9 @@
 `speed_ripple` = (omega_max - omega_min) / omega_mean over a period in steady state. Under constant load every speed
 repeats when the torques balance (the motion is neutral), so the wanted mean speed is a choice; under a load that grows
 with speed there is one steady motion, found by Newton's method on the map of one turn.
+
+This is the machine as built, under any load law. While a guide is being designed only the work that it leaves over is
+known; the closed forms of `speed_from_work` give the speed then, for constant and propeller load.
 """
 
 from dataclasses import dataclass, replace

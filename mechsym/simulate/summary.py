@@ -24,7 +24,7 @@ def summary(result: Result, coordinates: tuple[str, ...], window: float | None) 
     summary : dict
         Keys of `mechsym simulate` in the interface, and more
     """
-    since = last_turn(result, coordinates[0]) if window is None else max(result.t[-1] - window, result.t[0])
+    since = last_period(result, coordinates[0]) if window is None else max(result.t[-1] - window, result.t[0])
     speeds = {c: speed_over(result, c, since) for c in coordinates}
     first = speeds[coordinates[0]]
     event = result.event
@@ -75,8 +75,8 @@ def speed_over(result: Result, coordinate: str, since: float) -> dict[str, float
     return {"mean": float(mean), "min": float(u.min()), "max": float(u.max())}
 
 
-def last_turn(result: Result, coordinate: str) -> float:
-    """When the last turn of a coordinate began.
+def last_period(result: Result, coordinate: str, period: float = 2 * np.pi) -> float:
+    """When the last period of a coordinate began.
 
     Parameters
     ----------
@@ -84,33 +84,37 @@ def last_turn(result: Result, coordinate: str) -> float:
         A run
     coordinate : str
         Name of the coordinate
+    period : float
+        A turn, or two for a four-stroke engine [rad]
 
     Returns
     -------
     t : float
-        The sample nearest before; the start of a run shorter than a turn [s]
+        The sample nearest before; the start of a run shorter than that [s]
     """
     q = result.columns[coordinate]
-    before = np.flatnonzero(q <= q[-1] - 2 * np.pi * (1 - 1e-9))
+    before = np.flatnonzero(q <= q[-1] - period * (1 - 1e-9))
     return float(result.t[before[-1]]) if len(before) else float(result.t[0])
 
 
-def speed_ripple(result: Result, coordinate: str) -> float:
-    r"""Ripple of the last turn.
+def speed_ripple(result: Result, coordinate: str, period: float = 2 * np.pi) -> float:
+    r"""Ripple of the last period.
 
     .. math:: (\omega_\max - \omega_\min) / \omega_\mathrm{mean}
 
     Parameters
     ----------
     result : Result
-        A run of at least a turn, in steady state for the number to mean what it says
+        A run of at least a period, in steady state for the number to mean what it says
     coordinate : str
         Name of the coordinate
+    period : float
+        Period of the torques [rad]
 
     Returns
     -------
     ripple : float
-        From the samples of the last turn [-]
+        From the samples of the last period [-]
     """
-    speed = speed_over(result, coordinate, last_turn(result, coordinate))
+    speed = speed_over(result, coordinate, last_period(result, coordinate, period))
     return (speed["max"] - speed["min"]) / speed["mean"]

@@ -5,7 +5,6 @@ import sympy as sp
 
 from mechsym.derive import Mechanism, cos, derive, sin
 from mechsym.derive.emit import module_text
-from mechsym.derive.identity import certificate
 from mechsym.derive.tape import Tape, derivative_name
 from mechsym.derive.textbook import disagreements, proved
 
@@ -138,10 +137,3 @@ def test_a_letter_declared_twice_is_refused():
     m = pendulum()
     with pytest.raises(ValueError, match="twice"):
         m.parameters("l", "m")
-
-
-def test_certificate_proves_and_does_not_prove_falsehoods():
-    phi, lam = letter("phi"), letter("lam")
-    root = sp.sqrt(1 - lam**2 * sin(phi) ** 2)
-    assert certificate(root**3 / (1 - lam**2 * sin(phi) ** 2) - root + sin(phi) ** 2 + cos(phi) ** 2 - 1)
-    assert not certificate(root - sp.sqrt(1 - lam**2 * cos(phi) ** 2))

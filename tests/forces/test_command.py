@@ -3,12 +3,14 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.forces.gas import gas, measured
 
 CASES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid")
 
@@ -104,3 +106,69 @@ def test_friction_as_a_section_of_the_case(tmp_path):
 def test_what_cannot_be_done_is_explained(words, message):
     with pytest.raises(BadInput, match=message):
         run(*words)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    """The pressure of moroianu's own cycle as a recording: every half degree, in bar."""
+    found = gas(cases.load("moroianu"))
+    degrees = np.arange(0, 360, 0.5)
+    rows = [f"{a},{p / 1e5:.7g}" for a, p in zip(degrees, found.absolute(np.radians(degrees)), strict=True)]
+    path = tmp_path_factory.mktemp("diagram") / "recorded.csv"
+    path.write_text("\n".join(["crank_angle_deg,pressure_bar", *rows]) + "\n")
+    return str(path)
+
+
+def test_a_recorded_diagram_drives_the_chain(recorded):
+    own, measured = (
+        json.loads(run("moroianu", "--json", *words).output) for words in ([], ["--diagram", recorded, "--comparison"])
+    )
+    assert measured["power_residual"] < 1e-10 and measured["comparison"]
+    for key in ("F", "torque", "crank_pin_load", "side_force"):
+        assert measured["max"][key] == pytest.approx(own["max"][key], rel=1e-3)
+    assert measured["max"]["torque"] != own["max"]["torque"]  # read from the file: with its rounding and its fit
+
+
+def test_spark_ignition_gives_a_diagram_its_chamber(recorded):
+    case = measured(cases.load("nunes-slider-crank"), recorded)
+    cycle, room = case.sections["cycle"], case.sections["chamber"]
+    assert (cycle.bore, cycle.compression_ratio, cycle.p_back) == (
+        room.bore,
+        room.compression_ratio,
+        room.back_pressure,
+    )
+    assert cycle.working_cycle == "four-stroke" and cycle.file == recorded
+
+
+def test_a_measured_diagram_of_the_generator(measured_data):
+    found = json.loads(run("generator", "--json", "--diagram", str(measured_data / "generator-half-load.csv")).output)
+    assert found["power_residual"] < 1e-10 and 3e3 < found["max"]["F"] < 7e3
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("moroianu", None, "nowhere.csv"),
+        ("moroianu", "a,b\n1,2\n", "angle"),
+        ("moroianu", "crank_angle_deg,pressure_bar\n0,1\n1,x\n", "line 3"),
+        ("moroianu", "crank_angle_deg,pressure_bar\n" + "".join(f"{a},5\n" for a in range(360)), "swings by 0 bar"),
+        ("alpha-stirling", "crank_angle_deg,pressure_bar\n0,1\n", "no cylinder"),
+        ("chmielewski", "crank_angle_deg,pressure_bar\n0,1\n", "[cycle] is missing"),
+    ],
+)
+def test_a_diagram_that_cannot_be_used_is_refused(name, content, words, tmp_path):
+    path = tmp_path / ("nowhere.csv" if content is None else "diagram.csv")
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(BadInput) as refused:
+        run(name, "--diagram", str(path))
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["zotov-89", "zotov-142"])
+def test_the_engines_of_the_hinge_lose_a_few_per_cent(name):
+    found = json.loads(run(name, "--json").output)["friction"]
+    assert 0.94 < found["mechanical_efficiency"] < 0.98
+    assert sum(found["places"].values()) == pytest.approx(found["power"], rel=1e-12)
+    # the coefficients are small and the shoes carry little: the rings take most, as in large engines
+    assert max(found["places"], key=found["places"].get) == "rings"

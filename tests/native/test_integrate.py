@@ -13,7 +13,7 @@ from mechsym import native
 from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
 from mechsym.native.integrate import LANES, integrate
-from mechsym.native.integrators import gauss_tableau
+from mechsym.native.integrators import STAGES, gauss_tableau, legendre_coefficients
 from mechsym.native.runs import STATUS, Kinks, Runs, Surface, Table
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
@@ -23,6 +23,9 @@ def rhs(name, n, p, formula) -> ca.Function:
     t, y, w = ca.SX.sym("t"), ca.SX.sym("y", n), ca.SX.sym("p", p)
     return ca.Function(name, [t, y, w], [ca.vertcat(*formula(t, ca.vertsplit(y), ca.vertsplit(w)))])
 
+
+# adaptive ones
+METHODS = ("dop853", "collocation")
 
 PENDULUM = rhs("pendulum", 2, 0, lambda t, y, p: (y[1], -ca.sin(y[0])))
 FORCED = rhs("forced", 2, 1, lambda t, y, p: (y[1], p[0] - ca.sin(y[0])))
@@ -71,7 +74,7 @@ def fixed_steps(count: int) -> tuple[float, float]:
     between = until - 6 / count * 0.37
     growth = rhs("growth", 1, 0, lambda t, y, p: (y[0] * ca.cos(t),))
     run = Runs(rhs=growth, start=np.array([1.0]), until=until, times=between, rtol=1e9, atol=1e9, first_step=10.0)
-    found = integrate(run, mode="strict")
+    found = integrate(run, "dop853", mode="strict")
     assert found.steps[0] == count
     error = np.abs(found.samples[0, :, 0] - np.exp(np.sin(between)))
     return abs(found.y[0, 0] - np.exp(np.sin(6))), np.max(error)
@@ -84,17 +87,21 @@ def test_orders_of_the_steps_and_of_dense_output():
     assert np.log2(inside[0] / inside[2]) / 2 == pytest.approx(8, abs=0.7)
 
 
-def test_dense_output_is_as_good_as_the_steps():
+@pytest.mark.parametrize("method", METHODS)
+def test_dense_output_is_as_good_as_the_steps(method):
     times = np.linspace(0.05, 9.95, 400)
     runs = {tol: Runs(rhs=PENDULUM, start=np.array([2.0, 0.0]), until=np.array([10.0]), times=times, rtol=tol, atol=tol)
             for tol in (1e-9, 1e-14)}  # fmt: skip
-    found, exact = (integrate(r).samples[0] for r in runs.values())
+    found, exact = (integrate(r, method).samples[0] for r in runs.values())
     assert np.max(np.abs(found - exact)) < 2e-8
     assert not np.isnan(found).any()
 
 
-def test_the_same_as_scipy():
-    found = integrate(Runs(rhs=FORCED, start=np.array([0.5, 1.0]), until=np.array([20.0]), held=np.array([[0.3]])))
+@pytest.mark.parametrize("method", METHODS)
+def test_the_same_as_scipy(method):
+    found = integrate(
+        Runs(rhs=FORCED, start=np.array([0.5, 1.0]), until=np.array([20.0]), held=np.array([[0.3]])), method
+    )
     wanted = solve_ivp(
         lambda t, y: [y[1], 0.3 - np.sin(y[0])], (0, 20), [0.5, 1.0], method="DOP853", rtol=1e-12, atol=1e-12
     ).y[:, -1]
@@ -102,21 +109,24 @@ def test_the_same_as_scipy():
     assert STATUS[found.status[0]] == "done"
 
 
-def test_segments_are_split_exactly():
+@pytest.mark.parametrize("method", METHODS)
+def test_segments_are_split_exactly(method):
     # the integral of a step function is exact only when no step reaches across a jump
     until, held = np.array([0.1, 0.7, 2.0]), np.array([[3.0], [-1.0], [10.0]])
     times = np.array([0.1, 0.4, 0.7, 2.0])
-    found = integrate(Runs(rhs=CLOCK, start=np.zeros(2), until=until, held=held, times=times))
+    found = integrate(Runs(rhs=CLOCK, start=np.zeros(2), until=until, held=held, times=times), method)
     np.testing.assert_allclose(found.samples[0, :, 1], [0.3, 0.0, -0.3, 12.7], atol=1e-14)
     assert found.t[0] == 2.0
 
 
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("direction", [-1, 0, 1])
-def test_run_ends_on_a_surface(direction):
+def test_run_ends_on_a_surface(method, direction):
     surface = Surface(state=0, level=0.0, direction=direction)
     times = np.linspace(0.1, 30, 300)
     found = integrate(
-        Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([30.0]), surfaces=(surface,), times=times)
+        Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([30.0]), surfaces=(surface,), times=times),
+        method,
     )
     assert found.met[0] == 0
     assert abs(found.y[0, 0]) < 1e-10
@@ -126,10 +136,12 @@ def test_run_ends_on_a_surface(direction):
     assert not np.isnan(found.samples[0, ~past]).any()
 
 
-def test_first_of_two_surfaces_wins():
+@pytest.mark.parametrize("method", METHODS)
+def test_first_of_two_surfaces_wins(method):
     surfaces = (Surface(state=1, level=-0.5), Surface(state=0, level=0.9))
     found = integrate(
-        Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=surfaces, rtol=1e-6)
+        Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=surfaces, rtol=1e-6),
+        method,
     )
     assert found.met[0] == 1
     assert found.y[0, 0] == pytest.approx(0.9, abs=1e-7)
@@ -194,27 +206,33 @@ def test_lanes_give_what_single_runs_give():
     surfaces = (Surface(state=0, level=np.linspace(-1, -2, count)),)
     times = np.linspace(0.5, 8.5, 17)
     common = dict(rhs=FORCED, times=times)
-    found = integrate(Runs(**common, start=start, until=until, held=held, surfaces=surfaces), mode="strict")
+    found = integrate(
+        Runs(**common, start=start, until=until, held=held, surfaces=surfaces), method="dop853", mode="strict"
+    )
     for i in range(count):
         level = (Surface(state=0, level=surfaces[0].level[i]),)
-        alone = integrate(Runs(**common, start=start[i], until=until[i], held=held[i], surfaces=level), mode="strict")
+        alone = integrate(
+            Runs(**common, start=start[i], until=until[i], held=held[i], surfaces=level), method="dop853", mode="strict"
+        )
         np.testing.assert_array_equal(found.samples[i], alone.samples[0])
         np.testing.assert_array_equal(found.y[i], alone.y[0])
         assert (found.t[i], found.met[i], found.steps[i]) == (alone.t[0], alone.met[0], alone.steps[0])
 
 
-def test_runs_of_functions_that_differ_in_constants():
+@pytest.mark.parametrize("method", METHODS)
+def test_runs_of_functions_that_differ_in_constants(method):
     functions = [rhs("spring", 2, 0, lambda t, y, p, k=k: (y[1], -k * y[0])) for k in (1.3, 2.7, 5.3)]
-    found = integrate(Runs(rhs=functions, start=np.array([1.0, 0.0]), until=np.array([3.0])))
+    found = integrate(Runs(rhs=functions, start=np.array([1.0, 0.0]), until=np.array([3.0])), method)
     np.testing.assert_allclose(found.y[:, 0], np.cos(np.sqrt([1.3, 2.7, 5.3]) * 3), rtol=1e-8)
 
 
-def test_failures_are_a_status():
+@pytest.mark.parametrize("method", METHODS)
+def test_failures_are_a_status(method):
     explodes = rhs("explodes", 1, 0, lambda t, y, p: (y[0] ** 2,))
-    found = integrate(Runs(rhs=explodes, start=np.array([1.0]), until=np.array([2.0])))
+    found = integrate(Runs(rhs=explodes, start=np.array([1.0]), until=np.array([2.0])), method)
     assert "step became too small" in STATUS[found.status[0]]
     assert found.t[0] == pytest.approx(1.0, abs=1e-6)
-    short = integrate(Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([1e3]), max_steps=10))
+    short = integrate(Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([1e3]), max_steps=10), method)
     assert "not enough" in STATUS[short.status[0]]
 
 
@@ -223,7 +241,7 @@ def test_shapes_are_checked():
         integrate(Runs(rhs=FORCED, start=np.zeros(3), until=np.array([1.0]), held=np.zeros((1, 1))))
     with pytest.raises(BadInput, match="must agree"):
         integrate(Runs(rhs=FORCED, start=np.zeros((3, 2)), until=np.ones((2, 1)), held=np.zeros((1, 1))))
-    with pytest.raises(BadInput, match="options are dop853, gauss"):
+    with pytest.raises(BadInput, match="options are auto, dop853, collocation, gauss"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0])), "euler")
     with pytest.raises(BadInput, match="needs first_step"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0])), "gauss")
@@ -250,6 +268,68 @@ def test_order_of_gauss():
     assert rates[-1] == pytest.approx(8, abs=0.5)
 
 
+@pytest.mark.parametrize(("method", "order"), [("dop853", 8), ("collocation", 16)])
+def test_error_falls_with_the_order_as_steps_get_more(method, order):
+    start, until = np.array([2.0, 0.0]), np.array([60.0])
+    exact = integrate(Runs(rhs=PENDULUM, start=start, until=until, rtol=1e-14, atol=1e-14)).y
+    steps, errors, tolerances = [], [], np.logspace(-4, -11, 8)
+    for tolerance in tolerances:
+        found = integrate(Runs(rhs=PENDULUM, start=start, until=until, rtol=tolerance, atol=tolerance), method)
+        steps.append(found.steps[0])
+        errors.append(np.max(np.abs(found.y - exact)))
+    assert -np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(order, abs=0.15 * order)
+    # the tolerance is one of the step; over thirty turns of the pendulum the error may grow
+    assert np.all(errors < 1e3 * tolerances)
+
+
+def test_numbers_of_collocation():
+    a, b, c, _ = gauss_tableau(STAGES)
+    for k in range(2 * STAGES):
+        assert b @ c**k == pytest.approx(1 / (k + 1), abs=1e-14)
+    for k in range(2 * STAGES - 1):
+        # a state two integrals away from its rate
+        assert b @ a @ c**k == pytest.approx(1 / ((k + 1) * (k + 2)), abs=1e-14)
+    coefficients = np.array([0.3, -1.0, 0.5, 0.0, 2.0, 0.0, -0.7, 0.1])
+    values = np.polynomial.legendre.legval(2 * c - 1, coefficients)
+    np.testing.assert_allclose(legendre_coefficients(STAGES) @ values, coefficients, atol=1e-14)
+
+
+def test_smooth_equations_are_collocated_and_others_are_not():
+    rough = rhs("rough", 2, 0, lambda t, y, p: (y[1], -ca.sin(y[0]) - 0.1 * y[1] * ca.fabs(y[1])))
+    for system, method in ((PENDULUM, "collocation"), (rough, "dop853")):
+        run = Runs(rhs=system, start=np.array([1.0, 0.0]), until=np.array([5.0]))
+        np.testing.assert_array_equal(integrate(run).y, integrate(run, method).y)
+    many = Runs(rhs=PENDULUM, start=np.tile([1.0, 0.0], (16, 1)), until=np.array([5.0]))
+    np.testing.assert_array_equal(integrate(many).y, integrate(many, "dop853").y)
+
+
+def test_collocation_needs_smooth_equations():
+    kinks = Kinks(state=0, angles=np.array([0.0]), period=1.0)
+    with pytest.raises(BadInput, match="knows no kinks and tables; use dop853"):
+        integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0]), kinks=kinks), "collocation")
+
+
+def test_collocation_of_many_coordinates():
+    # a chain of pendulums: more angles than one evaluation of the slopes can hold
+    n = 11
+    chain = rhs("chain", 2 * n, 0, lambda t, y, p: (
+        *y[n:], *(-ca.sin(y[i]) - 5 * (2 * y[i] - (y[i - 1] if i else 0) - (y[i + 1] if i < n - 1 else 0))
+                  for i in range(n))
+    ))  # fmt: skip
+    start = np.concatenate([np.linspace(0.5, 1.5, n), np.zeros(n)])
+    found, wanted = (integrate(Runs(rhs=chain, start=start, until=np.array([20.0]), rtol=1e-12, atol=1e-12), m).y
+                     for m in ("collocation", "dop853"))  # fmt: skip
+    np.testing.assert_allclose(found, wanted, atol=1e-9)
+
+
+def test_equations_without_angles():
+    # dy/dt depends on time and on the state itself, no state is the rate of another
+    growth = rhs("growth", 1, 0, lambda t, y, p: (y[0] * ca.cos(t),))
+    times = np.linspace(0.3, 6, 20)
+    found = integrate(Runs(rhs=growth, start=np.array([1.0]), until=np.array([6.0]), times=times), "collocation")
+    np.testing.assert_allclose(found.samples[0, :, 0], np.exp(np.sin(times)), rtol=1e-10)
+
+
 def test_gauss_ends_steps_at_wanted_times_and_jumps():
     until, held = np.array([0.3, 1.0]), np.array([[2.0], [-1.0]])
     times = np.array([0.1, 0.3, 0.55, 1.0])
@@ -257,13 +337,14 @@ def test_gauss_ends_steps_at_wanted_times_and_jumps():
     np.testing.assert_allclose(found.samples[0, :, 1], [0.2, 0.6, 0.35, -0.1], atol=1e-15)
 
 
-def test_start_up_of_the_paper_balances_its_energy():
+@pytest.mark.parametrize("method", METHODS)
+def test_start_up_of_the_paper_balances_its_energy(method):
     # torque 1.5 N*m from 1 s on; what it puts in is in the motion and in the twisted shaft
     runs = Runs(
         rhs=flywheel(), start=np.zeros(4), until=np.array([1.0, 100.0]), held=np.array([[0.0], [1.5]]),
         times=np.linspace(1, 100, 200),
     )  # fmt: skip
-    found = integrate(runs)
+    found = integrate(runs, method)
     work = 1.5 * found.samples[0, :, 0]
     residual = (work - energy(found.samples[0])) / work[-1]
     assert np.max(np.abs(residual)) < 2e-8
@@ -271,12 +352,13 @@ def test_start_up_of_the_paper_balances_its_energy():
     assert 0.3 * 99 * 1.5 < FLYWHEEL.I0 * found.y[0, 2] + FLYWHEEL.I2 * found.y[0, 3] < 1.001 * 99 * 1.5
 
 
-def test_tolerance_bounds_the_energy_error():
+@pytest.mark.parametrize("method", METHODS)
+def test_tolerance_bounds_the_energy_error(method):
     residuals = []
     for tolerance in (1e-8, 1e-10, 1e-12):
         runs = Runs(rhs=flywheel(), start=np.zeros(4), until=np.array([20.0]), held=np.array([[1.5]]), rtol=tolerance,
                     atol=tolerance)  # fmt: skip
-        y = integrate(runs).y
+        y = integrate(runs, method).y
         residuals.append(abs(energy(y)[0] / (1.5 * y[0, 0]) - 1))
     assert residuals[0] < 1e-5
     assert residuals[1] < 1e-7
@@ -285,6 +367,7 @@ def test_tolerance_bounds_the_energy_error():
 
 @pytest.mark.parametrize(("method", "settings", "bound"), [
     ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9),
+    ("collocation", {"rtol": 1e-12, "atol": 1e-12}, 1e-9),
     ("gauss", {"first_step": 2e-3}, 1e-10),
 ])  # fmt: skip
 def test_energy_of_a_conservative_run_of_1000_seconds(method, settings, bound):

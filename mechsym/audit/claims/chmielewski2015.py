@@ -11,6 +11,7 @@ from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Verdict
 from mechsym.quantities import dimension
 from mechsym.reproduce import chmielewski2015_runs as computed
+from mechsym.reproduce import chmielewski2015_studies as studies
 
 _LEVER = "sin(phi0) + lam*sin(phi0)*cos(phi0)/sqrt(1 - lam**2*sin(phi0)**2)"
 _MIXED = f"({_LEVER})*r*m0*r*phi0d**2*(cos(phi0) + lam*cos(2*phi0))"
@@ -41,7 +42,7 @@ def mixed_model_effect(verdict: Verdict) -> str:
     effect : str
         One sentence
     """
-    energy = computed.mixed_model_energy()
+    energy = studies.mixed_model_energy()
     worst = float(energy[np.argmax(np.abs(energy))])
     return (
         f"{_mismatch('crankshaft_flywheel')}; over the start-up of 100 s the model's energy drifts by up to "

@@ -6,7 +6,7 @@ from sympy import Rational, cos
 
 from mechsym.audit.theory.mechanisms import mechanism_theory, residuals, solved_accelerations, without
 from mechsym.audit.theory.record import Theory
-from mechsym.derive import Equations, Mechanism, acceleration, derive, velocities, velocity
+from mechsym.derive import Equations, Mechanism, acceleration, derive, output, velocities, velocity
 from mechsym.derive.build import declared
 from mechsym.derive.rates import accelerations
 
@@ -114,7 +114,7 @@ def crankshaft_flywheel_truncated(values: Mapping[str, float], data: str) -> The
     m.body("piston", mass=m0, at=(-x0, 0))
     m.spring(k1, stretch=m.let("twist", phi0 - phi2, "rad"))
     m.torque(M, along=phi0)
-    m.output(x0, order=2)
+    output(m, x0, order=2)
     return _shaft(derive(m), values, data)
 
 

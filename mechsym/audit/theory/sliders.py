@@ -9,7 +9,7 @@ from sympy import Symbol, cos, sin, solve
 from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.mechanisms import mechanism_theory
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.derive import Mechanism, acceleration, derive
+from mechsym.derive import Mechanism, acceleration, derive, output
 
 
 def slider_crank(values: Mapping[str, float], data: str) -> Theory:
@@ -40,8 +40,8 @@ def slider_crank(values: Mapping[str, float], data: str) -> Theory:
     x = m.let("x", r * (1 - cos(phi)) + l * (1 - cos(beta)) - x_A, "m")
     m.body("piston", mass=mass, at=(r + l - x, y_G))
     m.force(F, along=x)
-    m.output(x, order=2)
-    m.output(beta)
+    output(m, x, order=2)
+    output(m, beta)
     equations = derive(m)
     pin_x, pin_y, guide = (equations.reactions[f"R_{j}"] for j in ("x_A", "y_A", "y_G"))
     s, c = sin(phi), cos(phi)

@@ -3,8 +3,13 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 
-from mechsym.ripple import constant_load_speed, even_angles, mean_speed, propeller_load_speed, ripple
+from mechsym.loads import ConstantLoad, PropellerLoad
+from mechsym.periodic import even_angles
+from mechsym.simulate.machine import Machine, tabulate
+from mechsym.simulate.steady import steady_state
+from mechsym.speed_from_work import constant_load_speed, mean_speed, propeller_load_speed, ripple
 
 TURN = 2 * np.pi
 OMEGA, LOAD = 10.0, 900.0
@@ -69,3 +74,26 @@ def test_a_crank_that_would_stop_is_no_number():
 def test_heavy_load_follows_without_overflow():
     phid = propeller_load_speed(missing(PHI), inertia(PHI), OMEGA, 1e8, TURN)
     assert ripple(phid) < 1e-3
+
+
+CLOSED = {
+    "constant": (ConstantLoad(torque=LOAD), constant_load_speed(missing(PHI), inertia(PHI), OMEGA)),
+    "propeller": (
+        PropellerLoad(torque=LOAD, speed=OMEGA),
+        propeller_load_speed(missing(PHI), inertia(PHI), OMEGA, LOAD, TURN),
+    ),
+}
+
+
+@pytest.mark.parametrize(("load", "phid"), CLOSED.values(), ids=CLOSED)
+def test_closed_forms_are_the_steady_turn_of_that_machine(load, phid):
+    def torque(phi):
+        wanted = LOAD + OMEGA**2 * 4 * np.sin(2 * phi)  # keeps the speed: M_r + omega^2 I'/2
+        return wanted - 20 * np.cos(phi) + 24 * np.sin(3 * phi)
+
+    found = steady_state(tabulate(Machine(inertia=inertia, torque=torque, load=load)), OMEGA)
+    # both are sampled; a spline between the points of the panels keeps their digits
+    again = CubicSpline(*np.unique([found.phi, found.omega], axis=1))(PHI)
+    assert again == pytest.approx(phid, rel=2e-6)
+    assert found.speed_mean == pytest.approx(mean_speed(phid), rel=1e-6)
+    assert found.speed_ripple == pytest.approx(ripple(phid), rel=1e-4)

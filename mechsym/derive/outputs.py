@@ -1,0 +1,44 @@
+"""What shall come out of a mechanism beside its equations: kinematic names with derivatives, and dynamic quantities."""
+
+from sympy import Expr, Symbol, sympify
+
+from mechsym.derive.declare import Mechanism
+
+
+def output(m: Mechanism, *symbols: Symbol, order: int = 0) -> None:
+    """Make names part of the kinematic outputs, with their derivatives by the coordinates.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+    *symbols : Symbol
+        Names on the tape
+    order : int
+        Highest derivative, 0 to 2
+    """
+    for symbol in symbols:
+        found = [symbol]
+        for _ in range(order):
+            m.kinematic_outputs += found
+            found = [d for f in found for v in m.q if (d := m.tape.derivative(f, v)).is_Symbol]
+        m.kinematic_outputs += found
+    m.kinematic_outputs = list(dict.fromkeys(m.kinematic_outputs))
+
+
+def output_dynamic(m: Mechanism, name: str, value: Expr, unit: str) -> None:
+    """Add an output that needs velocities, accelerations or inputs.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+    name : str
+        Name of the output
+    value : Expr
+        Expression in names, `velocity` and `acceleration` of names, reactions, inputs and parameters
+    unit : str
+        Its unit
+    """
+    m.units[name] = unit
+    m.dynamic_outputs[name] = m.tape.named(sympify(value))
