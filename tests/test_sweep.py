@@ -169,6 +169,16 @@ def test_simulations_are_those_of_single_runs():
     assert failures(found) == {}
 
 
+def test_an_elastic_shaft_reports_its_twist():
+    found = sweep(Plan(case="alpha-stirling", over=("parameters.c=5,10",), overrides={"simulation.turns": "3"}))
+    data = columns(found)
+    assert found.analysis == "simulate"
+    peaks = [name for name in data if name.startswith("twist.") and name.endswith(".twist_peak")]
+    assert data["twist_peak"].tolist() == np.max([data[name] for name in peaks], axis=0).tolist()
+    # a stronger damper leaves less twist
+    assert data["twist_peak"][1] < data["twist_peak"][0]
+
+
 def test_settings_may_be_an_axis():
     over = (
         "simulation.tolerance=1e-6,1e-10",
@@ -231,7 +241,10 @@ def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="cycle"), r"section \[cycle\] is missing"),
         (Plan(case=ENGINE, over=("bore=0.08,0.09",), analysis="simulate"), r"section \[simulation\] is missing"),
         (Plan(case="generator", over=("speed_rpm=80,90",)), "--diagram FILE"),
-        (Plan(case="alpha-stirling", over=("speed_rpm=500,600",)), "of no kind with figures over the speed"),
+        (
+            Plan(case="alpha-stirling", over=("speed_rpm=500,600",), analysis="cycle"),
+            "of no kind with figures over the speed",
+        ),
         (Plan(case="no-such-case", over=("c1=1,2",)), "no-such-case"),
     ],
 )

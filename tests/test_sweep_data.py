@@ -68,6 +68,7 @@ def test_every_number_has_its_unit():
     over = ("simulation.hinge=designed,none",)
     plans = [
         CYCLES,
+        Plan(case="chmielewski", over=("c1=1",), overrides=SHORT),
         Plan(case="nunes-hypocycloid", over=("speed_rpm=4000",)),
         Plan(case="zotov-89", over=("spring.p0=5 MPa",)),
         Plan(case="zotov-89", over=over, overrides={"simulation.turns": "2"}, analysis="simulate"),

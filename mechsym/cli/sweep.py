@@ -26,7 +26,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
           show: tuple[str, ...], overrides: tuple[str, ...], out: Path | None, as_json: bool) -> None:  # fmt: skip
     """Run CASE over ranges of its values; results as one labelled data set.
 
-    A driven case is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
+    A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
     With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg.
 
     A point that cannot be computed is a gap with a reason: null, an empty cell, NaN. Exit status 1 when all are gaps.

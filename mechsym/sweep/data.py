@@ -15,7 +15,7 @@ from mechsym.sweep.run import Sweep
 from mechsym.sweep.units import unit_of
 
 MAIN = {
-    "simulate": ("speed_mean", "speed_min", "speed_max", "t_end"),
+    "simulate": ("speed_mean", "speed_min", "speed_max", "twist_peak", "torque_peak", "t_end"),
     "hinge": (
         "guide.margin", "guide.z_max", "guide.roller_reaction_max", "hinge_torque_max", "hinge_torque_min",
         "flywheel_inertia_saved", "check.speed_ripple",

@@ -69,7 +69,8 @@ def route(case: Case, analysis: str | None) -> Route:
 
 
 def _meant(case: Case) -> str:
-    if "drive" in case.sections:
+    # a crank train that says how long to run is an elastic shaft, whatever turns it
+    if "drive" in case.sections or ("simulation" in case.sections and case.mechanism == "crank_train"):
         return "simulate"
     if {"spring", "guide"} <= set(case.sections):
         return "hinge"
@@ -141,7 +142,12 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
 def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
     from mechsym.runs import window_of
     from mechsym.simulate.summary import summary
+    from mechsym.twist import sections
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    return summary(result, problem.mechanism.coordinates, window_of(case, problem))
+    report = summary(result, problem.mechanism.coordinates, window_of(case, problem))
+    twists = [dataclasses.asdict(s) for s in sections(case, result, result.t[-1] - report["window"])]
+    if twists:
+        report |= {peak: max(t[peak] for t in twists) for peak in ("twist_peak", "torque_peak")}
+    return report | {"twist": {t.pop("section"): t for t in twists}}

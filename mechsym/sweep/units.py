@@ -11,11 +11,11 @@ _PARTS = {
     "J": ("work_in", "dissipation", "change", "hinge_work_max", "hinge_work_min"),
     "N*m": (
         "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean", "torque_avg", "torque_max",
-        "brake_torque", "tilting_couple_max",
+        "brake_torque", "tilting_couple_max", "torque_mean", "torque_amplitude", "torque_peak",
     ),
     "N": ("force_max", "roller_reaction_max", "spring_force_max"),
     "m": ("rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius"),
-    "rad": ("pressure_angle_max", "phi"),
+    "rad": ("pressure_angle_max", "phi", "twist_mean", "twist_amplitude", "twist_peak"),
     "Pa": ("spring_pressure_max", "hertz_stress_max"),
     "kg*m^2": ("flywheel_inertia_saved", "flywheel_inertia_to_turn", "flywheel_inertia_beside_faulty"),
     "-": (
