@@ -16,7 +16,7 @@ from mechsym.mechanism import curves
 from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.engine import AngleForce, Engine, machine, problem
-from mechsym.simulate.machine import Machine, lowest_energy, speeds, stop_angle, tabulate, turn
+from mechsym.simulate.machine import Machine, tabulate
 from mechsym.simulate.steady import (
     flywheel_for_ripple,
     mean_torque,
@@ -24,6 +24,7 @@ from mechsym.simulate.steady import (
     steady_state,
 )
 from mechsym.simulate.summary import speed_ripple
+from mechsym.simulate.turning import lowest_energy, speeds, stop_angle, turn
 
 
 def ideal(inertia=100.0, swing=300.0, mean=50.0, load=None, order=1):

@@ -121,7 +121,7 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
     problems = {i: _guarded(problem_of, case) for i, case in enumerate(found)}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
     groups: dict[Any, list[int]] = {}
-    for i in problems.keys() - outcomes.keys():
+    for i in (i for i in problems if i not in outcomes):
         groups.setdefault(settings_of(found[i]), []).append(i)
     for settings, members in groups.items():
         for i, result in zip(members, _side_by_side([problems[i] for i in members], settings), strict=True):
