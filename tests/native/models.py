@@ -6,12 +6,22 @@ import casadi as ca
 import numpy as np
 
 from mechsym.mechanism import Mechanism, acceleration_function
-from mechsym.mechanisms import crankshaft_flywheel, crosshead
+from mechsym.mechanisms import crank_throw, crank_train, crankshaft_flywheel, crosshead, hypocycloid, rodless
 
 CROSSHEAD = crosshead.CrossheadParameters(
     r1=0.2, r2=0.3, l1=0.8, l2=0.75, m1=80, m2=150, m3=150, m4=200, m5=110, I01=30, IC2=50, axis_tilt=0.4
 )
 FLYWHEEL = crankshaft_flywheel.CrankshaftFlywheelParameters(I0=0.26, I2=0.58, r=0.06, l=0.26, m0=1.1, k1=6500)
+THROW = crank_throw.CrankThrowParameters(
+    r=0.06, l1=0.1, l2=0.16, offset=0.01, m0=1.4, m_rod=0.8, m_piston=1.1, I_rod=0.01, I0=0.05, u0=0.02, g=9.81,
+    axis_tilt=0.3,
+)  # fmt: skip
+TRAIN = crank_train.CrankTrainParameters(
+    throw=(1, 1, 2, 2), phase=(0.0, 0.0, np.pi / 2, np.pi / 2), bank=(-0.5, 0.5, -0.5, 0.5), r=0.06, l1=0.1, l2=0.16,
+    m_rod=0.8, m_piston=1.1, I_rod=0.01, I0=0.05, I_f=0.58, k=6500.0, c=0.1,
+)  # fmt: skip
+HYPOCYCLOID = hypocycloid.HypocycloidParameters(e=0.013, I1=2e-3, u1=4e-3, m2=0.31, I2=8e-5, m3=0.25, alpha_n=0.44)
+RODLESS = rodless.RodlessParameters(r=0.05, I1=0.04, u1=0.02, m_link=1.3, I_link=2e-3, m_a=2.4, m_b=1.9)
 
 
 @functools.cache
@@ -19,7 +29,18 @@ def mechanism(name: str) -> Mechanism:
     return {
         "crosshead": lambda: crosshead.build(CROSSHEAD),
         "crankshaft_flywheel": lambda: crankshaft_flywheel.build(FLYWHEEL),
+        "crankshaft_flywheel_printed": lambda: crankshaft_flywheel.build_printed(FLYWHEEL),
+        "crank_throw": lambda: crank_throw.build(THROW),
+        "crank_train": lambda: crank_train.build(TRAIN),
+        "hypocycloid": lambda: hypocycloid.build(HYPOCYCLOID),
+        "rodless": lambda: rodless.build(RODLESS),
     }[name]()
+
+
+MECHANISMS = (
+    "crosshead", "crankshaft_flywheel", "crankshaft_flywheel_printed", "crank_throw", "crank_train", "hypocycloid",
+    "rodless",
+)  # fmt: skip
 
 
 @functools.cache

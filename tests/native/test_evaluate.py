@@ -5,7 +5,7 @@ import shutil
 import casadi as ca
 import numpy as np
 import pytest
-from native.models import agree, functions, interpreted, mechanism, states
+from native.models import MECHANISMS, agree, functions, interpreted, mechanism, states
 
 from mechsym import native
 from mechsym.errors import BadInput
@@ -29,13 +29,14 @@ def no_compiler(monkeypatch, tmp_path):
 
 @needs_compiler
 @pytest.mark.parametrize("mode", ["strict", "fast"])
-@pytest.mark.parametrize(("name", "function"), NAMES)
-def test_batch_agrees_with_the_interpreter(name, function, mode):
-    f = functions(name)[function]
-    x = states(f, 600)
-    made = native.compiled(f, mode)
-    assert made.route == "C"
-    assert agree(made.batch(*x), interpreted(f, x)) < BOUND[mode]
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_batches_of_every_function_agree_with_the_interpreter(name, mode):
+    made = native.compiled_all({f.name(): f for f in functions(name).values()}, mode)
+    assert len(made) >= 4
+    for f in functions(name).values():
+        x = states(f, 600)
+        assert made[f.name()].route == "C"
+        assert agree(made[f.name()].batch(*x), interpreted(f, x)) < BOUND[mode], f.name()
 
 
 @needs_compiler
