@@ -24,7 +24,7 @@ __all__ = [
     # motion in time and steady motion
     "simulate", "steadiness", "trials", "torsion",
     # the whole job and what is made of it
-    "design", "optimise", "report", "sizing", "summary",
+    "design", "optimise", "report", "sizing", "summary", "sweep",
     # published formulas and numbers
     "audit", "reproduce",
 ]  # fmt: skip

@@ -1,6 +1,7 @@
 """An engine put together from a case: mechanism, cylinder pressure, what the hinge has to balance, and what runs."""
 
 import dataclasses
+import functools
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from mechsym import hinge, mechanisms
 from mechsym.cases import Case
 from mechsym.engine.cylinder import Cylinder, piston_area
+from mechsym.engine.diagram import Diagram
 from mechsym.engine.kinds import back_pressure, cylinder_pressure, with_diagram
 from mechsym.engine.pressure import Pressure, piston_force
 from mechsym.errors import BadInput
@@ -79,24 +81,30 @@ def assemble(case: Case, diagram: str | None = None) -> Assembly:
     if diagram is not None:
         cycle = with_diagram(cycle, diagram)
     parameters = with_flywheel(case.need("parameters"), kept_flywheel(case))
-    mechanism = mechanisms.build(case.mechanism, parameters)
+    # a diagram is read from a file, which may have changed since
+    make = _parts.__wrapped__ if isinstance(cycle, Diagram) else _parts
+    return Assembly(case=case, omega=case.need("operation").speed, **make(case.mechanism, parameters, cycle))
+
+
+@functools.lru_cache(maxsize=8)
+def _parts(name: str, parameters: Any, cycle: Any) -> dict[str, Any]:
+    """What the cycle and the masses decide; sweeps over springs and loads ask for it again and again."""
+    mechanism = mechanisms.build(name, parameters)
     pressure, cylinder = cylinder_pressure(cycle, mechanism.functions["kinematics"])
     p_back, area = back_pressure(cycle), piston_area(cycle.bore)
 
     def force(phi: np.ndarray) -> np.ndarray:
         return piston_force(pressure, p_back, area, phi)
 
-    return Assembly(
-        case=case,
-        mechanism=mechanism,
-        pressure=pressure,
-        cylinder=cylinder,
-        p_back=p_back,
-        area=area,
-        force=force,
-        torques=hinge.engine_torques(mechanism, force, pressure.kinks, pressure.period),
-        omega=case.need("operation").speed,
-    )
+    return {
+        "mechanism": mechanism,
+        "pressure": pressure,
+        "cylinder": cylinder,
+        "p_back": p_back,
+        "area": area,
+        "force": force,
+        "torques": hinge.engine_torques(mechanism, force, pressure.kinks, pressure.period),
+    }
 
 
 def kept_flywheel(case: Case) -> float:

@@ -14,6 +14,7 @@ Source: Zotov et al. (2024), eqs. (3) to (8). `hinge_printed.py` has equation (8
 """
 
 import dataclasses
+import functools
 import math
 from collections.abc import Callable, Sequence
 
@@ -135,6 +136,8 @@ def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float]
     )
 
 
+# the springs of a sweep share one engine, and so its hinge torque
+@functools.lru_cache(maxsize=8)
 def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
     r"""Hinge torque that keeps the crank speed constant, with its parts and its work.
 

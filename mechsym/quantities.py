@@ -12,6 +12,7 @@ Inside the package every number is SI, angles in radians. A case file or `--set`
 """
 
 import dataclasses
+import functools
 import math
 import re
 from typing import Any
@@ -54,6 +55,7 @@ def units() -> list[str]:
     return sorted(_BASE)
 
 
+@functools.lru_cache(maxsize=256)
 def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     factor, dims = 1.0, [0] * 5
     sign = 1

@@ -1,5 +1,6 @@
 """From a case to a run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -247,6 +248,7 @@ def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | t
     return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
 
 
+@functools.lru_cache(maxsize=8)
 def _times(t_end: float, step: float, window: float | None) -> tuple[float, ...]:
     """Even times, and finer ones in the window, with both of its ends among them."""
     coarse = np.minimum(step * np.arange(1, math.ceil(t_end / step) + 1), t_end)

@@ -13,7 +13,7 @@ import mechsym
 
 FOLDER = Path(__file__).parent.parent / "examples"
 EXAMPLES = sorted(FOLDER.glob("*.py"))
-FILES = {"design_hinge": "report.html", "design_guide": "profile air.csv"}
+FILES = {"design_hinge": "report.html", "design_guide": "profile air.csv", "sweep_spring": "sweep.csv"}
 
 
 def test_there_are_examples():

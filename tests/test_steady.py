@@ -11,12 +11,12 @@ from simulated import oscillator, shaft
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
-from mechsym.loads import ConstantLoad, PropellerLoad, TableLoad
+from mechsym.loads import ConstantLoad, PropellerLoad, TableLoad, load_torque
 from mechsym.mechanism import curves
 from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.engine import AngleForce, Engine, machine, problem
-from mechsym.simulate.machine import Machine, lowest_energy, speeds, stop_angle, tabulate, turn
+from mechsym.simulate.machine import Machine, tabulate
 from mechsym.simulate.steady import (
     flywheel_for_ripple,
     mean_torque,
@@ -24,6 +24,7 @@ from mechsym.simulate.steady import (
     steady_state,
 )
 from mechsym.simulate.summary import speed_ripple
+from mechsym.simulate.turning import lowest_energy, speeds, stop_angle, turn
 
 
 def ideal(inertia=100.0, swing=300.0, mean=50.0, load=None, order=1):
@@ -73,6 +74,24 @@ def test_propeller_turn_agrees_with_an_ode_solver(inertia, speed, share, referen
     if lowest_energy(found) > 0:
         assert found.energy_edges[-1] == pytest.approx(exact, rel=1e-9)
         assert found.multiplier == pytest.approx(np.exp(-4 * np.pi * 50.0 / reference**2 / total), rel=1e-9)
+
+
+@pytest.mark.parametrize("inertia", [1.0, 30.0, 1000.0])
+@pytest.mark.parametrize("start", [0.0, 40.0, 4000.0])
+def test_turn_under_a_table_solves_its_equations(inertia, start):
+    # the smallest inertia stops on the way, where the table has a kink of its slope over the energy
+    load = TableLoad(speeds=(0.0, 2.0, 5.0, 9.0), torques=(0.0, 30.0, 60.0, 200.0))
+    panels = tabulate(ideal(inertia=inertia, load=load))
+    found = turn(panels, 0.0, start)
+    omega = np.sqrt(2 * np.maximum(found.energy, 0.0) / panels.inertia)
+    net, half = panels.torque - load_torque(load, omega), np.diff(panels.edges)[:, None] / 2
+    nodes, weights = np.polynomial.legendre.leggauss(net.shape[1])
+    size = np.abs(found.energy).max()
+    np.testing.assert_allclose(np.diff(found.energy_edges), (half * net) @ weights, atol=1e-13 * size)
+    for panel in range(0, len(half), 7):
+        torque = np.polynomial.Polynomial.fit(nodes, net[panel], len(nodes) - 1, domain=(-1, 1))
+        gained = half[panel] * (torque.integ(lbnd=-1)(nodes))
+        np.testing.assert_allclose(found.energy[panel] - found.energy_edges[panel], gained, atol=1e-11 * size)
 
 
 def test_constant_load_is_neutral():

@@ -6,6 +6,7 @@ Numbers are SI; texts may carry a unit; a key may name its unit instead (`speed_
 """
 
 import dataclasses
+import functools
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -13,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cases import schema
-from mechsym.cases.values import convert, override, without_unit
+from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, shown, suggest
 
 _HEAD = ("mechanism", "source", "about")
@@ -117,17 +118,54 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     BadInput
         Names file, key, value and what is allowed
     """
+    file, head, sections = _raw(name, overrides)
+    try:
+        records = {key: _section(head["mechanism"], key, table) for key, table in sections.items()}
+    except BadInput as error:
+        raise BadInput(f"{file}: {error}") from None
+    return Case(name=Path(name).stem if name not in names() else name, file=file, sections=records, **head)
+
+
+def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, option: str = "--set") -> Place:
+    """Where a key belongs in a case, and in which unit its value is.
+
+    Parameters
+    ----------
+    name : str
+        Name of a built-in case or a path to a TOML file
+    key : str
+        Dotted key; a bare key works if it is unique
+    overrides : mapping, optional
+        Values that are replaced before
+    option : str
+        Where the key was written, for messages
+
+    Returns
+    -------
+    place : Place
+        Section, field and unit
+
+    Raises
+    ------
+    BadInput
+        Unknown or ambiguous key
+    """
+    file, head, sections = _raw(name, overrides)
+    try:
+        return place(sections, head["mechanism"], key, option)
+    except BadInput as error:
+        raise BadInput(f"{file}: {error}") from None
+
+
+def _raw(name: str, overrides: Mapping[str, Any] | None) -> tuple[str, dict[str, str], dict[str, Any]]:
+    """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
     tables = _tables(file, content)
     head = {key: _head(tables, key, file) for key in _HEAD}
     sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in _HEAD}
     for key, value in (overrides or {}).items():
         override(sections, head["mechanism"], key, value)
-    try:
-        records = {key: _section(head["mechanism"], key, table) for key, table in sections.items()}
-    except BadInput as error:
-        raise BadInput(f"{file}: {error}") from None
-    return Case(name=Path(name).stem if name not in names() else name, file=file, sections=records, **head)
+    return file, head, sections
 
 
 def _folder() -> Any:
@@ -147,6 +185,8 @@ def _read(name: str) -> tuple[str, str]:
         raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
 
 
+# the points of a sweep read one file; `_raw` copies the sections before it changes them
+@functools.lru_cache(maxsize=8)
 def _tables(file: str, content: str) -> dict[str, Any]:
     try:
         return tomllib.loads(content)

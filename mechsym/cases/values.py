@@ -80,6 +80,67 @@ def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) 
     return stem, [f"{item} {unit}" for item in value] if isinstance(value, list) else f"{value} {unit}"
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where a key belongs in a case.
+
+    Parameters
+    ----------
+    section, field : str
+        The record and its field
+    unit : str or None
+        SI unit of a number, None for a word
+    written : str
+        Unit that the key itself names, as in `speed_rpm`; empty when it names none
+    """
+
+    section: str
+    field: str
+    unit: str | None
+    written: str
+
+
+def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Place:
+    """Find the field that a key means.
+
+    Parameters
+    ----------
+    tables : dict
+        Sections with their raw values
+    mechanism : str
+        Name of the mechanism
+    key : str
+        Dotted key; a bare key works if it is unique
+    option : str
+        Where the key was written, for messages
+
+    Returns
+    -------
+    place : Place
+        Section, field and unit
+
+    Raises
+    ------
+    BadInput
+        Unknown or ambiguous key
+    """
+    section, dot, name = key.partition(".")
+    if not dot:
+        section, name = _home(tables, mechanism, key, option), key
+    # a section that is left out has its defaults, unless a key has to choose its record first
+    table = tables.get(section, {} if section in schema.sections() and not schema.selector(section) else None)
+    if not isinstance(table, dict):
+        raise BadInput(f"{option} {key}: no section [{section}] here; {suggest(section, tables)}")
+    if name == schema.selector(section):
+        return Place(section=section, field=name, unit=None, written="")
+    fields = {f.name: f for f in dataclasses.fields(schema.record(mechanism, section, table))}
+    stem = without_unit(name, 0.0, fields)[0]
+    if stem not in fields:
+        raise BadInput(f"{option} {key} is not known; {suggest(name, fields)}")
+    written = "" if stem == name else name.rpartition("_")[2]
+    return Place(section=section, field=stem, unit=fields[stem].metadata.get("unit"), written=written)
+
+
 def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> None:
     """Replace one value of a case.
 
@@ -101,7 +162,7 @@ def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> No
     """
     section, dot, name = key.partition(".")
     if not dot:
-        section, name = _home(tables, mechanism, key), key
+        section, name = _home(tables, mechanism, key, "--set"), key
     table = tables.setdefault(section, {})
     if not isinstance(table, dict):
         raise BadInput(f"--set {key}: {section!r} is no section; {suggest(section, schema.sections())}")
@@ -116,7 +177,7 @@ def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> No
         table.pop(gone, None)
 
 
-def _home(tables: dict[str, Any], mechanism: str, key: str) -> str:
+def _home(tables: dict[str, Any], mechanism: str, key: str, option: str) -> str:
     """The only section that has a bare key."""
     sections = {s: t for s, t in tables.items() if isinstance(t, dict)}
     keys = {s: _keys(mechanism, s, t) for s, t in sections.items()}
@@ -127,10 +188,10 @@ def _home(tables: dict[str, Any], mechanism: str, key: str) -> str:
     if len(homes) == 1:
         return homes[0]
     if homes:
-        raise BadInput(f"--set {key} is in several sections; write {' or '.join(f'{s}.{key}' for s in homes)}")
+        raise BadInput(f"{option} {key} is in several sections; write {' or '.join(f'{s}.{key}' for s in homes)}")
     near = difflib.get_close_matches(key, sorted(set().union(*keys.values())), n=3)
     hint = f"did you mean {' or '.join(near)}? " if near else ""
-    raise BadInput(f"--set {key} is not known; {hint}give section.key, sections here are {', '.join(sections)}")
+    raise BadInput(f"{option} {key} is not known; {hint}give section.key, sections here are {', '.join(sections)}")
 
 
 def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:

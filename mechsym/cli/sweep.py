@@ -6,89 +6,125 @@ from typing import Any
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.errors import MissingExtra
+
+_INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
 @click.command()
 @click.argument("case")
 @click.option("--over", multiple=True, required=True, metavar="KEY=RANGE", help="a..b UNIT:n, a list, a..b or m+-s.")
 @click.option("--of", "analysis", type=click.Choice(["simulate", "hinge", "cycle"]), help="What to compute.")
-@click.option("--samples", type=int, help="Monte Carlo: so many samples of the ranges and distributions.")
-@click.option("--seed", default=0, show_default=True, help="Of the samples.")
+@click.option("--samples", type=click.IntRange(min=1), help="Monte Carlo: so many samples of ranges a..b and m+-s.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the samples.")
+@click.option("--show", multiple=True, metavar="NAME", help="Result to show in place of the main ones.")
 @set_option
 @out_option
 @json_option
 @click.pass_context
-def sweep(
-    ctx: click.Context,
-    case: str,
-    over: tuple[str, ...],
-    analysis: str | None,
-    samples: int | None,
-    seed: int,
-    overrides: tuple[str, ...],
-    out: Path | None,
-    as_json: bool,
-) -> None:  # fmt: skip
+def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | None, samples: int | None, seed: int,
+          show: tuple[str, ...], overrides: tuple[str, ...], out: Path | None, as_json: bool) -> None:  # fmt: skip
     """Run CASE over ranges of its values; results as one labelled data set.
 
-    A driven case is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
-    Points that fail are gaps with a reason. Exit status 1 when all of them failed.
+    A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
+    With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg.
+
+    A point that cannot be computed is a gap with a reason: null, an empty cell, NaN. Exit status 1 when all are gaps.
+    An interrupt (Ctrl-C) keeps the points that are finished, writes the files and ends with status 130.
 
     \b
     Examples: mechsym sweep zotov-89 --over "spring.p0=3..8 MPa:11" --over speed_rpm=80,89,100 --out map
-              mechsym sweep chmielewski --over c1=0.1..5:50
+              mechsym sweep chmielewski --over c1=0.1..5:50 --show speed_max
               mechsym sweep chmielewski --samples 200 --over "k1=6500+-200 N*m/rad" --over m0=1.0..1.2
+              mechsym sweep nunes-slider-crank --over speed_rpm=1000..8000:71 --over "ignition=-25..-5 deg:21"
     """
-    from mechsym import sweep_data
+    from mechsym import sweep as sweeps
     from mechsym.files import make_folder
-    from mechsym.sweep import Plan
-    from mechsym.sweep import sweep as run
-    from mechsym.sweep_axes import parse_axis, points
 
-    axes = tuple(parse_axis(text) for text in over)
-    plan = Plan(case=case, axes=axes, overrides=pairs(overrides), analysis=analysis, samples=samples, seed=seed)
-    count = len(points(axes, samples, seed)[1])
+    plan = sweeps.Plan(
+        case=case, over=over, overrides=pairs(overrides), analysis=analysis, samples=samples, seed=seed, show=show
+    )
+    count = len(sweeps.layout(plan).points)
     if out is not None:
         make_folder(out)
     with progress(count, f"sweep of {case}") as bar:
-        found = run(plan, bar.update)
-    report = _report(found, [] if out is None else sweep_data.write(found, out))
+        found = sweeps.sweep(plan, bar.update)
+    report = _report(found, [] if out is None else _write(found, out))
     emit(report, as_json, lambda: _text(found, report))
-    ctx.exit(1 if len(report["failed"]) == count else 0)
+    ctx.exit(_INTERRUPTED if found.interrupted else 1 if len(report["failed"]) == count else 0)
+
+
+def _write(found: Any, out: Path) -> list[Path]:
+    from mechsym import plots_sweep
+    from mechsym.files import write_text
+    from mechsym.plots import svg
+    from mechsym.sweep import write_netcdf, write_table
+
+    files = [write_table(found, out)]
+    try:
+        files.append(write_netcdf(found, out))
+    except MissingExtra as error:
+        click.echo(f"no netCDF file: {error}", err=True)
+    figure = plots_sweep.picture(found)
+    return files if figure is None else [*files, write_text(out / "sweep.svg", svg(figure))]
 
 
 def _report(found: Any, files: list[Path]) -> dict[str, Any]:
-    from mechsym.sweep_data import columns, failures
+    from mechsym.sweep import columns, failures
+    from mechsym.sweep.units import unit_of
 
-    sampled = "sample" in found.dims
-    values = {a.key: [p[i] for p in found.points] if sampled else list(a.values) for i, a in enumerate(found.axes)}
+    sampled, data = "sample" in found.dims, columns(found)
+    reasons = failures(found)
     return {
         "case": found.case,
         "analysis": found.analysis,
         "dims": dict(found.dims),
         "shape": list(found.dims.values()),
-        "axes": {a.key: {"unit": a.unit or "SI", "values": values[a.key]} for a in found.axes},
-        "data": {name: column.tolist() for name, column in columns(found).items()},
-        "failed": [{"index": i, "reason": reason} for i, reason in failures(found).items()],
+        "axes": {
+            a.key: {"unit": a.unit, "values": [p[i] for p in found.points] if sampled else list(a.values)}
+            for i, a in enumerate(found.axes)
+        },
+        "units": {name: unit_of(name) for name in data},
+        # a word that is not there is null, as a number
+        "data": {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()},
+        "failed": [{"index": i, "at": _values(found, i), "reason": reason} for i, reason in reasons.items()],
+        "interrupted": found.interrupted,
         "files": [str(f) for f in files],
     }
 
 
 def _text(found: Any, report: dict[str, Any]) -> str:
-    import numpy as np
+    from mechsym.sweep import main_results
+    from mechsym.sweep.units import unit_of
 
-    rows, sampled = [], "sample" in found.dims
-    for name, column in report["data"].items():
-        numbers = np.array([v for v in column if isinstance(v, float) and np.isfinite(v)])
-        if numbers.size:
-            spread = {"mean": float(numbers.mean()), "std": float(numbers.std())} if sampled else {}
-            rows.append({"name": name, "min": float(numbers.min()), "max": float(numbers.max()), **spread})
+    sampled, main = "sample" in found.dims, main_results(found)
+    rows = [_row(found, name, column) | {"unit": unit_of(name)} for name, column in main.items()]
     dims = " x ".join(f"{size} {name}" for name, size in found.dims.items())
-    lines = [f"{found.analysis} of {found.case} over {dims}: {len(report['failed'])} of {len(found.points)} failed", ""]
-    lines.append(table(rows, ["name", "min", "max", *(["mean", "std"] if sampled else [])]))
+    lines = [f"{found.analysis} of {found.case} over {dims}: {len(report['failed'])} of {len(found.points)} failed"]
+    if rows:
+        spread = ["mean", "std"] if sampled else []
+        lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]), ""]
+        lines += [f"{len(report['data']) - len(rows)} more results with --json, --out or --show NAME"]
     lines += [f"failed at {_place(found, f['index'])}: {f['reason']}" for f in report["failed"][:5]]
+    if len(report["failed"]) > 5:
+        lines.append(f"and {len(report['failed']) - 5} more")
     return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
 
 
+def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
+    import numpy as np
+
+    low, high = int(np.nanargmin(column)), int(np.nanargmax(column))
+    return {
+        "name": name, "min": float(column[low]), "at min": _place(found, low), "max": float(column[high]),
+        "at max": _place(found, high), "mean": float(np.nanmean(column)), "std": float(np.nanstd(column)),
+    }  # fmt: skip
+
+
+def _values(found: Any, index: int) -> dict[str, Any]:
+    return {a.key: v for a, v in zip(found.axes, found.points[index], strict=True)}
+
+
 def _place(found: Any, index: int) -> str:
-    return ", ".join(f"{a.key} = {v} {a.unit}".rstrip() for a, v in zip(found.axes, found.points[index], strict=True))
+    parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
+    return ", ".join(f"{a.key}={v}{' ' + a.suffix if a.suffix else ''}" for a, v in parts)

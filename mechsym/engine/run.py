@@ -76,8 +76,45 @@ def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = 
         if worst < TOLERANCE:
             return result
         if not np.isfinite(worst) or steps >= _MOST_STEPS:
-            raise BadInput(_not_closed(result, names, values))
+            bad = int(np.argmax(~(np.abs(result.residual) < TOLERANCE)))
+            raise BadInput(_not_closed(result, names, values, bad))
         steps *= 2
+
+
+def steps_needed(build: Callable[[Any], Closed], design: Mapping[str, Any]) -> tuple[np.ndarray, dict[int, str]]:
+    """Steps with which each point closes the first law, and why others never do.
+
+    Parameters
+    ----------
+    build : callable
+        As for `run`
+    design : mapping of str to ndarray, shape (n,)
+        Values of the design at the n points; numbers are repeated
+
+    Returns
+    -------
+    steps : ndarray of int, shape (n,)
+        0 at points that have no cycle [-]
+    reasons : dict of int to str
+        Why they have none, by index
+    """
+    names = list(design)
+    values = np.array(np.broadcast_arrays(*(np.atleast_1d(np.asarray(design[n], float)) for n in names)))
+    needed, open_, steps = np.zeros(values.shape[1], dtype=int), np.arange(values.shape[1]), _STEPS
+    reasons: dict[int, str] = {}
+    while open_.size:
+        result = _run(build, tuple(names), values[:, open_], steps)
+        faults = _phase_faults(result.scalars)
+        size = np.abs(result.residual)
+        hopeless = ~np.isfinite(size) | ((size >= TOLERANCE) & (steps >= _MOST_STEPS))
+        faults |= {int(k): _not_closed(result, names, values[:, open_], int(k)) for k in np.flatnonzero(hopeless)
+                   if k not in faults}  # fmt: skip
+        reasons |= {int(open_[k]): reason for k, reason in faults.items()}
+        closed = (size < TOLERANCE) & ~np.isin(np.arange(open_.size), list(faults))
+        needed[open_[closed]] = steps
+        open_ = np.setdiff1d(open_[~closed], list(reasons))
+        steps *= 2
+    return needed, reasons
 
 
 def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
@@ -93,20 +130,28 @@ def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
     BadInput
         Names the first point, the angle and the bound it passes
     """
+    for reason in _phase_faults(scalars).values():
+        raise BadInput(reason)
+
+
+def _phase_faults(scalars: Mapping[str, np.ndarray]) -> dict[int, str]:
+    """Points at which combustion does not fit, and why."""
     closes, starts, ends, opens = (scalars[k] for k in ("closes", "starts", "ends", "opens"))
+    faults: dict[int, str] = {}
     for angle, bound, bad, reason in (
         (starts, closes, starts <= closes, "ignition is before the inlet closes"),
         (starts, opens, starts >= opens, "ignition is after the exhaust opens"),
         (ends, starts, ends <= starts, "the end of combustion is not after its start"),
         (ends, opens, ends > opens, "combustion ends after the exhaust opens"),
     ):
-        if np.any(bad):
-            k = int(np.argmax(bad))
+        for k in np.flatnonzero(bad):
             at, limit = np.degrees(angle[k]), np.degrees(bound[k])
-            raise BadInput(
+            faults.setdefault(
+                int(k),
                 f"{reason}: {at:.2f} deg against {limit:.2f} deg from firing TDC at "
-                f"{scalars['omega'][k] * 30 / np.pi:.5g} rpm; change ignition or duration"
+                f"{scalars['omega'][k] * 30 / np.pi:.5g} rpm; change ignition or duration",
             )
+    return faults
 
 
 def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -180,9 +225,7 @@ def _function(build: Callable[[Any], Closed], names: tuple[str, ...], steps: int
     return closed_function(build, names, steps)
 
 
-def _not_closed(result: Run, names: list[str], values: np.ndarray) -> str:
-    bad = ~(np.abs(result.residual) < TOLERANCE)
-    k = int(np.argmax(bad))
+def _not_closed(result: Run, names: list[str], values: np.ndarray, k: int) -> str:
     point = ", ".join(f"{name} = {value:.5g}" for name, value in zip(names, values[:, k], strict=True))
     return (f"the cycle does not converge at {point}: first-law residual {result.residual[k]:.2g} of the heat released "
             f"with {_MOST_STEPS} steps; very low speeds lose all heat to the walls, raise the speed")  # fmt: skip

@@ -30,6 +30,8 @@ class Program:
     kernels: tuple[Kernel, ...]
 
 
+# a run, its check and its energies ask for the same function again
+@functools.lru_cache(maxsize=128)
 def program(function: casadi.Function, mode: str = "fast") -> Program:
     """Read a CasADi function and roll its equal parts.
 

@@ -5,7 +5,7 @@ r"""A shaft with one coordinate over the angle: kinetic energy instead of speed,
 
 Q is the torque of everything that depends on the angle only (gas, hinge, gravity), M_r the load, J a flywheel. Kinks of
 the torque are known angles, so panels end at them; a shaft that stops is T = 0, where nothing is singular. Each panel
-carries Gauss points, and a turn costs less than a millisecond under constant load, some milliseconds otherwise.
+carries Gauss points, and a turn costs less than a millisecond.
 """
 
 from collections.abc import Callable
@@ -16,11 +16,10 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
-from mechsym.loads import ConstantLoad, Load, load_slope, load_torque
+from mechsym.loads import Load
 
 _POINTS = 10
 _WIDEST = np.pi / 18
-_SLOWEST = 1e-9  # the load's slope is asked for at this speed at least, where the shaft has stopped [rad/s]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,28 +73,15 @@ class Panels:
     inertia_edges: np.ndarray
 
 
-@dataclass(frozen=True, kw_only=True)
-class Turn:
-    """One period of motion.
-
-    Parameters
-    ----------
-    energy : ndarray, shape (k, n)
-        Kinetic energy at the Gauss points; negative beyond a stop [J]
-    energy_edges : ndarray, shape (k + 1,)
-        At the ends of the panels [J]
-    multiplier : float
-        Change of the energy at the end per change at the start [-]
-    """
-
-    energy: np.ndarray
-    energy_edges: np.ndarray
-    multiplier: float
-
-
 @lru_cache(maxsize=1)
-def _gauss() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Gauss points and weights on [-1, 1], and the matrix that integrates from -1 to each point."""
+def gauss() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Gauss points of a panel.
+
+    Returns
+    -------
+    x, weights, matrix : ndarray, shape (n,), (n,) and (n, n)
+        On [-1, 1], and what integrates from -1 to each point [-]
+    """
     x, weights = legendre.leggauss(_POINTS)
     to_coefficients = np.linalg.inv(legendre.legvander(x, _POINTS - 1))
     integrals = np.array([legendre.legval(x, legendre.legint(row, lbnd=-1)) for row in np.eye(_POINTS)])
@@ -127,7 +113,7 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
     ends = ends[np.append(True, np.diff(ends) > 1e-12)]
     even = [np.linspace(a, b, int(np.ceil((b - a) / _WIDEST)) + 1)[:-1] for a, b in zip(ends, ends[1:], strict=False)]
     edges = np.append(np.concatenate(even), phi_start + machine.period)
-    x = _gauss()[0]
+    x = gauss()[0]
     phi = (edges[1:, None] + edges[:-1, None]) / 2 + np.diff(edges)[:, None] / 2 * x
     inertia, torque, at_edges = machine.inertia(phi.ravel()), machine.torque(phi.ravel()), machine.inertia(edges)
     for name, values in (("inertia", inertia), ("torque", torque), ("inertia", at_edges)):
@@ -138,132 +124,3 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
         load=machine.load, edges=edges, phi=phi, inertia=inertia.reshape(phi.shape),
         torque=torque.reshape(phi.shape), inertia_edges=at_edges,
     )  # fmt: skip
-
-
-def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
-    """Integrate one period from a kinetic energy.
-
-    Parameters
-    ----------
-    panels : Panels
-        Machine
-    flywheel : float
-        Inertia added to the shaft [kg*m^2]
-    energy : float
-        Kinetic energy at the start [J]
-
-    Returns
-    -------
-    turn : Turn
-        Energies; where they are negative the shaft has stopped before
-    """
-    if isinstance(panels.load, ConstantLoad):
-        return _turn_constant(panels, energy)
-    return _turn_panel_by_panel(panels, flywheel, energy)
-
-
-def _turn_constant(panels: Panels, energy: float) -> Turn:
-    _, weights, matrix = _gauss()
-    half = np.diff(panels.edges)[:, None] / 2
-    net = panels.torque - panels.load.torque  # type: ignore[union-attr]
-    edges = energy + np.concatenate([[0.0], np.cumsum(half * net @ weights[:, None])])
-    return Turn(energy=edges[:-1, None] + half * net @ matrix.T, energy_edges=edges, multiplier=1.0)
-
-
-def _turn_panel_by_panel(panels: Panels, flywheel: float, energy: float) -> Turn:
-    _, weights, matrix = _gauss()
-    edges, points, multiplier = [energy], [], 1.0
-    guess = np.full(_POINTS, energy)
-    for inertia, torque, half in zip(panels.inertia + flywheel, panels.torque, np.diff(panels.edges) / 2, strict=True):
-        guess, net, slope = _collocate(panels.load, inertia, torque, half * matrix, edges[-1], guess)
-        sensitivity = np.linalg.solve(np.eye(_POINTS) + half * matrix * slope, np.ones(_POINTS))
-        points.append(guess)
-        multiplier *= 1 - half * float(weights @ (slope * sensitivity))
-        edges.append(edges[-1] + half * float(weights @ net))
-        guess = np.full(_POINTS, edges[-1])
-    return Turn(energy=np.array(points), energy_edges=np.array(edges), multiplier=multiplier)
-
-
-def _collocate(
-    load: Load, inertia: np.ndarray, torque: np.ndarray, matrix: np.ndarray, start: float, guess: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Energies at the points of one panel by Newton's method; net torque and slope of the load over energy there."""
-    energy = guess
-    for _ in range(20):
-        omega = np.sqrt(2 * np.maximum(energy, 0.0) / inertia)
-        net = torque - load_torque(load, omega)
-        slope = load_slope(load, np.maximum(omega, _SLOWEST)) / (inertia * np.maximum(omega, _SLOWEST))
-        residual = energy - start - matrix @ net
-        change = np.linalg.solve(np.eye(_POINTS) + matrix * slope, residual)
-        energy = energy - change
-        if np.max(np.abs(change)) <= 1e-13 * max(abs(start), float(np.max(np.abs(energy)))):
-            break
-    return energy, net, slope
-
-
-def speeds(panels: Panels, flywheel: float, turn: Turn) -> tuple[np.ndarray, np.ndarray, float]:
-    """Speed around a turn that does not stop, and how long the turn takes.
-
-    Parameters
-    ----------
-    panels : Panels
-        Machine
-    flywheel : float
-        Inertia added to the shaft [kg*m^2]
-    turn : Turn
-        Positive energies
-
-    Returns
-    -------
-    phi, omega : ndarray, shape (m,)
-        Angles, ends of the panels included, and the speeds there [rad, rad/s]
-    time : float
-        Duration [s]
-    """
-    at_points = np.sqrt(2 * turn.energy / (panels.inertia + flywheel))
-    at_edges = np.sqrt(2 * turn.energy_edges / (panels.inertia_edges + flywheel))
-    time = float(np.sum(np.diff(panels.edges) / 2 * ((1 / at_points) @ _gauss()[1])))
-    phi = np.append(np.column_stack([panels.edges[:-1], panels.phi]).ravel(), panels.edges[-1])
-    omega = np.append(np.column_stack([at_edges[:-1], at_points]).ravel(), at_edges[-1])
-    return phi, omega, time
-
-
-def lowest_energy(turn: Turn) -> float:
-    """Smallest kinetic energy of a turn.
-
-    Parameters
-    ----------
-    turn : Turn
-        A turn
-
-    Returns
-    -------
-    energy : float
-        Not positive when the shaft stops [J]
-    """
-    return float(min(turn.energy.min(), turn.energy_edges.min()))
-
-
-def stop_angle(panels: Panels, turn: Turn) -> float | None:
-    """Where a turn stops.
-
-    Parameters
-    ----------
-    panels : Panels
-        Machine
-    turn : Turn
-        A turn
-
-    Returns
-    -------
-    phi : float or None
-        First angle without kinetic energy, between two points by a straight line; None if it does not stop [rad]
-    """
-    phi = np.append(np.column_stack([panels.edges[:-1], panels.phi]).ravel(), panels.edges[-1])
-    energy = np.append(np.column_stack([turn.energy_edges[:-1], turn.energy]).ravel(), turn.energy_edges[-1])
-    stopped = np.flatnonzero(energy <= 0)
-    if not len(stopped):
-        return None
-    i = max(int(stopped[0]), 1)
-    share = energy[i - 1] / (energy[i - 1] - energy[i])
-    return float(phi[i - 1] + share * (phi[i] - phi[i - 1]))

@@ -216,6 +216,6 @@ def _known(what: str, names: list[str], allowed: tuple[str, ...]) -> None:
 
 
 def _outputs(output: float | tuple[float, ...]) -> None:
-    wanted = [output] if isinstance(output, (int, float)) else [b - a for a, b in zip(output, output[1:], strict=False)]
-    if any(not step > 0 for step in wanted):
+    wanted = np.atleast_1d(output) if isinstance(output, (int, float)) else np.diff(output)
+    if not np.all(wanted > 0):
         raise BadInput("output must be a positive spacing in s, or ascending times in s")

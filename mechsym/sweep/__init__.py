@@ -1,0 +1,36 @@
+"""Many runs of a case over ranges of its values, or over samples of them, as one labelled data set.
+
+    found = sweep(Plan(case="zotov-89", over=("spring.p0=3..8 MPa:11", "speed_rpm=80,89")))
+    dataset(found)["guide.z_max"].sel(speed_rpm=89)
+
+What runs is what the case is for: a driven machine is simulated (side by side in compiled code), an engine with a
+spring gets its hinge designed, an engine without one runs its cycle (as one map). A point that cannot be computed is a
+gap with a reason, not the end of the sweep.
+
+axes.py      what to run over: ranges, lists, distributions
+run.py       the points in chunks, and interrupts
+points.py    how a chunk is computed: simulations, hinges, cycles
+cycles.py    cycles that differ in numbers only as one map
+outcomes.py  a result, or a gap with a reason
+data.py      labelled columns with units, CSV, netCDF; the picture is `mechsym.plots_sweep`
+"""
+
+from mechsym.sweep.axes import Axis
+from mechsym.sweep.data import columns, dataset, failures, main_results, write_netcdf, write_table
+from mechsym.sweep.outcomes import Gap
+from mechsym.sweep.run import Plan, Sweep, layout, sweep
+
+__all__ = [
+    "Axis",
+    "Gap",
+    "Plan",
+    "Sweep",
+    "columns",
+    "dataset",
+    "failures",
+    "layout",
+    "main_results",
+    "sweep",
+    "write_netcdf",
+    "write_table",
+]

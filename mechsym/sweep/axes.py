@@ -1,0 +1,226 @@
+"""What a sweep runs over: ranges on a grid, or distributions that samples are drawn from.
+
+spring.p0=3..8 MPa:11        eleven even values, both ends included
+speed_rpm=89,120,142         a list; words such as simulation.hinge=designed,none too
+spring.n=1.2..1.3            with samples: evenly distributed
+k1=6500+-200 N*m/rad         with samples: normally distributed, mean and standard deviation
+"""
+
+import dataclasses
+import itertools
+import math
+import re
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases.values import Place
+from mechsym.errors import BadInput, shown
+from mechsym.quantities import parse
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_UNIT = r"([A-Za-z%][^:,]*?)?"
+_RANGE = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*\.\.\s*({_NUMBER})\s*{_UNIT}\s*(?::\s*(\d{{1,18}}))?")
+_NORMAL = re.compile(rf"({_NUMBER})\s*\+-\s*({_NUMBER})\s*{_UNIT}")
+_ONE = re.compile(rf"({_NUMBER})\s*{_UNIT}")
+_FORMS = "{key}=1..5{unit}:9, {key}=1,2,5{unit} or, with --samples, {key}=1..5{unit} or {key}=3+-0.1{unit}"
+MOST = 1_000_000
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Axis:
+    """A value of the case and what it takes on.
+
+    Parameters
+    ----------
+    key : str
+        Key as for `--set`
+    place : Place
+        The field that it means
+    unit : str
+        Unit of the values; empty for words
+    suffix : str
+        Unit that has to follow a value for `--set`; empty when the key or SI says it
+    kind : str
+        `grid` (values), `even` or `normal` (two numbers)
+    values : tuple of float or of str
+        Values of a grid; ends of an even distribution; mean and standard deviation of a normal one [unit]
+    """
+
+    key: str
+    place: Place
+    unit: str
+    suffix: str
+    kind: str
+    values: tuple[Any, ...]
+
+
+def split(text: str) -> tuple[str, str]:
+    """Key and range of KEY=RANGE.
+
+    Parameters
+    ----------
+    text : str
+        See the module's description
+
+    Returns
+    -------
+    key, span : str
+        Left and right of the first equals sign
+
+    Raises
+    ------
+    BadInput
+        One of them is missing
+    """
+    key, sign, span = (part.strip() for part in text.partition("="))
+    if not sign or not key or not span:
+        raise BadInput(f"--over {shown(text)} is not KEY=RANGE; write for example --over 'spring.p0=3..8 MPa:11'")
+    return key, span
+
+
+def parse_axis(text: str, place: Place) -> Axis:
+    """An axis from KEY=RANGE.
+
+    Parameters
+    ----------
+    text : str
+        See the module's description
+    place : Place
+        Where the key belongs, see `mechsym.cases.locate`
+
+    Returns
+    -------
+    axis : Axis
+        What it says
+
+    Raises
+    ------
+    BadInput
+        Not of that form, a unit of another dimension, or numbers and words mixed up
+    """
+    key, span = split(text)
+    if place.unit is None:
+        words = tuple(part.strip() for part in span.split(","))
+        _check_words(text, words)
+        return Axis(key=key, place=place, unit="", suffix="", kind="grid", values=words)
+    kind, numbers, count, units = _read(text, key, span, place.unit)
+    unit = _unit(text, units, place)
+    if not all(math.isfinite(number) for number in numbers):
+        raise BadInput(f"--over {shown(text)}: a value is not finite; allowed are numbers up to 1e20 in SI")
+    if kind == "normal" and not numbers[1] > 0:
+        raise BadInput(f"--over {shown(text)}: the standard deviation {numbers[1]:g} is out of range; it must be > 0")
+    if count is not None:
+        kind, numbers = "grid", tuple(np.linspace(numbers[0], numbers[1], _few(text, count)).tolist())
+    suffix = "" if place.written or unit == place.unit or unit == "-" else unit
+    return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=kind, values=numbers)
+
+
+def _read(text: str, key: str, span: str, unit: str) -> tuple[str, tuple[float, ...], int | None, set[str]]:
+    """Kind, numbers, how many, and the units that were written."""
+    if found := _RANGE.fullmatch(span):
+        numbers = float(found[1]), float(found[3])
+        return "even", numbers, None if found[5] is None else int(found[5]), {found[2], found[4]} - {None}
+    if found := _NORMAL.fullmatch(span):
+        return "normal", (float(found[1]), float(found[2])), None, {found[3]} - {None}
+    parts = [_ONE.fullmatch(part.strip()) for part in span.split(",")]
+    if not all(parts):
+        forms = _FORMS.format(key=key, unit="" if unit == "-" else f" {unit}")
+        raise BadInput(f"--over {shown(text)}: {key} takes numbers; write {forms}")
+    found_parts = [part for part in parts if part]
+    return "grid", tuple(float(p[1]) for p in found_parts), None, {p[2] for p in found_parts} - {None}
+
+
+def _unit(text: str, units: set[str], place: Place) -> str:
+    """The one unit of an axis, of the right dimension."""
+    if len(units) > 1:
+        raise BadInput(f"--over {shown(text)}: units {' and '.join(sorted(units))}; write all values in one unit")
+    written = "".join(units)
+    if written and place.written:
+        why = f"the key names {place.written}"
+        raise BadInput(f"--over {shown(text)}: unit {written!r} is one too many, {why}; leave it away")
+    if written:
+        parse(f"1 {written}", place.unit or "-", f"--over {place.section}.{place.field}")
+    return written or place.written or place.unit or "-"
+
+
+def _few(text: str, count: int) -> int:
+    if not 1 <= count <= MOST:
+        raise BadInput(f"--over {shown(text)}: {count} values; allowed are 1 to {MOST}")
+    return count
+
+
+def _check_words(text: str, words: tuple[str, ...]) -> None:
+    if not all(words) or len(set(words)) < len(words):
+        raise BadInput(f"--over {shown(text)}: a word is empty or stands twice; write KEY=WORD,OTHER")
+
+
+def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict[str, int], list[tuple[Any, ...]]]:
+    """All points of a grid, or samples that fill the space evenly (Sobol's sequence).
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        What to run over
+    samples : int or None
+        Number of samples; None runs the grid
+    seed : int
+        Of the samples
+
+    Returns
+    -------
+    dims : dict of str to int
+        Name and length of each dimension
+    points : list of tuple
+        Values in the axes' order, the last axis fastest
+
+    Raises
+    ------
+    BadInput
+        No axis, a distribution without samples, values without a distribution, or too many points
+    """
+    if not axes:
+        raise BadInput("--over must name at least one key, for example --over 'spring.p0=3..8 MPa:11'")
+    for axis in axes:
+        if axis.kind == "grid" and samples is not None:
+            raise BadInput(f"--over {axis.key}: with --samples give a range a..b or a distribution m+-s, or use --set")
+        if axis.kind != "grid" and samples is None:
+            raise BadInput(f"--over {axis.key}: say how many values, a..b:n, or ask for --samples N")
+    count = math.prod(len(a.values) for a in axes) if samples is None else samples
+    if not 1 <= count <= MOST:
+        raise BadInput(f"the sweep has {count} points; allowed are 1 to {MOST}")
+    if samples is None:
+        return {a.key: len(a.values) for a in axes}, list(itertools.product(*(a.values for a in axes)))
+    return {"sample": samples}, _drawn(axes, samples, seed)
+
+
+def _drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Any, ...]]:
+    from scipy.stats import norm, qmc
+
+    # the sequence is balanced in powers of two; what is over is left out
+    shares = qmc.Sobol(len(axes), seed=seed).random_base2(math.ceil(math.log2(samples)))[:samples]
+    columns = [
+        a.values[0] + (a.values[1] - a.values[0]) * u
+        if a.kind == "even"
+        else norm.ppf(np.clip(u, 1e-12, 1 - 1e-12), a.values[0], a.values[1])
+        for a, u in zip(axes, shares.T, strict=True)
+    ]
+    return list(zip(*(c.tolist() for c in columns), strict=True))
+
+
+def override(axis: Axis, value: Any) -> str | float:
+    """A value as `--set` takes it.
+
+    Parameters
+    ----------
+    axis : Axis
+        Where it belongs
+    value : float or str
+        One of its values [unit]
+
+    Returns
+    -------
+    text : str or float
+        With the unit, if the key needs it
+    """
+    return f"{value!r} {axis.suffix}" if axis.suffix else value

@@ -1,0 +1,154 @@
+"""Engine cycles at many points: what differs in numbers only is one map, integrated side by side."""
+
+import dataclasses
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.engine.spark_ignition import SparkIgnition
+from mechsym.sweep.outcomes import Gap, Outcome
+
+BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
+_SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
+
+
+def mapped(case: Case) -> bool:
+    """Whether the cycles of a case come as maps.
+
+    Parameters
+    ----------
+    case : Case
+        With section `[cycle]`
+
+    Returns
+    -------
+    mapped : bool
+        False for cycles that are solved one by one
+    """
+    return isinstance(case.need("cycle"), SparkIgnition)
+
+
+def single(case: Case) -> dict[str, Any]:
+    """Figures of one cycle.
+
+    Parameters
+    ----------
+    case : Case
+        With a two-stroke cycle
+
+    Returns
+    -------
+    figures : dict
+        As `mechsym.cycle.columns`, each with one value
+
+    Raises
+    ------
+    BadInput
+        A cycle of another kind, or one that cannot be made
+    """
+    from mechsym.two_stroke_cycle import two_stroke_columns
+
+    return two_stroke_columns(case, np.array([case.need("operation").speed]))
+
+
+def families(found: Sequence[Case]) -> list[list[int]]:
+    """Cases that one map may hold: all but numbers of the engine and the speed are equal.
+
+    Parameters
+    ----------
+    found : sequence of Case
+        With spark-ignition cycles
+
+    Returns
+    -------
+    families : list of list of int
+        Indices of the cases
+    """
+    families: dict[Any, list[int]] = {}
+    for i, case in enumerate(found):
+        families.setdefault(_form(case), []).append(i)
+    return list(families.values())
+
+
+def _form(case: Case) -> Any:
+    from mechsym.engine.friction import MechanismFriction
+
+    friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
+    # the law is fitted around the speed of operation, so another speed is another engine
+    fitted = case.need("operation").speed if isinstance(friction, MechanismFriction) else None
+    records = [case.sections.get(name) for name in _SECTIONS]
+    if fitted is not None:
+        records += [case.sections.get("friction"), case.sections.get("rings")]
+    alone = fitted is not None or getattr(cycle, "method", None) == "nunes2017_printed"
+    return case.mechanism, fitted, tuple(_text(record, numbers=alone) for record in records)
+
+
+def _text(record: Any, numbers: bool) -> str:
+    """A record without the numbers that a map may vary, as a text to compare."""
+    if record is None:
+        return ""
+    values = {f.name: getattr(record, f.name) for f in dataclasses.fields(record)}
+    return repr((type(record), {k: v for k, v in values.items() if numbers or not isinstance(v, float)}))
+
+
+def map_of(family: Sequence[Case]) -> list[Outcome]:
+    """Figures of one family, each with the steps that it would take alone.
+
+    Parameters
+    ----------
+    family : sequence of Case
+        See `families`
+
+    Returns
+    -------
+    figures : list of dict or Gap
+        As `mechsym.cycle.columns`, each with one value; a gap where there is no cycle
+
+    Raises
+    ------
+    BadInput
+        The engine itself cannot be made
+    """
+    from mechsym.cycle import columns, engine, over_design
+    from mechsym.forces.gas import one_cylinder
+
+    seen = [one_cylinder(case) for case in family]
+    design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
+    machine = engine(seen[0])
+    steps, reasons = _steps(machine, design)
+    outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
+    for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
+        found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
+        outcomes |= {int(i): _at(found, k) for k, i in enumerate(group)}
+    return [outcomes[i] for i in range(len(family))]
+
+
+def _steps(machine: Any, design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
+    from mechsym.engine.model import closed_period
+    from mechsym.engine.run import steps_needed
+
+    if machine.cycle.method == "nunes2017_printed":
+        return np.ones(design["omega"].size, dtype=int), {}
+    return steps_needed(functools.partial(closed_period, machine), design)
+
+
+def _varied(seen: Sequence[Case]) -> dict[str, np.ndarray]:
+    """Numbers of the engine that are not the same in all cases."""
+    found = {}
+    for section in _SECTIONS:
+        first = seen[0].sections.get(section)
+        for field in dataclasses.fields(first) if first is not None else ():
+            values = [getattr(case.sections[section], field.name) for case in seen]
+            if isinstance(values[0], float) and len(set(values)) > 1:
+                found[f"{section}.{field.name}"] = np.array(values)
+    return found
+
+
+def _at(columns: Mapping[str, Any], index: int) -> dict[str, Any]:
+    return {
+        name: _at(values, index) if isinstance(values, Mapping) else float(values[index])
+        for name, values in columns.items()
+    }

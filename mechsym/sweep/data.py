@@ -1,0 +1,201 @@
+"""A sweep as one labelled data set: numbers by name over the axes, gaps with their reasons, CSV and netCDF."""
+
+import math
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import write_csv
+from mechsym.sweep.outcomes import WORDS, Gap, flat
+from mechsym.sweep.run import Sweep
+from mechsym.sweep.units import unit_of
+
+MAIN = {
+    "simulate": ("speed_mean", "speed_min", "speed_max", "twist_peak", "torque_peak", "t_end"),
+    "hinge": (
+        "guide.margin", "guide.z_max", "guide.roller_reaction_max", "hinge_torque_max", "hinge_torque_min",
+        "flywheel_inertia_saved", "check.speed_ripple",
+    ),
+    "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa"),
+}  # fmt: skip
+
+
+def failures(result: Sweep) -> dict[int, str]:
+    """Points without a result.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+
+    Returns
+    -------
+    failures : dict of int to str
+        Index of the point and the reason
+    """
+    return {i: outcome.reason for i, outcome in enumerate(result.outcomes) if isinstance(outcome, Gap)}
+
+
+def columns(result: Sweep) -> dict[str, np.ndarray]:
+    """Results by name, one for each point.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        Not a number in a gap, an empty text for words [SI, or as the name says]
+    """
+    rows = [{} if isinstance(o, Gap) else flat(o) for o in result.outcomes]
+    gaps = {name: "" if name in WORDS else math.nan for row in rows for name in row}
+    return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
+
+
+def main_results(result: Sweep) -> dict[str, np.ndarray]:
+    """The few numbers that are looked at first: those asked for, or the main ones of the analysis.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        Those that there are [SI, or as the name says]
+    """
+    found = columns(result)
+    wanted = result.show or MAIN[result.analysis]
+    numbers = {n: found[n] for n in wanted if n in found and found[n].dtype.kind == "f"}
+    # a limit that is never reached is as far away as a gap
+    return {n: np.where(np.isfinite(v), v, math.nan) for n, v in numbers.items() if np.isfinite(v).any()}
+
+
+def dataset(result: Sweep) -> Any:
+    """The sweep as an xarray.Dataset.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+
+    Returns
+    -------
+    data : xarray.Dataset
+        Axes as coordinates and results as variables, with their units; `failure` holds the reasons of the gaps. A
+        result that has the name of an axis and other values is called `result.<name>`
+
+    Raises
+    ------
+    MissingExtra
+        xarray is not installed
+    """
+    try:
+        import xarray as xr
+    except ImportError as error:
+        raise _missing(error) from None
+    shape, names = tuple(result.dims.values()), list(result.dims)
+    along = {a.key: np.array([p[i] for p in result.points]) for i, a in enumerate(result.axes)}
+    sampled = "sample" in result.dims
+    coordinates = {
+        a.key: ("sample" if sampled else a.key, along[a.key] if sampled else list(a.values), _units(a.unit))
+        for a in result.axes
+    }
+    variables = {}
+    for name, values in columns(result).items():
+        if name in along and _same(values, along[name]):
+            continue
+        label = f"result.{name}" if name in along else name
+        variables[label] = (names, values.reshape(shape), _units(unit_of(name)))
+    reasons = failures(result)
+    texts = np.array([reasons.get(i, "") for i in range(len(result.points))])
+    variables["failure"] = (names, texts.reshape(shape), {"long_name": "why there is no result"})
+    attributes = {"case": result.case, "analysis": result.analysis, "failed": len(reasons)}
+    return xr.Dataset(variables, coords=coordinates, attrs=attributes | {"interrupted": int(result.interrupted)})
+
+
+def _units(unit: str) -> dict[str, str]:
+    # a pure number has the unit 1 in netCDF
+    return {"units": "1" if unit == "-" else unit} if unit else {}
+
+
+def _same(values: np.ndarray, axis: np.ndarray) -> bool:
+    if values.dtype.kind != "f" or axis.dtype.kind != "f":
+        return False
+    there = np.isfinite(values)
+    return bool(np.allclose(values[there], axis[there], rtol=1e-9, atol=0))
+
+
+def write_table(result: Sweep, folder: Path) -> Path:
+    """Write the sweep as CSV, one line a point; the cells of a gap are empty.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+    folder : Path
+        Where to
+
+    Returns
+    -------
+    path : Path
+        `sweep.csv`
+    """
+    # the unit keeps an axis apart from a result of the same name
+    table: dict[str, Any] = {
+        f"{a.key} [{a.unit}]" if a.unit else f"{a.key} [word]": [p[i] for p in result.points]
+        for i, a in enumerate(result.axes)
+    }
+    reasons = failures(result)
+    table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()}
+    table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
+    return write_csv(folder / "sweep.csv", table)
+
+
+def write_netcdf(result: Sweep, folder: Path) -> Path:
+    """Write the sweep as netCDF to a temporary name and move it into place.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+    folder : Path
+        Where to
+
+    Returns
+    -------
+    path : Path
+        `sweep.nc`
+
+    Raises
+    ------
+    MissingExtra
+        xarray or h5netcdf is not installed
+    BadInput
+        The file cannot be written
+    """
+    data, target = dataset(result), folder / "sweep.nc"
+    handle, name = tempfile.mkstemp(dir=folder, prefix=".sweep.nc.")
+    os.close(handle)
+    try:
+        data.to_netcdf(name, engine="h5netcdf")
+        os.chmod(name, 0o644)
+        os.replace(name, target)
+    except (ImportError, ValueError) as error:
+        raise _missing(error) from None
+    except OSError as error:
+        raise BadInput(f"{target}: cannot be written ({error}); choose another folder with --out") from None
+    finally:
+        Path(name).unlink(missing_ok=True)
+    return target
+
+
+def _missing(error: Exception) -> MissingExtra:
+    return MissingExtra(f"netCDF needs xarray and h5netcdf ({error}); install them with pip install 'mechsym[netcdf]'")

@@ -1,0 +1,84 @@
+"""What comes out at a point of a sweep: a nested result, or a gap with a reason."""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import BadInput
+
+# results that are words worth keeping
+WORDS = ("status", "end", "guide.reason")
+# the clock tells nothing of the machine, and an event is told by its parts
+_NO_RESULT = ("wall_s", "event")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Gap:
+    """Why there is no result at a point.
+
+    Parameters
+    ----------
+    reason : str
+        In one line
+    of_input : bool
+        Whether the case was refused, not its run
+    """
+
+    reason: str
+    of_input: bool = False
+
+
+Outcome = dict[str, Any] | Gap
+
+
+def known(error: Exception) -> Gap:
+    """The gap that an error leaves.
+
+    Parameters
+    ----------
+    error : Exception
+        Bad input, or an error of arithmetic that only this point met
+
+    Returns
+    -------
+    gap : Gap
+        With the error's words
+    """
+    words = " ".join(str(error).split())
+    if isinstance(error, BadInput):
+        return Gap(reason=words, of_input=True)
+    return Gap(reason=f"{type(error).__name__}: {words}")
+
+
+def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
+    """The numbers of a nested result by dotted names.
+
+    Parameters
+    ----------
+    result : mapping
+        Numbers, words, lists of one number, and mappings of these
+    prefix : str
+        Of the names
+
+    Returns
+    -------
+    numbers : dict of str to float or str
+        None becomes not a number; longer lists and most words are left out
+    """
+    found: dict[str, float | str] = {}
+    for key, value in result.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            found |= flat(value, f"{name}.")
+        elif isinstance(value, str):
+            found |= {name: value} if name in WORDS else {}
+        elif key in _NO_RESULT:
+            continue
+        elif value is None:
+            found[name] = math.nan
+        elif np.size(value) == 1 and np.asarray(value).dtype.kind in "bif":
+            found[name] = float(np.ravel(value)[0])
+    return found

@@ -1,0 +1,153 @@
+"""How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
+
+import dataclasses
+import os
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.sweep import cycles
+from mechsym.sweep.outcomes import Gap, Outcome, known
+
+ANALYSES = ("simulate", "hinge", "cycle")
+# verdicts on a run whose numbers cannot be trusted
+_BAD = ("failed", "not converged", "chaotic")
+# what impossible values run into where no record refuses them; anything else is a mistake of the program
+_ARITHMETIC = (ArithmeticError, ValueError, RuntimeError)
+_LANES = 16  # runs that the compiled integrator takes side by side
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Route:
+    """How points are computed.
+
+    Parameters
+    ----------
+    analysis : str
+        One of `ANALYSES`
+    run : callable
+        Cases to outcomes, in the same order
+    together : int
+        Most cases in one call; an interrupt loses one call
+    """
+
+    analysis: str
+    run: Callable[[Sequence[Case]], list[Outcome]]
+    together: int
+
+
+def route(case: Case, analysis: str | None) -> Route:
+    """The fastest safe way to compute points like a case.
+
+    Parameters
+    ----------
+    case : Case
+        One of them
+    analysis : str or None
+        `simulate`, `hinge` or `cycle`; None takes what the case is for
+
+    Returns
+    -------
+    route : Route
+        Function, and the size of its calls
+
+    Raises
+    ------
+    BadInput
+        The case is for none of them
+    """
+    analysis = analysis or _meant(case)
+    if analysis == "simulate":
+        # the integrator puts blocks of lanes on threads; threads around it would only wait for Python
+        return Route(analysis=analysis, run=_simulated, together=_LANES * (os.cpu_count() or 1))
+    if analysis == "hinge":
+        return Route(analysis=analysis, run=_each(_hinged), together=1)
+    if cycles.mapped(case):
+        return Route(analysis=analysis, run=_maps, together=cycles.BLOCK)
+    return Route(analysis=analysis, run=_each(cycles.single), together=1)
+
+
+def _meant(case: Case) -> str:
+    # a crank train that says how long to run is an elastic shaft, whatever turns it
+    if "drive" in case.sections or ("simulation" in case.sections and case.mechanism == "crank_train"):
+        return "simulate"
+    if {"spring", "guide"} <= set(case.sections):
+        return "hinge"
+    if "cycle" in case.sections:
+        return "cycle"
+    raise BadInput(f"{case.file}: has neither [drive] nor [cycle]; nothing to run at the points of a sweep")
+
+
+def _each(one: Callable[[Case], dict[str, Any]]) -> Callable[[Sequence[Case]], list[Outcome]]:
+    return lambda found: [_guarded(one, case) for case in found]
+
+
+def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
+    try:
+        return one(case)
+    except _ARITHMETIC as error:
+        return known(error)
+
+
+def _hinged(case: Case) -> dict[str, Any]:
+    from mechsym.design import design
+    from mechsym.summary import summary
+
+    return summary(design(case))
+
+
+def _maps(found: Sequence[Case]) -> list[Outcome]:
+    outcomes: dict[int, Outcome] = {}
+    for members in cycles.families(found):
+        outcomes |= dict(zip(members, _bisected([found[i] for i in members]), strict=True))
+    return [outcomes[i] for i in range(len(found))]
+
+
+def _bisected(family: list[Case]) -> list[Outcome]:
+    """A map refuses all of its points where one is impossible: halves find out which."""
+    try:
+        return list(cycles.map_of(family))
+    except _ARITHMETIC as error:
+        if len(family) == 1:
+            return [known(error)]
+    middle = len(family) // 2
+    return _bisected(family[:middle]) + _bisected(family[middle:])
+
+
+def _simulated(found: Sequence[Case]) -> list[Outcome]:
+    from mechsym.runs import problem_of, settings_of
+
+    problems = {i: _guarded(problem_of, case) for i, case in enumerate(found)}
+    outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
+    groups: dict[Any, list[int]] = {}
+    for i in (i for i in problems if i not in outcomes):
+        groups.setdefault(settings_of(found[i]), []).append(i)
+    for settings, members in groups.items():
+        for i, result in zip(members, _side_by_side([problems[i] for i in members], settings), strict=True):
+            outcomes[i] = result if isinstance(result, Gap) else _verdict(found[i], problems[i], result)
+    return [outcomes[i] for i in range(len(found))]
+
+
+def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
+    from mechsym.simulate import simulate, simulate_many
+
+    try:
+        return simulate_many(problems, settings)
+    except _ARITHMETIC:
+        # one of them upset the others
+        return [_guarded(lambda problem: simulate(problem, settings), p) for p in problems]
+
+
+def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
+    from mechsym.runs import window_of
+    from mechsym.simulate.summary import summary
+    from mechsym.twist import sections
+
+    if result.status in _BAD:
+        return Gap(reason=f"{result.status}: {result.reason}")
+    report = summary(result, problem.mechanism.coordinates, window_of(case, problem))
+    twists = [dataclasses.asdict(s) for s in sections(case, result, result.t[-1] - report["window"])]
+    if twists:
+        report |= {peak: max(t[peak] for t in twists) for peak in ("twist_peak", "torque_peak")}
+    return report | {"twist": {t.pop("section"): t for t in twists}}

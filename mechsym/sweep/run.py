@@ -1,0 +1,214 @@
+"""Many runs of a case: points in chunks, finished points kept whatever happens to the others."""
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mechsym import cases
+from mechsym.errors import BadInput, suggest
+from mechsym.sweep.axes import Axis, override, parse_axis, points, split
+from mechsym.sweep.outcomes import Gap, Outcome, flat, known
+from mechsym.sweep.points import ANALYSES, Route, route
+
+Progress = Callable[[int], Any]
+INTERRUPTED = Gap(reason="interrupted")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What is to be swept.
+
+    Parameters
+    ----------
+    case : str
+        Name of a built-in case or path of a file
+    over : tuple of str
+        What to run over, each KEY=RANGE as in `axes`
+    overrides : mapping of str to str
+        Values that hold at all points
+    analysis : str or None
+        `simulate`, `hinge` or `cycle`; None takes what the case is for
+    samples : int or None
+        Number of samples instead of a grid
+    seed : int
+        Of the samples
+    show : tuple of str
+        Results to show in place of the main ones
+    """
+
+    case: str
+    over: tuple[str, ...]
+    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    analysis: str | None = None
+    samples: int | None = None
+    seed: int = 0
+    show: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.analysis not in (None, *ANALYSES):
+            raise BadInput(f"analysis = {self.analysis!r} is not an option; options are {', '.join(ANALYSES)}")
+        if self.seed < 0:
+            raise BadInput(f"seed = {self.seed} is out of range; it must be >= 0")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Sweep:
+    """What came out at every point.
+
+    Parameters
+    ----------
+    case, analysis : str
+        What ran
+    axes : tuple of Axis
+        What it ran over
+    dims : mapping of str to int
+        Dimensions in order
+    points : tuple of tuple
+        Values of the axes at each point, the last axis fastest
+    outcomes : tuple of dict or Gap
+        Nested results of each point, or why there are none
+    show : tuple of str
+        Results to show in place of the main ones
+    interrupted : bool
+        Whether it was stopped before its end; points not reached are gaps
+    """
+
+    case: str
+    analysis: str
+    axes: tuple[Axis, ...]
+    dims: Mapping[str, int]
+    points: tuple[tuple[Any, ...], ...]
+    outcomes: tuple[Outcome, ...]
+    show: tuple[str, ...] = ()
+    interrupted: bool = False
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Layout:
+    """The points of a plan.
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        What it runs over
+    dims : mapping of str to int
+        Dimensions in order
+    points : tuple of tuple
+        Values of the axes, the last axis fastest
+    """
+
+    axes: tuple[Axis, ...]
+    dims: Mapping[str, int]
+    points: tuple[tuple[Any, ...], ...]
+
+
+def layout(plan: Plan) -> Layout:
+    """The points of a plan, every key and unit checked against the case.
+
+    Parameters
+    ----------
+    plan : Plan
+        What to run
+
+    Returns
+    -------
+    layout : Layout
+        Axes and points
+
+    Raises
+    ------
+    BadInput
+        An axis is wrong, or a value is named twice
+    """
+    taken = {}
+    for key in plan.overrides:
+        found = cases.locate(plan.case, key, plan.overrides)
+        taken[found.section, found.field] = f"--set {key}"
+    axes = []
+    for text in plan.over:
+        key = split(text)[0]
+        axis = parse_axis(text, cases.locate(plan.case, key, plan.overrides, option="--over"))
+        place, name = (axis.place.section, axis.place.field), f"--over {key}"
+        if place in taken:
+            raise BadInput(f"{taken[place]} and {name} give the same value {'.'.join(place)}; keep one")
+        taken[place] = name
+        axes.append(axis)
+    dims, values = points(tuple(axes), plan.samples, plan.seed)
+    return Layout(axes=tuple(axes), dims=dims, points=tuple(values))
+
+
+def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
+    """Run a case at every point.
+
+    An interrupt from the keyboard ends the sweep and keeps what is finished, see `Sweep.interrupted`.
+
+    Parameters
+    ----------
+    plan : Plan
+        What to run
+    progress : callable
+        Called with the number of points that were done
+
+    Returns
+    -------
+    sweep : Sweep
+        Outcomes of all points
+
+    Raises
+    ------
+    BadInput
+        The case or an axis is bad, or every point fails for one and the same reason
+    """
+    base, place = cases.load(plan.case, plan.overrides), layout(plan)
+    chosen = route(base, plan.analysis)
+    outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
+    interrupted = False
+    try:
+        for members in _chunks(len(place.points), chosen.together):
+            found = _run(plan, place, chosen, members)
+            outcomes[members.start : members.stop] = found
+            _check_shown(plan.show, found)
+            progress(len(members))
+    except KeyboardInterrupt:
+        interrupted = True
+    if not interrupted:
+        _check_reasons(outcomes)
+    return Sweep(
+        case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
+        outcomes=tuple(outcomes), show=plan.show, interrupted=interrupted,
+    )  # fmt: skip
+
+
+def _chunks(count: int, together: int) -> list[range]:
+    """Chunks of nearly one size, none longer than wanted."""
+    parts = -(-count // together)
+    ends = [count * i // parts for i in range(parts + 1)]
+    return [range(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+
+
+def _run(plan: Plan, place: Layout, chosen: Route, members: range) -> list[Outcome]:
+    outcomes: dict[int, Outcome] = {}
+    loaded = {}
+    for i in members:
+        here = {a.key: override(a, v) for a, v in zip(place.axes, place.points[i], strict=True)}
+        try:
+            loaded[i] = cases.load(plan.case, {**plan.overrides, **here})
+        except BadInput as error:
+            outcomes[i] = known(error)
+    outcomes |= dict(zip(loaded, chosen.run(list(loaded.values())), strict=True))
+    return [outcomes[i] for i in members]
+
+
+def _check_shown(show: tuple[str, ...], found: list[Outcome]) -> None:
+    """Refuse a name that no result has, before the time of the whole sweep is spent."""
+    names = {name for outcome in found if not isinstance(outcome, Gap) for name in flat(outcome)}
+    for name in show if names else ():
+        if name not in names:
+            raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")
+
+
+def _check_reasons(outcomes: list[Outcome]) -> None:
+    """What fails everywhere for one reason does not depend on the axes: bad input, not gaps."""
+    reasons = {outcome.reason for outcome in outcomes if isinstance(outcome, Gap) and outcome.of_input}
+    if len(reasons) == 1 and all(isinstance(outcome, Gap) and outcome.of_input for outcome in outcomes):
+        raise BadInput(reasons.pop())

@@ -1,0 +1,54 @@
+"""Units of results by their names: the names of the commands `simulate`, `hinge` and `cycle`."""
+
+# names that carry their unit
+_ENDINGS = {
+    "_rpm": "rpm", "_bar": "bar", "_mpa": "MPa", "_kpa": "kPa", "_kw": "kW", "_deg": "deg", "_g_kwh": "g/(kW*h)",
+}  # fmt: skip
+# the last part of a dotted name that contains one of these
+_PARTS = {
+    "rad/s": ("speed_mean", "speed_min", "speed_max", "mean", "min", "max"),
+    "s": ("t_end", "t", "window"),
+    "J": ("work_in", "dissipation", "change", "hinge_work_max", "hinge_work_min"),
+    "N*m": (
+        "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean", "torque_avg", "torque_max",
+        "brake_torque", "tilting_couple_max", "torque_mean", "torque_amplitude", "torque_peak",
+    ),
+    "N": ("force_max", "roller_reaction_max", "spring_force_max"),
+    "m": ("rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius"),
+    "rad": ("pressure_angle_max", "phi", "twist_mean", "twist_amplitude", "twist_peak"),
+    "Pa": ("spring_pressure_max", "hertz_stress_max"),
+    "kg*m^2": ("flywheel_inertia_saved", "flywheel_inertia_to_turn", "flywheel_inertia_beside_faulty"),
+    "-": (
+        "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "speed_ripple", "ripple_wanted",
+        "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
+        "torque_ratio_min", "torque_ratio_peak",
+    ),
+}  # fmt: skip
+_GROUPS = {"energy.work.": "J", "fractions.": "-", "loads.": "N"}
+_KNOWN = {name: unit for unit, names in _PARTS.items() for name in names}
+
+
+def unit_of(name: str) -> str:
+    """Unit of a result.
+
+    Parameters
+    ----------
+    name : str
+        Dotted name
+
+    Returns
+    -------
+    unit : str
+        `-` for a pure number, empty when the name does not tell
+    """
+    for group, unit in _GROUPS.items():
+        if name.startswith(group):
+            return unit
+    last = name.rpartition(".")[2]
+    for ending, unit in _ENDINGS.items():
+        if last.endswith(ending):
+            return unit
+    if name.startswith("event."):
+        # coordinates and velocities at an event
+        return "s" if last == "t" else "rad/s" if last.endswith("d") else "rad"
+    return _KNOWN.get(last, "")
