@@ -52,10 +52,10 @@ class _Run(ctypes.Structure):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class _Batch:
-    """Runs with every array spread to shape (runs, ..), and their functions as CasADi stores them."""
+    """Runs with every array spread to shape (runs, ..), and the program of each."""
 
     runs: Runs
-    functions: list[str]
+    programs: list[Program]
     constants: list[np.ndarray]
     start: np.ndarray
     until: np.ndarray
@@ -93,9 +93,9 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     """
     batch = _spread(runs, mode)
     count = len(batch.start)
-    method = _chosen(batch, count, mode) if method == "auto" else method
+    method = _chosen(batch, count) if method == "auto" else method
     lanes, together = _shape(batch, method, count)
-    texts = [_text(f, mode, method, lanes) for f in batch.functions]
+    texts = [_text(p, method, lanes) for p in batch.programs]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
     blocks = _blocks(texts if len(texts) > 1 else texts * count, together)
     result = _empty(count, batch.start.shape[1], batch.times.shape[1])
@@ -111,9 +111,9 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     return Outcome(**result)
 
 
-def _chosen(batch: _Batch, count: int, mode: str) -> str:
+def _chosen(batch: _Batch, count: int) -> str:
     """The faster method that is safe: long steps of high order need rates with all derivatives."""
-    analytic = all({op for op, _ in _program(f, mode).tape.nodes} <= ANALYTIC for f in batch.functions)
+    analytic = all({op for op, _ in p.tape.nodes} <= ANALYTIC for p in batch.programs)
     smooth = analytic and not batch.runs.tables and not batch.runs.kinks
     return "collocation" if smooth and count <= _FEW else "dop853"
 
@@ -147,8 +147,7 @@ def _check_gauss(batch: _Batch) -> None:
 def _spread(runs: Runs, mode: str) -> _Batch:
     single = isinstance(runs.rhs, casadi.Function)
     functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
-    stored = [f.serialize() for f in functions]
-    programs = [_program(f, mode) for f in stored]
+    programs = [program(f, mode) for f in functions]
     n, p = integrators.sizes(programs[0])
     arrays: dict[str, tuple[Any, int]] = {
         "start": (runs.start, 1),
@@ -172,18 +171,12 @@ def _spread(runs: Runs, mode: str) -> _Batch:
         )
     spread = {name: np.broadcast_to(a, (count, *a.shape[-arrays[name][1] :])) for name, a in found.items()}
     constants = [constant_table(q.kernels) for q in programs]
-    return _Batch(runs=runs, functions=stored, constants=constants, **spread)
-
-
-# reading a function takes as long as a short run of it, and trials call with the same one again and again
-@functools.lru_cache(maxsize=1024)
-def _program(stored: str, mode: str) -> Program:
-    return program(casadi.Function.deserialize(stored), mode)
+    return _Batch(runs=runs, programs=programs, constants=constants, **spread)
 
 
 @functools.lru_cache(maxsize=256)
-def _text(stored: str, mode: str, method: str, lanes: int) -> str:
-    return getattr(integrators, method)(_program(stored, mode), lanes)
+def _text(of: Program, method: str, lanes: int) -> str:
+    return getattr(integrators, method)(of, lanes)
 
 
 def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:

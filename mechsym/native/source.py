@@ -14,7 +14,8 @@ from mechsym.native.rewrite import cheaper
 from mechsym.native.tape import Tape, read
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+# compared by identity: `program` gives the same one for the same function, and texts are cached by it
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class Program:
     """A function ready to be written as C.
 
@@ -30,8 +31,6 @@ class Program:
     kernels: tuple[Kernel, ...]
 
 
-# a run, its check and its energies ask for the same function again
-@functools.lru_cache(maxsize=128)
 def program(function: casadi.Function, mode: str = "fast") -> Program:
     """Read a CasADi function and roll its equal parts.
 
@@ -47,7 +46,27 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
     program : Program
         What the emitter takes
     """
-    tape = prepared(function, mode)
+    return stored_program(function.serialize(), mode)
+
+
+# a run, its check, its energies and the next trial ask for the same function again
+@functools.lru_cache(maxsize=1024)
+def stored_program(text: str, mode: str) -> Program:
+    """As `program`, from a function as CasADi stores it.
+
+    Parameters
+    ----------
+    text : str
+        What `casadi.Function.serialize` gives
+    mode : str
+        `fast` or `strict`
+
+    Returns
+    -------
+    program : Program
+        The same for the same text
+    """
+    tape = prepared(casadi.Function.deserialize(text), mode)
     return Program(tape=tape, kernels=kernels(tape))
 
 
