@@ -55,14 +55,14 @@ MS_INLINE ms_eight ms_larger(ms_eight most, ms_eight value)
 static void ms_predict(ms_work *w, double h)
 {
     const ms_eight u = (w->t - w->origin + h * *(const ms_eight *)ms_nodes) / w->length, z = 2.0 * u - 1.0;
-    for (int i = 0; i < MS_N; i++) {
-        const double *c = (const double *)&w->series[i];
+    MS_UNROLL for (int o = 0; o < ms_others; o++) {
+        const double *c = (const double *)&w->series[ms_other[o]];
         ms_eight above = {0}, here = {0};
         for (int n = MS_S - 1; n >= 0; n--) {
             const ms_eight below = c[n] + (2.0 * n + 1.0) / (n + 1.0) * z * here - (n + 1.0) / (n + 2.0) * above;
             above = here, here = below;
         }
-        w->k[i] = here;
+        w->k[ms_other[o]] = here;
     }
     w->x[0] = w->t + h * *(const ms_eight *)ms_nodes;
 }
