@@ -280,9 +280,11 @@ def test_help_has_examples():
 @pytest.mark.slow
 def test_ctrl_c_writes_what_is_finished(tmp_path):
     words = [Path(sys.executable).parent / "mechsym", "sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:400"]
+    # a shell lets what it runs in the background ignore interrupts, and children inherit that
     process = subprocess.Popen([*words, "--out", tmp_path, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, env=os.environ)  # fmt: skip
-    time.sleep(6)
+                               text=True, env=os.environ,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # fmt: skip
+    time.sleep(10)
     process.send_signal(signal.SIGINT)
     printed = process.communicate(timeout=30)
     report = json.loads(printed[0])

@@ -4,15 +4,12 @@ r"""The closed period of a cycle as a differential equation in the crank angle, 
 
 Q_R is the heat released (Wiebe), Q_L the heat lost to the walls, dm the fuel that turns into gas, which brings the
 specific internal energy e_f along. The closed period falls into three phases with smooth equations: before, during
-and after combustion. Each is integrated over its own variable s from 0 to 1; during combustion phi = phi_s + dphi s^4,
-because a Wiebe function with a broken exponent is not smooth at its start in phi, but is nearly so in s.
+and after combustion; `phases` integrates them.
 
-Every attribute of `Closed` may be a number or a CasADi expression of the design: `closed_function` integrates at
-numbers, differentiates and feeds the optimiser with the same operations.
+Every attribute of `Closed` may be a number or a CasADi expression of the design.
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -20,14 +17,10 @@ import casadi as ca
 from mechsym.engine.chamber import Chamber, volume, wall_area
 from mechsym.engine.gas import ConstantGamma, NasaMixture, properties
 from mechsym.engine.heat import GasState, Law, heat_flux, motored_swirl
-from mechsym.engine.runge_kutta import fold
 from mechsym.engine.wiebe import ddouble_wiebe_dy, double_wiebe
 
-_SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
-PHASES = tuple(_SHARES)
-_GRADING = {"before": 1, "during": 4, "after": 1}
+PHASES = ("before", "during", "after")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
-NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
 # energies in J (exchange_work: of the ideal gas exchange), masses in kg, angles in rad, omega in rad/s, m^3, m
 SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_start", "energy_end", "exchange_work",
            "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
@@ -175,74 +168,6 @@ def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
     brought = (closed.fuel_energy - gas.energy) * now.mass_slope
     gain = released - loss - p * dv + brought - now.mass * gas.energy_slope * now.burnt_slope
     return gain / (now.mass * gas.heat_capacity), p * dv, loss
-
-
-def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps: int) -> ca.Function:
-    """The closed period as a function of a design.
-
-    Parameters
-    ----------
-    build : callable
-        Mapping of the design's names to CasADi symbols -> Closed
-    names : sequence of str
-        Names of the design variables
-    steps : int
-        Steps of the integration in all; a multiple of 10
-
-    Returns
-    -------
-    function : casadi.Function
-        (design (k,)) -> the nodes `phi` [rad], `t` [K], `p` [Pa], `dt_dphi` [K/rad], `dp_dphi` [Pa/rad], each
-        (1, steps + 3), the two angles where phases meet standing twice; and the scalars `work`, `wall_heat` [J] and
-        the entries of `SCALARS`
-    """
-    z = ca.SX.sym("z", len(names))
-    closed = build({name: z[k] for k, name in enumerate(names)})
-    design = ca.MX.sym("design", len(names))
-    state: Any = ca.Function("start", [z], [ca.vertcat(closed.temperature, 0.0, 0.0)])(design)
-    nodes = []
-    for phase, share in _SHARES.items():
-        n = round(share * steps)
-        history = ca.horzcat(state, fold(_rate(closed, phase, z), 3, len(names), n)(state, design))
-        s = ca.DM([k / n for k in range(n + 1)]).T
-        nodes.append(_node(closed, phase, z)(ca.repmat(design, 1, n + 1), s, history))
-        state = history[:, -1]
-    t = ca.SX.sym("t")
-    books = ca.Function("scalars", [z, t], [ca.vertcat(*scalars(closed, t))])(design, state[0])
-    outputs = [*ca.vertsplit(ca.horzcat(*nodes)), state[1], state[2], *ca.vertsplit(books)]
-    return ca.Function("closed", [design], outputs, ["design"], [*NODES, "work", "wall_heat", *SCALARS])
-
-
-def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
-    ends = closed.starts + closed.duration
-    first, last = {
-        "before": (closed.closes, closed.starts),
-        "during": (closed.starts, ends),
-        "after": (ends, closed.opens),
-    }[phase]
-    power = _GRADING[phase]
-    return first + (last - first) * s**power, (last - first) * power * s ** (power - 1)
-
-
-def _rate(closed: Closed, phase: str, z: Any) -> Callable[[Any, Any, Any], Any]:
-    phi, y = ca.SX.sym("phi"), ca.SX.sym("y", 3)
-    slope = ca.Function("rate", [phi, y, z], [ca.vertcat(*rates(closed, phase, phi, y[0]))])
-    span = ca.Function("span", [y, z], [ca.vertcat(*_span(closed, phase, y[0]))])
-
-    def rate(s: Any, y: Any, z: Any) -> Any:
-        here = span(ca.vertcat(s, 0, 0), z)
-        return slope(here[0], y, z) * here[1]
-
-    return rate
-
-
-def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
-    s, y, phi = ca.SX.sym("s"), ca.SX.sym("y", 3), ca.SX.sym("phi")
-    p = pressure(closed, phase, phi, y[0])
-    dt = rates(closed, phase, phi, y[0])[0]
-    dp = ca.jacobian(p, phi) + ca.jacobian(p, y[0]) * dt
-    at_phi = ca.Function("at_phi", [z, phi, y], [ca.vertcat(phi, y[0], p, dt, dp)])
-    return ca.Function("node", [z, s, y], [at_phi(z, _span(closed, phase, s)[0], y)])
 
 
 def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:

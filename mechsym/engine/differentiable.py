@@ -12,10 +12,10 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.engine.closed import closed_function
 from mechsym.engine.friction import friction_pressure
 from mechsym.engine.model import Engine, at_design, closed_period
 from mechsym.engine.performance import force_function
+from mechsym.engine.phases import closed_function
 
 STEPS = 120
 # scalar outputs of `design_function` and their units
@@ -49,8 +49,10 @@ def design_function(engine: Engine, names: Sequence[str], steps: int = STEPS) ->
     design = ca.MX.sym("design", len(names))
     closed = closed_function(partial(closed_period, engine), names, steps)
     found = dict(zip(closed.name_out(), closed.call([design]), strict=True))
-    along = force_function(engine, tuple(names), found["phi"].numel())
-    forces = dict(zip(along.name_out(), along.call([design, found["phi"].T, found["p"].T]), strict=True))
+    points = found["phi"].numel()
+    along = force_function(engine, tuple(names)).map(points)
+    values = along.call([ca.repmat(design, 1, points), found["phi"], found["p"]])
+    forces = {name: value.T for name, value in zip(along.name_out(), values, strict=True)}
     peaks = {
         "p_max": found["p"].T,
         "force_max": forces.pop("force"),

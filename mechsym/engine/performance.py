@@ -15,7 +15,8 @@ import numpy as np
 from mechsym.engine.chamber import Chamber, chamber, piston_force, travel
 from mechsym.engine.friction import Friction, friction_pressure
 from mechsym.engine.model import Engine, at_design, check_design, closed_period
-from mechsym.engine.run import dense, run
+from mechsym.engine.run import MANY, dense, run
+from mechsym.native import compiled
 
 _CYCLE_ANGLE = 4 * np.pi
 
@@ -190,14 +191,18 @@ def _friction(engine: Engine, design: Mapping[str, Any]) -> Friction:
 
 
 def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
-    rows = [np.broadcast_to(np.asarray(v, float), phi.shape[:1]) for v in design.values()]
-    function = force_function(engine, tuple(design), phi.shape[1])
-    values = function.call([np.array(rows), phi.T, p.T])
-    return {k: np.asarray(v).T for k, v in zip(function.name_out(), values, strict=True)}
+    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
+    function = force_function(engine, tuple(design))
+    points = [*columns, phi.ravel(), p.ravel()]
+    if phi.shape[0] >= MANY:
+        values = compiled(function).batch(*points)
+    else:
+        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
+    return {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
 
 
-def force_function(engine: Engine, names: tuple[str, ...], points: int) -> ca.Function:
-    """Force and torque of one piston, and the mechanism's loads, along a cycle as a function of the design.
+def force_function(engine: Engine, names: tuple[str, ...]) -> ca.Function:
+    """Force and torque of one piston, and the mechanism's loads, at a point of a cycle as a function of the design.
 
     Parameters
     ----------
@@ -205,23 +210,17 @@ def force_function(engine: Engine, names: tuple[str, ...], points: int) -> ca.Fu
         The engine
     names : tuple of str
         Design variables; must hold `omega`
-    points : int
-        Points of the cycle
 
     Returns
     -------
     function : casadi.Function
-        (design (k,), phi (points,) [rad], p (points,) [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each
-        load, columns of shape (points,)
+        (design (k,), phi [rad], p [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each load
     """
-    # all points of a cycle in one function: a call for each point would cost more than its arithmetic
-    z, phi, p = ca.SX.sym("z", len(names)), ca.SX.sym("phi", points), ca.SX.sym("p", points)
+    z, phi, p = ca.SX.sym("z", len(names)), ca.SX.sym("phi"), ca.SX.sym("p")
     design = {name: z[k] for k, name in enumerate(names)}
     here = at_design(engine, design)
-    room = chamber(here.chamber, here.motion)
-    forces = [_forces(here, room, design["omega"], phi[k], p[k]) for k in range(points)]
-    outputs = [ca.vertcat(*(f[name] for f in forces)) for name in forces[0]]
-    return ca.Function("forces", [z, phi, p], outputs, ["design", "phi", "p"], list(forces[0]))
+    forces = _forces(here, chamber(here.chamber, here.motion), design["omega"], phi, p)
+    return ca.Function("forces", [z, phi, p], list(forces.values()), ["design", "phi", "p"], list(forces))
 
 
 def _forces(engine: Engine, room: Chamber, omega: Any, phi: Any, p: Any) -> dict[str, Any]:

@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.engine.closed import NODES, Closed, closed_function
+from mechsym.engine.closed import Closed
+from mechsym.engine.phases import NODES, Map, closed_function, closed_map
 from mechsym.errors import BadInput
 
 _STEPS, _MOST_STEPS = 120, 7680
+MANY = 100  # points for which it pays to compile, or to read what is compiled
 _SAME = 1e-12  # angles closer than this are one [rad]
 TOLERANCE = 1e-10  # first-law residual of a cycle over the fuel's energy
 
@@ -211,12 +213,23 @@ def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> Run:
-    function = _function(build, names, steps)
-    found = {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in function.call({"design": values}).items()}
+    found = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
     scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
     residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
     return Run(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
+
+
+def _called(
+    build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int
+) -> dict[str, np.ndarray]:
+    found = _function(build, names, steps).call({"design": values})
+    return {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in found.items()}
+
+
+@functools.lru_cache(maxsize=8)
+def _mapped(build: Callable[[Any], Closed], names: tuple[str, ...]) -> Map:
+    return closed_map(build, names)
 
 
 @functools.lru_cache(maxsize=8)

@@ -13,6 +13,8 @@ from typing import Any
 
 import casadi as ca
 
+from mechsym.native.fold import Method
+
 ORDER = 8
 _S = 21**0.5
 _A: tuple[dict[int, float], ...] = (
@@ -32,6 +34,7 @@ _A: tuple[dict[int, float], ...] = (
      8: (28 - 28 * _S) / 45, 9: (49 - 7 * _S) / 18},
 )  # fmt: skip
 _B = {0: 1 / 20, 7: 49 / 180, 8: 16 / 45, 9: 49 / 180, 10: 1 / 20}
+METHOD = Method(rows=_A, weights=_B)
 
 
 def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
@@ -54,21 +57,19 @@ def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
         State at s + ds
     """
     slopes: list[Any] = []
-    for row in _A:
+    for row in METHOD.rows:
         shifted = y + ds * sum((a * slopes[j] for j, a in row.items()), 0 * y) if row else y
         slopes.append(rate(s + sum(row.values()) * ds, shifted))
-    return y + ds * sum((b * slopes[j] for j, b in _B.items()), 0 * y)
+    return y + ds * sum((b * slopes[j] for j, b in METHOD.weights.items()), 0 * y)
 
 
-def fold(rate: Callable[[Any, Any, Any], Any], states: int, parameters: int, steps: int) -> ca.Function:
+def fold(rate: ca.Function, steps: int) -> ca.Function:
     """Integrate over s from 0 to 1 in equal steps.
 
     Parameters
     ----------
-    rate : callable
-        (s, y, z) -> dy/ds, on CasADi SX symbols
-    states, parameters : int
-        Sizes of y and z
+    rate : casadi.Function
+        (s, y, z) -> dy/ds
     steps : int
         Number of steps
 
@@ -77,9 +78,9 @@ def fold(rate: Callable[[Any, Any, Any], Any], states: int, parameters: int, ste
     function : casadi.Function
         (y at 0, z) -> y at the ends of all steps, shape (states, steps)
     """
-    s, y, z = ca.SX.sym("s"), ca.SX.sym("y", states), ca.SX.sym("z", parameters)
+    s, y, z = (ca.SX.sym(name, rate.numel_in(i)) for i, name in enumerate("syz"))
     one = ca.Function("step", [y, s, z], [step(lambda s, y: rate(s, y, z), s, y, 1 / steps)])
-    start, data = ca.MX.sym("y", states), ca.MX.sym("z", parameters)
+    start, data = ca.MX.sym("y", rate.numel_in(1)), ca.MX.sym("z", rate.numel_in(2))
     starts = ca.DM([k / steps for k in range(steps)]).T
     history = one.mapaccum("steps", steps)(start, starts, ca.repmat(data, 1, steps))
     return ca.Function("fold", [start, data], [history])

@@ -56,10 +56,24 @@ def dop853(program: Program, lanes: int) -> str:
     text : str
         C text
     """
-    return "\n".join([_system(program, lanes), dop853_numbers(), header("dop853.h"), header("advance.h")])
+    return "\n".join([system(program, lanes), dop853_numbers(), header("dop853.h"), header("advance.h")])
 
 
-def _system(program: Program, lanes: int) -> str:
+def system(program: Program, lanes: int) -> str:
+    """What the file of any method begins with: elementary functions, the right-hand side MS_RATES, sizes.
+
+    Parameters
+    ----------
+    program : Program
+        Right-hand side
+    lanes : int
+        Runs side by side
+
+    Returns
+    -------
+    text : str
+        C text
+    """
     name, (n, p) = program.tape.name, sizes(program)
     return "\n".join(
         [
@@ -73,8 +87,20 @@ def _system(program: Program, lanes: int) -> str:
     )
 
 
-def _sum(weights: dict[int, float], letter: str = "MS_Q") -> str:
-    return " + ".join(f"{value!r} * {letter}({stage})" for stage, value in weights.items())
+def weighted(weights: dict[int, float]) -> str:
+    """A weighted sum of the rates of stages.
+
+    Parameters
+    ----------
+    weights : dict of int to float
+        Weights by stage [-]
+
+    Returns
+    -------
+    text : str
+        C expression; stage j is MS_Q(j)
+    """
+    return " + ".join(f"{value!r} * MS_Q({stage})" for stage, value in weights.items())
 
 
 @functools.cache
@@ -87,16 +113,16 @@ def dop853_numbers() -> str:
         C text
     """
     lower = {stage: table.A[13].get(stage, 0.0) - table.WEIGHTS_3.get(stage, 0.0) for stage in table.A[13]}
-    stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {_sum(table.A[s])})" for s in table.A if s != 13}
+    stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {weighted(table.A[s])})" for s in table.A if s != 13}
     first = " \\\n    ".join(text for s, text in stages.items() if s < 13)
     extra = " \\\n    ".join(text for s, text in stages.items() if s > 13)
     lines = [
         f"#define MS_STAGES(F) \\\n    {first}",
         f"#define MS_EXTRA_STAGES(F) \\\n    {extra}",
-        f"#define MS_WEIGHTS {_sum(table.A[13])}",
-        f"#define MS_ERROR_5 {_sum(table.ERROR_5)}",
-        f"#define MS_ERROR_3 {_sum(lower)}",
-        *(f"#define MS_DENSE_{i} {_sum(row)}" for i, row in enumerate(table.DENSE, 1)),
+        f"#define MS_WEIGHTS {weighted(table.A[13])}",
+        f"#define MS_ERROR_5 {weighted(table.ERROR_5)}",
+        f"#define MS_ERROR_3 {weighted(lower)}",
+        *(f"#define MS_DENSE_{i} {weighted(row)}" for i, row in enumerate(table.DENSE, 1)),
     ]
     return "\n".join(lines)
 
@@ -118,7 +144,7 @@ def gauss(program: Program, lanes: int, stages: int = 4) -> str:
     text : str
         C text
     """
-    return "\n".join([_system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
+    return "\n".join([system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
 
 
 def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -177,7 +203,7 @@ def collocation(program: Program, lanes: int = STAGES) -> str:
     text : str
         C text
     """
-    parts = [_system(program, lanes), _collocation_numbers(lanes), _structure(program)]
+    parts = [system(program, lanes), _collocation_numbers(lanes), _structure(program)]
     return "\n".join([*parts, header("collocation.h"), header("collocation_run.h")])
 
 

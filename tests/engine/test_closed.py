@@ -10,12 +10,12 @@ from mechsym import mechanisms
 from mechsym.cases import load
 from mechsym.cycle import RPM, engine
 from mechsym.engine.chamber import chamber
-from mechsym.engine.closed import closed_function
 from mechsym.engine.gas import NasaMixture
 from mechsym.engine.heat import Adiabatic, Annand, Hohenberg, Woschni
 from mechsym.engine.ideal import otto_efficiency
 from mechsym.engine.model import closed_period
 from mechsym.engine.performance import performance
+from mechsym.engine.phases import closed_function, closed_map
 from mechsym.engine.run import dense, run
 from mechsym.engine.runge_kutta import ORDER
 from mechsym.errors import BadInput
@@ -157,3 +157,19 @@ def test_map_over_any_parameter(slider_crank):
     assert np.all(np.diff(found.efficiency) > 0) and np.all(np.diff(found.p_max) > 0)
     alone = performance(slider_crank, {"omega": np.array([4000 * RPM])})
     assert found.efficiency[1] == pytest.approx(alone.efficiency[0], rel=1e-13)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("gas", ["constant_gamma", "nasa"])
+def test_many_designs_give_what_single_ones_give(slider_crank, law, gas):
+    machine = dataclasses.replace(slider_crank, heat_transfer=law)
+    if gas == "nasa":
+        machine = dataclasses.replace(machine, gas=NasaMixture())
+    designs = np.array([np.linspace(600, 9000, 12) * RPM, np.linspace(0.9, 1.1, 12) * 1e5])
+    names = ["omega", "cycle.intake_pressure"]
+    one, many = closed_function(period_of(machine), names, 40), closed_map(period_of(machine), names)(designs, 40)
+    for i, design in enumerate(designs.T):
+        for name, value in one.call({"design": design}).items():
+            wanted = np.asarray(value).ravel()
+            scale = np.maximum(np.abs(wanted), 1e-3 * np.abs(wanted).max())
+            assert np.all(np.abs(many[name][i] - wanted) <= 1e-11 * scale), name
