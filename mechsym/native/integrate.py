@@ -21,6 +21,7 @@ from mechsym.native.tape import ANALYTIC
 LANES = (1, 8, 16)
 # runs that one by one, in all lanes, take less time than side by side in one lane each
 _FEW = 3
+_SLOW = 6  # index into STATUS
 
 _LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kink_state", "max_steps")
 _DOUBLES = ("rtol", "atol", "first_step", "kink_period")
@@ -73,9 +74,9 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
         What to run
     method : str
         `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
-        all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations,
-        else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most `first_step`, for conservative
-        runs without kinks and surfaces
+        all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations, as
+        long as it converges fast, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
+        `first_step`, for conservative runs without kinks and surfaces
     mode : str
         `fast` or `strict`
 
@@ -92,8 +93,14 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
         No compiler; `mechsym.simulate` then goes on with scipy
     """
     batch = _spread(runs, mode)
+    if method == "auto":
+        found = _integrated(batch, _chosen(batch), mode)
+        return _integrated(batch, "dop853", mode) if (found.status == _SLOW).any() else found
+    return _integrated(batch, method, mode)
+
+
+def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     count = len(batch.start)
-    method = _chosen(batch, count) if method == "auto" else method
     lanes, together = _shape(batch, method, count)
     texts = [_text(p, method, lanes) for p in batch.programs]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
@@ -111,11 +118,11 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     return Outcome(**result)
 
 
-def _chosen(batch: _Batch, count: int) -> str:
+def _chosen(batch: _Batch) -> str:
     """The faster method that is safe: long steps of high order need rates with all derivatives."""
     analytic = all({op for op, _ in p.tape.nodes} <= ANALYTIC for p in batch.programs)
     smooth = analytic and not batch.runs.tables and not batch.runs.kinks
-    return "collocation" if smooth and count <= _FEW else "dop853"
+    return "collocation" if smooth and len(batch.start) <= _FEW else "dop853"
 
 
 def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:

@@ -17,6 +17,7 @@ STATUS = (
     "the step became too small; the equations are not smooth there, or not finite",
     "the equations are not finite",
     "the implicit equations of a step have no solution; use smaller steps",
+    "the implicit equations converge slowly, as they do with strong damping; use dop853",
 )
 
 

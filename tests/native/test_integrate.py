@@ -303,6 +303,14 @@ def test_smooth_equations_are_collocated_and_others_are_not():
     np.testing.assert_array_equal(integrate(many).y, integrate(many, "dop853").y)
 
 
+def test_strong_damping_goes_to_explicit_steps():
+    damped = rhs("damped", 2, 0, lambda t, y, p: (y[1], -1e4 * y[1] - ca.sin(y[0])))
+    run = Runs(rhs=damped, start=np.array([1.0, 0.0]), until=np.array([5.0]))
+    assert "dop853" in STATUS[integrate(run, "collocation").status[0]]
+    np.testing.assert_array_equal(integrate(run).y, integrate(run, "dop853").y)
+    assert integrate(run).status[0] == 0
+
+
 def test_collocation_needs_smooth_equations():
     kinks = Kinks(state=0, angles=np.array([0.0]), period=1.0)
     with pytest.raises(BadInput, match="knows no kinks and tables; use dop853"):

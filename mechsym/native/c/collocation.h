@@ -18,7 +18,7 @@ typedef struct {
     double y[MS_N], lost[MS_N], next[MS_N], rest[MS_N], scale[MS_N];
     double slope[MS_OTHERS][MS_ANGLES];
     double t, h, origin, length;
-    long segment, slopes_age;
+    long segment, tries, sweeps; /* since the slopes were taken */
 } ms_work;
 
 MS_INLINE ms_eight ms_all(double value) { return value + (ms_eight){0}; }
@@ -91,7 +91,7 @@ static void ms_take_slopes(const ms_run *run, ms_work *w)
                 w->slope[o][a] = isfinite(f[l] - f[0]) ? (f[l] - f[0]) / size[l] : 0.0;
             }
     }
-    w->slopes_age = 0;
+    w->tries = w->sweeps = 0;
 }
 
 /* One sweep; returns the largest change of a state over the step, in units of the tolerance. */
@@ -129,6 +129,7 @@ static int ms_solve(const ms_run *run, ms_work *w, double h)
     double before = INFINITY, best = INFINITY;
     for (int sweep = 1, idle = 0; sweep <= 25; sweep++) {
         const double change = ms_sweep(run, w, h), ratio = change / before;
+        w->sweeps++;
         if (change == 0.0 || (sweep > 1 && change <= enough && change * ratio <= 0.1 * (1.0 - ratio)))
             return sweep;
         /* angles of 1e5 rad and stiff shafts round far above 1e-16 */

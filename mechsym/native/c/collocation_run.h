@@ -127,8 +127,12 @@ static int ms_segment(const ms_run *run, ms_work *w, double until)
             return MS_TOO_MANY;
         if (!(w->h > 4e-16 * fabs(w->t)))
             return MS_TOO_SMALL;
-        if (++w->slopes_age > 256)
+        if (++w->tries > 256) {
+            /* a strongly damped shaft: short steps of an explicit method cost less than many sweeps */
+            if (w->sweeps > 11 * w->tries)
+                return MS_SLOW;
             ms_take_slopes(run, w);
+        }
         const int status = ms_step(run, w, until);
         if (status >= 0)
             return status;

@@ -3,7 +3,7 @@
  * MS_N states, MS_P held values, MS_L lanes; each lane is a run of its own. Arrays of lanes lie side by side,
  * y[state][lane]. The right-hand side MS_RATES(k, x, ydot) reads the rows x = (t, y[0].., p[0]..).
  */
-enum { MS_DONE, MS_MET, MS_TOO_MANY, MS_TOO_SMALL, MS_NOT_FINITE, MS_NO_SOLUTION };
+enum { MS_DONE, MS_MET, MS_TOO_MANY, MS_TOO_SMALL, MS_NOT_FINITE, MS_NO_SOLUTION, MS_SLOW };
 enum { MS_X = 1 + MS_N + MS_P };
 #define MS_EACH MS_LANES for (int l = 0; l < MS_L; l++)
 #define MS_STATES for (int i = 0; i < MS_N; i++) MS_EACH
