@@ -1,6 +1,7 @@
 """Simulation core: exact splitting, events, energy audit, convergence check, and backends against closed forms."""
 
 import dataclasses
+import shutil
 import sys
 
 import numpy as np
@@ -223,6 +224,8 @@ def test_wanted_times():
 def test_backends_agree(name):
     if name == "heyoka":
         pytest.importorskip("heyoka")
+    if name == "native" and not any(map(shutil.which, ("gcc", "clang", "cc"))):
+        pytest.skip("no C compiler")
     load = Part(name="load", input="M", role="load", value=Formula(function=lambda t, q, u: -0.3 * u[0] * abs(u[0])))
     parts = (*stepped().parts, load)
     if name == "heyoka":  # its Taylor series know no absolute value

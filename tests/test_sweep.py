@@ -1,6 +1,7 @@
 """Sweeps: axes as written, keys against the case, grids and samples, gaps with reasons, interrupts, single runs."""
 
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -280,6 +281,7 @@ def test_progress_counts_every_point():
     assert sum(done) == 42
 
 
+@pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler to hide")
 def test_without_a_compiler(monkeypatch, tmp_path):
     plan = Plan(case="chmielewski", over=("c1=0,1",), overrides=SHORT)
     compiled = columns(sweep(plan))

@@ -214,7 +214,10 @@ def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
         if not hasattr(local, "held"):
             local.held = prepare()
         _, call, x, y = local.held
-        x[: len(values)] = values
+        try:
+            x[: len(values)] = values
+        except ValueError:
+            raise TypeError(f"{tape.name} takes numbers, not {values}") from None
         call()
         return float(y[0]) if y.size == 1 else tuple(y.tolist())
 
