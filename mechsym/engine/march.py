@@ -16,12 +16,14 @@ Source: Nunes (2017), sections 2.3 and 3.4.1.
 import dataclasses
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from mechsym.engine.chamber import Chamber, piston_force, travel, volume, wall_area
 from mechsym.engine.gas import ConstantGamma
 from mechsym.engine.heat import GasState, Law, heat_flux
-from mechsym.engine.spark_ignition import SparkIgnition, charge, timing
+from mechsym.engine.spark_ignition import Charge, SparkIgnition, charge, timing
+from mechsym.native.march import marcher
 
 _CLOSES, _FIRING, _OPENS = 180, 360, 540
 _POINTS = 721
@@ -83,20 +85,36 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
     theta = np.arange(_CLOSES, _OPENS + 1)
     v = volume(chamber, np.radians(theta - _FIRING))[0]
     held = charge(chamber, cycle, gas.gas_constant)
-    released = held.heat * np.diff(_burnt_on_grid(cycle, theta, omega), axis=0)
-    vapour = held.fuel * _evaporated(cycle, theta, omega)
-    p = np.full((theta.size, omega.size), float(cycle.intake_pressure))
-    t = np.full_like(p, float(cycle.intake_temperature))
-    mass, lost = np.full(omega.size, held.gas), np.zeros_like(p[1:])
-    for k in range(theta.size - 1):
-        lost[k] = _loss(chamber, law, gas, (p[k], t[k], v[k + 1]), omega)
-        p[k + 1] = _next_pressure(gas.gamma, p[k], v[k : k + 2], released[k] - lost[k] - cycle.latent_heat * vapour[k])
-        mass = mass + vapour[k]
-        t[k + 1] = p[k + 1] * v[k + 1] / (mass * gas.gas_constant)
+    start = np.array([[cycle.intake_pressure], [cycle.intake_temperature], [held.gas], [0.0]]) + 0.0 * omega
+    stages = np.stack([theta[1:], v[:-1], v[1:]], axis=1)
+    lanes = np.array([omega, *(np.degrees(a) + 0.0 * omega for a in timing(cycle, omega))])
+    # each operation rounded by itself, as the thesis's program did it
+    record = marcher(_degree(chamber, cycle, gas, law, held), mode="strict")(start, stages, lanes)[1]
+    p, t = (np.vstack([start[i], record[:, i]]) for i in (0, 1))
     return March(
         theta_deg=theta, omega=omega, p=p, t=t, v=v, mass=held.gas + held.fuel, fuel=held.fuel,
-        heat_released=released, wall_heat=lost, latent_heat=cycle.latent_heat * vapour,
+        heat_released=record[:, 2], wall_heat=record[:, 3], latent_heat=record[:, 4],
     )  # fmt: skip
+
+
+def _degree(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, held: Charge) -> ca.Function:
+    """One step: (p, T, m, burnt), (angle at its end [deg], V_1, V_2), (omega, ignition, duration [deg])."""
+    state, stage, lane = ca.SX.sym("state", 4), ca.SX.sym("stage", 3), ca.SX.sym("lane", 3)
+    p, t, mass, burnt = ca.vertsplit(state)
+    theta, v1, v2 = ca.vertsplit(stage)
+    omega, ignition, duration = ca.vertsplit(lane)
+    y = (theta - _FIRING - ignition) / duration
+    share = 1 - ca.exp(-cycle.wiebe_a * ca.fmax(y, 0) ** (cycle.wiebe_m + 1))
+    now = ca.fmax(burnt, ca.if_else(y <= 1, share, 0))
+    evaporates = theta <= ignition + _FIRING
+    vapour = ca.if_else(evaporates, held.fuel / (ignition + _FIRING - _CLOSES), 0)
+    released, lost = held.heat * (now - burnt), _loss(chamber, law, gas, (p, t, v2), omega)
+    latent = cycle.latent_heat * vapour
+    g6 = (gas.gamma + 1) / (gas.gamma - 1)
+    p2 = (2 * (released - lost - latent) + p * (g6 * v1 - v2)) / (g6 * v2 - v1)
+    t2 = p2 * v2 / ((mass + vapour) * gas.gas_constant)
+    following, record = ca.vertcat(p2, t2, mass + vapour, now), ca.vertcat(p2, t2, released, lost, latent)
+    return ca.Function("degree", [state, stage, lane], [following, record])
 
 
 def crank_torque(chamber: Chamber, result: March) -> np.ndarray:
@@ -148,25 +166,8 @@ def mean_torque(chamber: Chamber, result: March) -> np.ndarray:
     return chamber.pistons * crank_torque(chamber, result).sum(axis=0) / _POINTS
 
 
-def _burnt_on_grid(cycle: SparkIgnition, theta: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    start, duration = (np.degrees(a) for a in timing(cycle, omega))
-    y = (theta[:, None] - _FIRING - start) / duration
-    burnt = np.where(y > 0, 1 - np.exp(-cycle.wiebe_a * np.maximum(y, 0) ** (cycle.wiebe_m + 1)), 0.0)
-    return np.maximum.accumulate(np.where(y <= 1, burnt, 0.0), axis=0)
-
-
-def _evaporated(cycle: SparkIgnition, theta: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    start = np.degrees(timing(cycle, omega)[0]) + _FIRING
-    return np.where(theta[1:, None] <= start, 1 / (start - _CLOSES), 0.0)
-
-
 def _loss(chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Any, Any, Any], omega: Any) -> Any:
     p, t, v_end = state
     speed = chamber.stroke * omega / np.pi
     flux = heat_flux(law, GasState(p, t, v_end, gas.gas_constant, chamber.bore, speed))
     return flux * wall_area(chamber, v_end) * np.radians(1.0) / omega
-
-
-def _next_pressure(gamma: float, p: Any, v: np.ndarray, heat: Any) -> Any:
-    g6 = (gamma + 1) / (gamma - 1)
-    return (2 * heat + p * (g6 * v[0] - v[1])) / (g6 * v[1] - v[0])
