@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from functools import partial
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from mechsym.design import Design
 from mechsym.files import to_json, write_csv, write_text
 from mechsym.mechanism import curves, listing
 from mechsym.rollers import parallel
+from mechsym.setting import setting_text
 from mechsym.summary import guide_columns, guide_turn, hinge_columns, summary
 
 _FRAMES = 180
@@ -64,6 +66,7 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
     source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
     environment.filters["sig"] = significant
+    environment.filters["setting"] = partial(setting_text, design.assembly.case.need("spring"))
     return environment.from_string(source).render(
         case=design.assembly.case,
         design=design,

@@ -63,6 +63,24 @@ def setting_of(spring: Spring) -> float:
     return spring.F0 if isinstance(spring, Coil) else spring.p0
 
 
+def setting_text(spring: Spring, setting: float) -> str:
+    """A setting with its unit, for people.
+
+    Parameters
+    ----------
+    spring : AirGauge, AirAbsolute or Coil
+        A spring of that kind
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+
+    Returns
+    -------
+    text : str
+        Four digits, in MPa or kN
+    """
+    return f"{setting / 1e3:.4g} kN" if isinstance(spring, Coil) else f"{setting / 1e6:.4g} MPa"
+
+
 def with_setting(spring: Spring, setting: float) -> Spring:
     """The same spring with another setting.
 

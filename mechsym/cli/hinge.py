@@ -1,6 +1,8 @@
 """`mechsym hinge`: design the elastic hinge of an engine and prove it by simulation."""
 
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +34,7 @@ def hinge(
     """
     from mechsym import cases, design
     from mechsym.files import make_folder
+    from mechsym.setting import setting_text
     from mechsym.summary import summary
 
     case, shares = cases.load(case_name, pairs(overrides)), _shares(loads)
@@ -46,7 +49,8 @@ def hinge(
             files = write(found, out)
             bar.update(1)
     numbers = summary(found)
-    emit(numbers, as_json, lambda: _text(numbers, files))
+    setting = partial(setting_text, case.need("spring"))
+    emit(numbers, as_json, lambda: _text(numbers, setting, files))
     if not numbers["guide"]["feasible"]:
         sys.exit(1)
 
@@ -62,7 +66,7 @@ def _shares(loads: str | None) -> list[float]:
     return shares
 
 
-def _text(numbers: dict[str, Any], files: list[Path]) -> str:
+def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[Path]) -> str:
     guide, check, again = numbers["guide"], numbers["check"], numbers["retune"]
     lines = [
         f"speed            {numbers['speed_rpm']:.6g} rpm, peak pressure {numbers['p_max_bar']:.4g} bar absolute",
@@ -82,12 +86,13 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
         )
     if again["p0"] is not None:
         lines.append(
-            f"at {again['speed_rpm']:.4g} rpm       best setting {again['p0']:.5g} ({again['p0_ratio']:.3g} times), "
+            f"at {again['speed_rpm']:.4g} rpm       best setting {setting(again['p0'])} ({again['p0_ratio']:.3g} times), "
             f"ripple {_number(again['speed_ripple'])}"
         )
     if numbers["loads"]:
-        columns = ["share", "mep_bar", "speed_ripple", "p0", "p0_ratio", "speed_ripple_reset"]
-        lines += ["", table(numbers["loads"], columns), *_stopped(numbers["loads"])]
+        rows = [row | {"setting": setting(row["p0"])} for row in numbers["loads"]]
+        columns = ["share", "mep_bar", "speed_ripple", "setting", "p0_ratio", "speed_ripple_reset"]
+        lines += ["", table(rows, columns), *_stopped(rows)]
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
 
 
