@@ -86,8 +86,8 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
         )
     if again["p0"] is not None:
         lines.append(
-            f"at {again['speed_rpm']:.4g} rpm       best setting {setting(again['p0'])} ({again['p0_ratio']:.3g} times), "
-            f"ripple {_number(again['speed_ripple'])}"
+            f"at {again['speed_rpm']:.4g} rpm       best setting {setting(again['p0'])} "
+            f"({again['p0_ratio']:.3g} times), ripple {_number(again['speed_ripple'])}"
         )
     if numbers["loads"]:
         rows = [row | {"setting": setting(row["p0"])} for row in numbers["loads"]]
