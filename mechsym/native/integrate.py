@@ -23,10 +23,11 @@ LANES = (1, 8, 16)
 _FEW = 3
 _SLOW = 6  # index into STATUS
 
-_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kink_state", "max_steps")
-_DOUBLES = ("rtol", "atol", "first_step", "kink_period")
+_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "max_steps")
+_DOUBLES = ("rtol", "atol", "first_step")
 _ARRAYS = (
-    "constants", "until", "held", "grid", "kink_angles", "table", "surface", "t", "y", "samples", "last_step",
+    "constants", "until", "held", "grid", "kink_angles", "kink_periods", "kink_states", "kinked_states",
+    "table", "surface", "t", "y", "samples", "last_step",
     "steps", "rejected", "sampled", "met", "status",
 )  # fmt: skip
 
@@ -162,7 +163,7 @@ def _spread(runs: Runs, mode: str) -> _Batch:
         "held": (runs.held, 2),
         "times": (runs.times, 1),
     }
-    arrays["kinks"] = (runs.kinks.angles if runs.kinks else (), 1)
+    arrays["kinks"] = (_side_by_side([k.angles for k in runs.kinks]), 1)
     found = {name: np.asarray(value, float) for name, (value, _) in arrays.items()}
     counts = {len(found[name]) for name, (_, alone) in arrays.items() if found[name].ndim > alone}
     counts |= set() if single else {len(functions)}
@@ -184,6 +185,12 @@ def _spread(runs: Runs, mode: str) -> _Batch:
 @functools.lru_cache(maxsize=256)
 def _text(of: Program, method: str, lanes: int) -> str:
     return getattr(integrators, method)(of, lanes)
+
+
+def _side_by_side(angles: list[np.ndarray]) -> np.ndarray:
+    """Angles (k,) or (runs, k) of several states as one array (k,) or (runs, k)."""
+    rows = np.broadcast_shapes(*(np.shape(a)[:-1] for a in angles))
+    return np.concatenate([np.zeros((*rows, 0)), *(np.broadcast_to(a, (*rows, np.shape(a)[-1])) for a in angles)], -1)
 
 
 def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
@@ -216,14 +223,18 @@ def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, resu
 def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
     lanes, n, times = len(chosen), batch.start.shape[1], batch.times.shape[1]
     constants = batch.constants if len(batch.constants) > 1 else batch.constants * len(batch.start)
-    period = batch.runs.kinks.period if batch.runs.kinks else 1.0
+    # a value for each kink
+    periods = np.array([k.period for k in batch.runs.kinks for _ in range(np.shape(k.angles)[-1])])
+    states = np.array([k.state for k in batch.runs.kinks for _ in range(np.shape(k.angles)[-1])], ctypes.c_long)
     counters = {name: np.zeros(lanes, ctypes.c_long) for name in ("steps", "rejected", "sampled", "met", "status")}
+    counters |= {"kink_states": states, "kinked_states": np.unique(states)}
     floats = {
         "constants": np.stack([constants[c] for c in chosen], axis=1),
         "until": batch.until[chosen].T,
         "held": np.moveaxis(batch.held[chosen], 0, 2),
         "grid": batch.times[chosen].T,
-        "kink_angles": np.mod(batch.kinks[chosen].T, period),
+        "kink_angles": np.mod(batch.kinks[chosen].T, periods[:, None]),
+        "kink_periods": periods,
         "t": np.full(lanes, float(batch.runs.t)),
         "y": batch.start[chosen].T,
         "samples": np.full((times, n, lanes), np.nan),
@@ -239,13 +250,12 @@ def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) ->
     tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
     surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
     alive += [tables, surfaces]
-    kinks = runs.kinks
     structure = _Run(
         segments=len(arrays["until"]), times=len(arrays["grid"]), tables=len(runs.tables),
-        surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kink_state=kinks.state if kinks else 0,
+        surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kinked=len(arrays["kinked_states"]),
         max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
-        kink_period=kinks.period if kinks else 1.0, table=ctypes.addressof(tables),
-        surface=ctypes.addressof(surfaces), **{name: a.ctypes.data for name, a in arrays.items()},
+        table=ctypes.addressof(tables), surface=ctypes.addressof(surfaces),
+        **{name: a.ctypes.data for name, a in arrays.items()},
     )  # fmt: skip
     return structure, alive
 

@@ -97,7 +97,7 @@ class Runs:
         Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
     tables, surfaces : tuple of Table, of Surface
         See there
-    kinks : Kinks or None
+    kinks : tuple of Kinks
         Where no step may reach across
     rtol, atol : float
         Relative and absolute tolerance of a step [-]
@@ -115,7 +115,7 @@ class Runs:
     times: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
     tables: tuple[Table, ...] = ()
     surfaces: tuple[Surface, ...] = ()
-    kinks: Kinks | None = None
+    kinks: tuple[Kinks, ...] = ()
     rtol: float = 1e-10
     atol: float = 1e-10
     first_step: float = 0.0

@@ -97,7 +97,6 @@ def _raws(problems: list[Problem], systems: list[System], settings: Settings) ->
 def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
     first, most = single[0], max(len(r.times) for r in single)
     times = [np.pad(r.times, (0, most - len(r.times)), constant_values=np.inf) for r in single]
-    kinks = [r.kinks for r in single if r.kinks]
     return replace(
         first,
         rhs=functions,
@@ -113,7 +112,8 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
             Surface(state=s.state, level=np.array([r.surfaces[i].level for r in single]), direction=s.direction)
             for i, s in enumerate(first.surfaces)
         ),
-        kinks=Kinks(state=kinks[0].state, angles=np.array([k.angles for k in kinks]), period=kinks[0].period)
-        if kinks
-        else None,
+        kinks=tuple(
+            Kinks(state=k.state, angles=np.array([r.kinks[i].angles for r in single]), period=k.period)
+            for i, k in enumerate(first.kinks)
+        ),
     )

@@ -34,8 +34,6 @@ def unsuited(problem: Problem) -> str:
     plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | Formula)]
     if plain:
         return f"part {plain[0]!r} is a plain Python callable; give it as Formula, Periodic or Steps"
-    if len({k.coordinate for k in problem.kinks if k.angles}) > 1:
-        return "kinks lie on more than one coordinate"
     try:
         find()
     except NoCompiler as error:
@@ -150,9 +148,9 @@ def _table(equations: System, index: int, value: Periodic) -> Table:
     return Table(held=index, state=state, polynomials=((poly.x, poly.c),))
 
 
-def _kinks(problem: Problem, equations: System) -> Kinks | None:
-    for kinks in problem.kinks:
-        if kinks.angles:
-            state = equations.columns.index(kinks.coordinate)
-            return Kinks(state=state, angles=np.array(kinks.angles), period=kinks.period)
-    return None
+def _kinks(problem: Problem, equations: System) -> tuple[Kinks, ...]:
+    return tuple(
+        Kinks(state=equations.columns.index(k.coordinate), angles=np.array(k.angles), period=k.period)
+        for k in problem.kinks
+        if k.angles
+    )

@@ -154,7 +154,7 @@ def test_table_of_a_periodic_value_with_a_jump_at_a_kink():
     kinks = Kinks(state=0, angles=np.array([0.0, np.pi]), period=period)
     system = rhs("jumps", 3, 1, lambda t, y, p: (y[1], p[0], p[0] * y[1]))
     common = dict(rhs=system, start=np.array([0.3, 2.0, 0.0]), until=np.array([12.0]), held=np.zeros((1, 1)))
-    found = integrate(Runs(**common, tables=(steps,), kinks=kinks, rtol=1e-9, atol=1e-9))
+    found = integrate(Runs(**common, tables=(steps,), kinks=(kinks,), rtol=1e-9, atol=1e-9))
     angle, speed, work = found.y[0]
     turns, rest = divmod(angle, period)
     by_hand = turns * 0.5 * np.pi + min(rest, np.pi) - 0.5 * max(rest - np.pi, 0) - 0.3
@@ -165,13 +165,40 @@ def test_table_of_a_periodic_value_with_a_jump_at_a_kink():
     assert found.rejected[0] == 0
 
 
+def test_kinks_of_several_angles():
+    # three shafts with their own torques, constant in sixths of a turn, two of them in step at the start
+    period, edges, rng = 2 * np.pi, np.linspace(0, 2 * np.pi, 7), np.random.default_rng(4)
+    torques = rng.uniform(-0.5, 1.0, (3, 6))
+    system = rhs("shafts", 9, 3, lambda t, y, p: (*y[3:6], *p, *(p[i] * y[3 + i] for i in range(3))))
+    start = np.array([0.0, 0.0, 1.0, 2.0, 2.0, 2.5, 0, 0, 0])
+    tables = tuple(Table(held=i, state=i, polynomials=((edges, torques[i : i + 1]),)) for i in range(3))
+    kinks = tuple(Kinks(state=i, angles=edges[:-1], period=period) for i in range(3))
+    common = dict(rhs=system, until=np.array([9.0]), held=np.zeros((1, 3)), tables=tables, kinks=kinks, rtol=1e-9)
+    found = integrate(Runs(start=start, **common))
+
+    def stored(i: int, angle: float) -> float:
+        turns, rest = divmod(angle, period)
+        full = np.diff(edges) * torques[i]
+        inside = np.clip(rest - edges[:-1], 0, np.diff(edges)) * torques[i]
+        return turns * full.sum() + inside.sum()
+
+    for i in range(3):
+        wanted = stored(i, found.y[0, i]) - stored(i, start[i])
+        # between kinks the motion is a parabola, which the method integrates exactly
+        assert found.y[0, 6 + i] == pytest.approx(wanted, abs=1e-9)
+        assert found.y[0, 3 + i] ** 2 / 2 - start[3 + i] ** 2 / 2 == pytest.approx(wanted, abs=1e-9)
+    assert found.rejected[0] == 0
+    many = integrate(Runs(start=np.tile(start, (5, 1)), **common), mode="strict")
+    np.testing.assert_array_equal(many.y, np.tile(integrate(Runs(start=start, **common), mode="strict").y, (5, 1)))
+
+
 def test_motion_that_turns_back_over_a_kink():
     # a ball thrown against a floor that pushes harder below 0
     system = rhs("floor", 2, 1, lambda t, y, p: (y[1], p[0]))
     force = Table(held=0, state=0, polynomials=((np.array([-5.0, 0.0, 5.0]), np.array([[40.0, -10.0]])),))
     found = integrate(
         Runs(rhs=system, start=np.array([1.0, 0.0]), until=np.array([5.0]), held=np.zeros((1, 1)), tables=(force,),
-             kinks=Kinks(state=0, angles=np.array([0.0]), period=10.0), times=np.linspace(0.01, 5, 500))
+             kinks=(Kinks(state=0, angles=np.array([0.0]), period=10.0),), times=np.linspace(0.01, 5, 500))
     )  # fmt: skip
     y, v = found.samples[0].T
     total = v**2 / 2 + np.where(y > 0, 10 * y, -40 * y)
@@ -312,7 +339,7 @@ def test_strong_damping_goes_to_explicit_steps():
 
 
 def test_collocation_needs_smooth_equations():
-    kinks = Kinks(state=0, angles=np.array([0.0]), period=1.0)
+    kinks = (Kinks(state=0, angles=np.array([0.0]), period=1.0),)
     with pytest.raises(BadInput, match="knows no kinks and tables; use dop853"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0]), kinks=kinks), "collocation")
 

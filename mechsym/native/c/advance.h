@@ -48,10 +48,20 @@ MS_INLINE double ms_shorter(double step, double error)
     return step * (error < INFINITY ? ms_fmax(0.9 * ms_rough_root(error, 3), 1.0 / 3.0) : 0.1);
 }
 
+/* At one kink all states look around: another one may stand on a kink of its own. */
+static void ms_look_at_kinks(const ms_run *run, ms_work *w, int l)
+{
+    for (long i = 0; i < run->kinked; i++) {
+        const long state = run->kinked_states[i];
+        ms_look_around(run, &w->window, l, state, w->y[state][l], w->q[0][state][l]);
+    }
+}
+
 static int ms_begin(const ms_run *run, ms_work *w)
 {
     int fresh[MS_L], count = 0;
     memset(w, 0, sizeof *w);
+    ms_open(&w->window);
     for (int l = 0; l < MS_L; l++) {
         for (int i = 0; i < MS_N; i++)
             w->y[i][l] = run->y[i * MS_L + l];
@@ -60,7 +70,6 @@ static int ms_begin(const ms_run *run, ms_work *w)
         run->steps[l] = run->rejected[l] = run->sampled[l] = 0;
         run->met[l] = -1;
         w->active[l] = 1;
-        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], 0.0);
         ms_look_ahead(run, w, l);
         if (ms_enter(run, w, l))
             count++;
@@ -68,8 +77,11 @@ static int ms_begin(const ms_run *run, ms_work *w)
             ms_finish(run, w, l, MS_DONE);
     }
     ms_first_rates(run, w);
-    for (int l = 0; l < MS_L && run->kinks; l++)
-        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], w->q[0][run->kink_state][l]);
+    for (int l = 0; l < MS_L; l++)
+        ms_look_at_kinks(run, w, l);
+    /* a run that starts on a kink may leave it backwards */
+    if (run->kinked)
+        ms_first_rates(run, w);
     ms_guess_step(run, w, fresh);
     return count;
 }
@@ -98,10 +110,10 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
 {
     int found = 0;
     *share = INFINITY;
-    for (long i = run->kinks ? -1 : 0; i < run->surfaces; i++) {
-        const int state = i < 0 ? run->kink_state : run->surface[i].state;
+    for (long i = -run->kinked; i < run->surfaces; i++) {
+        const long state = i < 0 ? run->kinked_states[-1 - i] : run->surface[i].state;
         const double before = w->y[state][l], after = w->next[state][l];
-        const double below = w->window.below[l], above = w->window.above[l];
+        const double below = w->window.below[state][l], above = w->window.above[state][l];
         /* a run may start on a kink and come back to it within a step */
         const double level = i >= 0 ? run->surface[i].level[l] : after > above ? above : below;
         if (i < 0 ? below <= after && after <= above : !ms_crosses(run->surface[i].direction, before, after, level))
@@ -109,7 +121,7 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
         found = 1;
         const double u = dense ? ms_passing(w, state, l, level) : 1.0;
         if (u < *share)
-            *share = u, *target = i < 0 ? -1 : 1 + i, *at = level;
+            *share = u, *target = i < 0 ? i : 1 + i, *at = level;
     }
     return found;
 }
@@ -117,7 +129,8 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
 /* A step to a level ends where the dense output says, to about the tolerance; one Newton step or two make it exact. */
 static int ms_corrected(const ms_run *run, ms_work *w, int l)
 {
-    const int kink = w->target[l] < 0, state = kink ? run->kink_state : run->surface[w->target[l] - 1].state;
+    const long kink = w->target[l] < 0, other = kink ? 0 : w->target[l] - 1;
+    const long state = kink ? run->kinked_states[-1 - w->target[l]] : run->surface[other].state;
     const double miss = w->next[state][l] - w->level[l], late = miss / w->q[12][state][l];
     const double size = ms_fmax(fabs(w->level[l]), 1.0), length = w->step[l] - late;
     if (fabs(miss) <= (kink ? 1e-10 : 1e-15) * size || w->tries[l] == 3 || !(length > 0.0) || !isfinite(length))
@@ -179,7 +192,7 @@ static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
         return 0;
     }
     if (target < 0)
-        ms_look_around(run, &w->window, l, w->y[run->kink_state][l], w->q[0][run->kink_state][l]);
+        ms_look_at_kinks(run, w, l);
     if (last && !ms_enter(run, w, l)) {
         ms_finish(run, w, l, MS_DONE);
         return 0;

@@ -8,7 +8,7 @@ typedef struct {
     ms_row until, due; /* end of the lane's segment, and its next wanted time */
     ms_window window;
     long segment[MS_L], active[MS_L];
-    /* a step forced to meet a level, of surface i (target 1 + i) or of a kink (-1); 0 nothing */
+    /* a step forced to meet a level, of surface i (target 1 + i) or a kink of kinked state i (-1 - i); 0 nothing */
     ms_row forced, level;
     long target[MS_L], tries[MS_L];
 } ms_work;

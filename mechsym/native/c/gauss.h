@@ -117,6 +117,7 @@ MS_EXPORT void ms_gauss(const ms_run *run)
     ms_work work, *w = &work;
     double t = run->t[0];
     memset(w, 0, sizeof *w);
+    ms_open(&w->window);
     memcpy(w->y, run->y, sizeof w->y);
     for (int l = 0; l < MS_L; l++)
         run->steps[l] = run->rejected[l] = 0, run->met[l] = -1;

@@ -22,13 +22,16 @@ typedef struct {
 } ms_surface;
 
 typedef struct {
-    long segments, times, tables, surfaces, kinks, kink_state, max_steps;
-    double rtol, atol, first_step, kink_period;
+    long segments, times, tables, surfaces, kinks, kinked, max_steps;
+    double rtol, atol, first_step;
     const double *constants;   /* [constant][lane] */
     const double *until;       /* [segment][lane] */
     const double *held;        /* [segment][held value][lane] */
     const double *grid;        /* [time][lane], ascending, after the start */
     const double *kink_angles; /* [kink][lane], in [0, period) */
+    const double *kink_periods; /* [kink] */
+    const long *kink_states;   /* [kink] */
+    const long *kinked_states; /* [kinked], each state once */
     const ms_table *table;     /* [table][lane] */
     const ms_surface *surface;
     double *t, *y;       /* [lane], [state][lane]: the start, then the end */
@@ -37,10 +40,19 @@ typedef struct {
     long *steps, *rejected, *sampled, *met, *status; /* [lane] */
 } ms_run;
 
-/* The kinks on both sides of a run. A table is read on this side of them, also by a stage that reaches beyond. */
+/* The kinks on both sides of each state. A table is read on this side of them, also by a stage that reaches beyond. */
 typedef struct {
-    double below[MS_L], above[MS_L], low[MS_L], high[MS_L];
+    ms_row below[MS_N], above[MS_N], low[MS_N], high[MS_N];
 } ms_window;
+
+static void ms_open(ms_window *window)
+{
+    for (int i = 0; i < MS_N; i++)
+        for (int l = 0; l < MS_L; l++) {
+            window->below[i][l] = window->low[i][l] = -INFINITY;
+            window->above[i][l] = window->high[i][l] = INFINITY;
+        }
+}
 
 static double ms_periodic(const ms_table *table, double angle)
 {
@@ -66,30 +78,32 @@ static __attribute__((noinline)) void ms_rates(const ms_run *run, const ms_windo
     for (long i = 0; i < run->tables * MS_L; i++) {
         const ms_table *table = run->table + i;
         const int l = i % MS_L;
-        double a = x[1 + table->state][l];
-        if (table->state == run->kink_state && run->kinks)
-            a = ms_fmin(ms_fmax(a, window->low[l]), window->high[l]);
+        const double low = window->low[table->state][l], high = window->high[table->state][l];
+        const double a = ms_fmin(ms_fmax(x[1 + table->state][l], low), high);
         x[1 + MS_N + table->slot][l] = ms_periodic(table, a);
     }
     MS_RATES(run->constants, x[0], rate[0]);
 }
 
 /* A run that stands on a kink goes on, on the side to which it moves. */
-static void ms_look_around(const ms_run *run, ms_window *window, int l, double angle, double speed)
+static void ms_look_around(const ms_run *run, ms_window *window, int l, long state, double angle, double speed)
 {
     const double tiny = 1e-12 * ms_fmax(fabs(angle), 1.0), here = angle + (speed < 0.0 ? -2.0 : 2.0) * tiny;
-    const double turn = run->kinks ? floor(here / run->kink_period) : 0.0;
-    window->below[l] = -INFINITY, window->above[l] = INFINITY;
-    for (int shift = -1; shift <= 1; shift++)
-        for (long i = 0; i < run->kinks; i++) {
-            const double kink = run->kink_angles[i * MS_L + l] + run->kink_period * (turn + shift);
+    double below = -INFINITY, above = INFINITY;
+    for (long i = 0; i < run->kinks; i++) {
+        if (run->kink_states[i] != state)
+            continue;
+        const double period = run->kink_periods[i], turn = floor(here / period);
+        for (int shift = -1; shift <= 1; shift++) {
+            const double kink = run->kink_angles[i * MS_L + l] + period * (turn + shift);
             if (kink > here)
-                window->above[l] = ms_fmin(window->above[l], kink);
+                above = ms_fmin(above, kink);
             else
-                window->below[l] = ms_fmax(window->below[l], kink);
+                below = ms_fmax(below, kink);
         }
-    window->low[l] = window->below[l] + tiny;
-    window->high[l] = window->above[l] - tiny;
+    }
+    window->below[state][l] = below, window->low[state][l] = below + tiny;
+    window->above[state][l] = above, window->high[state][l] = above - tiny;
 }
 
 static int ms_crosses(long direction, double before, double after, double level)
