@@ -21,7 +21,7 @@ from mechsym.native.tape import ANALYTIC
 LANES = (1, 8, 16)
 # runs that one by one, in all lanes, take less time than side by side in one lane each
 _FEW = 3
-_SLOW = 6  # index into STATUS
+_UNSOLVED = (5, 6)  # indices into STATUS: what explicit steps may still do
 
 _LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "max_steps")
 _DOUBLES = ("rtol", "atol", "first_step")
@@ -96,7 +96,7 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     batch = _spread(runs, mode)
     if method == "auto":
         found = _integrated(batch, _chosen(batch), mode)
-        return _integrated(batch, "dop853", mode) if (found.status == _SLOW).any() else found
+        return _integrated(batch, "dop853", mode) if np.isin(found.status, _UNSOLVED).any() else found
     return _integrated(batch, method, mode)
 
 

@@ -242,7 +242,9 @@ def _structure(program: Program) -> str:
     """Which states are angles, which are their speeds, and which others the rates depend on."""
     n, tape = len(program.tape.outputs), program.tape
     rates = [tape.nodes[r] for r in tape.results]
-    speeds = {i: args[0] - 1 for i, (op, args) in enumerate(rates) if op == "input" and 1 <= args[0] <= n}
+    same = {i: args[0] - 1 for i, (op, args) in enumerate(rates) if op == "input" and 1 <= args[0] <= n}
+    # a speed has a rate of its own: of position, speed and acceleration only the speed is an angle here
+    speeds = {i: speed for i, speed in same.items() if speed not in same}
     used = {args[0] for op, args in tape.nodes if op == "input"}
     others = [i for i in range(n) if i not in speeds and 1 + i in used]
     lists = {"ms_angle": list(speeds), "ms_speed": list(speeds.values()), "ms_other": others}

@@ -365,6 +365,62 @@ def test_equations_without_angles():
     np.testing.assert_allclose(found.samples[0, :, 0], np.exp(np.sin(times)), rtol=1e-10)
 
 
+@pytest.mark.parametrize(("name", "formula", "start", "wanted"), [
+    ("itself", lambda t, y, p: (y[0],), [1.0], [np.e]),
+    ("swap", lambda t, y, p: (y[1], y[0]), [1.0, 0.0], [np.cosh(1), np.sinh(1)]),
+    ("chain", lambda t, y, p: (y[1], y[2], y[0]), [1.0, 1.0, 1.0], [np.e] * 3),
+    ("jerk", lambda t, y, p: (y[1], y[2], ca.SX(6), y[0]), [1.0, 0.0, 0.0, 0.0], [2, 3, 6, 1.25]),
+])  # fmt: skip
+def test_speeds_that_are_states_with_speeds(name, formula, start, wanted):
+    run = Runs(rhs=rhs(name, len(start), 0, formula), start=np.array(start), until=np.array([1.0]), atol=1e-12)
+    np.testing.assert_allclose(integrate(run, "collocation").y[0], wanted, rtol=1e-10)
+
+
+@pytest.mark.parametrize("direction", [-1, 0, 1])
+def test_surface_of_a_state_that_nothing_depends_on(direction):
+    work = rhs("work", 3, 0, lambda t, y, p: (y[1], -ca.sin(y[0]), y[1] ** 2))
+    surface = Surface(state=2, level=1.0, direction=direction)
+    run = Runs(rhs=work, start=np.array([1.0, 0.0, 0.0]), until=np.array([9.0]), surfaces=(surface,))
+    found, wanted = integrate(run, "collocation"), integrate(run, "dop853")
+    assert found.status[0] == wanted.status[0] == (direction >= 0)
+    assert found.t[0] == pytest.approx(wanted.t[0], abs=1e-8)
+
+
+def test_step_into_what_is_not_finite_is_shortened():
+    falls = rhs("falls", 2, 0, lambda t, y, p: (y[1], -ca.sqrt(y[0])))
+    run = Runs(rhs=falls, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=(Surface(state=0, level=1e-4),))
+    found = integrate(run, "collocation")
+    # v^2/2 + 2/3 y^(3/2) stays
+    assert found.met[0] == 0
+    assert found.y[0, 1] == pytest.approx(-np.sqrt(4 / 3 * (1 - 1e-6)), abs=1e-9)
+
+
+def test_many_wanted_times_are_no_slow_convergence():
+    run = Runs(rhs=PENDULUM, start=np.array([2.0, 0.0]), until=np.array([400.0]), times=np.linspace(0.02, 400, 20000))
+    found = integrate(run, "collocation")
+    assert found.status[0] == 0
+    assert not np.isnan(found.samples).any()
+
+
+def test_sweeps_that_only_stagnate_are_not_taken_for_rounding():
+    kepler = rhs("kepler", 4, 0, lambda t, y, p: (
+        y[2], y[3], -y[0] / (y[0] ** 2 + y[1] ** 2) ** 1.5, -y[1] / (y[0] ** 2 + y[1] ** 2) ** 1.5
+    ))  # fmt: skip
+    run = Runs(rhs=kepler, start=np.array([0.1, 0, 0, 19**0.5]), until=np.array([20.0]), rtol=1e-13, atol=1e-13)
+    x, y, u, v = integrate(run, "collocation").y[0]
+    assert (u * u + v * v) / 2 - 1 / np.hypot(x, y) == pytest.approx(-0.5, abs=1e-11)
+    assert x * v - y * u == pytest.approx(0.1 * 19**0.5, abs=1e-12)
+
+
+def test_stiff_shaft_far_from_its_start():
+    # rounding of 1e5 rad is far above the tolerance of the short steps to the wanted times
+    shaft = rhs("shaft", 4, 0, lambda t, y, p: (y[2], y[3], 1 - 1e7 * (y[0] - y[1]), 1e7 * (y[0] - y[1])))
+    start, times = np.array([1e5, 1e5 + 1e-4, 50, 50]), np.linspace(1e-4, 0.1, 1000)
+    found = integrate(Runs(rhs=shaft, start=start, until=np.array([0.1]), times=times), "collocation")
+    assert found.status[0] == 0
+    np.testing.assert_allclose(found.samples[0, :, 2:].sum(axis=1), 100 + times, atol=1e-8)
+
+
 def test_gauss_ends_steps_at_wanted_times_and_jumps():
     until, held = np.array([0.3, 1.0]), np.array([[2.0], [-1.0]])
     times = np.array([0.1, 0.3, 0.55, 1.0])

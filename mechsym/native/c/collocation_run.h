@@ -3,7 +3,9 @@
  * polynomial through the stages is of lower order than the step. */
 static int ms_inside(const ms_run *run, ms_work *w, double length)
 {
+    const long before = w->sweeps;
     const int sweeps = ms_solve(run, w, length);
+    w->sweeps = before; /* that the steps converge slowly is judged by the steps alone */
     ms_close(w, length);
     return sweeps;
 }
@@ -25,13 +27,15 @@ static int ms_sample(const ms_run *run, ms_work *w, double end)
 }
 
 /* The part of a step in which a surface is crossed first, seen at its stages; returns the surface or -1. */
-static long ms_crossed(const ms_run *run, const ms_work *w, double *low, double *high)
+static long ms_crossed(const ms_run *run, const ms_work *w, double h, double *low, double *high)
 {
     long met = -1;
     *high = INFINITY;
     for (long i = 0; i < run->surfaces; i++) {
         const ms_surface *s = run->surface + i;
-        const double *stage = (const double *)&w->x[1 + s->state];
+        /* not from w->x, which a sweep leaves out where no rate depends on the state */
+        const ms_eight inside = w->y[s->state] + h * ms_weigh(ms_once, &w->k[s->state]);
+        const double *stage = (const double *)&inside;
         double before = w->y[s->state], from = 0.0;
         for (int l = 0; l <= MS_S; l++) {
             const double after = l < MS_S ? stage[l] : w->next[s->state], to = l < MS_S ? ms_nodes[l] : 1.0;
@@ -105,7 +109,7 @@ static int ms_step(const ms_run *run, ms_work *w, double until)
     }
     ms_close(w, h);
     double low, high, end = last ? until : w->t + h;
-    const long met = ms_crossed(run, w, &low, &high);
+    const long met = ms_crossed(run, w, h, &low, &high);
     if (met >= 0)
         end = w->t + ms_meet(run, w, low * h, high * h, met);
     if (!ms_sample(run, w, end))
