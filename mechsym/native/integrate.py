@@ -153,6 +153,10 @@ def _check_gauss(batch: _Batch) -> None:
 
 
 def _spread(runs: Runs, mode: str) -> _Batch:
+    if not (runs.rtol >= 0 and runs.atol > 0):
+        raise BadInput(
+            f"rtol = {runs.rtol:g}, atol = {runs.atol:g}: atol must be above 0, because states pass through 0"
+        )
     single = isinstance(runs.rhs, casadi.Function)
     functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
     programs = [program(f, mode) for f in functions]

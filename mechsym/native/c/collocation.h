@@ -18,7 +18,7 @@ typedef struct {
     double y[MS_N], lost[MS_N], next[MS_N], rest[MS_N], scale[MS_N];
     double slope[MS_OTHERS][MS_ANGLES];
     double t, h, origin, length;
-    long segment, tries, sweeps; /* since the slopes were taken */
+    long segment, slopes_age, tries, sweeps;
 } ms_work;
 
 MS_INLINE ms_eight ms_all(double value) { return value + (ms_eight){0}; }
@@ -90,7 +90,7 @@ static void ms_take_slopes(const ms_run *run, ms_work *w)
                 w->slope[o][a] = isfinite(f[l] - f[0]) ? (f[l] - f[0]) / size[l] : 0.0;
             }
     }
-    w->tries = w->sweeps = 0;
+    w->slopes_age = 0;
 }
 
 /* One sweep; returns the largest change of a state over the step, in units of the tolerance, or not a number. */

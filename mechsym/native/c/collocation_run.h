@@ -89,8 +89,10 @@ static void ms_restart(const ms_run *run, ms_work *w)
         slope += f * scale * f * scale;
     }
     w->origin = w->t, w->length = 1.0;
-    if (!(w->h > 0.0))
-        w->h = run->first_step > 0.0 ? run->first_step : size > 0.0 && slope > 0.0 ? 0.01 * sqrt(size / slope) : 1e-6;
+    if (run->first_step > 0.0)
+        w->h = run->first_step;
+    else if (!(w->h > 0.0))
+        w->h = size > 0.0 && slope > 0.0 ? 0.01 * sqrt(size / slope) : 1e-6;
     ms_take_slopes(run, w);
 }
 
@@ -131,12 +133,14 @@ static int ms_segment(const ms_run *run, ms_work *w, double until)
             return MS_TOO_MANY;
         if (!(w->h > 4e-16 * fabs(w->t)))
             return MS_TOO_SMALL;
+        /* a strongly damped shaft: short steps of an explicit method cost less than many sweeps */
         if (++w->tries > 256) {
-            /* a strongly damped shaft: short steps of an explicit method cost less than many sweeps */
             if (w->sweeps > 11 * w->tries)
                 return MS_SLOW;
-            ms_take_slopes(run, w);
+            w->tries = w->sweeps = 0;
         }
+        if (++w->slopes_age > 256)
+            ms_take_slopes(run, w);
         const int status = ms_step(run, w, until);
         if (status >= 0)
             return status;
