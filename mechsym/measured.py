@@ -4,13 +4,13 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.engine.cylinder import cylinder_of
 from mechsym.engine.diagram_combustion import Analysis, DiagramCombustion, diagram_combustion, rows
 from mechsym.engine.diagram_measure import measured_cycles
 from mechsym.engine.fits import Fit
 from mechsym.engine.kinds import with_diagram
+from mechsym.forces.gas import one_cylinder, travel
 
 _DEG = 180 / math.pi
 
@@ -36,8 +36,7 @@ def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustio
         The file is refused, or the diagram cannot be aligned
     """
     cycle = with_diagram(case.need("cycle"), file) if file else case.need("cycle")
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
-    cylinder = cylinder_of(mechanism.functions["kinematics"], cycle.bore, cycle.compression_ratio)
+    cylinder = cylinder_of(travel(one_cylinder(case)), cycle.bore, cycle.compression_ratio)
     return diagram_combustion(measured_cycles(cycle, cylinder), cylinder, case.sections.get("combustion", Analysis()))
 
 

@@ -42,7 +42,8 @@ def chain(found: Forces) -> Figure:
     _curves(axes[2], phi, {_label(n): v for n, v in (teeth or found.loads.guides).items()})
     scale, unit = (1e3, "kN m") if np.abs(found.turn.torque).max() > 1e4 else (1.0, "N m")
     axes[3].plot(phi, found.turn.torque / scale, color=_SERIES[0])
-    axes[3].axhline(found.turn.torque.mean() / scale, color=_QUIET, lw=1, ls="--")
+    axes[3].axhline(found.turn.torque.mean() / scale, color=_QUIET, lw=1, ls="--", label="mean")
+    axes[3].legend(fontsize=7, frameon=False)
     names = (
         "gas force [kN]",
         f"{_label(pin.name)} [kN]",
@@ -130,7 +131,7 @@ def orders(found: Forces) -> Figure:
         unit = "N m" if name.startswith("rocking") else "N"
         label = f"{_label(name)} [{unit}]"
         right.bar(place, values.amplitude[whole], width=0.7 / len(shown), color=_SERIES[i], label=label)
-    right.set(xlabel="order", ylabel="on the frame")
+    right.set(xlabel="order", ylabel="amplitude on the frame [N or N m]")
     if right.get_ylim()[1] < 1:  # round-off of what is balanced is no picture
         right.set_ylim(0, 1)
         right.text(0.5, 0.5, "balanced: below 1 N and 1 N m", transform=right.transAxes, ha="center", color=_QUIET)
@@ -158,7 +159,7 @@ def friction(found: Forces) -> Figure:
     axis = figure.add_subplot()
     names = [n for n, v in found.losses.curves.items() if np.abs(v).max() > 0]
     values = [found.losses.curves[n] for n in names]
-    labels = [f"{_label(n)}: {found.losses.places[n]:.4g} W" for n in names]
+    labels = [f"{_label(n)}: mean {found.losses.places[n]:.4g} W" for n in names]
     phi = found.columns["phi_deg"]
     axis.stackplot(phi, values, labels=labels, colors=_SERIES, lw=0)
     axis.set(xlabel="crank angle [deg]", ylabel="friction power [W]", xlim=(0, phi[-1] + phi[1]))

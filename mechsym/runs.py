@@ -1,5 +1,6 @@
 """From a case to a run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
 
+import dataclasses
 import functools
 import math
 from dataclasses import dataclass
@@ -30,7 +31,7 @@ class Simulation:
     Parameters
     ----------
     t_end : float or None
-        Last time; an engine may give turns instead [s]
+        Last time; with turns too, the run ends at what comes first [s]
     turns : float or None
         Turns of the crank to run [-]
     speed_start : float or None
@@ -135,7 +136,10 @@ def problem_of(case: Case) -> Problem:
     speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
     if wanted.turns is None or speed <= 0:
         raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
-    return engines.problem(engine, speed, wanted.turns, wanted.phi_start)
+    problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
+    if wanted.t_end is None:
+        return problem
+    return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
 
 
 def engine_of(case: Case) -> Engine:

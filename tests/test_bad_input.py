@@ -28,6 +28,13 @@ COMMAND_LINE = [
     ("unknown source", ["reproduce", "zotov2042"], ["'zotov2042'", "zotov2024"]),
     ("formula without its theory", ["audit", "--formula", "r*sin(phi)"], ["--against", "crosshead"]),
     ("formula that would run", ["audit", "--formula", "__import__('os')", "--against", "crosshead.x"], ["__import__"]),
+    (
+        "spark ignition to simulate",
+        ["simulate", "nunes-slider-crank", "--set", "simulation.turns=5"],
+        ["spark-ignition", "cycle CASE --loop"],
+    ),
+    ("no dampings", ["simulate", "chmielewski", "--dampings", ""], ["--dampings", "N*m*s/rad"]),
+    ("half a value", ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:2.5"], ["how many", "spring.p0=1..5 Pa:9"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "A <= B"]),
 ]
 OVERRIDES = [

@@ -35,6 +35,13 @@ def test_help_of_a_command_has_an_example(output, command):
     assert "--json" in text
 
 
+def test_without_a_command_the_help_is_printed(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["mechsym"])
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code == 0 and capsys.readouterr().out.startswith("Usage: mechsym")
+
+
 def test_version(output):
     assert output("--version").startswith("mechsym")
 

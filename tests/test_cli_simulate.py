@@ -53,6 +53,13 @@ def test_engine_with_hinge_keeps_its_speed():
     assert abs(found["energy_residual"]) < 1e-8
 
 
+def test_engine_ends_at_t_end_or_after_its_turns_whichever_comes_first():
+    found, status = numbers("zotov-89", "--set", "simulation.turns=3", "--set", "simulation.t_end=1 s")
+    assert status == 0 and found["end"] == "t_end" and found["t_end"] == 1.0
+    later, _ = numbers("zotov-89", "--set", "simulation.turns=3", "--set", "simulation.t_end=1000 s")
+    assert later["end"] == "turns" and later["t_end"] < 3.0
+
+
 def test_engine_without_hinge_stalls_and_that_is_no_failure():
     found, status = numbers("zotov-89", "--set", "simulation.hinge=none")
     assert status == 0 and found["end"] == "stall"

@@ -67,7 +67,7 @@ class LazyGroup(click.Group):
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(package_name="mechsym")
+@click.version_option(package_name="mechsym", prog_name="mechsym")
 def mechsym() -> None:
     """From a mechanism on paper to verified machine code.
 
@@ -79,7 +79,7 @@ def mechsym() -> None:
 def main() -> None:
     """Run the command line; bad input ends with one line on standard error and exit status 2."""
     try:
-        sys.exit(mechsym.main(standalone_mode=False))
+        sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
     except BadInput as error:
         print(f"mechsym: {' '.join(str(error).split())}", file=sys.stderr)
     except click.UsageError as error:

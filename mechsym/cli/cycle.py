@@ -63,23 +63,29 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     else:
         machine, found = None, two_stroke_columns(case, _array(omega))
     files = _write(out, machine, found, case.need("operation").speed) if out else []
-    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    units = _units(machine) if over else {}
+    emit(found, as_json, lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]))
 
 
 def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
     from mechsym.cycle import columns, over_design
-    from mechsym.optimise.problem import design_units
 
     design: dict[str, Any] = {"omega": _array(omega)}
     if over:
         if len(omega) > 1:
             raise BadInput("--over runs at one speed; give --speeds one value, or leave it out")
-        name, values = parse_over(over, design_units(machine))
+        name, values = parse_over(over, _units(machine))
         design[name] = _array(values)
     points = max(v.size for v in design.values())
     with progress(points, "cycles") as bar:
         found = columns(over_design(machine, design, bar.update))
     return ({name: design[name]} if over else {}) | found
+
+
+def _units(machine: Any) -> dict[str, str]:
+    from mechsym.optimise.problem import design_units
+
+    return design_units(machine)
 
 
 def _array(values: list[float]) -> Any:
@@ -88,12 +94,15 @@ def _array(values: list[float]) -> Any:
     return np.asarray(values)
 
 
-def _text(found: dict[str, Any]) -> str:
+def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     count = len(found["speed_rpm"])
     every = max(1, -(-count // 20))
     shown = [k for k in found if "." in k] + list(_SHOWN)
-    rows = [{k: float(found[k][i]) for k in shown} for i in range(0, count, every)]
-    lines = [table(rows, shown)]
+    names = {k: f"{k} [{units[k]}]" if k in units else k for k in shown}
+    rows = [{name: float(found[k][i]) for k, name in names.items()} for i in range(0, count, every)]
+    lines = [table(rows, list(names.values()))]
+    if every > 1:
+        lines.append(f"{len(rows)} of {count} points shown; all with --json or --out")
     if count > 1 and shown[0] == "speed_rpm":
         peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
         lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]

@@ -73,7 +73,9 @@ def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]
     """The start-up of the run, and of further dampers; nothing for other runs."""
     from mechsym.startup import AVERAGE, start_up, start_up_map
 
-    values = tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in dampings.split(",")) if dampings else ()
+    values = (
+        tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in dampings.split(",")) if dampings is not None else ()
+    )
     if "startup" not in case.sections:
         if values:
             raise BadInput(f"{case.file}: --dampings needs a start-up case, with a section [startup]")
@@ -104,16 +106,21 @@ def _write(result: Any, shafts: int, starts: list[Any], out: Path) -> list[str]:
 
 def _text(report: dict[str, Any]) -> str:
     keys = ["t_end", "end", "status", "energy_residual", "tolerance_difference", "steps", "wall_s"]
-    lines = [f"{key:22}{_number(report[key])}" for key in keys]
+    units = {"t_end": " s"}
+    lines = [f"{key:22}{_number(report[key])}{units.get(key, '')}" for key in keys]
     lines.append(f"{'reason':22}{report['reason']}")
     if report["event"]:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
-    rows = [{"speed over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
-    lines += ["", table(rows, ["speed over the last", "of", "mean", "min", "max"])]
+    rows = [{"rad/s over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
+    lines += ["", table(rows, ["rad/s over the last", "of", "mean", "min", "max"])]
     if report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
         natural = ", ".join(f"{f:.6g}" for f in report["natural_frequencies"])
-        lines += ["", table(report["twist"], columns), f"natural frequencies {natural} rad/s"]
+        lines += [
+            "",
+            table(report["twist"], columns),
+            f"twist in rad, torque in N*m; natural frequencies {natural} rad/s",
+        ]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
         lines += ["", table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"])]

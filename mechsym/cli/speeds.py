@@ -50,7 +50,8 @@ def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
     Parameters
     ----------
     text : str
-        `chamber.compression_ratio=8:14:0.5` or `cycle.ignition=-30 deg:0 deg:1 deg`
+        `compression_ratio=8:14:0.5` or `cycle.ignition=-30 deg:0 deg:1 deg`; the section may be left out where
+        only one value has the name
     units : mapping of str to str
         Known names and their SI units
 
@@ -68,7 +69,9 @@ def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
     """
     from mechsym.quantities import parse
 
-    name, sign, span = text.partition("=")
+    written, _, span = text.partition("=")
+    bare = [known for known in units if known.rpartition(".")[2] == written]
+    name = bare[0] if len(bare) == 1 else written
     if name not in units:
         raise BadInput(f"--over {text}: {name!r} is not known; names are {', '.join(units)}")
     parts = [parse(part.strip(), units[name], f"--over {name}") for part in span.split(":")]

@@ -109,6 +109,8 @@ def find_dead_centre(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, 
     """
     centre = 0.0
     for _ in range(40):
+        if not _near(phi - centre, window).any():  # the search has walked off the samples
+            return math.nan
         best = minimize_scalar(
             lambda shift, c=centre: _fit(phi - c, pressure, cylinder, window, shift=shift).rms,
             bounds=(-_REACH, _REACH),
@@ -208,7 +210,7 @@ def free_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, win
 
 def _fit(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window, shift: float) -> Line:
     # the window stays where it is while the dead centre moves by `shift`: all fits see the same samples
-    inside = (phi > window.fit_from - _RAMP) & (phi < window.fit_to + _RAMP)
+    inside = _near(phi, window)
     at, p = phi[inside], pressure[inside]
     edge = np.minimum(at - window.fit_from, window.fit_to - at)
     weight = np.clip(0.5 + edge / (2 * _RAMP), 0.0, 1.0)
@@ -221,3 +223,7 @@ def _fit(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Wind
     return Line(
         p_off=float(p_mean - level * shape_mean), p_bdc=float(level), rms=float(np.sqrt(weight @ left**2 / total))
     )
+
+
+def _near(phi: np.ndarray, window: Window) -> np.ndarray:
+    return (phi > window.fit_from - _RAMP) & (phi < window.fit_to + _RAMP)

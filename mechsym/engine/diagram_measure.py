@@ -85,7 +85,9 @@ def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
         The file is refused, the dead centre is not found, or a pressure comes out negative
     """
     if not diagram.file:
-        raise BadInput("the diagram has no file; name it with --diagram FILE or --set cycle.file=FILE")
+        raise BadInput(
+            "the diagram has no file; name it with --set cycle.file=FILE (or --diagram FILE of hinge, forces, cycle)"
+        )
     period = period_of(diagram)
     recording = read_diagram(diagram.file, period, diagram.angle_column, diagram.pressure_column)
     angle, raw = cut_cycles(recording, period)

@@ -48,8 +48,13 @@ def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cy
     Raises
     ------
     BadInput
-        The cycle cannot be made
+        The cycle cannot be made, or depends on more than the angle
     """
+    if type(cycle) not in _BACK_PRESSURES:
+        raise BadInput(
+            "[cycle] of kind spark-ignition or schmidt gives no indicator diagram here; take kind two-stroke-marine, "
+            "two-stroke-zone or diagram (spark ignition in motion: 'mechsym cycle CASE --loop 10')"
+        )
     cylinder = cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
     if isinstance(cycle, TwoStrokeZone):  # integrated, so it needs the travel as a CasADi function
         return two_stroke_zone_pressure(cycle, kinematics), cylinder

@@ -126,7 +126,7 @@ def _read(text: str, key: str, span: str, unit: str) -> tuple[str, tuple[float, 
     parts = [_ONE.fullmatch(part.strip()) for part in span.split(",")]
     if not all(parts):
         forms = _FORMS.format(key=key, unit="" if unit == "-" else f" {unit}")
-        raise BadInput(f"--over {shown(text)}: {key} takes numbers; write {forms}")
+        raise BadInput(f"--over {shown(text)}: {key} takes numbers, after a colon how many; write {forms}")
     found_parts = [part for part in parts if part]
     return "grid", tuple(float(p[1]) for p in found_parts), None, {p[2] for p in found_parts} - {None}
 

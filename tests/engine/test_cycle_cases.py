@@ -140,6 +140,17 @@ def test_a_map_over_another_value_than_the_speed():
     found = run_json(cycle, "nunes-slider-crank", "--over", "cycle.ignition=-30 deg:0 deg:10 deg", "--speeds", "4000")
     assert found["cycle.ignition"] == pytest.approx(np.radians([-30, -20, -10, 0]))
     assert np.argmax(found["efficiency"]) == 2 and np.all(np.diff(found["p_max_mpa"]) < 0)
+    bare = run_json(cycle, "nunes-slider-crank", "--over", "ignition=-30 deg:0 deg:10 deg", "--speeds", "4000")
+    assert bare == found
+
+
+def test_text_names_units_gaps_and_what_is_left_out():
+    def text(*arguments):
+        return CliRunner().invoke(cycle, arguments, catch_exceptions=False).output
+
+    assert "cycle.ignition [rad]" in text("nunes-slider-crank", "--over", "ignition=-0.3:-0.1:0.1")
+    assert "20 of 800 points shown" in text("nunes-slider-crank", "--speeds", "10:8000:10")
+    assert "nan" not in text("zotov-89")  # an algebraic cycle knows no fuel
 
 
 @pytest.mark.parametrize(

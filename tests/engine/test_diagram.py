@@ -249,3 +249,11 @@ def test_negative_absolute_pressure_is_refused(diagram_file):
 def test_gas_exchange_dead_centre_given_for_the_firing_one_is_doubted(diagram_file):
     diagram = generator(recorded(diagram_file, offset=5.0), alignment="given", tdc_offset=-126 * DEG, pegging="none")
     assert any("dead centre" in doubt for doubt in diagram_pressure(diagram, SMALL).doubts)
+
+
+def test_no_dead_centre_where_the_window_leaves_the_samples():
+    phi = np.linspace(-60, -20, 41) * DEG
+    falling = np.linspace(20, 1, 41) * BAR  # no compression: the search walks off the data
+    assert math.isnan(
+        find_dead_centre(phi - 300 * DEG, falling, SMALL, Window(fit_from=-90 * DEG, fit_to=-15 * DEG, n=1.3))
+    )
