@@ -101,7 +101,14 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -
 
 
 def _cells(values: Sequence[float] | np.ndarray) -> list[Any]:
-    return [f"{v:.12g}" if isinstance(v, (float, np.floating)) else v for v in values]
+    return [_cell(v) for v in values]
+
+
+def _cell(value: Any) -> Any:
+    if not isinstance(value, float | np.floating):
+        return value
+    # a gap is an empty cell
+    return "" if np.isnan(value) else f"{value:.12g}"
 
 
 def to_json(value: Any) -> str:

@@ -30,7 +30,8 @@ def loads(rows: Sequence[AtLoad]) -> Figure:
         ([row.as_cut for row in ordered], RED, "spring as designed"),
         ([row.reset for row in ordered], BLUE, "setting of that load"),
     ):
-        left.plot(shares, [_per_cent(s) for s in found], "o-", color=color, markersize=4, label=name)
+        # no line between the points: at the design's own load, which may lie between, there is no ripple
+        left.plot(shares, [_per_cent(s) for s in found], "o", color=color, markersize=5, label=name)
         stopped = [share for share, s in zip(shares, found, strict=True) if s.speed_ripple is None]
         left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
     left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")

@@ -11,7 +11,7 @@ from mechsym.errors import BadInput
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
 
 
-@click.command()
+@click.command(short_help="Check published hand formulas against the derivations.")
 @click.option("--source", help="Only this source: file stem or short name.")
 @click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax or LaTeX.")
 @click.option("--against", metavar="NAME.QUANTITY", help="What the formula claims to be, e.g. crosshead.inertia.")

@@ -9,7 +9,7 @@ from mechsym.cli.common import emit, json_option, out_option, pairs, set_option,
 from mechsym.cli.speeds import parse_speeds
 
 
-@click.command()
+@click.command(short_help="Two engines side by side over the speeds.")
 @click.argument("case_a", metavar="CASE")
 @click.argument("case_b", metavar="CASE")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the first case's [speeds].")

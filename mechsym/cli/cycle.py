@@ -12,7 +12,7 @@ from mechsym.errors import BadInput
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 
 
-@click.command()
+@click.command(short_help="Engine cycle at one or many speeds.")
 @click.argument("case")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")

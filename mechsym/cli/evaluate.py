@@ -9,7 +9,7 @@ from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
 
 
-@click.command("eval")
+@click.command("eval", short_help="Evaluate a mechanism at one state.")
 @click.argument("name")
 @click.option("--case", "case_name", help="Case that gives the parameters; without it set them all.")
 @set_option

@@ -9,7 +9,7 @@ from mechsym.cli.common import emit, json_option, out_option, pairs, set_option,
 from mechsym.cli.speeds import parse_speeds
 
 
-@click.command()
+@click.command(short_help="Force chain over one cycle at constant speed.")
 @click.argument("case")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")

@@ -13,7 +13,7 @@ from mechsym.cli.common import emit, json_option, out_option, pairs, progress, s
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
 
-@click.command()
+@click.command(short_help="Design hinge and guide, prove them by simulation.")
 @click.argument("case_name", metavar="CASE")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
 @click.option("--loads", metavar="A,B..", help="Try the guide at other loads too, as shares of the case's: 0.5,0.75,1.")

@@ -10,7 +10,7 @@ import click
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
 
 
-@click.command()
+@click.command(short_help="Best design of a case under its limits.")
 @click.argument("case")
 @json_option
 @out_option

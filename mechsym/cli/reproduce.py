@@ -9,7 +9,7 @@ from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
 
 
-@click.command()
+@click.command(short_help="Compute every published number again.")
 @click.argument("source", required=False)
 @click.option("--write", is_flag=True, help="Record the verdicts of all sources, to be compared with from then on.")
 @json_option

@@ -13,7 +13,7 @@ from mechsym.files import write_text
 from mechsym.quantities import parse
 
 
-@click.command()
+@click.command(short_help="Simulate over time, with an energy audit.")
 @click.argument("case")
 @click.option("--tolerance", help="Tolerance of a step; the case's, or 1e-10.")
 @click.option("--backend", help="Integrator by name, e.g. scipy-dop853, sundials, heyoka.")

@@ -10,7 +10,7 @@ from mechsym.cli.common import emit, json_option, out_option, pairs, set_option,
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
 
 
-@click.command()
+@click.command(short_help="Component sizing with safety factors.")
 @click.argument("case")
 @click.option("--as-printed", is_flag=True, help="Check the parts of the case instead of sizing new ones.")
 @json_option

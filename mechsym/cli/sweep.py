@@ -11,7 +11,7 @@ from mechsym.errors import MissingExtra
 _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
-@click.command()
+@click.command(short_help="Run a case over ranges of its values.")
 @click.argument("case")
 @click.option("--over", multiple=True, required=True, metavar="KEY=RANGE", help="a..b UNIT:n, a list, a..b or m+-s.")
 @click.option("--of", "analysis", type=click.Choice(["simulate", "hinge", "cycle"]), help="What to compute.")

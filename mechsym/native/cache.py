@@ -4,8 +4,10 @@ A file is named <key>-<checksum>: the key is the hash of everything that decides
 compiler, processor, Python), the checksum that of its own bytes. A file is made in a folder of its own and moved into
 place, so a half-written one is never seen, and two processes that compile the same source at once do no harm: the
 second replaces the file by an equally good one. A file whose bytes do not match its name is damaged and made again.
+Beyond 256 MB the files used longest ago are removed.
 """
 
+import contextlib
 import hashlib
 import os
 import shutil
@@ -17,6 +19,7 @@ from pathlib import Path
 from mechsym.native import compiler
 
 _LENGTH = 24
+_MOST = 256 * 2**20  # bytes; a compiled function takes some tens of thousands
 
 
 def directory() -> Path:
@@ -86,6 +89,7 @@ def shared_object(source: str, mode: str) -> Path:
     folder = _writable()
     for path in sorted(folder.glob(f"{name}-*.so")):
         if path.name == _named(name, path):
+            os.utime(path)  # used today, see `_prune`
             return path
         path.unlink(missing_ok=True)
     return _build(source, program, options, name, folder)
@@ -99,7 +103,23 @@ def _build(source: str, program: compiler.Compiler, options: tuple[str, ...], na
         target = folder / _named(name, binary)
         os.replace(text, folder / text.name)
         os.replace(binary, target)
+    _prune(folder, target)
     return target
+
+
+def _prune(folder: Path, kept: Path) -> None:
+    """Remove what was used longest ago when the cache has grown too large."""
+    found = []
+    for path in folder.iterdir():
+        with contextlib.suppress(OSError):  # another process may have removed it
+            status = path.stat()
+            found += [(status.st_mtime, status.st_size, path)] if path.is_file() and path != kept else []
+    size = sum(s for _, s, _ in found)
+    for _, length, path in sorted(found) if size > _MOST else ():
+        path.unlink(missing_ok=True)
+        size -= length
+        if size <= _MOST // 2:
+            break
 
 
 def _named(name: str, binary: Path) -> str:

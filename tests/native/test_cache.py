@@ -142,3 +142,18 @@ def test_without_python_headers_calls_go_through_ctypes(monkeypatch):
     assert made.scalar(2.0, 3.0) == (5.0, 6.0)
     with pytest.raises(TypeError, match="takes 2 numbers, not 1"):
         made.scalar(2.0)
+
+
+@needs_compiler
+def test_files_used_longest_ago_are_removed(home, monkeypatch):
+    made = [cache.shared_object(SOURCE + f"/* {i} */", "strict") for i in range(4)]
+    for age, path in zip((40, 10, 30, 20), made, strict=True):
+        os.utime(path, (1e9 - age, 1e9 - age))
+    cache.shared_object(SOURCE + "/* 0 */", "strict")  # used again
+    size = sum(p.stat().st_size for p in cache.contents())
+    monkeypatch.setattr(cache, "_MOST", size)
+    new = cache.shared_object(SOURCE + "/* 5 */", "strict")
+    left = [p for p in cache.contents() if p.suffix == ".so"]
+    assert new in left and made[0] in left
+    assert made[2] not in left
+    assert sum(p.stat().st_size for p in cache.contents()) <= size
