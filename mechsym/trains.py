@@ -140,3 +140,21 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
     blank = isinstance(law, PropellerLoad) and law.speed is None
     settled = settle(law, torque, case.need("operation").speed if blank else math.nan)
     return (Part(name="load", input="M", role="load", value=load_value(settled, -1)),)
+
+
+def remarks(case: Case) -> tuple[str, ...]:
+    """What a reader of a run should know about a crank train.
+
+    Parameters
+    ----------
+    case : Case
+        A case
+
+    Returns
+    -------
+    remarks : tuple of str
+        Sentences; none for other mechanisms
+    """
+    if case.mechanism != "crank_train" or "load" in case.sections:
+        return ()
+    return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)

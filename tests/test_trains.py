@@ -83,6 +83,9 @@ def test_command_reports_residual_and_twist(written, tmp_path):
     (section,) = found["twist"]
     assert section["section"] == "phi1-phi_f"
     # what the shaft carries on average accelerates the flywheel: 1.5 N m shared by the inertias
+    assert found["findings"] == [
+        "there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running"
+    ]
     whole = 0.26 + 0.58 + 1.1 * 0.06**2 / 2
     assert section["torque_mean"] == pytest.approx(1.5 * 0.58 / whole, rel=5e-3)
     assert 0 < section["twist_amplitude"] < section["twist_peak"]

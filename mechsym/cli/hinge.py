@@ -59,7 +59,12 @@ def _shares(loads: str | None) -> list[float]:
     from mechsym.errors import BadInput
     from mechsym.quantities import parse
 
-    shares = [parse(part.strip(), "-", "--loads") for part in loads.split(",")] if loads is not None else []
+    parts = [part.strip() for part in loads.split(",")] if loads is not None else []
+    if "" in parts:
+        raise BadInput(f"--loads {loads!r}: write shares of the case's load with commas, such as 0.5,0.75,1")
+    shares = [parse(part, "-", "--loads") for part in parts]
+    if len(set(shares)) < len(shares):
+        raise BadInput(f"--loads {loads}: each share once")
     for share in shares:
         if not 0 < share <= _MOST:
             raise BadInput(f"--loads {share:g}: shares of the case's load must be above 0 and at most {_MOST:g}")

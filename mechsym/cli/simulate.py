@@ -48,6 +48,7 @@ def simulate(
     from mechsym.simulate import simulate as run
     from mechsym.simulate.summary import summary
     from mechsym.startup_findings import findings, numbers
+    from mechsym.trains import remarks
     from mechsym.twist import natural_frequencies, sections
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
@@ -62,7 +63,7 @@ def simulate(
     report["natural_frequencies"] = list(natural_frequencies(found))
     report["twist"] = [dataclasses.asdict(s) for s in twists]
     starts = _start_ups(found, result, dampings)
-    report["findings"] = list(findings(starts[0])) if starts else []
+    report["findings"] = [*remarks(found), *(findings(starts[0]) if starts else ())]
     report["start_up"] = [numbers(s) for s in starts]
     report["files"] = [] if out is None else _write(result, len(twists), starts, out)
     emit(report, as_json, lambda: _text(report))
