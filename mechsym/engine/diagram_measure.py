@@ -137,8 +137,9 @@ def _dead_centre(
     shift = find_dead_centre(*around_compression(angle - guess, mean, period), cylinder, window(diagram))
     if not math.isfinite(shift):
         raise BadInput(
-            f"{diagram.file}: no dead centre makes the compression line straight; "
-            "change fit_from, fit_to or n_c, or give the dead centre with alignment = 'given' and tdc_offset"
+            f"{diagram.file}: no dead centre makes the compression line straight; is it of this engine? In a [cycle] "
+            "of kind = 'diagram' change fit_from, fit_to or n_c, or give the dead centre with alignment = 'given', "
+            "tdc_offset"
         )
     shifted = around_compression(angle - guess - shift, mean, period)
     return guess + shift, dead_centre_uncertainty(*shifted, cylinder, window(diagram))
