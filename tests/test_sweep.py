@@ -2,6 +2,7 @@
 
 import math
 import shutil
+import signal
 
 import numpy as np
 import pytest
@@ -257,6 +258,26 @@ def test_what_fails_everywhere_for_one_reason_is_bad_input(plan, words):
 def test_unknown_results_are_refused_early():
     with pytest.raises(BadInput, match="--show speed_men is no result here; did you mean 'speed_mean'"):
         sweep(Plan(case="chmielewski", over=("c1=0,1",), overrides=SHORT, show=("speed_men",)))
+
+
+def test_a_signal_ends_the_sweep_after_the_points_under_way():
+    plan = Plan(case="zotov-89", over=("spring.p0=5,6,7,8 MPa",), analysis="cycle")
+    done = []
+
+    def progress(count):
+        done.append(count)
+        if len(done) == 2:
+            signal.raise_signal(signal.SIGINT)
+
+    # a process in the background ignores interrupts
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        found = sweep(plan, progress)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    assert found.interrupted and len(done) == 2
+    assert failures(found) == {2: "interrupted", 3: "interrupted"}
 
 
 def test_an_interrupt_keeps_what_is_finished(monkeypatch):

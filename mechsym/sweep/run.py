@@ -1,7 +1,10 @@
 """Many runs of a case: points in chunks, finished points kept whatever happens to the others."""
 
+import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping
+import signal
+import threading
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from mechsym import cases
@@ -140,7 +143,8 @@ def layout(plan: Plan) -> Layout:
 def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
     """Run a case at every point.
 
-    An interrupt from the keyboard ends the sweep and keeps what is finished, see `Sweep.interrupted`.
+    An interrupt from the keyboard ends the sweep after the points that are being computed and keeps what is finished,
+    see `Sweep.interrupted`; a second one ends it at once.
 
     Parameters
     ----------
@@ -162,21 +166,49 @@ def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
     base, place = cases.load(plan.case, plan.overrides), layout(plan)
     chosen = route(base, plan.analysis)
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
-    interrupted = False
-    try:
+    with _asked_to_stop() as asked:
         for members in _chunks(len(place.points), chosen.together):
+            if asked.is_set():
+                break
             found = _run(plan, place, chosen, members)
             outcomes[members.start : members.stop] = found
             _check_shown(plan.show, found)
             progress(len(members))
-    except KeyboardInterrupt:
-        interrupted = True
+        else:
+            asked.clear()  # too late to change anything
+    interrupted = asked.is_set()
     if not interrupted:
         _check_reasons(outcomes)
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
         outcomes=tuple(outcomes), show=plan.show, interrupted=interrupted,
     )  # fmt: skip
+
+
+@contextlib.contextmanager
+def _asked_to_stop() -> Iterator[threading.Event]:
+    """An event that an interrupt from the keyboard sets; a second one is raised at once.
+
+    As an exception the first would be lost or turned into another one wherever a library catches everything.
+    """
+    asked = threading.Event()
+
+    def note(number: int, frame: Any) -> None:
+        if asked.is_set():
+            raise KeyboardInterrupt
+        asked.set()
+
+    usual = signal.getsignal(signal.SIGINT)
+    ours = threading.current_thread() is threading.main_thread() and usual is signal.default_int_handler
+    if ours:
+        signal.signal(signal.SIGINT, note)
+    try:
+        yield asked
+    except KeyboardInterrupt:
+        asked.set()
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, usual)
 
 
 def _chunks(count: int, together: int) -> list[range]:
