@@ -97,3 +97,11 @@ def chain(throws: int) -> ca.Function:
         found.append(single(q[i] + 2 * np.pi * (i + 0.5) / throws, u[i], F[i], 0, torque))
     flywheel = twist[-1] / 500.0
     return ca.Function("chain", [q, u, F], [ca.vertcat(*found, flywheel)], ["q", "u", "F"], ["acceleration"])
+
+
+def rhs(name, n, p, formula) -> ca.Function:
+    t, y, w = ca.SX.sym("t"), ca.SX.sym("y", n), ca.SX.sym("p", p)
+    return ca.Function(name, [t, y, w], [ca.vertcat(*formula(t, ca.vertsplit(y), ca.vertsplit(w)))])
+
+
+PENDULUM = rhs("pendulum", 2, 0, lambda t, y, p: (y[1], -ca.sin(y[0])))
