@@ -6,8 +6,9 @@ import math
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanism import acceleration_function
-from mechsym.mechanisms import crank_train, crankshaft_flywheel, crosshead
+from mechsym.mechanisms import crankshaft_flywheel, crosshead
+from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms.record import acceleration_function
 
 CROSSHEAD = crosshead.CrossheadParameters(
     r1=0.2, r2=0.3, l1=0.8, l2=0.75, m1=80, m2=150, m3=150, m4=200, m5=110, I01=30, IC2=50

@@ -10,9 +10,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from benchmarks import models, translate
+from benchmarks import models, nlp, translate
 from benchmarks.measure import Route, Row, take_turns
-from mechsym.native import nlp
 from mechsym.native.external import external
 
 NODES, SPEED, RIPPLE = 200, 9.32, 0.02

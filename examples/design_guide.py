@@ -5,7 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from mechsym import assembly, balance, cases, feasibility, files, guide, hinge, rollers, springs, turn
+from mechsym import cases, files
+from mechsym.hinge import balance, guide, rollers, springs
+from mechsym.hinge import contact as turn
+from mechsym.hinge import limits as feasibility
+from mechsym.hinge import torque as hinge
+from mechsym.jobs import machine as assembly
 
 SPRINGS = {
     "air": springs.AirAbsolute(A=0.031, H=1.0, p0=5e6, n=1.25),

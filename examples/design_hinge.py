@@ -3,7 +3,9 @@
 import sys
 from pathlib import Path
 
-from mechsym import cases, design, report
+from mechsym import cases
+from mechsym.hinge import report
+from mechsym.jobs import hinge as design
 
 
 def main(folder: Path) -> None:

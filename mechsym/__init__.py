@@ -2,31 +2,25 @@
 
 The public interface is the modules that `__all__` names. Each is imported on first use, so `import mechsym` is light:
 
-    from pathlib import Path
-    from mechsym import cases, design, report
+    from mechsym import cases, jobs
 
-    found = design.design(cases.load("zotov-89"))
-    report.write(found, Path("demo"))
+    result = jobs.hinge.design(cases.load("zotov-89"))
 """
 
 import importlib
 from typing import Any
 
 __all__ = [
-    # data: case files, units, errors
-    "cases", "errors", "files", "quantities",
-    # mechanisms: declared and derived, and as functions of numbers
-    "derive", "mechanism", "mechanisms", "native",
-    # engine cycles and measured diagrams, forces, loads
-    "assembly", "cycle", "engine", "forces", "loads",
-    # hinge and guide, one after the other
-    "hinge", "balance", "springs", "arrangement", "guide", "rollers", "turn", "feasibility", "offers", "retune",
-    # motion in time and steady motion
-    "simulate", "steadiness", "trials", "torsion",
-    # the whole job and what is made of it
-    "design", "optimise", "report", "sizing", "summary", "sweep",
+    # ground: errors with the way out, units, files, periodic curves
+    "errors", "quantities", "files", "periodic",
+    # mechanisms: declared and derived, as functions of numbers, as compiled C
+    "derive", "mechanisms", "native",
+    # physics, each room from records and numbers
+    "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise",
+    # data files, and one page a command
+    "cases", "jobs", "sweep",
     # published formulas and numbers
-    "audit", "reproduce",
+    "audit", "papers",
 ]  # fmt: skip
 
 

@@ -4,9 +4,11 @@ from functools import cache
 
 import numpy as np
 
-from mechsym import balance, cases, hinge
-from mechsym.assembly import assemble
-from mechsym.hinge import EngineTorques
+from mechsym import cases
+from mechsym.hinge import balance
+from mechsym.hinge import torque as hinge
+from mechsym.hinge.torque import EngineTorques
+from mechsym.jobs.machine import assemble
 
 LOWER, HIGHER = "zotov-89", "zotov-142"
 

@@ -2,7 +2,7 @@
 
 import casadi as ca
 
-from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.record import Mechanism
 
 
 def mechanism(coordinates, inputs, mass, bias, force, kinetic, potential):

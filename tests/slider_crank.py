@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mechsym.engine.cylinder import Cylinder
+from mechsym.cycle.cylinder import Cylinder
 
 
 def slider_crank(r: float, l: float, bore: float, compression_ratio: float) -> Cylinder:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.settings import Operation
-from mechsym.forces.gas import Gas
+from mechsym.cycle.on_pistons import Gas
 from mechsym.forces.turn import Turn, at, one_coordinate
 
 

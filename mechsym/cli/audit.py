@@ -65,8 +65,8 @@ def _own(formula: str | None, against: str | None, letters: str, case: str, file
 
 
 def _published(source: str | None, write: bool, as_json: bool) -> int:
-    from mechsym import recorded
-    from mechsym.audit import findings, registry
+    from mechsym.audit import findings
+    from mechsym.papers import recorded, registry
 
     if write and source:
         raise BadInput("--write records the findings of all sources; leave out --source")
@@ -84,10 +84,10 @@ def _published(source: str | None, write: bool, as_json: bool) -> int:
 
 
 def _write(sources: list[Any], rows: list[dict[str, Any]]) -> None:
-    from mechsym import recorded
     from mechsym.audit import errata, findings
     from mechsym.audit.trust import lines, trust
     from mechsym.files import write_text
+    from mechsym.papers import recorded
 
     with progress(len(rows), "testing the auditor") as bar:
         found = trust(sources, rows, lambda: bar.update(1))

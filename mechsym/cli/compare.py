@@ -27,8 +27,8 @@ def compare(
     import numpy as np
 
     from mechsym.cases import load
-    from mechsym.compare import compare as side_by_side
-    from mechsym.cycle import columns, engine, over_speeds, speed_range
+    from mechsym.jobs.compare import compare as side_by_side
+    from mechsym.jobs.cycle import columns, engine, over_speeds, speed_range
 
     cases = [load(name, pairs(overrides)) for name in (case_a, case_b)]
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
@@ -58,7 +58,7 @@ def _percent(value: float | None) -> str:
 
 
 def _write(out: Path, found: dict[str, Any], result: dict[str, Any]) -> list[Path]:
-    from mechsym.engine_plots import performance_picture
+    from mechsym.cycle.plots import performance_picture
     from mechsym.files import to_json, write_csv, write_text
 
     keys = ("quantity", "speed_rpm", "a", "b", "difference")

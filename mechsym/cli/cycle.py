@@ -49,10 +49,10 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
 
 
 def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
-    from mechsym.cycle import engine
-    from mechsym.engine.spark_ignition import SparkIgnition
-    from mechsym.forces.gas import one_cylinder
-    from mechsym.two_stroke_cycle import two_stroke_columns
+    from mechsym.cycle.figures import two_stroke_columns
+    from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+    from mechsym.cycle.on_pistons import one_cylinder
+    from mechsym.jobs.cycle import engine
 
     as_json, out = output
     if isinstance(case.need("cycle"), SparkIgnition):
@@ -68,7 +68,7 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
 
 
 def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
-    from mechsym.cycle import columns, over_design
+    from mechsym.jobs.cycle import columns, over_design
 
     design: dict[str, Any] = {"omega": _array(omega)}
     if over:
@@ -112,9 +112,9 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
 
 
 def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
-    from mechsym.cycle import curves
-    from mechsym.engine_plots import cycle_picture, performance_picture
+    from mechsym.cycle.plots import cycle_picture, performance_picture
     from mechsym.files import write_csv
+    from mechsym.jobs.cycle import curves
 
     flat = {k: v for k, v in found.items() if k not in ("fractions", "loads")}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]

@@ -22,9 +22,9 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
         Folder for `loop.csv`
     """
     from mechsym.files import write_csv
-    from mechsym.loop.case import loop
-    from mechsym.loop.run import run_loop
-    from mechsym.loop.summary import series, summary
+    from mechsym.jobs.loop import loop
+    from mechsym.simulate.loop.run import run_loop
+    from mechsym.simulate.loop.summary import series, summary
 
     machine = loop(case)
     result = run_loop(machine, case.need("operation").speed, cycles)

@@ -21,7 +21,7 @@ def show(case: Any, diagram: str | None, as_json: bool, out: Path | None) -> Non
         Folder for `combustion.csv`
     """
     from mechsym.files import write_csv
-    from mechsym.measured import measured_combustion, summary
+    from mechsym.jobs.measured import measured_combustion, summary
 
     found = summary(measured_combustion(case, diagram))
     rows = found["cycles"]

@@ -38,9 +38,9 @@ def forces(
               mechsym forces nunes-hypocycloid --law 1000:8000:1000
     """
     from mechsym import cases
-    from mechsym.forces.gas import measured
-    from mechsym.forces.result import forces as run
-    from mechsym.forces.result import summary
+    from mechsym.cycle.on_pistons import measured
+    from mechsym.jobs.forces import forces as run
+    from mechsym.jobs.forces import summary
 
     loaded = cases.load(case, pairs(overrides))
     found = run(loaded if diagram is None else measured(loaded, diagram), comparison)
@@ -52,7 +52,7 @@ def forces(
 
 
 def _write(found: Any, report: dict[str, Any], out: Path) -> list[Path]:
-    from mechsym.report_forces import write
+    from mechsym.forces.report import write
 
     return write(found, report, out)
 
@@ -67,7 +67,7 @@ def _law(case: Any, speeds: str) -> dict[str, Any]:
 
 
 def _text(report: dict[str, Any]) -> str:
-    from mechsym.forces.result import quantities
+    from mechsym.jobs.forces import quantities
 
     rows = [{"quantity": n, "max": report["max"][n], "min": report["min"][n]} for n in quantities(report)]
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]

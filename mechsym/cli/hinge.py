@@ -32,10 +32,11 @@ def hinge(
     Examples: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
               mechsym hinge zotov-89 --loads 0.5,0.75,0.9,1
     """
-    from mechsym import cases, design
+    from mechsym import cases
     from mechsym.files import make_folder
-    from mechsym.setting import setting_text
-    from mechsym.summary import summary
+    from mechsym.hinge.setting import setting_text
+    from mechsym.hinge.summary import summary
+    from mechsym.jobs import hinge as design
 
     case, shares = cases.load(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
@@ -44,7 +45,7 @@ def hinge(
         found = design.design(case, diagram, lambda: bar.update(1), shares)
         files: list[Path] = []
         if out is not None:
-            from mechsym.report import write
+            from mechsym.hinge.report import write
 
             files = write(found, out)
             bar.update(1)

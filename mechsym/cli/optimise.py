@@ -24,7 +24,7 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     Exit status 1: no feasible design, or the solver did not converge.
     """
     from mechsym.cases import load
-    from mechsym.cycle import engine
+    from mechsym.jobs.cycle import engine
     from mechsym.optimise.problem import problem
     from mechsym.optimise.solver import pareto, solve
 
@@ -65,7 +65,7 @@ def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
 
     files = [write_text(out / "optimum.json", to_json(result) + "\n")]
     if "pareto" in result:
-        from mechsym.engine_plots import pareto_picture
+        from mechsym.cycle.plots import pareto_picture
 
         points = result["pareto"]
         columns = {name: [p[name] for p in points] for name in (section.objective, section.against)}

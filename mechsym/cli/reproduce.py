@@ -24,8 +24,8 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
     \b
     Example: mechsym reproduce chmielewski2015 --out reproduction
     """
-    from mechsym import recorded
-    from mechsym.reproduce.sources import chosen, rows
+    from mechsym.papers import recorded
+    from mechsym.papers.sources import chosen, rows
 
     if write and source:
         raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
@@ -38,7 +38,7 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
     files = [recorded.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
     changed = recorded.differences(_PACKAGE, flat, _NAME, ("verdict",))
     if out is not None:
-        from mechsym.reproduce import page
+        from mechsym.papers import page
 
         files += page.write(out, sources, found, changed)
     emit(flat, as_json, lambda: _text(sources, found, changed, files))
@@ -46,7 +46,7 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
 
 
 def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[Path]) -> str:
-    from mechsym.reproduce.page import counts
+    from mechsym.papers.page import counts
 
     lines = []
     for source in sources:
@@ -59,7 +59,7 @@ def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[P
     return "\n".join(lines)
 
 
-_PACKAGE, _NAME = "mechsym.reproduce", ("source", "item")
+_PACKAGE, _NAME = "mechsym.papers", ("source", "item")
 _COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
 
 

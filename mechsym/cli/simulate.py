@@ -44,12 +44,12 @@ def simulate(
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
              mechsym simulate alpha-stirling --set c="5 N*m*s/rad"
     """
-    from mechsym.runs import problem_of, settings_of, window_of
+    from mechsym.jobs.run import problem_of, settings_of, window_of
+    from mechsym.jobs.train import remarks
     from mechsym.simulate import simulate as run
     from mechsym.simulate.summary import summary
-    from mechsym.startup_findings import findings, numbers
-    from mechsym.trains import remarks
-    from mechsym.twist import natural_frequencies, sections
+    from mechsym.torsion.findings import findings, numbers
+    from mechsym.torsion.twist import natural_frequencies, sections
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
@@ -72,7 +72,7 @@ def simulate(
 
 def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]:
     """The start-up of the run, and of further dampers; nothing for other runs."""
-    from mechsym.startup import AVERAGE, start_up, start_up_map
+    from mechsym.torsion.startup import AVERAGE, start_up, start_up_map
 
     values = (
         tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in dampings.split(",")) if dampings is not None else ()
@@ -87,9 +87,9 @@ def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]
 
 
 def _write(result: Any, shafts: int, starts: list[Any], out: Path) -> list[str]:
-    from mechsym import plots_torsion
-    from mechsym.plots import svg
+    from mechsym.hinge.plots import svg
     from mechsym.simulate import write_netcdf, write_series
+    from mechsym.torsion import plots as plots_torsion
 
     files = [write_series(result, out / "series.csv")]
     try:

@@ -27,7 +27,7 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
               mechsym size nunes-hypocycloid --as-printed --json
               mechsym size nunes-slider-crank --set sizing.life="500 h"
     """
-    from mechsym.sized import sized
+    from mechsym.jobs.size import sized
 
     found = sized(case, pairs(overrides), as_printed)
     files = _write(out, found) if out else []

@@ -55,9 +55,9 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
 
 def _write(found: Any, out: Path) -> list[Path]:
-    from mechsym import plots_sweep
     from mechsym.files import write_text
-    from mechsym.plots import svg
+    from mechsym.hinge.plots import svg
+    from mechsym.sweep import plots as plots_sweep
     from mechsym.sweep import write_netcdf, write_table
 
     files = [write_table(found, out)]

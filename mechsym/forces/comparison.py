@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cycle.on_pistons import Gas, at_same_travel, one_cylinder, travel
 from mechsym.errors import BadInput
 from mechsym.forces.friction import Friction, losses, pistons
-from mechsym.forces.gas import Gas, at_same_travel, one_cylinder, travel
 from mechsym.forces.harmonics import whole
 from mechsym.forces.loads import loads, power_residual
 from mechsym.forces.rings import Rings

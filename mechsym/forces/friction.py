@@ -14,7 +14,7 @@ import numpy as np
 from mechsym.forces.loads import Loads
 from mechsym.forces.rings import Rings, ring_power
 from mechsym.forces.turn import Turn
-from mechsym.mechanisms.crank_train import each
+from mechsym.mechanisms.crank_train.parameters import each
 from mechsym.quantities import check, quantity
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from mechsym.cases import Case
-from mechsym.engine.friction import ChenFlynn, friction_pressure
+from mechsym.cycle.friction import ChenFlynn, friction_pressure
 from mechsym.errors import BadInput
 from mechsym.forces.friction import losses
 from mechsym.forces.loads import loads

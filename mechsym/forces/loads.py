@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechsym.forces.turn import Turn
-from mechsym.mechanisms.crank_train import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ import dataclasses
 
 import numpy as np
 
-from mechsym.forces.gas import Gas
+from mechsym.cycle.on_pistons import Gas
 from mechsym.quantities import check, quantity
 
 

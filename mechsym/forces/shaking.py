@@ -19,7 +19,7 @@ import numpy as np
 from mechsym.forces.harmonics import Orders, orders, whole
 from mechsym.forces.loads import roll_sense
 from mechsym.forces.turn import Turn
-from mechsym.mechanisms.crank_train import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.rodless import RodlessParameters
 from mechsym.quantities import check, quantity
 

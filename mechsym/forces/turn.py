@@ -16,12 +16,13 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.engine.schmidt import Schmidt
+from mechsym.cycle.kinds.schmidt import Schmidt
+from mechsym.cycle.on_pistons import Gas, gas
 from mechsym.errors import BadInput
-from mechsym.forces.gas import Gas, gas
-from mechsym.mechanism import Mechanism
-from mechsym.mechanisms import crank_train, rodless
-from mechsym.mechanisms.firing import gas_forces
+from mechsym.mechanisms import rodless
+from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms.crank_train.firing import gas_forces
+from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.rodless_faces import axis_forces
 
 _STEPS_PER_TURN = 1440

@@ -6,8 +6,8 @@ from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput, suggest
-from mechsym.mechanism import Mechanism, bind
-from mechsym.mechanism import listing as stored_listing
+from mechsym.mechanisms.record import Mechanism, bind
+from mechsym.mechanisms.record import listing as stored_listing
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",

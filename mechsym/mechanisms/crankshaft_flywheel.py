@@ -4,7 +4,7 @@ import dataclasses
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
-from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import check, quantity
 
 

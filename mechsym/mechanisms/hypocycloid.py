@@ -8,7 +8,7 @@ import dataclasses
 import math
 
 from mechsym import mechanisms
-from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import check, quantity
 
 

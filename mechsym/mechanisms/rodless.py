@@ -10,7 +10,7 @@ import dataclasses
 import casadi as ca
 
 from mechsym import mechanisms
-from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import check, quantity
 
 

@@ -5,10 +5,10 @@ import dataclasses
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanism import Mechanism
-from mechsym.mechanisms.crank_train import CrankTrainParameters, build, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, each
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.mechanisms.crankshaft_flywheel import build as build_two
+from mechsym.mechanisms.record import Mechanism
 
 _POINTS = 720
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.engine.differentiable import PEAK_UNITS, SCALAR_UNITS
-from mechsym.engine.model import Engine, design_names
+from mechsym.cycle.closed.differentiable import PEAK_UNITS, SCALAR_UNITS
+from mechsym.cycle.closed.model import Engine, design_names
 from mechsym.errors import BadInput
 from mechsym.quantities import check, choice, parse, quantity
 

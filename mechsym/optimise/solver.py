@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from mechsym.engine.differentiable import SCALAR_UNITS, design_function
-from mechsym.engine.model import Engine, at_design
+from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
+from mechsym.cycle.closed.model import Engine, at_design
 from mechsym.optimise.problem import Limit, Problem, figure_units
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechsym.mechanism import Mechanism
+from mechsym.mechanisms.record import Mechanism
 from mechsym.native import compiled
 from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Energy

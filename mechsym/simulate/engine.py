@@ -14,10 +14,10 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.loads import Load, TableLoad, load_torque
-from mechsym.mechanism import Mechanism, velocities
+from mechsym.machine.loads import Load, TableLoad, load_torque
+from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.quantities import check, choice, quantity
-from mechsym.simulate.machine import Machine
+from mechsym.simulate.angle import Machine
 from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Stop
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.errors import BadInput
-from mechsym.mechanism import acceleration_function, velocities
+from mechsym.mechanisms.record import acceleration_function, velocities
 from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
 
 

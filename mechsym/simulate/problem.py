@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.mechanism import Mechanism, velocities
+from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.quantities import check, choice, quantity
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.mechanism import velocities
+from mechsym.mechanisms.record import velocities
 from mechsym.native.compiler import NoCompiler
 from mechsym.simulate import native_backend
 from mechsym.simulate.audit import energies, energy_audit, speed_difference, verdict

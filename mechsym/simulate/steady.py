@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import brentq
 
-from mechsym.loads import ConstantLoad
-from mechsym.simulate.machine import Panels
-from mechsym.simulate.turning import Turn, lowest_energy, speeds, stop_angle, turn
+from mechsym.machine.loads import ConstantLoad
+from mechsym.simulate.angle import Panels
+from mechsym.simulate.angle_turn import Turn, lowest_energy, speeds, stop_angle, turn
 
 # a constant load is in balance when a turn gains less than this part of the work that swings in it
 _BALANCE = 1e-6

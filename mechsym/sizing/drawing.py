@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from mechsym.files import write_text
-from mechsym.sizing.bearing_design import Choice
-from mechsym.sizing.hypocycloid_engine import shaft_length, spans
-from mechsym.sizing.hypocycloid_parts import Forces, Parts, Stock, chosen
-from mechsym.sizing.slider_crank_parts import SliderForces, SliderParts
+from mechsym.sizing.hypocycloid.engine import shaft_length, spans
+from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock, chosen
+from mechsym.sizing.parts.bearing_design import Choice
+from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
 
 _COLOURS = {"piston and rod": "#8fb6d9", "cylinder": "#c9ced6", "crankshaft": "#b9a27c", "gears": "#d9b44a",
             "bearings": "#7a8b6f", "carrier": "#e6dff0", "output shaft": "#9a86b8", "bore": "#ffffff"}  # fmt: skip

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.engine.spark_ignition import SparkIgnition
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.sweep.outcomes import Gap, Outcome
 
 BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
@@ -49,7 +49,7 @@ def single(case: Case) -> dict[str, Any]:
     BadInput
         A cycle of another kind, or one that cannot be made
     """
-    from mechsym.two_stroke_cycle import two_stroke_columns
+    from mechsym.cycle.figures import two_stroke_columns
 
     return two_stroke_columns(case, np.array([case.need("operation").speed]))
 
@@ -74,7 +74,7 @@ def families(found: Sequence[Case]) -> list[list[int]]:
 
 
 def _form(case: Case) -> Any:
-    from mechsym.engine.friction import MechanismFriction
+    from mechsym.cycle.friction import MechanismFriction
 
     friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
     # the law is fitted around the speed of operation, so another speed is another engine
@@ -112,8 +112,8 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     BadInput
         The engine itself cannot be made
     """
-    from mechsym.cycle import columns, engine, over_design
-    from mechsym.forces.gas import one_cylinder
+    from mechsym.cycle.on_pistons import one_cylinder
+    from mechsym.jobs.cycle import columns, engine, over_design
 
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
@@ -127,8 +127,8 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
 
 
 def _steps(machine: Any, design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
-    from mechsym.engine.model import closed_period
-    from mechsym.engine.run import steps_needed
+    from mechsym.cycle.closed.model import closed_period
+    from mechsym.cycle.closed.run import steps_needed
 
     if machine.cycle.method == "nunes2017_printed":
         return np.ones(design["omega"].size, dtype=int), {}

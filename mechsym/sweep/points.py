@@ -91,8 +91,8 @@ def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
 
 
 def _hinged(case: Case) -> dict[str, Any]:
-    from mechsym.design import design
-    from mechsym.summary import summary
+    from mechsym.hinge.summary import summary
+    from mechsym.jobs.hinge import design
 
     return summary(design(case))
 
@@ -116,7 +116,7 @@ def _bisected(family: list[Case]) -> list[Outcome]:
 
 
 def _simulated(found: Sequence[Case]) -> list[Outcome]:
-    from mechsym.runs import problem_of, settings_of
+    from mechsym.jobs.run import problem_of, settings_of
 
     problems = {i: _guarded(problem_of, case) for i, case in enumerate(found)}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
@@ -140,9 +140,9 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
 
 
 def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
-    from mechsym.runs import window_of
+    from mechsym.jobs.run import window_of
     from mechsym.simulate.summary import summary
-    from mechsym.twist import sections
+    from mechsym.torsion.twist import sections
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")

@@ -4,12 +4,12 @@ import re
 
 import pytest
 
-from mechsym.audit import registry
 from mechsym.audit.entries import Listed, Printed, TextClaim
 from mechsym.audit.findings import question_of
 from mechsym.audit.formula import question_of as asked_by_user
 from mechsym.audit.theory.catalogue import names, theory
 from mechsym.errors import BadInput
+from mechsym.papers import registry
 
 # numbers that are not in the texts: 001 (1) and (5)
 NUMBERED = {

@@ -4,9 +4,9 @@ import time
 
 import pytest
 
-from mechsym import recorded
-from mechsym.audit import errata, findings, registry
+from mechsym.audit import errata, findings
 from mechsym.audit.trust import trust
+from mechsym.papers import recorded, registry
 
 pytestmark = pytest.mark.slow
 

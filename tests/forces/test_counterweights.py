@@ -13,7 +13,7 @@ from small_machines import machine, turn_of
 from mechsym.errors import BadInput
 from mechsym.forces.harmonics import orders, whole
 from mechsym.forces.shaking import BalanceWanted, shaking, verdict
-from mechsym.mechanisms.crank_train import CrankTrainParameters
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters

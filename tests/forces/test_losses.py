@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.cases.settings import Operation
+from mechsym.cycle.on_pistons import at_same_travel, travel
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Friction, losses, mesh_power
-from mechsym.forces.gas import at_same_travel, travel
 from mechsym.forces.loads import loads
 from mechsym.forces.rings import ContactPressure, NoRings, Patton1989, patton_pressure, ring_power
 from mechsym.mechanisms.crosshead import CrossheadParameters

@@ -11,7 +11,7 @@ from mechsym.derive import derive
 from mechsym.derive.build import declared, scripts
 from mechsym.derive.emit import groups
 from mechsym.derive.tape import derivative_name
-from mechsym.mechanism import generated
+from mechsym.mechanisms.record import (generated)
 
 
 def admissible(names, rng):

@@ -17,10 +17,10 @@ from mechsym.derive import derive
 from mechsym.derive.build import declared
 from mechsym.derive.emit import module_text
 from mechsym.errors import BadInput
-from mechsym.mechanism import acceleration_function, state
 from mechsym.mechanisms import crank_throw, shaft
-from mechsym.mechanisms.crank_train import CrankTrainParameters, build, build_rigid, each
-from mechsym.mechanisms.firing import crank_phases, firing_angles, firing_gaps, gas_forces
+from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles, firing_gaps, gas_forces
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, build_rigid, each
+from mechsym.mechanisms.record import acceleration_function, state
 
 DEG = math.pi / 180
 FOUR_STROKE = 4 * math.pi

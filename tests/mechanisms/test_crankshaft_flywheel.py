@@ -13,8 +13,8 @@ from rigid_bodies import System, lagrange, motion
 from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceFrame, RigidBody, dynamicsymbols, inertia
 
 from mechsym.errors import BadInput
-from mechsym.mechanism import state
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build, build_printed
+from mechsym.mechanisms.record import state
 
 STATE = {"phi0": 1.0, "phi2": 0.99, "phi0d": 50.0, "phi2d": 51.0, "M": 1.5}
 

@@ -13,10 +13,10 @@ from rigid_bodies import System, lagrange, motion
 from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceFrame, RigidBody, dynamicsymbols, inertia
 
 from mechsym.errors import BadInput
-from mechsym.mechanism import curves, state
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_throw import build as build_throw
 from mechsym.mechanisms.crosshead import CrossheadParameters, build, with_flywheel
+from mechsym.mechanisms.record import curves, state
 
 STATE = {"phi": 1.0, "phid": 9.32, "F": 1e5, "M_r": 9000.0, "M_h": -20000.0}
 

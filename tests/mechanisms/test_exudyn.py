@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from mechsym.mechanism import state
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_throw import build as build_throw
-from mechsym.mechanisms.crank_train import CrankTrainParameters, build_rigid, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
+from mechsym.mechanisms.record import state
 
 exu = pytest.importorskip("exudyn", reason="exudyn is an optional outside judge: pip install exudyn")
 # what exudyn itself deprecates is not ours to fix

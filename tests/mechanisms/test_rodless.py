@@ -13,11 +13,12 @@ from rigid_bodies import System, lagrange, motion
 from scipy.optimize import minimize_scalar
 from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceFrame, RigidBody, dynamicsymbols, inertia
 
-from mechsym import constraints, mechanisms
+from mechsym import mechanisms
 from mechsym.errors import BadInput
-from mechsym.mechanism import curves, state
+from mechsym.mechanisms import constraints
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.hypocycloid import build as build_hypocycloid
+from mechsym.mechanisms.record import curves, state
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses, build, closed
 from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
 

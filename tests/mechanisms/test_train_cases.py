@@ -12,10 +12,10 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.forces.turn import turn
-from mechsym.mechanism import state
 from mechsym.mechanisms import crankshaft_flywheel, shaft
-from mechsym.mechanisms.crank_train import build, build_rigid
+from mechsym.mechanisms.crank_train.parameters import build, build_rigid
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
+from mechsym.mechanisms.record import state
 
 
 def parameters(name):

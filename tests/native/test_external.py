@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from native.models import functions
 
+from benchmarks.nlp import nlpsol
 from mechsym.native import cache
 from mechsym.native.external import external
-from mechsym.native.nlp import nlpsol
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 

@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from mechsym.engine import runge_kutta
+from mechsym.cycle.closed import runge_kutta
 from mechsym.native import library
 from mechsym.native.fold import folder
 

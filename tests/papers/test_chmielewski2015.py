@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.reproduce import chmielewski2015_runs as paper
-from mechsym.reproduce import chmielewski2015_studies as studies
-from mechsym.reproduce.chmielewski2015 import rows
+from mechsym.papers.chmielewski2015 import runs as paper
+from mechsym.papers.chmielewski2015 import studies
+from mechsym.papers.chmielewski2015.computed import rows
 
 
 def test_table_1_is_the_case():

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.compare import crossovers
-from mechsym.cycle import RPM, columns, engine, over_speeds, speed_range
-from mechsym.reproduce.nunes2017 import engine_rows, verdict
-from mechsym.reproduce.nunes2017_errata import errata
-from mechsym.reproduce.nunes2017_figures import figures
-from mechsym.reproduce.nunes2017_numbers import Item
-from mechsym.reproduce.rows import last_digit
+from mechsym.jobs.compare import crossovers
+from mechsym.jobs.cycle import RPM, columns, engine, over_speeds, speed_range
+from mechsym.papers.nunes2017.computed import engine_rows, verdict
+from mechsym.papers.nunes2017.errata import errata
+from mechsym.papers.nunes2017.figures import figures
+from mechsym.papers.nunes2017.numbers import Item
+from mechsym.papers.rows import last_digit
 
 UNSETTLED = {"speed of the smallest difference in exhaust [rpm]"}  # the curve is flat to 3e-5 from 2350 to 2730 rpm
 

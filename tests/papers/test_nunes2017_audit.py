@@ -6,15 +6,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mechsym.audit import errata, findings, registry
+from mechsym.audit import errata, findings
 from mechsym.audit.algebra import FLOATS
-from mechsym.audit.claims import nunes2017_loads as loads
 from mechsym.audit.entries import Printed, TextClaim
-from mechsym.audit.sources.nunes2017_chapter4 import CHAPTER_4
-from mechsym.audit.sources.nunes2017_engine import MODEL, RESULTS
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
-from mechsym.sizing import bolts, crankshaft, cylinder, gear_factors, gears, piston, rod
+from mechsym.papers import registry
+from mechsym.papers.nunes2017 import claims_loads as loads
+from mechsym.papers.nunes2017.printed_chapter4 import CHAPTER_4
+from mechsym.papers.nunes2017.printed_engine import MODEL, RESULTS
+from mechsym.sizing.rules import bolts, crankshaft, cylinder, gear_factors, gears, piston, rod
 
 STEM = "004_e00ef50339108dab"
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mechsym.reproduce.nunes2017_sizing import rows
+from mechsym.papers.nunes2017.sizing import rows
 
 
 @pytest.fixture(scope="module")

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mechsym.mechanism import curves, state
 from mechsym.mechanisms import crosshead
-from mechsym.mechanisms.crosshead_printed import (
+from mechsym.mechanisms.record import curves, state
+from mechsym.papers.zotov2024.equations_printed import (
     cos_psi_printed,
     dinertia_dphi_printed,
     dx_dphi_printed,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.reproduce import zotov2024
-from mechsym.reproduce.zotov2024_rows import rows
+from mechsym.papers.zotov2024 import computed as zotov2024
+from mechsym.papers.zotov2024.rows import rows
 
 PHI = np.linspace(0, 2 * np.pi, 721)
 

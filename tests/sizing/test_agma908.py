@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from mechsym.errors import BadInput
-from mechsym.reproduce.nunes2017_sizing_numbers import GEOMETRY
-from mechsym.sizing.agma908 import interpolated, table
-from mechsym.sizing.gear_bending import bending_geometry_factor
-from mechsym.sizing.gear_geometry import Pair, contact_ratio, pitting_geometry_factor
-from mechsym.sizing.gear_interference import top_land, undercut_shift
+from mechsym.papers.nunes2017.sizing_numbers import GEOMETRY
+from mechsym.sizing.rules.agma908 import interpolated, table
+from mechsym.sizing.rules.gear_bending import bending_geometry_factor
+from mechsym.sizing.rules.gear_geometry import Pair, contact_ratio, pitting_geometry_factor
+from mechsym.sizing.rules.gear_interference import top_land, undercut_shift
 
 ANGLE = np.radians(25)
 
@@ -68,10 +68,10 @@ def test_internal_pair_of_great_ring_is_a_rack_as_the_external_one():
 
 def test_contact_stress_of_agma_is_the_hertz_pressure_at_its_point():
     """Z_E and I are nothing but Hertz's line contact of the two flanks (all factors 1)."""
-    from mechsym.sizing.gear_factors import elastic_coefficient
-    from mechsym.sizing.gear_geometry import action_line
-    from mechsym.sizing.gears import LoadFactors, contact_stress
-    from mechsym.sizing.hertz import contact_modulus, line_pressure
+    from mechsym.sizing.rules.gear_factors import elastic_coefficient
+    from mechsym.sizing.rules.gear_geometry import action_line
+    from mechsym.sizing.rules.gears import LoadFactors, contact_stress
+    from mechsym.sizing.rules.hertz import contact_modulus, line_pressure
 
     inside = Pair(kind="internal", module=2e-3, teeth_1=26, teeth_2=52, pressure_angle=ANGLE, shift=0.25)
     _, end, pitch = action_line(inside)

@@ -6,12 +6,14 @@ import json
 import numpy as np
 import pytest
 
-from mechsym import size
-from mechsym.sized import sized
-from mechsym.sizing import hypocycloid_checks, hypocycloid_design, hypocycloid_masses
+from mechsym.jobs import size_loads as size
+from mechsym.jobs.size import sized
 from mechsym.sizing.checks import unsafe
-from mechsym.sizing.gear_design import candidates, faults
-from mechsym.sizing.hypocycloid_engine import shaft_length, spans
+from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
+from mechsym.sizing.hypocycloid import design as hypocycloid_design
+from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
+from mechsym.sizing.hypocycloid.engine import shaft_length, spans
+from mechsym.sizing.parts.gear_design import candidates, faults
 
 COARSE = {"sizing.speed_step": "250 rpm"}
 

@@ -6,8 +6,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from mechsym.mechanism import bind
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
+from mechsym.mechanisms.record import bind
 from mechsym.sizing.loads import (
     Spans,
     journal_load_massless,
@@ -17,9 +17,9 @@ from mechsym.sizing.loads import (
     tooth_load_printed,
     tooth_share_one_end,
 )
-from mechsym.sizing.rod_forces import slider_crank_chain
-from mechsym.sizing.shaft_beam import Shaft, inner_slope, moment, outer_shares
-from mechsym.sizing.turning_shaft import Section, fatigue_factor
+from mechsym.sizing.rules.shaft_beam import Shaft, inner_slope, moment, outer_shares
+from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor
+from mechsym.sizing.slider_crank.rod_forces import slider_crank_chain
 
 THETA = np.arange(720) * 4 * np.pi / 720
 OMEGA = np.array([300.0, 800.0])

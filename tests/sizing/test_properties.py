@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 
 from mechsym.errors import BadInput
 from mechsym.quantities import parse
-from mechsym.sizing import (
+from mechsym.sizing import loads
+from mechsym.sizing.rounding import round_up
+from mechsym.sizing.rules import (
     balancing,
     bearings,
     bolts,
@@ -18,13 +20,11 @@ from mechsym.sizing import (
     gear_life,
     gears,
     hertz,
-    loads,
     masses,
     piston,
     rod,
 )
-from mechsym.sizing.gear_geometry import Pair
-from mechsym.sizing.rounding import round_up
+from mechsym.sizing.rules.gear_geometry import Pair
 
 # part size or stress as a function of one load
 GROWING = {

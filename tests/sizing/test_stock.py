@@ -3,8 +3,8 @@
 import pytest
 
 from mechsym.errors import BadInput
-from mechsym.sizing import bearing_data, materials
-from mechsym.sizing.bearing_design import Choice, choices, mass, seat_diameter
+from mechsym.sizing.parts.bearing_design import Choice, choices, mass, seat_diameter
+from mechsym.sizing.rules import bearing_data, materials
 
 
 def test_the_sources_materials_are_there():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechsym.sizing import bearings, fatigue, gear_factors, gear_life, gears, hertz
+from mechsym.sizing.rules import bearings, fatigue, gear_factors, gear_life, gears, hertz
 
 LBF, INCH, PSI, HP, FPM = 4.4482216, 0.0254, 6894.757, 745.69987, 0.00508
 

@@ -1,1 +1,0 @@
-"""Claims that the sources make in words, each with the computation that decides it, and the effect of misprints."""

@@ -1,0 +1,221 @@
+r"""The closed period of a cycle as a differential equation in the crank angle, one zone, first law closed.
+
+    m c_v dT/dphi = dQ_R/dphi - dQ_L/dphi - p dV/dphi + (e_f - u) dm/dphi - m (du/dX) dX/dphi,    p = m R T/V
+
+Q_R is the heat released (Wiebe), Q_L the heat lost to the walls, dm the fuel that turns into gas, which brings the
+specific internal energy e_f along. The closed period falls into three phases with smooth equations: before, during
+and after combustion; `phases` integrates them.
+
+Every attribute of `Closed` may be a number or a CasADi expression of the design.
+"""
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from mechsym.cycle.chamber import Chamber, volume, wall_area
+from mechsym.cycle.heat import GasState, Law, heat_flux, motored_swirl
+from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
+
+PHASES = ("before", "during", "after")
+_MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
+# energies in J (exchange_work: of the ideal gas exchange), masses in kg, angles in rad, omega in rad/s, m^3, m
+SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_start", "energy_end", "exchange_work",
+           "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Closed:
+    """Everything that the closed period needs; attributes are numbers or CasADi expressions.
+
+    Parameters
+    ----------
+    chamber, gas, law : Chamber, ConstantGamma or NasaMixture, Annand or Woschni or Hohenberg or Adiabatic
+        Volume, gas properties and heat transfer
+    omega : float
+        Crank speed [rad/s]
+    closes, starts, duration, opens : float
+        Inlet closing, start and duration of combustion, exhaust opening [rad]
+    pressure, temperature, mass : float
+        State when the inlet closes [Pa], [K], [kg]
+    fuel : float
+        Mass of fuel [kg]
+    heat, fuel_heat, latent_heat : float
+        Heat that combustion releases when the Wiebe function has reached 1, heating value of the fuel, and latent heat
+        charged to the gas [J]
+    fuel_energy : float
+        Internal energy that fuel brings along when it turns into gas [J/kg]
+    fuel_entry : str
+        `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
+    wiebe : tuple of float
+        a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
+    """
+
+    chamber: Chamber
+    gas: ConstantGamma | NasaMixture
+    law: Law
+    omega: Any
+    closes: Any
+    starts: Any
+    duration: Any
+    opens: Any
+    pressure: Any
+    temperature: Any
+    mass: Any
+    fuel: Any
+    heat: Any
+    fuel_heat: Any
+    latent_heat: Any
+    fuel_energy: Any
+    fuel_entry: str
+    wiebe: tuple[Any, ...]
+
+
+class Contents(NamedTuple):
+    """Burnt share, mass [kg] and their slopes in phi at one crank angle."""
+
+    burnt: Any
+    burnt_slope: Any
+    mass: Any
+    mass_slope: Any
+
+
+def contents(closed: Closed, phase: str, phi: Any) -> Contents:
+    """What the chamber holds at a crank angle.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+
+    Returns
+    -------
+    contents : Contents
+        burnt [-], burnt_slope [1/rad], mass [kg], mass_slope [kg/rad]
+    """
+    y = {"before": 0.0, "during": (phi - closed.starts) / closed.duration, "after": 1.0}[phase]
+    burnt = 0.0 if phase == "before" else double_wiebe(y, *closed.wiebe)
+    slope = ddouble_wiebe_dy(y, *closed.wiebe) / closed.duration if phase == "during" else 0.0
+    match closed.fuel_entry:
+        case "injected":
+            return Contents(burnt, slope, closed.mass + closed.fuel * burnt, closed.fuel * slope)
+        case "vaporised" if phase == "before":
+            rate = closed.fuel / (closed.starts - closed.closes)
+            return Contents(burnt, slope, closed.mass + rate * (phi - closed.closes), rate)
+        case "vaporised":
+            return Contents(burnt, slope, closed.mass + closed.fuel, 0.0)
+    return Contents(burnt, slope, closed.mass, 0.0)
+
+
+def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
+    """Pressure of the gas.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+    t : CasADi scalar
+        Temperature [K]
+
+    Returns
+    -------
+    p : CasADi scalar
+        Absolute pressure [Pa]
+    """
+    now = contents(closed, phase, phi)
+    return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)[0]
+
+
+def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
+    """Slopes of temperature, work and heat loss with the crank angle.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    phase : str
+        `before`, `during` or `after` combustion
+    phi : CasADi scalar
+        Crank angle from firing top dead centre [rad]
+    t : CasADi scalar
+        Temperature [K]
+
+    Returns
+    -------
+    dt_dphi : CasADi scalar
+        Temperature [K/rad]
+    dw_dphi : CasADi scalar
+        Work p dV [J/rad]
+    dq_dphi : CasADi scalar
+        Heat to the walls [J/rad]
+    """
+    v, dv = volume(closed.chamber, phi)
+    now = contents(closed, phase, phi)
+    gas = properties(closed.gas, t, now.burnt)
+    p = now.mass * gas.gas_constant * t / v
+    loss = _heat_loss(closed, phase, p, t, v, gas.gas_constant)
+    released = closed.heat * now.burnt_slope
+    brought = (closed.fuel_energy - gas.energy) * now.mass_slope
+    gain = released - loss - p * dv + brought - now.mass * gas.energy_slope * now.burnt_slope
+    return gain / (now.mass * gas.heat_capacity), p * dv, loss
+
+
+def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
+    """Energies, masses and angles of the closed period.
+
+    Parameters
+    ----------
+    closed : Closed
+        The closed period
+    t_end : CasADi scalar
+        Temperature when the exhaust opens [K]
+
+    Returns
+    -------
+    values : tuple of CasADi scalar
+        In the order and the units of `SCALARS` [-]
+    """
+    first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
+    v_closes, v_opens = (volume(closed.chamber, angle)[0] for angle in (closed.closes, closed.opens))
+    values = {
+        "heat_released": closed.heat * last.burnt,
+        "fuel_heat": closed.fuel_heat,
+        "latent_heat": closed.latent_heat,
+        "fuel_energy": closed.fuel_energy * (last.mass - first.mass),
+        "energy_start": first.mass * properties(closed.gas, closed.temperature, first.burnt).energy,
+        "energy_end": last.mass * properties(closed.gas, t_end, last.burnt).energy,
+        "exchange_work": closed.pressure * (v_closes - v_opens),
+        "mass": closed.mass,
+        "fuel": closed.fuel,
+        "omega": closed.omega,
+        "closes": closed.closes,
+        "starts": closed.starts,
+        "ends": closed.starts + closed.duration,
+        "opens": closed.opens,
+        "displacement": closed.chamber.displacement,
+        "stroke": closed.chamber.stroke,
+    }
+    return tuple(values[name] for name in SCALARS)
+
+
+def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant: Any) -> Any:
+    chamber = closed.chamber
+    swirl: Any = 0.0
+    if phase != "before":
+        v_ref = volume(chamber, closed.closes)[0]
+        motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
+        scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
+        swirl = motored_swirl(closed.law, p, motored, scale)
+    speed = chamber.stroke * closed.omega / ca.pi
+    state = GasState(p, t, v, gas_constant, chamber.bore, speed, swirl)
+    return heat_flux(closed.law, state) * wall_area(chamber, v) / closed.omega

@@ -1,0 +1,168 @@
+r"""An engine as one record, and its closed period at any design.
+
+A design is a mapping of dotted names to values that replace those of the record: `omega`, `cycle.ignition`,
+`chamber.compression_ratio`, `parameters.e`, `heat_transfer.a`, ... The values may be numbers or CasADi symbols.
+"""
+
+import copy
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from mechsym.cycle.chamber import ChamberParameters, Motion, chamber
+from mechsym.cycle.closed.equations import Closed
+from mechsym.cycle.friction import Friction
+from mechsym.cycle.heat import Law
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
+from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.errors import BadInput
+
+_SECTIONS = ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Engine:
+    """A four-stroke engine: sections of a case, and the motion of its pistons.
+
+    Parameters
+    ----------
+    chamber : ChamberParameters
+        Bore, compression ratio, pistons
+    motion : Motion
+        Travel of one piston; its parameters are the names `parameters.*` of a design
+    cycle : SparkIgnition
+        Charge, fuel, timing
+    gas : ConstantGamma or NasaMixture
+        Gas properties
+    heat_transfer : Annand, Woschni, Hohenberg or Adiabatic
+        Heat transfer to the walls
+    friction_pressure : NoFriction, ChenFlynn or Heywood
+        Friction for brake figures
+    """
+
+    chamber: ChamberParameters
+    motion: Motion
+    cycle: SparkIgnition
+    gas: ConstantGamma | NasaMixture
+    heat_transfer: Law
+    friction_pressure: Friction
+
+
+def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
+    """The engine with some of its values replaced.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to value
+        Dotted names; `omega` belongs to no section and is passed over
+
+    Returns
+    -------
+    engine : Engine
+        A copy; values that are CasADi symbols are not checked
+
+    Raises
+    ------
+    BadInput
+        A name that the engine does not have
+    """
+    parts = {f.name: getattr(engine, f.name) for f in dataclasses.fields(engine)}
+    for name, value in design.items():
+        if name == "omega":
+            continue
+        section, _, key = name.partition(".")
+        if section == "parameters" and key in parts["motion"].parameters:
+            parameters = {**parts["motion"].parameters, key: value}
+            parts["motion"] = dataclasses.replace(parts["motion"], parameters=parameters)
+        elif isinstance(getattr(parts.get(section), key, None), (int, float)) and section != "motion":
+            parts[section] = _replaced(parts[section], key, value)
+        else:
+            raise BadInput(f"{name!r} is not a number of the engine; names are {', '.join(design_names(engine))}")
+    return Engine(**parts)
+
+
+def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
+    """Refuse a design with numbers that the engine's own records would refuse.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to float or ndarray
+        Dotted names to numbers; each is tried at its smallest and its largest value
+
+    Raises
+    ------
+    BadInput
+        Name, value and what is allowed
+    """
+    for name, values in design.items():
+        section, _, key = name.partition(".")
+        numbers = np.asarray(values, float)
+        if name == "omega" and not np.all(numbers > 0):
+            raise BadInput(f"omega = {numbers.min():g} rad/s is out of range; it must be > 0 rad/s")
+        record: Any = getattr(engine, section, None)
+        if section in _SECTIONS and hasattr(record, key):
+            for value in (numbers.min(), numbers.max()):
+                dataclasses.replace(record, **{key: float(value)})
+
+
+def design_names(engine: Engine) -> list[str]:
+    """Names that a design may hold.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+
+    Returns
+    -------
+    names : list of str
+        `omega` and the dotted names
+    """
+    names = ["omega", *(f"parameters.{key}" for key in engine.motion.parameters)]
+    for section in _SECTIONS:
+        record = getattr(engine, section)
+        names += [f"{section}.{f.name}" for f in dataclasses.fields(record) if "unit" in f.metadata]
+    return names
+
+
+def closed_period(engine: Engine, design: Mapping[str, Any]) -> Closed:
+    """The closed period of the engine at a design.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to value
+        Must hold `omega` [rad/s]; the other names replace values of the engine
+
+    Returns
+    -------
+    closed : Closed
+        What the integration needs
+    """
+    engine, omega = at_design(engine, design), design["omega"]
+    cycle, room = engine.cycle, chamber(engine.chamber, engine.motion)
+    held = charge(room, cycle, properties(engine.gas, cycle.intake_temperature, 0.0).gas_constant)
+    starts, duration = timing(cycle, omega)
+    return Closed(
+        chamber=room, gas=engine.gas, law=engine.heat_transfer, omega=omega, closes=cycle.inlet_closes,
+        starts=starts, duration=duration, opens=cycle.exhaust_opens, pressure=cycle.intake_pressure,
+        temperature=cycle.intake_temperature, mass=held.gas, fuel=held.fuel, heat=held.heat,
+        fuel_heat=held.fuel * cycle.heating_value, latent_heat=held.fuel * latent_heat(cycle),
+        fuel_energy=vapour_energy(cycle, engine.gas),
+        fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
+        wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0),
+    )  # fmt: skip
+
+
+def _replaced(record: Any, key: str, value: Any) -> Any:
+    # dataclasses.replace would run the range checks, which cannot compare symbols
+    twin = copy.copy(record)
+    object.__setattr__(twin, key, value)
+    return twin

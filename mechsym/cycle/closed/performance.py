@@ -1,0 +1,234 @@
+r"""What an engine does at its operating points: torque, power, consumption, energy shares, peaks.
+
+Work of a cycle is the integral of p dV over the closed period; the ideal gas exchange adds p_0 times the difference
+of the volumes at its ends. Powers count one power stroke in two revolutions.
+"""
+
+import dataclasses
+import functools
+from collections.abc import Mapping
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel
+from mechsym.cycle.closed.model import Engine, at_design, check_design, closed_period
+from mechsym.cycle.closed.run import MANY, dense, run
+from mechsym.cycle.friction import Friction, friction_pressure
+from mechsym.native import compiled
+
+_CYCLE_ANGLE = 4 * np.pi
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Performance:
+    """Figures of n operating points; every entry an array of shape (n,).
+
+    Parameters
+    ----------
+    omega : ndarray
+        Crank speed [rad/s]
+    torque_avg, brake_torque : ndarray
+        Mean torque of the gas on all pistons, and less friction [N*m]
+    torque_max : ndarray
+        Largest torque of one piston on its crank, from absolute pressure and inertia [N*m]
+    power, brake_power : ndarray
+        Mean power [W]
+    mep, friction_mep : ndarray
+        Mean indicated pressure and friction mean pressure [Pa]
+    sfc, brake_sfc : ndarray
+        Fuel by work [kg/J]
+    efficiency, brake_efficiency : ndarray
+        Work by heating value of the fuel [-]
+    p_max, p_max_angle : ndarray
+        Peak pressure [Pa] and its angle from firing top dead centre [rad]
+    force_max : ndarray
+        Largest force of one piston, from absolute pressure and inertia [N]
+    heat, work, exhaust, unburnt : ndarray
+        Shares of the heating value [-]
+    energy_residual : ndarray
+        What the first law leaves over the closed period, by the fuel's heating value [-]
+    loads : mapping of str to ndarray
+        Largest magnitude of each load of the mechanism over a revolution
+    """
+
+    omega: np.ndarray
+    torque_avg: np.ndarray
+    torque_max: np.ndarray
+    power: np.ndarray
+    mep: np.ndarray
+    sfc: np.ndarray
+    efficiency: np.ndarray
+    brake_torque: np.ndarray
+    brake_power: np.ndarray
+    friction_mep: np.ndarray
+    brake_sfc: np.ndarray
+    brake_efficiency: np.ndarray
+    p_max: np.ndarray
+    p_max_angle: np.ndarray
+    force_max: np.ndarray
+    heat: np.ndarray
+    work: np.ndarray
+    exhaust: np.ndarray
+    unburnt: np.ndarray
+    energy_residual: np.ndarray
+    loads: Mapping[str, np.ndarray]
+
+
+def performance(engine: Engine, design: Mapping[str, Any]) -> Performance:
+    r"""Figures of the converged cycle.
+
+    .. math:: \bar T = W/(4\pi), \quad p_{mi} = W/V_d, \quad \eta = W/(m_f Q_{HV})
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    design : mapping of str to ndarray, shape (n,)
+        Operating points; must hold `omega` [rad/s]
+
+    Returns
+    -------
+    performance : Performance
+        Figures at the n points
+
+    Raises
+    ------
+    BadInput
+        A value is out of range, or combustion does not fit into the closed period
+    """
+    check_design(engine, design)
+    result = run(functools.partial(closed_period, engine), design)
+    scalars = dict(result.scalars)
+    scalars["work"] = scalars["work"] + scalars["exchange_work"]
+    phi, p, _ = dense(result)
+    p_max, p_max_angle = peak(phi, p)
+    along = _along(engine, design, phi, p)
+    largest = {name: peak(phi, values)[0] for name, values in along.items()}
+    return Performance(
+        **figures(_friction(engine, design), scalars, p_max), **_shares(scalars),
+        p_max=p_max, p_max_angle=p_max_angle, torque_max=largest.pop("torque"), force_max=largest.pop("force"),
+        energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
+    )  # fmt: skip
+
+
+def figures(friction: Friction, scalars: Mapping[str, Any], p_max: np.ndarray) -> dict[str, Any]:
+    r"""Figures that follow from the work of a cycle.
+
+    .. math:: \bar T = W/(4\pi), \quad P = \bar T\omega, \quad b = m_f/W, \quad W_b = W - p_{mf} V_d
+
+    Parameters
+    ----------
+    friction : NoFriction, ChenFlynn or Heywood
+        Friction correlation
+    scalars : mapping of str to ndarray, shape (n,)
+        `omega` [rad/s], `work`, `fuel_heat` [J], `fuel` [kg], `displacement` [m^3], `stroke` [m]
+    p_max : ndarray, shape (n,)
+        Peak pressure [Pa]
+
+    Returns
+    -------
+    figures : dict of str to ndarray
+        Entries of `Performance`, for a power stroke in two revolutions
+    """
+    omega, work, fuel, room = (scalars[k] for k in ("omega", "work", "fuel", "displacement"))
+    lost = friction_pressure(friction, p_max, scalars["stroke"] * omega / np.pi, omega)
+    brake = work - lost * room
+    figures = {"omega": omega, "mep": work / room, "friction_mep": lost}
+    for prefix, energy in (("", work), ("brake_", brake)):
+        torque = energy / _CYCLE_ANGLE
+        figures |= {
+            "torque_avg" if not prefix else "brake_torque": torque,
+            f"{prefix}power": torque * omega,
+            f"{prefix}sfc": fuel / np.where(energy > 0, energy, np.nan),
+            f"{prefix}efficiency": energy / scalars["fuel_heat"],
+        }
+    return figures
+
+
+def peak(phi: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Largest value of each row and where it lies, by the parabola through the three points around it.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n, k)
+        Crank angles, increasing along a row [rad]
+    y : ndarray, shape (n, k)
+        Values, any unit [-]
+
+    Returns
+    -------
+    largest : ndarray, shape (n,)
+        Largest value, unit of `y` [-]
+    angle : ndarray, shape (n,)
+        Its crank angle [rad]
+    """
+    row, top = np.arange(y.shape[0]), np.argmax(y, axis=1)
+    k = np.clip(top, 1, y.shape[1] - 2)
+    (x0, x1, x2), (y0, y1, y2) = ([a[row, k + j] for j in (-1, 0, 1)] for a in (phi, y))
+    slope = (y1 - y0) / (x1 - x0)
+    bend = ((y2 - y1) / (x2 - x1) - slope) / (x2 - x0)
+    vertex = np.clip((x0 + x1) / 2 - slope / (2 * np.where(bend < 0, bend, -np.inf)), x0, x2)
+    value = y0 + (vertex - x0) * (slope + (vertex - x1) * bend)
+    higher = value > y[row, top]
+    return np.where(higher, value, y[row, top]), np.where(higher, vertex, phi[row, top])
+
+
+def _shares(scalars: Mapping[str, Any]) -> dict[str, Any]:
+    fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
+    carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
+    return {
+        "heat": (scalars["wall_heat"] + heat) / fuel,
+        "work": scalars["work"] / fuel,
+        "exhaust": (carried - scalars["fuel_energy"] - heat) / fuel,
+        "unburnt": 1 - released / fuel,
+    }
+
+
+def _friction(engine: Engine, design: Mapping[str, Any]) -> Friction:
+    return at_design(engine, {k: np.asarray(v, float) for k, v in design.items()}).friction_pressure
+
+
+def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
+    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
+    function = force_function(engine, tuple(design))
+    points = [*columns, phi.ravel(), p.ravel()]
+    if phi.shape[0] >= MANY:
+        values = compiled(function).batch(*points)
+    else:
+        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
+    return {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
+
+
+def force_function(engine: Engine, names: tuple[str, ...]) -> ca.Function:
+    """Force and torque of one piston, and the mechanism's loads, at a point of a cycle as a function of the design.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine
+    names : tuple of str
+        Design variables; must hold `omega`
+
+    Returns
+    -------
+    function : casadi.Function
+        (design (k,), phi [rad], p [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each load
+    """
+    z, phi, p = ca.SX.sym("z", len(names)), ca.SX.sym("phi"), ca.SX.sym("p")
+    design = {name: z[k] for k, name in enumerate(names)}
+    here = at_design(engine, design)
+    forces = _forces(here, chamber(here.chamber, here.motion), design["omega"], phi, p)
+    return ca.Function("forces", [z, phi, p], list(forces.values()), ["design", "phi", "p"], list(forces))
+
+
+def _forces(engine: Engine, room: Chamber, omega: Any, phi: Any, p: Any) -> dict[str, Any]:
+    force = piston_force(room, phi, omega, p)
+    outputs = {"torque": force * travel(engine.motion, phi)[1], "force": force}
+    loads = engine.motion.loads
+    if loads is None:
+        return outputs
+    net = (p - room.back_pressure) * room.area
+    found = loads.call([phi, ca.vertcat(*engine.motion.parameters.values()), omega, net])
+    return outputs | {name: ca.fabs(value) for name, value in zip(loads.name_out(), found, strict=True)}

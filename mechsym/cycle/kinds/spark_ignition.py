@@ -1,0 +1,198 @@
+r"""The data of a four-stroke spark-ignition cycle with ideal gas exchange: charge, fuel, timing.
+
+Crank angles count from firing top dead centre, so that the thesis's 180, 360 and 540 degrees are -180, 0 and 180.
+Start and duration of combustion are straight lines over the speed (Nunes 2017, eqs. (3.1) and (3.2)).
+"""
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsym.cycle.chamber import Chamber, volume
+from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.errors import BadInput
+from mechsym.quantities import check, choice, quantity
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SparkIgnition:
+    """Section `[cycle]`, `model = "spark_ignition"`.
+
+    Parameters
+    ----------
+    method : str
+        `converged`: the differential equation in crank angle; `nunes2017_printed`: the thesis's one-degree march
+    intake_pressure, intake_temperature : float
+        State of the charge when the inlet closes [Pa], [K]
+    inlet_closes, exhaust_opens : float
+        Ends of the closed period, from firing top dead centre [rad]
+    ignition, ignition_slope : float
+        Start of combustion at standstill [rad] and its change with speed [s]
+    duration, duration_slope : float
+        Duration of combustion at standstill [rad] and its change with speed [s]
+    wiebe_a, wiebe_m : float
+        X = 1 - exp(-a y^(m + 1)) [-]
+    air_fuel_ratio, stoichiometric_ratio : float
+        Air over fuel by mass, as run and stoichiometric [-]
+    heating_value : float
+        Lower heating value of the fuel [J/kg]
+    combustion_efficiency_max : float
+        Factor of the fit over the relative air-fuel ratio [-]
+    vaporisation : str
+        `latent_heat`: each kilogram of vapour costs its latent heat and arrives without internal energy (the thesis);
+        `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge
+        is vapour from the start
+    latent_heat : float
+        Latent heat of vaporisation [J/kg]
+    """
+
+    method: str = choice("converged", "nunes2017_printed", default="converged")
+    intake_pressure: float = quantity("Pa", above=0, about="absolute pressure when the inlet closes")
+    intake_temperature: float = quantity("K", above=0, about="temperature when the inlet closes")
+    inlet_closes: float = quantity("rad", default=-np.pi, low=-np.pi, below=0, about="from firing TDC")
+    exhaust_opens: float = quantity("rad", default=np.pi, above=0, high=np.pi, about="from firing TDC")
+    ignition: float = quantity("rad", about="start of combustion at standstill, from firing TDC")
+    ignition_slope: float = quantity("s", default=0.0, about="change of the start with speed")
+    duration: float = quantity("rad", above=0, about="duration of combustion at standstill")
+    duration_slope: float = quantity("s", default=0.0, about="change of the duration with speed")
+    wiebe_a: float = quantity("-", default=5.0, above=0, about="completeness factor")
+    wiebe_m: float = quantity("-", default=2.0, above=-1, about="form factor")
+    air_fuel_ratio: float = quantity("-", above=0, about="air over fuel by mass")
+    stoichiometric_ratio: float = quantity("-", above=0, about="stoichiometric air over fuel by mass")
+    heating_value: float = quantity("J/kg", above=0, about="lower heating value")
+    combustion_efficiency_max: float = quantity("-", default=0.9, above=0, high=1, about="factor of the fit")
+    vaporisation: str = choice("latent_heat", "liquid_energy", "none", default="liquid_energy")
+    latent_heat: float = quantity("J/kg", default=0.0, low=0, about="latent heat of vaporisation")
+
+    def __post_init__(self) -> None:
+        check(self)
+        relative = self.air_fuel_ratio / self.stoichiometric_ratio
+        if not 0.75 <= relative <= 1.2:
+            raise BadInput(f"air_fuel_ratio = {self.air_fuel_ratio:g} is {relative:.3f} of stoichiometric_ratio; the "
+                           "fit of the combustion efficiency (eq. 2.56) holds from 0.75 to 1.2")  # fmt: skip
+        if relative > 1 and self.vaporisation != "none":
+            raise BadInput(f"air_fuel_ratio = {self.air_fuel_ratio:g} is leaner than stoichiometric_ratio = "
+                           f"{self.stoichiometric_ratio:g}, where the vaporisation model does not hold (section 2.3.5 "
+                           'of the thesis); set vaporisation = "none" or lower air_fuel_ratio')  # fmt: skip
+
+
+class Charge(NamedTuple):
+    """What is in the chamber: gas (when the inlet closes) and fuel [kg], heat that combustion may release [J]."""
+
+    gas: Any
+    fuel: Any
+    heat: Any
+
+
+def combustion_efficiency(cycle: Any) -> Any:
+    r"""Share of the heating value that combustion can release.
+
+    .. math:: \eta_c = \eta_{c,max}(-1.6082 + 4.6509\lambda - 2.0764\lambda^2)
+
+    Parameters
+    ----------
+    cycle : SparkIgnition
+        The cycle's data; numbers or CasADi expressions
+
+    Returns
+    -------
+    eta_c : float
+        Combustion efficiency [-]
+
+    Notes
+    -----
+    Source: Blair (1999) as printed in Nunes (2017), eq. (2.56), for a relative air-fuel ratio of 0.75 to 1.2.
+    """
+    lam = cycle.air_fuel_ratio / cycle.stoichiometric_ratio
+    return cycle.combustion_efficiency_max * (-1.6082 + 4.6509 * lam - 2.0764 * lam**2)
+
+
+def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
+    r"""Masses in the chamber and the heat that combustion may release.
+
+    .. math:: m = \frac{p_0 V(\varphi_{ivc})}{R T_0}, \quad
+        m_f = \frac{p_0 (V(\varphi_{ivc}) - V_c)}{R T_0\, AFR}, \quad Q = \eta_c m_f Q_{HV}
+
+    Parameters
+    ----------
+    chamber : Chamber
+        The chamber
+    cycle : SparkIgnition
+        The cycle's data; numbers or CasADi expressions
+    gas_constant : float
+        Of the charge [J/(kg*K)]
+
+    Returns
+    -------
+    charge : Charge
+        gas [kg], fuel [kg], heat [J]
+
+    Notes
+    -----
+    The clearance holds air at intake state too, but only the swept part is fuelled: Nunes (2017), eqs. (2.4), (2.5).
+    """
+    density = cycle.intake_pressure / (gas_constant * cycle.intake_temperature)
+    v_closed = volume(chamber, cycle.inlet_closes)[0]
+    fuel = density * (v_closed - chamber.clearance) / cycle.air_fuel_ratio
+    return Charge(density * v_closed, fuel, combustion_efficiency(cycle) * fuel * cycle.heating_value)
+
+
+def latent_heat(cycle: Any) -> Any:
+    """Latent heat that the cycle charges for a kilogram of fuel.
+
+    Parameters
+    ----------
+    cycle : SparkIgnition
+        The cycle's data
+
+    Returns
+    -------
+    heat : float
+        Latent heat, 0 for a charge that is vapour from the start [J/kg]
+    """
+    return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
+
+
+def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Any:
+    """Internal energy that a kilogram of fuel brings along when it turns into vapour.
+
+    Parameters
+    ----------
+    cycle : SparkIgnition
+        The cycle's data; numbers or CasADi expressions
+    gas : ConstantGamma or NasaMixture
+        Gas model, whose zero of energy counts
+
+    Returns
+    -------
+    energy : float
+        Specific internal energy, latent heat taken off [J/kg]
+
+    Notes
+    -----
+    The thesis charges the latent heat but lets the vapour arrive with zero energy at 0 K: erratum E4.
+    """
+    if cycle.vaporisation == "liquid_energy":
+        return properties(gas, cycle.intake_temperature, 0.0).energy - cycle.latent_heat
+    return -latent_heat(cycle)
+
+
+def timing(cycle: Any, omega: Any) -> tuple[Any, Any]:
+    """Start and duration of combustion at a speed.
+
+    Parameters
+    ----------
+    cycle : SparkIgnition
+        The cycle's data; numbers or CasADi expressions
+    omega : float or ndarray
+        Crank speed [rad/s]
+
+    Returns
+    -------
+    start : same kind as `omega`
+        From firing top dead centre [rad]
+    duration : same kind as `omega`
+        Duration [rad]
+    """
+    return cycle.ignition + cycle.ignition_slope * omega, cycle.duration + cycle.duration_slope * omega

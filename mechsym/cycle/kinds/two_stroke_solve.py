@@ -1,0 +1,181 @@
+"""The two-stroke marine cycle closed for a wanted mean pressure, and what the result means.
+
+    inputs --solve--> temperature rise --two_stroke_pressure--> Pressure with facts and doubts
+
+The phases and their formulas stand in `two_stroke`.
+"""
+
+import dataclasses
+import math
+
+from mechsym.cycle.cylinder import Cylinder, clearance_volume, swept_volume, volume
+from mechsym.cycle.kinds.two_stroke import (
+    TwoStrokeMarine,
+    absolute_pressure,
+    back_pressure,
+    events,
+    kinks,
+    scavenging_pressure,
+)
+from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak
+from mechsym.cycle.wiebe import double_wiebe
+from mechsym.errors import BadInput
+
+_AIR_BY_FUEL = 14.6  # stoichiometric, marine fuel oil
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class TwoStrokeState:
+    """The cycle closed for the wanted mean pressure.
+
+    Parameters
+    ----------
+    p_evc, p_comp, p_ref, p_evo : float
+        Scavenging; compression and expansion reference at TDC; exhaust opening [Pa]
+    T_comp, dT : float
+        Compression temperature at TDC and the rise to the expansion's reference [K]
+    mass : float
+        Trapped gas [kg]
+    excess_air : float
+        Air-fuel ratio over the stoichiometric one that the rise would need [-]
+    efficiency : float
+        Indicated work by the heat of that fuel [-]
+    """
+
+    p_evc: float
+    p_comp: float
+    p_ref: float
+    p_evo: float
+    T_comp: float
+    dT: float
+    mass: float
+    excess_air: float
+    efficiency: float
+
+
+def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
+    r"""Close the cycle: the temperature rise that gives the wanted mean indicated pressure.
+
+    .. math:: p_{mi}(\rho) = p_{mi}(1) + (\rho - 1)\,[p_{mi}(2) - p_{mi}(1)],\quad \rho = T_{ref}/T_{comp}
+
+    Parameters
+    ----------
+    cycle : TwoStrokeMarine
+        Inputs
+    cylinder : Cylinder
+        Geometry, with the same bore and compression ratio
+
+    Returns
+    -------
+    state : TwoStrokeState
+        Pressures, temperatures and what they mean for the fuel
+
+    Raises
+    ------
+    BadInput
+        The wanted mean pressure is below that of the cycle without fuel
+
+    Notes
+    -----
+    The pressure is linear in p_ref at every angle, so two evaluations close the cycle; a third one corrects round-off.
+    """
+
+    def mean(ratio: float) -> float:
+        return mean_indicated_pressure(absolute_pressure(cycle, cylinder, ratio), 2 * math.pi, kinks(cycle), cylinder)
+
+    without_fuel, slope = mean(1.0), mean(2.0) - mean(1.0)
+    ratio = 1 + (cycle.mean_indicated_pressure - without_fuel) / slope
+    ratio += (cycle.mean_indicated_pressure - mean(ratio)) / slope
+    if ratio <= 1:
+        raise BadInput(
+            f"mean_indicated_pressure = {cycle.mean_indicated_pressure / 1e5:g} bar needs no fuel: without it there "
+            f"are {without_fuel / 1e5:.3g} bar; give more, or a lower scavenge pressure p_s"
+        )
+    return _state(cycle, cylinder, ratio)
+
+
+def _state(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) -> TwoStrokeState:
+    p_evc, v_evc = scavenging_pressure(cycle.p_s), float(volume(cylinder, cycle.evc))
+    squeeze = v_evc / clearance_volume(cylinder)
+    T_comp = cycle.T_evc * squeeze ** (cycle.n_c - 1)
+    dT = T_comp * (ratio - 1)
+    mass = p_evc * v_evc / (cycle.R * cycle.T_evc)
+    # T_ref = T_comp + m_f lhv / (c_v (mass + m_f)), solved for the fuel m_f
+    fuel = mass * cycle.c_v * dT / max(cycle.lhv - cycle.c_v * dT, 1.0)
+    return TwoStrokeState(
+        p_evc=p_evc,
+        p_comp=p_evc * squeeze**cycle.n_c,
+        p_ref=p_evc * squeeze**cycle.n_c * ratio,
+        p_evo=float(absolute_pressure(cycle, cylinder, ratio)(cycle.evo)),
+        T_comp=T_comp,
+        dT=dT,
+        mass=mass,
+        excess_air=mass / fuel / _AIR_BY_FUEL,
+        efficiency=cycle.mean_indicated_pressure * swept_volume(cylinder) / (fuel * cycle.lhv),
+    )
+
+
+def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder) -> Pressure:
+    """Pressure of the two-stroke marine cycle.
+
+    Parameters
+    ----------
+    cycle : TwoStrokeMarine
+        Inputs
+    cylinder : Cylinder
+        Geometry
+
+    Returns
+    -------
+    pressure : Pressure
+        Evaluated by formulas in every phase, so to round-off
+
+    Raises
+    ------
+    BadInput
+        The wanted mean pressure cannot be met
+    """
+    state = solve(cycle, cylinder)
+    absolute, corners = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp), kinks(cycle)
+    p_max, phi_p_max = peak(absolute, 2 * math.pi, corners)
+    return Pressure(
+        kind="two-stroke-marine",
+        period=2 * math.pi,
+        kinks=corners,
+        absolute=absolute,
+        p_max=p_max,
+        phi_p_max=phi_p_max,
+        mean_indicated=mean_indicated_pressure(absolute, 2 * math.pi, corners, cylinder),
+        phases=events(cycle),
+        facts=_facts(cycle, cylinder, state),
+        doubts=_doubts(cycle, state),
+    )
+
+
+def _facts(cycle: TwoStrokeMarine, cylinder: Cylinder, state: TwoStrokeState) -> tuple[str, ...]:
+    trapped = float(volume(cylinder, cycle.evc)) / clearance_volume(cylinder)
+    burnt = double_wiebe(1.0, cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
+    return (
+        f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
+        f"pressures at top dead centre, absolute: compression {state.p_comp / 1e5:.1f} bar, "
+        f"expansion reference {state.p_ref / 1e5:.1f} bar; when the exhaust opens {state.p_evo / 1e5:.2f} bar",
+        f"temperature rise solved for the mean pressure: {state.dT:.0f} K on {state.T_comp:.0f} K; with lhv and c_v it "
+        f"means {state.excess_air:.2f} times the air needed and an indicated efficiency of {state.efficiency:.2f}",
+        f"burnt at the nominal end of combustion: {burnt:.3f}; the rest burns on, there is no step",
+        f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at {state.p_evc / 1e5:.3f} "
+        "bar absolute until the exhaust closes",
+        f"under the piston: {back_pressure(cycle) / 1e5:.4g} bar absolute ({cycle.crank_side})",
+    )
+
+
+def _doubts(cycle: TwoStrokeMarine, state: TwoStrokeState) -> tuple[str, ...]:
+    found = []
+    if state.excess_air < 1.3:
+        found.append(f"the mean pressure needs {state.excess_air:.2f} times the stoichiometric air; a diesel needs 1.3")
+    if state.T_comp + state.dT > 3000:
+        found.append(f"reference temperature {state.T_comp + state.dT:.0f} K is above any flame of oil in air (3000 K)")
+    if state.efficiency > 0.65:
+        found.append(f"indicated efficiency {state.efficiency:.2f} is above what marine engines reach (0.55)")
+    if state.p_evo < state.p_evc:
+        found.append("the pressure is below the scavenge pressure when the exhaust opens")
+    return tuple(found)

@@ -1,0 +1,297 @@
+r"""The two-stroke compression-ignition cycle integrated: one zone, first law, heat to the walls, NASA properties.
+
+    EVC..EVO  integrated (`closed`): compression, injected fuel that burns by a double Wiebe function, expansion
+    EVO..SPO  a straight line in phi down to p_evc
+    SPO..EVC  p = p_evc
+
+Beside the algebraic cycle of `two_stroke` it needs no exponents and no reference temperature; what it needs instead is
+a law for the heat that goes into the walls. The fuel is found for the wanted mean indicated pressure. The Wiebe
+function stops at its nominal end; what it leaves unburnt there (1 to 3 % for the sets of Shen et al.) stays unburnt.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
+
+from mechsym.cycle.chamber import ChamberParameters, Motion, chamber, volume
+from mechsym.cycle.closed.equations import Closed
+from mechsym.cycle.closed.run import Run, run
+from mechsym.cycle.cylinder import Cylinder, cylinder_of, swept_volume
+from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Law, Woschni
+from mechsym.cycle.kinds.two_stroke import scavenging_pressure
+from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
+from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
+from mechsym.errors import BadInput
+from mechsym.quantities import check, choice, quantity
+
+_TURN = 2 * math.pi
+_STOICHIOMETRIC = 14.6  # air over fuel, marine fuel oil
+_LAWS: dict[str, Callable[[float], Law]] = {
+    "none": lambda _: Adiabatic(),
+    # Annand and Ma (1971) for compression ignition: radiation of the flame 3.27e-8 W/(m^2 K^4)
+    "annand": lambda wall: Annand(wall_temperature=wall, a=0.26, radiation=3.27e-8),
+    "woschni": lambda wall: Woschni(wall_temperature=wall),
+    "hohenberg": lambda wall: Hohenberg(wall_temperature=wall),
+}
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class TwoStrokeZone:
+    """Inputs: `[cycle]` with `kind = "two-stroke-zone"`.
+
+    Parameters
+    ----------
+    bore : float
+        Diameter of the piston [m]
+    compression_ratio : float
+        Geometric [-]
+    mean_indicated_pressure : float
+        Wanted mean indicated pressure [Pa]
+    p_s : float
+        Absolute scavenge pressure [Pa]
+    T_evc : float
+        Gas temperature when the exhaust closes [K]
+    evc, soc, evo, spo : float
+        Exhaust closes (negative), combustion starts, exhaust opens, scavenge ports open; from TDC [rad]
+    duration : float
+        Duration of combustion [rad]
+    a_p, m_p, a_d, m_d, b : float
+        Double Wiebe function [-]
+    lhv : float
+        Lower heating value of the fuel [J/kg]
+    speed : float
+        Crank speed, for the heat transfer [rad/s]
+    heat_transfer : str
+        `woschni`, `hohenberg`, `annand` or `none`
+    wall_temperature : float
+        Mean temperature of the walls [K]
+    properties : str
+        `nasa` (temperature dependent) or `constant_gamma` (1.35)
+    p_back : float
+        Absolute pressure under the piston [Pa]
+    """
+
+    bore: float = quantity("m", above=0, about="diameter of the piston")
+    compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
+    mean_indicated_pressure: float = quantity("Pa", above=0, about="wanted mean indicated pressure")
+    p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
+    T_evc: float = quantity("K", above=200, below=800, about="temperature when the exhaust closes")
+    evc: float = quantity("rad", above=-math.pi, below=0, about="exhaust closes")
+    soc: float = quantity("rad", default=0.0, above=-math.pi / 3, below=math.pi / 3, about="combustion starts")
+    duration: float = quantity("rad", above=0, below=math.pi, about="duration of combustion")
+    evo: float = quantity("rad", above=0, below=math.pi, about="exhaust opens")
+    spo: float = quantity("rad", above=0, below=math.pi, about="scavenge ports open")
+    a_p: float = quantity("-", above=0, about="Wiebe completeness of the share 1 - b")
+    m_p: float = quantity("-", low=0, about="Wiebe form of the share 1 - b")
+    a_d: float = quantity("-", above=0, about="Wiebe completeness of the share b")
+    m_d: float = quantity("-", low=0, about="Wiebe form of the share b")
+    b: float = quantity("-", low=0, high=1, about="share of the second Wiebe function")
+    lhv: float = quantity("J/kg", default=42.7e6, above=0, about="lower heating value of the fuel")
+    speed: float = quantity("rad/s", above=0, about="crank speed, for the heat transfer")
+    heat_transfer: str = choice(*_LAWS, default="woschni", about="law of heat transfer")
+    wall_temperature: float = quantity("K", default=550.0, above=0, about="mean wall temperature")
+    properties: str = choice("nasa", "constant_gamma", default="nasa", about="gas properties")
+    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
+
+    def __post_init__(self) -> None:
+        check(self)
+        order = (self.evc, self.soc, self.soc + self.duration, self.evo, self.spo)
+        if not all(a < b for a, b in zip(order, order[1:], strict=False)):
+            raise BadInput(
+                "the order must be evc < soc < soc + duration < evo < spo; got "
+                + ", ".join(f"{math.degrees(a):g}" for a in order)
+                + " deg"
+            )
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Zone:
+    """The integrated cycle with the fuel that gives the wanted mean pressure.
+
+    Parameters
+    ----------
+    result : Run
+        Its closed period, one point
+    fuel : float
+        Fuel of a cycle [kg]
+    absolute : callable
+        Crank angle [rad] to absolute pressure over the whole turn [Pa]
+    kinks : tuple of float
+        Where it is not smooth, in [0, 2 pi) [rad]
+    mean_indicated : float
+        Mean indicated pressure [Pa]
+    cylinder : Cylinder
+        Geometry
+    """
+
+    result: Run
+    fuel: float
+    absolute: Callable[[Any], Any]
+    kinks: tuple[float, ...]
+    mean_indicated: float
+    cylinder: Cylinder
+
+
+def two_stroke_zone(cycle: TwoStrokeZone, kinematics: ca.Function) -> Zone:
+    """Integrate the cycle and find its fuel.
+
+    Parameters
+    ----------
+    cycle : TwoStrokeZone
+        Inputs
+    kinematics : casadi.Function
+        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
+
+    Returns
+    -------
+    zone : Zone
+        States, fuel, pressure
+
+    Raises
+    ------
+    BadInput
+        No fuel gives the wanted mean pressure
+    """
+    motion, cylinder = _motion(kinematics), cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
+    events = (cycle.evc, cycle.soc, cycle.soc + cycle.duration, cycle.evo, cycle.spo)
+    kinks = tuple(sorted(float(wrapped(a, _TURN)) for a in events))
+    build = partial(closed_period, cycle, motion)
+
+    def made(fuel: float) -> Zone:
+        result = run(build, {"omega": cycle.speed, "fuel": fuel})
+        absolute = _absolute(cycle, result)
+        mean = mean_indicated_pressure(absolute, _TURN, kinks, cylinder)
+        return Zone(
+            result=result, fuel=fuel, absolute=absolute, kinks=kinks, mean_indicated=mean, cylinder=cylinder
+        )  # fmt: skip
+
+    return made(_fuel(cycle, motion, lambda fuel: made(fuel).mean_indicated))
+
+
+def two_stroke_zone_pressure(cycle: TwoStrokeZone, kinematics: ca.Function) -> Pressure:
+    """Pressure of the integrated cycle.
+
+    Parameters
+    ----------
+    cycle : TwoStrokeZone
+        Inputs
+    kinematics : casadi.Function
+        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
+
+    Returns
+    -------
+    pressure : Pressure
+        With the fuel that gives the wanted mean pressure, heat shares and the first-law residual among its facts
+    """
+    zone = two_stroke_zone(cycle, kinematics)
+    p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
+    return Pressure(
+        kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
+        phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated, facts=_facts(cycle, zone),
+        phases={"exhaust closes": cycle.evc, "combustion starts": cycle.soc, "end of combustion":
+                cycle.soc + cycle.duration, "exhaust opens": cycle.evo, "scavenge ports open": cycle.spo},
+    )  # fmt: skip
+
+
+def closed_period(cycle: TwoStrokeZone, motion: Motion, design: Any) -> Closed:
+    """The closed period at a speed and an amount of fuel.
+
+    Parameters
+    ----------
+    cycle : TwoStrokeZone
+        Inputs
+    motion : Motion
+        Of the piston
+    design : mapping
+        `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols
+
+    Returns
+    -------
+    closed : Closed
+        What the integration needs
+    """
+    gas = NasaMixture() if cycle.properties == "nasa" else ConstantGamma(gamma=1.35)
+    room = chamber(ChamberParameters(bore=cycle.bore, compression_ratio=cycle.compression_ratio), motion)
+    pressure, fuel = scavenging_pressure(cycle.p_s), design["fuel"]
+    gas_constant = properties(gas, cycle.T_evc, 0.0).gas_constant
+    return Closed(
+        chamber=room, gas=gas, law=_LAWS[cycle.heat_transfer](cycle.wall_temperature), omega=design["omega"],
+        closes=cycle.evc, starts=cycle.soc, duration=cycle.duration, opens=cycle.evo, pressure=pressure,
+        temperature=cycle.T_evc, mass=pressure * volume(room, cycle.evc)[0] / (gas_constant * cycle.T_evc), fuel=fuel,
+        heat=fuel * cycle.lhv, fuel_heat=fuel * cycle.lhv, latent_heat=0.0, fuel_entry="injected",
+        # the heating value is counted at the reference temperature, so the fuel comes in with the energy of gas there
+        fuel_energy=properties(gas, T_REFERENCE, 0.0).energy,
+        wiebe=(cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b),
+    )  # fmt: skip
+
+
+def _motion(kinematics: ca.Function) -> Motion:
+    phi, none = ca.SX.sym("phi"), ca.SX.sym("none", 0)
+    found = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
+    x, dx = found["x"], found["dx_dphi"]
+    travel = ca.Function("travel", [phi, none], [x, dx, ca.jacobian(dx, phi)])
+    return Motion(name="piston", function=travel, parameters={}, masses=())
+
+
+def _fuel(cycle: TwoStrokeZone, motion: Motion, mean: Callable[[float], float]) -> float:
+    most = float(closed_period(cycle, motion, {"omega": cycle.speed, "fuel": 0.0}).mass) / _STOICHIOMETRIC
+    wanted, least = cycle.mean_indicated_pressure, 1e-4 * most
+    low, high = mean(least), mean(most)
+    if not low < wanted < high:
+        raise BadInput(
+            f"mean_indicated_pressure = {wanted / 1e5:g} bar cannot be had: without fuel there are {low / 1e5:.3g} "
+            f"bar, with all the air burnt {high / 1e5:.3g} bar; change it or the scavenge pressure p_s"
+        )
+    return float(brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
+
+
+def _absolute(cycle: TwoStrokeZone, result: Run) -> Callable[[Any], Any]:
+    once = np.append(np.diff(result.phi[0]) > 1e-12, True)
+    nodes, p = result.phi[0, once], result.p[0, once]
+    closed = CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
+    p_evo, p_evc = float(p[-1]), scavenging_pressure(cycle.p_s)
+
+    def one_turn(phi: Any) -> Any:
+        line = p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
+        return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
+
+    return periodic(one_turn, _TURN, start=cycle.evc)
+
+
+def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, float]:
+    """Where the fuel's energy goes.
+
+    Parameters
+    ----------
+    cycle : TwoStrokeZone
+        Inputs
+    zone : Zone
+        Its result
+
+    Returns
+    -------
+    shares : dict of str to float
+        heat (walls), work (of the turn), exhaust (what is left), unburnt; of the fuel's heating value [-]
+    """
+    heat, scalars = zone.fuel * cycle.lhv, zone.result.scalars
+    work = zone.mean_indicated * swept_volume(zone.cylinder) / heat
+    lost, unburnt = float(scalars["wall_heat"][0]) / heat, 1 - float(scalars["heat_released"][0]) / heat
+    return {"heat": lost, "work": work, "exhaust": 1 - lost - work - unburnt, "unburnt": unburnt}
+
+
+def _facts(cycle: TwoStrokeZone, zone: Zone) -> tuple[str, ...]:
+    found, result = shares(cycle, zone), zone.result
+    excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
+    return (
+        f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
+        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({cycle.heat_transfer}, walls "
+        f"{cycle.wall_temperature:g} K, assumed), highest mean temperature {result.t.max():.0f} K",
+        f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
+    )

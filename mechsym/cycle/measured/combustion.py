@@ -1,0 +1,185 @@
+r"""A measured diagram taken apart: combustion of every cycle and of the mean one, and how sure all of it is.
+
+measured cycles --> heat release, burn points, exponents of each --> weak cycles
+               \--> mean cycle: Wiebe functions, compression line, trapped mass, what a degree of dead centre costs
+"""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from mechsym.cycle.cylinder import Cylinder, volume
+from mechsym.cycle.measured.facts import weak_cycles
+from mechsym.cycle.measured.fits import Fit, compression_line, fit_double_wiebe, fit_wiebe, trapped_mass
+from mechsym.cycle.measured.heat_release import Combustion, burnt_fraction, combustion, heat_release
+from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
+from mechsym.quantities import check, quantity
+
+_DEGREE = math.radians(1.0)
+_EARLIEST = math.radians(-45.0)
+_BEFORE_COMBUSTION = math.radians(-30.0)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Analysis:
+    """Section `[combustion]`: what the analysis of a measured diagram assumes.
+
+    Parameters
+    ----------
+    gamma : float
+        Ratio of heat capacities of the hot charge [-]
+    gas_constant : float
+        Specific gas constant [J/(kg*K)]
+    inlet_closes, exhaust_opens : float
+        Ends of the closed part, from firing TDC [rad]
+    charge_temperature : float
+        When the inlet closes, for the trapped mass [K]
+    """
+
+    gamma: float = quantity("-", default=1.32, above=1, high=5 / 3, about="ratio of heat capacities")
+    gas_constant: float = quantity("J/kg/K", default=287.0, above=0, about="specific gas constant")
+    inlet_closes: float = quantity("rad", default=math.radians(-130.0), low=-math.pi, below=0, about="from firing TDC")
+    exhaust_opens: float = quantity("rad", default=math.radians(120.0), above=0, high=math.pi, about="from firing TDC")
+    charge_temperature: float = quantity("K", default=330.0, above=0, about="when the inlet closes")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DiagramCombustion:
+    """What a measured diagram says of combustion.
+
+    Parameters
+    ----------
+    cycles : tuple of Combustion
+        Every cycle
+    mean : Combustion
+        The mean cycle
+    weak : tuple of int
+        Cycles with less than 0.7 of the median work, from 0
+    wiebe, double_wiebe : Fit
+        Through the burnt fraction of the mean cycle
+    line : Fit
+        Compression line of the mean cycle from the closing of the inlet, exponent and dead centre free
+    mass : float
+        Trapped mass from that line [kg]
+    tdc_uncertainty : float or None
+        Of the alignment [rad]
+    per_degree : mapping of str to float
+        Change by one degree of later dead centre: `work`, `heat` relative [-], `burn_50` [rad]
+    uncertainty : mapping of str to float or None
+        The same for the uncertainty of the dead centre
+    """
+
+    cycles: tuple[Combustion, ...]
+    mean: Combustion
+    weak: tuple[int, ...]
+    wiebe: Fit
+    double_wiebe: Fit
+    line: Fit
+    mass: float
+    tdc_uncertainty: float | None
+    per_degree: dict[str, float]
+    uncertainty: dict[str, float | None]
+
+
+def diagram_combustion(measured: MeasuredCycles, cylinder: Cylinder, analysis: Analysis) -> DiagramCombustion:
+    """Take the measured cycles apart.
+
+    Parameters
+    ----------
+    measured : MeasuredCycles
+        Aligned, pegged cycles
+    cylinder : Cylinder
+        Geometry
+    analysis : Analysis
+        Assumptions
+
+    Returns
+    -------
+    found : DiagramCombustion
+        Cycle by cycle and for the mean
+    """
+    phi, cycles = around_compression(measured.phi, measured.cycles, measured.period)
+    ends = (analysis.inlet_closes, analysis.exhaust_opens)
+    each = tuple(combustion(phi, p, cylinder, analysis.gamma, ends) for p in cycles)
+    average = cycles.mean(axis=0)
+    inside = (phi >= ends[0]) & (phi <= ends[1])
+    at = phi[inside]
+    burnt = burnt_fraction(at, heat_release(at, average[inside], cylinder, analysis.gamma))
+    burning = at >= _EARLIEST
+    line = compression_line(phi, average, cylinder, analysis.inlet_closes, _BEFORE_COMBUSTION)
+    v_closed = float(volume(cylinder, analysis.inlet_closes))
+    slopes = sensitivity(phi, average, cylinder, analysis)
+    spread = measured.tdc_uncertainty
+    return DiagramCombustion(
+        cycles=each,
+        mean=combustion(phi, average, cylinder, analysis.gamma, ends),
+        weak=weak_cycles(np.array([c.mean_indicated for c in each])),
+        wiebe=fit_wiebe(at[burning], burnt[burning]),
+        double_wiebe=fit_double_wiebe(at[burning], burnt[burning]),
+        line=line,
+        mass=trapped_mass(line.values[2], v_closed, analysis.charge_temperature, analysis.gas_constant),
+        tdc_uncertainty=spread,
+        per_degree=slopes,
+        uncertainty={k: None if spread is None else abs(v) * spread / _DEGREE for k, v in slopes.items()},
+    )
+
+
+def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, analysis: Analysis) -> dict[str, float]:
+    """What a dead centre that lies one degree later changes.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Crank angles of one period [rad]
+    p : ndarray, shape (n,)
+        Absolute pressure [Pa]
+    cylinder : Cylinder
+        Geometry
+    analysis : Analysis
+        Assumptions
+
+    Returns
+    -------
+    change : dict of str to float
+        `work`, `heat` relative [-], `burn_50` [rad], by central differences
+    """
+    ends = (analysis.inlet_closes, analysis.exhaust_opens)
+    earlier, here, later = (
+        combustion(phi + shift, p, cylinder, analysis.gamma, ends) for shift in (_DEGREE / 2, 0.0, -_DEGREE / 2)
+    )
+    return {
+        "work": (later.work - earlier.work) / here.work,
+        "heat": (later.heat - earlier.heat) / here.heat,
+        "burn_50": later.burn_angles[1] - earlier.burn_angles[1],
+    }
+
+
+def rows(found: DiagramCombustion) -> list[dict[str, Any]]:
+    """One row for each cycle, in the units of the command line.
+
+    Parameters
+    ----------
+    found : DiagramCombustion
+        Result of `diagram_combustion`
+
+    Returns
+    -------
+    rows : list of dict
+        cycle (from 1), mep_bar, p_max_bar, p_max_deg, heat_j, burn_10_deg, burn_50_deg, burn_90_deg, n_compression,
+        n_expansion, weak
+    """
+    table = []
+    for k, cycle in enumerate(found.cycles):
+        burn_10, burn_50, burn_90 = (math.degrees(angle) for angle in cycle.burn_angles)
+        table.append({
+            "cycle": k + 1, "mep_bar": cycle.mean_indicated / 1e5, "p_max_bar": cycle.p_max / 1e5,
+            "p_max_deg": math.degrees(cycle.phi_p_max), "heat_j": cycle.heat, "burn_10_deg": burn_10,
+            "burn_50_deg": burn_50, "burn_90_deg": burn_90, "n_compression": cycle.n_compression,
+            "n_expansion": cycle.n_expansion, "weak": k in found.weak,
+        })  # fmt: skip
+    return table

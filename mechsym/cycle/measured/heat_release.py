@@ -1,0 +1,250 @@
+r"""From measured pressure back to combustion: heat release, burn points, exponents, cycle by cycle.
+
+    Q(phi) = [p V/(gamma - 1)] + int p dV        apparent (net) heat release, from the closing of the inlet on
+    Q_gross = Q + int dQ_L                        with a heat-transfer law for what the walls took meanwhile
+
+The integral form needs no derivative of the noisy pressure. The burnt fraction is Q between its lowest value before
+and its highest value after top dead centre. All of it stands on the dead centre: `sensitivity` says how much.
+"""
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from mechsym.cycle.cylinder import Cylinder, dvolume_dphi, piston_area, swept_volume, volume
+from mechsym.cycle.heat import GasState, Law, heat_flux
+
+LEVELS = (0.1, 0.5, 0.9)
+_EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
+_COMPRESSION = (math.radians(-90.0), math.radians(-30.0))
+_EXPANSION = (math.radians(60.0), math.radians(110.0))
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Combustion:
+    """What one cycle's pressure says of its combustion.
+
+    Parameters
+    ----------
+    work : float
+        Net work over the period [J]
+    mean_indicated : float
+        Work over swept volume [Pa]
+    p_max, phi_p_max : float
+        Peak pressure [Pa] and its crank angle [rad]
+    heat : float
+        Heat released, apparent or gross [J]
+    burn_angles : tuple of float
+        Crank angles at the burnt fractions `LEVELS`; nan where combustion does not get there [rad]
+    n_compression, n_expansion : float
+        Polytropic exponents, -90 to -30 and 60 to 110 degrees [-]
+    """
+
+    work: float
+    mean_indicated: float
+    p_max: float
+    phi_p_max: float
+    heat: float
+    burn_angles: tuple[float, ...]
+    n_compression: float
+    n_expansion: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Walls:
+    """What a gross heat release needs to know.
+
+    Parameters
+    ----------
+    law : Annand, Woschni, Hohenberg or Adiabatic
+        Heat transfer; Woschni's combustion term is left out
+    mass : float
+        Mass of gas [kg]
+    gas_constant : float
+        Specific gas constant [J/(kg*K)]
+    omega : float
+        Crank speed [rad/s]
+    """
+
+    law: Law
+    mass: float
+    gas_constant: float
+    omega: float
+
+
+def heat_release(
+    phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, gamma: float, walls: Walls | None = None
+) -> np.ndarray:
+    r"""Cumulative heat release.
+
+    .. math:: Q(\varphi) = \frac{p V - p_0 V_0}{\gamma - 1} + \int_{\varphi_0}^{\varphi} p\,dV
+        + \int_{\varphi_0}^{\varphi} \frac{q A_w}{\omega}\,d\varphi
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles of the closed period, from firing TDC [rad]
+    p : ndarray, shape (n,)
+        Absolute pressure [Pa]
+    cylinder : Cylinder
+        Geometry
+    gamma : float
+        Ratio of heat capacities [-]
+    walls : Walls, optional
+        Adds the heat that went into the walls: gross instead of apparent
+
+    Returns
+    -------
+    q : ndarray, shape (n,)
+        0 at phi[0] [J]
+    """
+    v = volume(cylinder, phi)
+    q = (p * v - p[0] * v[0]) / (gamma - 1) + cumulative(phi, p * dvolume_dphi(cylinder, phi))
+    return q if walls is None else q + cumulative(phi, _wall_rate(phi, p, cylinder, walls))
+
+
+def burnt_fraction(phi: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Burnt fraction from the cumulative heat release.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles, from firing TDC [rad]
+    q : ndarray, shape (n,)
+        Cumulative heat release [J]
+
+    Returns
+    -------
+    burnt : ndarray, shape (n,)
+        0 at the lowest value between 45 degrees before TDC and the highest one, 1 there, held outside [-]
+    """
+    top = int(np.argmax(q))
+    first = min(int(np.searchsorted(phi, _EARLIEST)), top)
+    bottom = first + int(np.argmin(q[first : top + 1]))
+    inside = np.clip((q - q[bottom]) / (q[top] - q[bottom]), 0.0, 1.0)
+    return np.where(np.arange(q.size) <= bottom, 0.0, np.where(np.arange(q.size) >= top, 1.0, inside))
+
+
+def burn_angles(phi: np.ndarray, burnt: np.ndarray, levels: Sequence[float] = LEVELS) -> tuple[float, ...]:
+    """Crank angles at which given shares are burnt.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles [rad]
+    burnt : ndarray, shape (n,)
+        Burnt fraction [-]
+    levels : sequence of float
+        Shares [-]
+
+    Returns
+    -------
+    angles : tuple of float
+        Last crossing of each level, straight between samples; nan if there is none [rad]
+    """
+    angles = []
+    for level in levels:
+        below = np.flatnonzero(burnt < level)
+        if not below.size or below[-1] + 1 >= burnt.size:
+            angles.append(math.nan)
+            continue
+        k = int(below[-1])
+        angles.append(float(phi[k] + (phi[k + 1] - phi[k]) * (level - burnt[k]) / (burnt[k + 1] - burnt[k])))
+    return tuple(angles)
+
+
+def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: float, last: float) -> float:
+    r"""Exponent of the line log p over log V between two crank angles.
+
+    .. math:: n = -d\log p/d\log V
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+    p : ndarray, shape (n,)
+        Absolute pressure; samples that are not positive are left out [Pa]
+    cylinder : Cylinder
+        Geometry
+    first, last : float
+        Ends of the piece [rad]
+
+    Returns
+    -------
+    n : float
+        Least-squares exponent [-]
+    """
+    inside = (phi >= first) & (phi <= last) & (p > 0)
+    return -float(np.polyfit(np.log(volume(cylinder, phi[inside])), np.log(p[inside]), 1)[0])
+
+
+def combustion(
+    phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, gamma: float, closed: tuple[float, float],
+    walls: Walls | None = None,
+) -> Combustion:  # fmt: skip
+    """Work, peak, heat release, burn points and exponents of one cycle.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Evenly spaced, ascending crank angles of one period, the closed part in one piece [rad]
+    p : ndarray, shape (n,)
+        Absolute pressure [Pa]
+    cylinder : Cylinder
+        Geometry
+    gamma : float
+        Ratio of heat capacities [-]
+    closed : tuple of float
+        Ends of the closed part [rad]
+    walls : Walls, optional
+        For a gross heat release
+
+    Returns
+    -------
+    combustion : Combustion
+        What the pressure says
+    """
+    work = float(np.sum(p * dvolume_dphi(cylinder, phi)) * (phi[1] - phi[0]))
+    inside = (phi >= closed[0]) & (phi <= closed[1])
+    at, pressure = phi[inside], p[inside]
+    q = heat_release(at, pressure, cylinder, gamma, walls)
+    top = int(np.argmax(q))
+    first = min(int(np.searchsorted(at, _EARLIEST)), top)
+    return Combustion(
+        work=work,
+        mean_indicated=work / swept_volume(cylinder),
+        p_max=float(pressure.max()),
+        phi_p_max=float(at[int(np.argmax(pressure))]),
+        heat=float(q[top] - q[first : top + 1].min()),
+        burn_angles=burn_angles(at, burnt_fraction(at, q)),
+        n_compression=polytropic_fit(phi, p, cylinder, *_COMPRESSION),
+        n_expansion=polytropic_fit(phi, p, cylinder, *_EXPANSION),
+    )
+
+
+def cumulative(phi: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Running integral by the trapezoidal rule.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles [rad]
+    rate : ndarray, shape (n,)
+        Rate by angle [J/rad]
+
+    Returns
+    -------
+    total : ndarray, shape (n,)
+        0 at phi[0] [J]
+    """
+    return np.concatenate([[0.0], np.cumsum(np.diff(phi) * (rate[1:] + rate[:-1]) / 2)])
+
+
+def _wall_rate(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, walls: Walls) -> np.ndarray:
+    v = volume(cylinder, phi)
+    t = p * v / (walls.mass * walls.gas_constant)
+    speed = cylinder.stroke * walls.omega / math.pi
+    flux = heat_flux(walls.law, GasState(p, t, v, walls.gas_constant, cylinder.bore, speed))
+    return flux * (2 * piston_area(cylinder.bore) + 4 * v / cylinder.bore) / walls.omega

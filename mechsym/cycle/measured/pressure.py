@@ -1,0 +1,55 @@
+"""From measured cycles to the smooth periodic pressure that drives a mechanism.
+
+    cycles (k, n) --mean--> one cycle --periodic smoothing spline--> Pressure
+
+The spline leaves out as much as the noise of the mean cycle; both are reported, beside the scatter of the cycles.
+"""
+
+import numpy as np
+
+from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.measured.facts import diagram_doubts, diagram_facts
+from mechsym.cycle.measured.measure import measured_cycles
+from mechsym.cycle.measured.smoothing import smooth
+from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, periodic
+
+
+def diagram_pressure(diagram: Diagram, cylinder: Cylinder) -> Pressure:
+    """Pressure of a measured diagram.
+
+    Parameters
+    ----------
+    diagram : Diagram
+        File and methods
+    cylinder : Cylinder
+        Geometry
+
+    Returns
+    -------
+    pressure : Pressure
+        Mean cycle, smooth and periodic: no kinks
+
+    Raises
+    ------
+    BadInput
+        The file is refused, or alignment or pegging fail
+    """
+    measured = measured_cycles(diagram, cylinder)
+    mean = measured.cycles.mean(axis=0)
+    spline = smooth(measured.phi, mean, measured.period, diagram.smoothing)
+    absolute = periodic(spline, measured.period, start=float(measured.phi[0]))
+    p_max, phi_p_max = peak(absolute, measured.period, ())
+    residual = float(np.sqrt(np.mean((absolute(measured.phi) - mean) ** 2)))
+    return Pressure(
+        kind="diagram",
+        period=measured.period,
+        kinks=(),
+        absolute=absolute,
+        p_max=p_max,
+        phi_p_max=phi_p_max,
+        mean_indicated=mean_indicated_pressure(absolute, measured.period, (), cylinder),
+        phases={"compression line from": diagram.fit_from, "compression line to": diagram.fit_to},
+        facts=diagram_facts(diagram, cylinder, measured, residual),
+        doubts=diagram_doubts(diagram, cylinder, measured, phi_p_max),
+    )

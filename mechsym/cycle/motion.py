@@ -1,0 +1,73 @@
+"""From a mechanism to the motion that the engine cycle needs: the one place where the two meet.
+
+The engine knows the travel of a piston and nothing else; a mechanism with a crank angle and a travel x has all of it.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import casadi as ca
+
+from mechsym.cycle.chamber import Motion, check_motion
+from mechsym.errors import BadInput
+from mechsym.mechanisms.record import Mechanism, bind
+
+# mechanism: parameters whose masses go up and down with the piston, outputs of `reactions` that limit a design
+_PISTONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "crank_throw": (("m_piston",), ()),
+    "crosshead": (("m3", "m4", "m5"), ()),
+    "hypocycloid": (("m3",), ("tooth_force",)),
+}
+
+
+def motion(name: str, parameters: Mapping[str, float]) -> Motion:
+    """The motion of a mechanism's piston, with the mechanism's parameters still free.
+
+    Parameters
+    ----------
+    name : str
+        Name of a mechanism with one coordinate and a piston
+    parameters : mapping of str to float
+        Values of all its parameters
+
+    Returns
+    -------
+    motion : Motion
+        Travel and its derivatives, and the loads that limit a design
+
+    Raises
+    ------
+    BadInput
+        The mechanism has no piston of known mass
+    """
+    if name not in _PISTONS:
+        raise BadInput(f"mechanism {name!r} has no piston for an engine cycle; use {', '.join(sorted(_PISTONS))}")
+    masses, loads = _PISTONS[name]
+    symbols = {key: ca.SX.sym(key) for key in parameters}
+    mechanism = bind(name, symbols)
+    found = Motion(
+        name=name,
+        function=_travel(mechanism, symbols),
+        parameters=dict(parameters),
+        masses=masses,
+        loads=_loads(mechanism, symbols, loads) if loads else None,
+    )
+    check_motion(found)
+    return found
+
+
+def _travel(mechanism: Mechanism, symbols: Mapping[str, ca.SX]) -> ca.Function:
+    q, phi = mechanism.coordinates[0], ca.SX.sym("phi")
+    values = mechanism.functions["kinematics"](**{q: phi}, **symbols)
+    outputs = [values[name] for name in ("x", f"dx_d{q}", f"d2x_d{q}2")]
+    return ca.Function("travel", [phi, ca.vertcat(*symbols.values())], outputs)
+
+
+def _loads(mechanism: Mechanism, symbols: Mapping[str, ca.SX], names: tuple[str, ...]) -> ca.Function:
+    q, phi, omega, force = mechanism.coordinates[0], *(ca.SX.sym(n) for n in ("phi", "omega", "F"))
+    reactions = mechanism.functions["reactions"]
+    state: dict[str, Any] = {q: phi, f"{q}d": omega, "F": force}
+    values = reactions(**{n: state.get(n, symbols.get(n, 0)) for n in reactions.name_in()})
+    outputs = [values[n] for n in names]
+    return ca.Function("loads", [phi, ca.vertcat(*symbols.values()), omega, force], outputs,
+                       ["phi", "parameters", "omega", "F"], list(names))  # fmt: skip

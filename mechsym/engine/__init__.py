@@ -1,1 +1,0 @@
-"""Cylinder pressure and the engine cycle. Knows a mechanism only through its volume function."""

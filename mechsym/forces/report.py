@@ -1,0 +1,90 @@
+"""Files of a force analysis: one HTML page that opens offline, tables, summary, pictures."""
+
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from mechsym.files import to_json, write_csv, write_text
+from mechsym.forces import plots as plots_forces
+from mechsym.hinge.plots import svg
+from mechsym.hinge.report import significant
+from mechsym.jobs.forces import Forces, quantities
+from mechsym.mechanisms import plots as plots_mechanism
+
+
+def write(found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
+    """Write page, tables, summary and pictures.
+
+    Parameters
+    ----------
+    found : Forces
+        Of a case
+    numbers : dict
+        Its `summary`
+    folder : Path
+        Where to write; made when missing
+
+    Returns
+    -------
+    files : list of Path
+        report.html first
+    """
+    case, figures = found.turn.case, _figures(found)
+    turning = plots_mechanism.animation(case.mechanism, case.need("parameters"), case.about)
+    files = [
+        write_text(folder / "report.html", html(found, numbers, figures)),
+        write_csv(folder / "forces.csv", found.columns),
+        write_text(folder / "summary.json", to_json(numbers) + "\n"),
+        write_text(folder / "mechanism.html", turning),
+    ]
+    if found.comparison is not None:
+        files.append(write_csv(folder / "comparison.csv", _table(found.comparison)))
+    return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
+
+
+def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str]) -> str:
+    """The page as text.
+
+    Parameters
+    ----------
+    found : Forces
+        Of a case
+    numbers : dict
+        Its `summary`
+    figures : dict of str to str
+        SVG by name
+
+    Returns
+    -------
+    text : str
+        HTML without any outside reference
+    """
+    import jinja2
+
+    source = (resources.files("mechsym") / "templates" / "forces.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
+    environment.filters["sig"] = significant
+    case = found.turn.case
+    return environment.from_string(source).render(
+        numbers=numbers, figures=figures, about=case.about, source=case.source, shown=quantities(numbers)
+    )
+
+
+def _figures(found: Forces) -> dict[str, str]:
+    case = found.turn.case
+    figures = {
+        "forces": plots_forces.chain(found),
+        "polar": plots_forces.polar_diagrams(found),
+        "orders": plots_forces.orders(found),
+        "mechanism": plots_mechanism.figure(case.mechanism, case.need("parameters"), 0.8),
+    }
+    if found.losses is not None:
+        figures["friction"] = plots_forces.friction(found)
+    if found.comparison is not None:
+        figures["comparison"] = plots_forces.comparison(found.comparison)
+    return {name: svg(figure) for name, figure in figures.items()}
+
+
+def _table(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    names = [k for k, v in rows[0].items() if not isinstance(v, dict)]
+    return {k: ["" if row[k] is None else row[k] for row in rows] for k in names}

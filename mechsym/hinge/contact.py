@@ -1,0 +1,151 @@
+"""One turn of the guide in numbers: path, spring, contact and torque at many angles."""
+
+import dataclasses
+
+import numpy as np
+
+from mechsym import periodic
+from mechsym.hinge import rollers
+from mechsym.hinge.guide import Guide, Spring, closing, path
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs import law
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Turn:
+    """Arrays of shape (n,) over one period of the track.
+
+    Parameters
+    ----------
+    theta, phi : ndarray
+        Angle of the guide's shaft and of the crank [rad]
+    rho, drho, d2rho : ndarray
+        Path of the roller centres [m], [m/rad], [m/rad^2]
+    z, force : ndarray
+        Closing [m] and force [N] of the spring
+    pressure : ndarray or None
+        Excess pressure in the spring [Pa]; None without gas
+    pressure_angle, curvature : ndarray
+        Of the path [rad], [1/m]
+    reaction_1, reaction_2 : ndarray
+        Contact forces N1 and N2; the second is on the spring seat for `one_roller` [N]
+    hertz_stress : ndarray
+        Contact pressure [Pa]
+    tilting_couple : ndarray
+        Of tracks in offset planes, 0 for other arrangements [N*m]
+    inertia_force : ndarray
+        Radial force for each kilogram that moves with a roller, left out by the massless model [N/kg]
+    torque, loss_torque : ndarray
+        On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
+    """
+
+    theta: np.ndarray
+    phi: np.ndarray
+    rho: np.ndarray
+    drho: np.ndarray
+    d2rho: np.ndarray
+    z: np.ndarray
+    force: np.ndarray
+    pressure: np.ndarray | None
+    pressure_angle: np.ndarray
+    curvature: np.ndarray
+    reaction_1: np.ndarray
+    reaction_2: np.ndarray
+    hertz_stress: np.ndarray
+    tilting_couple: np.ndarray
+    inertia_force: np.ndarray
+    torque: np.ndarray
+    loss_torque: np.ndarray
+
+
+def at_angles(guide: Guide, spring: Spring, parameters: RollerParameters, theta: np.ndarray) -> Turn:
+    """The turn at given angles, for tables and plots.
+
+    Parameters
+    ----------
+    guide : Guide
+        With status `cut`
+    spring : AirGauge, AirAbsolute or Coil
+        Spring that works in it
+    parameters : RollerParameters
+        Rollers and tracks
+    theta : ndarray, shape (n,)
+        Angles of the guide's shaft [rad]
+
+    Returns
+    -------
+    turn : Turn
+        Arrays of shape (n,)
+    """
+    rho = path(guide)
+    values = [rho(theta), rho.derivative()(theta), rho.derivative(2)(theta)]
+    return _turn(guide, spring, parameters, np.asarray(theta, dtype=float), values)
+
+
+def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Turn:
+    """The turn at points dense enough for extremes; each kink appears twice, with the values of both its sides.
+
+    Parameters
+    ----------
+    guide : Guide
+        With status `cut`
+    spring : AirGauge, AirAbsolute or Coil
+        Spring that works in it
+    parameters : RollerParameters
+        Rollers and tracks
+
+    Returns
+    -------
+    turn : Turn
+        Arrays of shape (n,), angles not decreasing
+    """
+    rho = path(guide)
+    theta = periodic.piece_points(rho, 65)
+    values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]
+    return _turn(guide, spring, parameters, theta.ravel(), values)
+
+
+def columns(turn: Turn) -> dict[str, np.ndarray]:
+    """The turn as columns of a CSV file.
+
+    Parameters
+    ----------
+    turn : Turn
+        One turn
+
+    Returns
+    -------
+    columns : dict of str to ndarray
+        By field name; the pressure only of a gas spring
+    """
+    values = {field.name: getattr(turn, field.name) for field in dataclasses.fields(turn)}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _turn(guide: Guide, spring: Spring, parameters: RollerParameters, theta: np.ndarray, values: list) -> Turn:
+    rho, drho, d2rho = values
+    functions, chosen = law(spring), guide.parameters
+    z = closing(guide, rho)
+    force = functions.force(z)
+    kappa = rollers.curvature(rho, drho, d2rho)
+    reaction = rollers.reaction(force, rho, drho)
+    offset = parameters.plane_offset if chosen.arrangement == "two_tracks" else 0.0
+    return Turn(
+        theta=theta,
+        phi=theta / chosen.shaft_ratio,
+        rho=rho,
+        drho=drho,
+        d2rho=d2rho,
+        z=z,
+        force=force,
+        pressure=None if functions.pressure is None else functions.pressure(z),
+        pressure_angle=rollers.pressure_angle(rho, drho),
+        curvature=kappa,
+        reaction_1=reaction,
+        reaction_2=force if guide.rollers == 1 else reaction,
+        hertz_stress=rollers.hertz_stress(reaction, kappa, parameters),
+        tilting_couple=rollers.tilting_couple(reaction, offset),
+        inertia_force=rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio),
+        torque=guide.rollers * force * drho,
+        loss_torque=guide.rollers * rollers.loss_torque(reaction, rho, drho, parameters),
+    )

@@ -1,0 +1,294 @@
+"""Can the guide be built? Each limit is checked with its number; the answer carries the reason and the margin."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+from scipy.integrate import trapezoid
+
+from mechsym import periodic
+from mechsym.hinge.contact import Turn, at_pieces
+from mechsym.hinge.guide import Guide, Spring, closing, path
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs import Coil, law
+from mechsym.quantities import check, quantity
+
+_CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
+_ROUNDING = 1e-12  # equal values may differ in the last digits
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Limits:
+    """What the spring, the track and the rollers may be asked.
+
+    Parameters
+    ----------
+    spring_pressure : float
+        Highest excess pressure in an air spring [Pa]
+    closing_share : float
+        Largest closing z / H [-]
+    pressure_angle : float
+        Largest pressure angle [rad]
+    profile_radius : float
+        Smallest radius of the cut profile where it bulges towards the roller [m]
+    roller_reaction : float
+        Largest contact force on a roller [N]
+    hertz_stress : float
+        Largest contact pressure [Pa]
+    """
+
+    spring_pressure: float = quantity("Pa", above=0, about="excess pressure in the air spring")
+    closing_share: float = quantity("-", above=0, high=1, about="closing over free height, z / H")
+    pressure_angle: float = quantity("rad", above=0, below=math.pi / 2, about="pressure angle")
+    profile_radius: float = quantity("m", low=0, about="radius of the profile where it bulges towards the roller")
+    roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
+    hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Check:
+    """One limit.
+
+    Parameters
+    ----------
+    name, text : str
+        What is checked, and value against limit in words
+    kept : bool
+        Whether the limit is kept
+    margin : float or None
+        Share of the limit that is left, negative beyond it; None if a kept check knows no degree [-]
+    """
+
+    name: str
+    text: str
+    kept: bool
+    margin: float | None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """Whether a guide can be built; the numbers are None where there is no guide.
+
+    Parameters
+    ----------
+    feasible : bool
+        All limits are kept
+    reason : str
+        The limits that are not kept, or the tightest one
+    margin : float
+        Smallest margin of all checks, negative when infeasible [-]
+    checks : tuple of Check
+        All checks
+    rho_min, rho_max, z_min, z_max : float or None
+        Path and closing [m]
+    spring_force_max, spring_pressure_max : float or None
+        [N], [Pa]; pressure None without gas
+    pressure_angle_max : float or None
+        Largest magnitude [rad]
+    curvature_radius_min : float or None
+        Smallest radius of curvature of the path, bending either way [m]
+    undercut_radius : float or None
+        Roller radius from which the profile is undercut; None if the path never bends inwards [m]
+    roller_reaction_max, hertz_stress_max, tilting_couple_max : float or None
+        [N], [Pa], [N*m]
+    inertia_force_max : float or None
+        For each kilogram that moves with a roller, at the speed the guide was cut for; left out of all above [N/kg]
+    loss_torque_mean : float or None
+        Mean over the turn, on the guide's shaft [N*m]
+    closure : float
+        Gap of the path after a period [m]
+    """
+
+    feasible: bool
+    reason: str
+    margin: float
+    checks: tuple[Check, ...]
+    rho_min: float | None = None
+    rho_max: float | None = None
+    z_min: float | None = None
+    z_max: float | None = None
+    spring_force_max: float | None = None
+    spring_pressure_max: float | None = None
+    pressure_angle_max: float | None = None
+    curvature_radius_min: float | None = None
+    undercut_radius: float | None = None
+    roller_reaction_max: float | None = None
+    hertz_stress_max: float | None = None
+    tilting_couple_max: float | None = None
+    inertia_force_max: float | None = None
+    loss_torque_mean: float | None = None
+    closure: float = 0.0
+
+
+def judge(guide: Guide, spring: Spring, rollers: RollerParameters, limits: Limits) -> Verdict:
+    """Check a guide with a spring against all limits.
+
+    Parameters
+    ----------
+    guide : Guide
+        Of any status
+    spring : AirGauge, AirAbsolute or Coil
+        Spring that works in it: the one it was cut for, or another
+    rollers : RollerParameters
+        Rollers and tracks
+    limits : Limits
+        What is allowed
+
+    Returns
+    -------
+    verdict : Verdict
+        Answer, reason, margin and numbers
+    """
+    if guide.rho is None:
+        failed = Check(name="spring", text=guide.reason, kept=False, margin=-1.0)
+        return Verdict(feasible=False, reason=guide.reason, margin=-1.0, checks=(failed,))
+    turn = at_pieces(guide, spring, rollers)
+    numbers = _numbers(guide, spring, turn)
+    checks = (*_spring_checks(numbers, spring, limits), *_track_checks(guide, numbers, rollers, limits))
+    return Verdict(
+        feasible=all(c.kept for c in checks),
+        reason=_reason(checks),
+        margin=min(c.margin for c in checks if c.margin is not None),
+        checks=checks,
+        **numbers,
+    )
+
+
+def undercut_radius(curvature: np.ndarray) -> float | None:
+    """Largest roller radius before the cut profile is undercut.
+
+    Parameters
+    ----------
+    curvature : ndarray, shape (n,)
+        Curvature of the path of the roller centres [1/m]
+
+    Returns
+    -------
+    radius : float or None
+        Smallest radius of curvature where the path bends inwards [m]; None if it never does
+    """
+    lowest = float(curvature.min())
+    return -1 / lowest if lowest < 0 else None
+
+
+def highest(theta: np.ndarray, values: np.ndarray) -> float:
+    """Highest value of a curve given by points, at the top of the parabola through the three points around it.
+
+    Parameters
+    ----------
+    theta : ndarray, shape (n,)
+        Angles, not decreasing; an angle that stands twice is a kink [rad]
+    values : ndarray, shape (n,)
+        Values [any unit]
+
+    Returns
+    -------
+    highest : float
+        Never below the highest point [unit of the values]
+    """
+    i = int(values.argmax())
+    before, after = np.diff(theta[max(i - 1, 0) : i + 2]) if 0 < i < theta.size - 1 else (0.0, 0.0)
+    if before <= 0 or after <= 0 or not np.isfinite(values[i]):
+        return float(values[i])
+    rise, fall = (values[i] - values[i - 1]) / before, (values[i + 1] - values[i]) / after
+    bend = (fall - rise) / (before + after)
+    slope = rise + bend * before
+    return float(values[i] - slope**2 / (4 * bend)) if bend < 0 else float(values[i])
+
+
+def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
+    rho_min, _, rho_max, _ = periodic.extremes(path(guide))
+    z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
+    functions = law(spring)
+    return {
+        "rho_min": rho_min,
+        "rho_max": rho_max,
+        "z_min": z_min,
+        "z_max": z_max,
+        # all laws rise with z
+        "spring_force_max": float(functions.force(z_max)),
+        "spring_pressure_max": None if functions.pressure is None else float(functions.pressure(z_max)),
+        "pressure_angle_max": highest(turn.theta, np.abs(turn.pressure_angle)),
+        "curvature_radius_min": 1 / highest(turn.theta, np.abs(turn.curvature)),
+        "undercut_radius": undercut_radius(turn.curvature),
+        "roller_reaction_max": highest(turn.theta, turn.reaction_1),
+        "hertz_stress_max": highest(turn.theta, turn.hertz_stress),
+        "tilting_couple_max": highest(turn.theta, turn.tilting_couple),
+        "inertia_force_max": highest(turn.theta, np.abs(turn.inertia_force)),
+        "loss_torque_mean": float(trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
+        "closure": guide.closure,
+    }
+
+
+def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> list[Check]:
+    z_min, force_min = numbers["z_min"], float(law(spring).force(numbers["z_min"]))
+    longer = f"the spring is {-z_min * 1e3:.3g} mm longer than its free height; place the start"
+    checks = [
+        Check(
+            name="free_height",
+            text=longer if z_min < 0 else f"smallest closing {z_min * 1e3:.3g} mm",
+            kept=z_min >= -_ROUNDING * spring.H,
+            margin=z_min / spring.H if z_min < 0 else None,
+        ),
+        _at_most("closing", "closing z/H", numbers["z_max"] / spring.H, limits.closing_share, ""),
+        Check(
+            name="spring_force",
+            text=f"smallest spring force {force_min / 1e3:.4g} kN",
+            kept=force_min > 0,
+            margin=None if force_min > 0 else -1.0,
+        ),
+    ]
+    if numbers["spring_pressure_max"] is not None:
+        mpa = numbers["spring_pressure_max"] / 1e6, limits.spring_pressure / 1e6
+        checks.append(_at_most("spring_pressure", "spring pressure", *mpa, "MPa"))
+    return checks
+
+
+def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParameters, limits: Limits) -> list[Check]:
+    angle, stress = math.degrees(numbers["pressure_angle_max"]), numbers["hertz_stress_max"]
+    reaction = numbers["roller_reaction_max"] / 1e3
+    checks = [
+        _at_most("pressure_angle", "pressure angle", angle, math.degrees(limits.pressure_angle), "deg"),
+        _undercut_check(numbers["undercut_radius"], rollers.radius, limits.profile_radius),
+        _at_most("roller_reaction", "roller reaction", reaction, limits.roller_reaction / 1e3, "kN"),
+        _at_most("closure", "gap of the path", guide.closure, _CLOSURE * guide.parameters.rho0, "m"),
+        _at_most("centre", "roller radius in the smallest rho", rollers.radius, numbers["rho_min"], "m"),
+    ]
+    if math.isfinite(stress):
+        checks.append(_at_most("hertz_stress", "contact pressure", stress / 1e6, limits.hertz_stress / 1e6, "MPa"))
+    if guide.rollers == 2 and not isinstance(guide.spring, Coil):
+        # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
+        room = (2 * guide.parameters.rho0 - guide.spring.H) / 2
+        checks.append(_at_most("room", "roller radius beside the gas column", rollers.radius, room, "m"))
+    return checks
+
+
+def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> Check:
+    if largest is None:
+        return Check(name="undercut", text="the path never bends inwards", kept=True, margin=None)
+    left = largest - radius - profile_radius
+    text = (
+        f"the path bends inwards with a radius of {largest * 1e3:.4g} mm, which leaves the profile "
+        f"{(largest - radius) * 1e3:.4g} mm at a roller radius of {radius * 1e3:.4g} mm"
+        + (" (undercut)" if largest <= radius else "")
+        + f"; at least {profile_radius * 1e3:.4g} mm"
+    )
+    return Check(name="undercut", text=text, kept=left >= 0, margin=left / largest)
+
+
+def _at_most(name: str, words: str, value: float, limit: float, unit: str) -> Check:
+    text = f"{words} {value:.4g} of at most {limit:.4g} {unit}".rstrip()
+    margin = (limit - value) / (limit if limit > 0 else value)
+    return Check(name=name, text=text, kept=margin >= -_ROUNDING, margin=margin)
+
+
+def _reason(checks: tuple[Check, ...]) -> str:
+    failed = [c.text for c in checks if not c.kept]
+    if failed:
+        return "; ".join(failed)
+    tightest = min((c for c in checks if c.margin is not None), key=lambda c: c.margin or 0.0)
+    return f"within all limits; tightest: {tightest.text}"

@@ -1,0 +1,51 @@
+"""Picture of a hinge at other loads."""
+
+from collections.abc import Sequence
+
+from matplotlib.figure import Figure
+
+from mechsym.hinge.plots import BLUE, GREY, RED
+from mechsym.jobs.other_loads import AtLoad
+from mechsym.simulate.steady import Steady
+
+
+def loads(rows: Sequence[AtLoad]) -> Figure:
+    """Ripple of a guide over the load, with the spring as designed and set anew, and that setting.
+
+    Parameters
+    ----------
+    rows : sequence of AtLoad
+        The guide at some loads
+
+    Returns
+    -------
+    figure : Figure
+        Two panels; a cross at the top marks a load at which the crank does not turn steadily
+    """
+    figure = Figure(figsize=(9, 3.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    ordered = sorted(rows, key=lambda row: row.share)
+    shares = [100 * row.share for row in ordered]
+    for found, color, name in (
+        ([row.as_cut for row in ordered], RED, "spring as designed"),
+        ([row.reset for row in ordered], BLUE, "setting of that load"),
+    ):
+        # no line between the points: at the design's own load, which may lie between, there is no ripple
+        left.plot(shares, [_per_cent(s) for s in found], "o", color=color, markersize=5, label=name)
+        stopped = [share for share, s in zip(shares, found, strict=True) if s.speed_ripple is None]
+        left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
+    left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")
+    left.set_ylim(bottom=0)
+    left.legend(fontsize=7)
+    right.plot(shares, [row.ratio for row in ordered], "o-", color=BLUE, markersize=4)
+    right.axhline(1.0, color=GREY, linewidth=0.8)
+    right.set(xlabel="load over that of the design [%]", ylabel="setting over that of the design")
+    for axis in (left, right):
+        axis.grid(True, color="#e3e6ea", linewidth=0.7)
+        axis.set_axisbelow(True)
+        axis.spines[["top", "right"]].set_visible(False)
+    return figure
+
+
+def _per_cent(steady: Steady) -> float:
+    return float("nan") if steady.speed_ripple is None else 100 * steady.speed_ripple

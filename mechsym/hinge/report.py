@@ -1,0 +1,150 @@
+"""The report of a hinge design: one HTML file that opens offline, with equations, figures and a moving picture."""
+
+import dataclasses
+import json
+from functools import partial
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsym.files import to_json, write_csv, write_text
+from mechsym.hinge import plots, plots_loads
+from mechsym.hinge.rollers import parallel
+from mechsym.hinge.setting import setting_text
+from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
+from mechsym.jobs.hinge import Design
+from mechsym.mechanisms.record import curves, listing
+
+_FRAMES = 180
+
+
+def write(design: Design, folder: Path) -> list[Path]:
+    """Write report, tables, summary and pictures of a design.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+    folder : Path
+        Where to write; made when missing
+
+    Returns
+    -------
+    files : list of Path
+        report.html first
+    """
+    numbers, figures = summary(design), _figures(design)
+    files = [write_text(folder / "report.html", html(design, numbers, figures))]
+    files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
+    files.append(write_csv(folder / "hinge.csv", hinge_columns(design)))
+    if design.guide.rho is not None:
+        files.append(write_csv(folder / "guide.csv", guide_columns(design, guide_turn(design, 3601))))
+    return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
+
+
+def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> str:
+    """The report as text.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+    numbers : dict
+        From `summary`
+    figures : dict of str to str
+        SVG by name
+
+    Returns
+    -------
+    text : str
+        HTML without any outside reference
+    """
+    import jinja2
+
+    source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
+    environment.filters["sig"] = significant
+    environment.filters["setting"] = partial(setting_text, design.assembly.case.need("spring"))
+    return environment.from_string(source).render(
+        case=design.assembly.case,
+        design=design,
+        numbers=numbers,
+        figures=figures,
+        parameters=_parameters(design),
+        equations=listing(design.assembly.mechanism.name)["equations"],
+        motion=json.dumps(_motion(design)),
+        degrees=180 / np.pi,
+    )
+
+
+def significant(value: float | None, digits: int = 4) -> str:
+    """A number with a few significant digits, or a dash.
+
+    Parameters
+    ----------
+    value : float or None
+        Number [-]
+    digits : int
+        Significant digits
+
+    Returns
+    -------
+    text : str
+        Without an exponent between 1e-3 and 1e6
+    """
+    if value is None:
+        return "–"
+    if value != 0 and not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits - 1}e}"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e" in text else text
+
+
+def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
+    rows = []
+    for section, record in design.assembly.case.sections.items():
+        for field in dataclasses.fields(record):
+            value = getattr(record, field.name)
+            if "unit" in field.metadata and isinstance(value, float):
+                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
+    return rows
+
+
+def _figures(design: Design) -> dict[str, str]:
+    figures = {"pressure": plots.pressure(design), "torque": plots.torque(design), "speeds": plots.speeds(design)}
+    if design.guide.rho is not None:
+        turn = guide_turn(design)
+        radius = design.assembly.case.need("rollers").radius
+        figures |= {"track": plots.track(design, turn, radius), "contact": plots.contact(turn)}
+    if design.retuned is not None:
+        figures["retuning"] = plots.retuning(design)
+    if design.loads:
+        figures["loads"] = plots_loads.loads(design.loads)
+    return {name: plots.svg(figure) for name, figure in figures.items()}
+
+
+def _motion(design: Design) -> dict[str, Any]:
+    """Positions for the moving picture, with five digits of the rod's length."""
+    p = design.assembly.case.need("parameters")
+    r, l = p.r1 + p.r2, p.l1 + p.l2
+    phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
+    found, digits = curves(design.assembly.mechanism, phi), 5 - int(np.floor(np.log10(l)))
+    factor, unit = plots.unit_of(max(design.hinge.torque_max, -design.hinge.torque_min), "N m")
+    motion = {
+        "torque_unit": unit, "r": r, "l": l, "bore": design.assembly.cylinder.bore, "phi": np.round(phi, 5).tolist(),
+        "crosshead": np.round(r + l - found["x"], digits).tolist(),
+        "torque": np.round(design.hinge.torque(phi) * factor, 2).tolist(), "rho": [], "profile": [], "rollers": 0,
+        "radius": 0.0, "ratio": 1.0,
+    }  # fmt: skip
+    if design.guide.rho is not None:
+        turn, radius = guide_turn(design), design.assembly.case.need("rollers").radius
+        x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
+        ratio = design.guide.parameters.shaft_ratio
+        rho = np.interp(ratio * phi % (2 * np.pi), turn.theta, turn.rho)
+        motion |= {
+            "rho": np.round(rho, digits).tolist(), "profile": np.round(np.column_stack([x, y])[::3], digits).tolist(),
+            "rollers": design.guide.rollers, "radius": radius, "ratio": ratio,
+        }  # fmt: skip
+    return motion

@@ -1,0 +1,183 @@
+r"""A guide as a function of its spring setting: the pressure p0 of an air spring, the preload F0 of a coil.
+
+All laws are affine in the setting s, so the torque and the work of a guide that stays as it was cut are too:
+
+.. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad W^*(\varphi; s) = W_0 + s\,W_1
+
+Source: Zotov et al. (2024), eqs. (12) to (14), where M_0 = 0 for the gauge law.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path
+from mechsym.hinge.springs import Coil, law
+from mechsym.hinge.torque import Hinge
+from mechsym.periodic import even_angles
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Affine:
+    """Torque and work of a guide as offset + setting * slope, beside what is wanted; arrays over even crank angles.
+
+    Parameters
+    ----------
+    omega, period, load_torque : float
+        Wanted speed [rad/s], period [rad] and load torque [N*m]
+    inertia : ndarray, shape (n,)
+        Reduced inertia [kg*m^2]
+    torque_wanted, torque_0 : ndarray, shape (n,)
+        Hinge torque at that speed, and the guide's at setting 0 [N*m]
+    torque_1 : ndarray, shape (n,)
+        Change of the guide's torque per unit of setting
+    work_wanted, work_0, work_1 : ndarray, shape (n,)
+        Integrals of these from phi = 0
+    """
+
+    omega: float
+    period: float
+    load_torque: float
+    inertia: np.ndarray
+    torque_wanted: np.ndarray
+    torque_0: np.ndarray
+    torque_1: np.ndarray
+    work_wanted: np.ndarray
+    work_0: np.ndarray
+    work_1: np.ndarray
+
+
+def setting_of(spring: Spring) -> float:
+    """The value that retuning changes.
+
+    Parameters
+    ----------
+    spring : AirGauge, AirAbsolute or Coil
+        A spring
+
+    Returns
+    -------
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+    """
+    return spring.F0 if isinstance(spring, Coil) else spring.p0
+
+
+def setting_text(spring: Spring, setting: float) -> str:
+    """A setting with its unit, for people.
+
+    Parameters
+    ----------
+    spring : AirGauge, AirAbsolute or Coil
+        A spring of that kind
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+
+    Returns
+    -------
+    text : str
+        Four digits, in MPa or kN
+    """
+    return f"{setting / 1e3:.4g} kN" if isinstance(spring, Coil) else f"{setting / 1e6:.4g} MPa"
+
+
+def with_setting(spring: Spring, setting: float) -> Spring:
+    """The same spring with another setting.
+
+    Parameters
+    ----------
+    spring : AirGauge, AirAbsolute or Coil
+        A spring
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+
+    Returns
+    -------
+    spring : AirGauge, AirAbsolute or Coil
+        Same class
+
+    Raises
+    ------
+    BadInput
+        The setting is out of range
+    """
+    if isinstance(spring, Coil):
+        return dataclasses.replace(spring, F0=setting)
+    return dataclasses.replace(spring, p0=setting)
+
+
+def affine(guide: Guide, hinge: Hinge) -> Affine:
+    """Torque and work of a guide as functions of its spring setting, beside what a speed needs.
+
+    Parameters
+    ----------
+    guide : Guide
+        As cut, status `cut`
+    hinge : Hinge
+        Torque that the speed needs
+
+    Returns
+    -------
+    parts : Affine
+        Arrays over one period of the hinge
+    """
+    phi = even_angles(hinge.period)
+    rho, ratio = path(guide), guide.parameters.shaft_ratio
+    z = closing(guide, rho(ratio * np.append(phi, 0.0)))
+    # two settings fix a straight line; the second is far enough from the first to lose no digits
+    first = setting_of(guide.spring)
+    second = 2 * first if first > 0 else float(law(guide.spring).force(guide.spring.H))
+    torques, works = [], []
+    for spring in (guide.spring, with_setting(guide.spring, second)):
+        energy = law(spring).energy(z)
+        torques.append(crank_torque(guide, spring, phi))
+        works.append(energy[-1] - energy[:-1])
+    torque_1, work_1 = ((values[1] - values[0]) / (second - first) for values in (torques, works))
+    return Affine(
+        omega=hinge.omega,
+        period=hinge.period,
+        load_torque=hinge.load_torque,
+        inertia=hinge.inertia(phi),
+        torque_wanted=hinge.torque(phi),
+        torque_0=torques[0] - first * torque_1,
+        torque_1=torque_1,
+        work_wanted=hinge.work(phi),
+        work_0=works[0] - first * work_1,
+        work_1=work_1,
+    )
+
+
+def missing_work(parts: Affine, setting: float) -> np.ndarray:
+    """Work that is wanted and missing.
+
+    Parameters
+    ----------
+    parts : Affine
+        Guide and wanted work
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+
+    Returns
+    -------
+    work : ndarray, shape (n,)
+        From phi = 0 [J]
+    """
+    return parts.work_wanted - parts.work_0 - setting * parts.work_1
+
+
+def work_swing(parts: Affine, setting: float) -> float:
+    """Largest minus smallest missing work.
+
+    Parameters
+    ----------
+    parts : Affine
+        Guide and wanted work
+    setting : float
+        p0 [Pa], or F0 of a coil [N]
+
+    Returns
+    -------
+    swing : float
+        Convex in the setting [J]
+    """
+    return float(np.ptp(missing_work(parts, setting)))

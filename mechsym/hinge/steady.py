@@ -1,0 +1,246 @@
+"""How steadily an engine turns with its hinge, without one, with a faulty one, and at another speed.
+
+Steady motions are found over the angle of one period; nothing is run in time except the retuned guide. The hinge's
+torque comes from the geometry of the guide and the law of the spring.
+"""
+
+import dataclasses
+
+from scipy.optimize import minimize_scalar
+
+from mechsym.hinge.guide import Guide, Spring
+from mechsym.hinge.retune import retune
+from mechsym.hinge.setting import setting_of, with_setting
+from mechsym.hinge.springs import Coil
+from mechsym.hinge.torque import Hinge
+from mechsym.hinge.trials import Trial, run
+from mechsym.jobs.machine import Assembly, running
+from mechsym.machine.loads import ConstantLoad, Load
+from mechsym.simulate.angle import Panels, tabulate
+from mechsym.simulate.engine import Engine, machine
+from mechsym.simulate.steady import (
+    Flywheel,
+    Steady,
+    flywheel_for_ripple,
+    mean_torque,
+    smallest_flywheel_that_turns,
+    steady_state,
+)
+
+RIPPLE = 1 / 50
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Flywheels:
+    """Flywheels that would do without the hinge, or beside a faulty one.
+
+    Parameters
+    ----------
+    turns : Flywheel
+        Smallest with which the bare engine completes turns at all
+    steady : Flywheel
+        For a ripple of 1/50 without hinge
+    beside_faulty : Flywheel or None
+        For a ripple of 1/50 with the hinge when p0 is 2 per cent high; None without a guide
+    """
+
+    turns: Flywheel
+    steady: Flywheel
+    beside_faulty: Flywheel | None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Sensitivity:
+    """Ripple for each per cent of error in the spring.
+
+    Parameters
+    ----------
+    name, unit : str
+        Quantity that is off by one per cent, and its unit
+    value : float
+        Its value as designed [unit]
+    low, high : Steady
+        Steady motion with the quantity 1 per cent low and high
+    """
+
+    name: str
+    unit: str
+    value: float
+    low: Steady
+    high: Steady
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Retuned:
+    """The same guide at another speed with the spring setting that ripples least.
+
+    Parameters
+    ----------
+    other : Assembly
+        Engine at the other speed
+    wanted : Hinge
+        Torque that it needs there
+    spring : record of mechsym.springs
+        Spring with the best setting
+    setting, ratio : float
+        p0 [Pa] (F0 of a coil [N]), and over that of the design [-]
+    steady : Steady
+        Steady motion with it
+    paper : Steady
+        Steady motion with the paper's factor 1.9 on the setting
+    trial : Trial or None
+        Run in time from the design speed; None when no setting turns steadily
+    """
+
+    other: Assembly
+    wanted: Hinge
+    spring: Spring
+    setting: float
+    ratio: float
+    steady: Steady
+    paper: Steady
+    trial: Trial | None
+
+
+def flywheels(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load) -> Flywheels:
+    """Flywheels that replace the hinge, or that a faulty hinge needs.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Engine
+    wanted : Hinge
+        Designed torque
+    guide : Guide or None
+        Guide that could be cut
+    load : record of mechsym.loads
+        Load law of the case
+
+    Returns
+    -------
+    flywheels : Flywheels
+        Inertias on top of what the case keeps
+    """
+    bare = _panels(running(assembly, wanted, load), load)
+    faulty = None
+    if guide is not None:
+        spring = with_setting(guide.spring, 1.02 * setting_of(guide.spring))
+        beside = _panels(running(assembly, wanted, load, guide, spring), load)
+        faulty = flywheel_for_ripple(beside, assembly.omega, RIPPLE)
+    return Flywheels(
+        turns=smallest_flywheel_that_turns(bare, assembly.omega),
+        steady=flywheel_for_ripple(bare, assembly.omega, RIPPLE),
+        beside_faulty=faulty,
+    )
+
+
+def sensitivities(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load) -> list[Sensitivity]:
+    """Steady motion with one quantity of the spring one per cent off.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Engine
+    wanted : Hinge
+        Designed torque
+    guide : Guide
+        Guide that could be cut
+    load : record of mechsym.loads
+        Load law of the case
+
+    Returns
+    -------
+    sensitivities : list of Sensitivity
+        p0 and n of an air spring, F0 and k of a coil
+    """
+    found = []
+    for name, unit in [("F0", "N"), ("k", "N/m")] if isinstance(guide.spring, Coil) else [("p0", "Pa"), ("n", "-")]:
+        low, high = (
+            with_spring(assembly, wanted, guide, load, _scaled(guide.spring, name, factor)) for factor in (0.99, 1.01)
+        )
+        found.append(Sensitivity(name=name, unit=unit, value=getattr(guide.spring, name), low=low, high=high))
+    return found
+
+
+def with_spring(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load, spring: Spring) -> Steady:
+    """Steady motion with another spring in the guide.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Engine
+    wanted : Hinge
+        Gives the mean torque for the load
+    guide : Guide
+        Guide that could be cut
+    load : record of mechsym.loads
+        Load law
+    spring : record of mechsym.springs
+        The spring inside
+
+    Returns
+    -------
+    steady : Steady
+        Motion, or why there is none
+    """
+    return steady_state(_panels(running(assembly, wanted, load, guide, spring), load), assembly.omega)
+
+
+def retuned(other: Assembly, wanted: Hinge, guide: Guide, load: Load, turns: float) -> Retuned:
+    """The spring setting with the least steady ripple at another speed, and how the engine runs with it.
+
+    Parameters
+    ----------
+    other : Assembly
+        Engine at the other speed
+    wanted : Hinge
+        Torque that it needs there
+    guide : Guide
+        Guide as cut for the design speed
+    load : record of mechsym.loads
+        Load law
+    turns : float
+        Turns to run in time [-]
+
+    Returns
+    -------
+    retuned : Retuned
+        Setting, ripple, run
+    """
+    design = setting_of(guide.spring)
+    near = retune(guide, wanted, "least_ripple_propeller_load").setting
+
+    def ripple(setting: float) -> float:
+        found = with_spring(other, wanted, guide, load, with_setting(guide.spring, setting)).speed_ripple
+        return 2.0 if found is None else found
+
+    bounds = (0.8 * near, 1.25 * near)
+    best = float(minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x)
+    spring = with_setting(guide.spring, best)
+    steady = with_spring(other, wanted, guide, load, spring)
+    trial = None
+    if steady.speed_mean is not None:
+        engine = running(other, wanted, load, guide, spring)
+        trial = run("retuned", "same guide, best pressure, other speed", engine, float(steady.omega[0]), turns)
+    return Retuned(
+        other=other,
+        wanted=wanted,
+        spring=spring,
+        setting=best,
+        ratio=best / design,
+        steady=steady,
+        paper=with_spring(other, wanted, guide, load, with_setting(guide.spring, 1.9 * design)),
+        trial=trial,
+    )
+
+
+def _panels(engine: Engine, load: Load) -> Panels:
+    """The engine over the angle; a constant load without a number is the mean that these very panels integrate."""
+    panels = tabulate(machine(engine))
+    if isinstance(load, ConstantLoad) and load.torque is None:
+        return dataclasses.replace(panels, load=ConstantLoad(torque=mean_torque(panels)))
+    return panels
+
+
+def _scaled(spring: Spring, name: str, factor: float) -> Spring:
+    return dataclasses.replace(spring, **{name: factor * getattr(spring, name)})

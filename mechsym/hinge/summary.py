@@ -1,0 +1,221 @@
+"""The numbers of a hinge design under the keys that scripts rely on, and its tables for files."""
+
+from typing import Any
+
+import numpy as np
+
+from mechsym.hinge.contact import Turn, at_angles
+from mechsym.hinge.rollers import parallel
+from mechsym.hinge.steady import RIPPLE
+from mechsym.hinge.ways import Offer
+from mechsym.jobs.hinge import Design
+from mechsym.jobs.machine import load_of
+from mechsym.jobs.other_loads import AtLoad
+from mechsym.machine.loads import PropellerLoad
+
+_RPM = 60 / (2 * np.pi)
+
+
+def summary(design: Design) -> dict[str, Any]:
+    """Results of a design by name, in SI unless a key names another unit.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+
+    Returns
+    -------
+    summary : dict
+        Keys of the command `hinge`; what was not reached is None
+    """
+    hinge, verdict, runs = design.hinge, design.verdict, {t.name: t for t in design.trials}
+    check = runs.get(f"hinge_{_law(design)}")
+    return {
+        "speed_rpm": design.assembly.omega * _RPM,
+        "p_max_bar": design.assembly.pressure.p_max / 1e5,
+        "mep_bar": design.assembly.pressure.mean_indicated / 1e5,
+        "load_torque": hinge.load_torque,
+        "hinge_torque_max": hinge.torque_max,
+        "hinge_torque_min": hinge.torque_min,
+        "hinge_torque_mean": hinge.mean_torque,
+        "hinge_work_max": hinge.work_max,
+        "hinge_work_min": hinge.work_min,
+        "guide": {
+            "feasible": verdict.feasible,
+            "reason": verdict.reason,
+            "margin": verdict.margin,
+            **{
+                key: getattr(verdict, key)
+                for key in (
+                    "rho_min", "rho_max", "z_min", "z_max", "pressure_angle_max", "curvature_radius_min",
+                    "roller_reaction_max", "spring_force_max", "spring_pressure_max", "hertz_stress_max",
+                    "tilting_couple_max", "undercut_radius",
+                )
+            },
+        },
+        "check": {
+            "speed_ripple": check.speed_ripple if check else None,
+            "energy_residual": check.result.energy.residual if check else None,
+            "tolerance_difference": check.result.tolerance_difference if check else None,
+        },
+        "offers": offers(design),
+        "runs": {t.name: _run(t) for t in design.trials},
+        "retune": _retune(design),
+        "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
+        "loads": [_at_load(row) for row in design.loads],
+        "flywheel_inertia_saved": _saved(design),
+        "flywheel_inertia_to_turn": design.flywheels.turns.inertia,
+        "flywheel_inertia_beside_faulty": getattr(design.flywheels.beside_faulty, "inertia", None),
+        "ripple_wanted": RIPPLE,
+    }  # fmt: skip
+
+
+def offers(design: Design) -> list[dict[str, Any]]:
+    """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+
+    Returns
+    -------
+    offers : list of dict
+        The chosen one first
+    """
+    chosen = Offer(balance=design.balance, guide=design.guide, verdict=design.verdict)
+    return [
+        {
+            "balance": offer.balance.kind,
+            "shaft_ratio": offer.guide.parameters.shaft_ratio,
+            "feasible": offer.verdict.feasible,
+            "reason": offer.verdict.reason,
+            "work_left": offer.balance.rest_swing,
+            "ripple_constant_load": offer.balance.ripple_constant_load,
+            "ripple_propeller_load": offer.balance.ripple_propeller_load,
+        }
+        for offer in (chosen, *design.instead)
+    ]
+
+
+def _law(design: Design) -> str:
+    return "propeller" if isinstance(load_of(design.assembly.case), PropellerLoad) else "constant"
+
+
+def _saved(design: Design) -> float | None:
+    # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
+    return design.flywheels.steady.inertia
+
+
+def _run(trial: Any) -> dict[str, Any]:
+    event = trial.result.event
+    where = None if event is None else {"name": event.name, "t": event.t, "phi": event.state["phi"]}
+    residual = trial.result.energy.residual
+    return {"about": trial.about, "speed_ripple": trial.speed_ripple, "energy_residual": residual, "event": where}
+
+
+def _retune(design: Design) -> dict[str, Any]:
+    again = design.retuned
+    if again is None:
+        return {"speed_rpm": None, "p0": None, "speed_ripple": None}
+    wanted, hinge = again.wanted, design.hinge
+    peaks = [max(abs(h.torque_max), abs(h.torque_min)) for h in (wanted, hinge)]
+    return {
+        "speed_rpm": again.other.omega * _RPM,
+        "p0": again.setting,
+        "p0_ratio": again.ratio,
+        "speed_ripple": again.steady.speed_ripple,
+        "speed_ripple_paper_factor": again.paper.speed_ripple,
+        "torque_ratio_max": wanted.torque_max / hinge.torque_max,
+        "torque_ratio_min": wanted.torque_min / hinge.torque_min,
+        "torque_ratio_peak": peaks[0] / peaks[1],
+    }
+
+
+def _at_load(row: AtLoad) -> dict[str, Any]:
+    return {
+        "share": row.share,
+        "mep_bar": row.mean_indicated_pressure / 1e5,
+        "speed_ripple": row.as_cut.speed_ripple,
+        "reason": row.as_cut.reason,
+        "p0": row.setting,
+        "p0_ratio": row.ratio,
+        "speed_ripple_reset": row.reset.speed_ripple,
+        "reason_reset": row.reset.reason,
+    }
+
+
+def guide_turn(design: Design, points: int = 721) -> Turn:
+    """The guide in numbers over a whole turn of its shaft.
+
+    Parameters
+    ----------
+    design : Design
+        A design with a guide
+    points : int
+        Number of angles, both ends included
+
+    Returns
+    -------
+    turn : Turn
+        Arrays of shape (points,)
+    """
+    theta = np.linspace(0, 2 * np.pi, points)
+    return at_angles(design.guide, design.guide.spring, design.assembly.case.need("rollers"), theta)
+
+
+def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
+    """Table of the hinge over a period of the crank.
+
+    Parameters
+    ----------
+    design : Design
+        A design
+    points : int
+        Number of angles, both ends included
+
+    Returns
+    -------
+    columns : dict of str to ndarray
+        SI units
+    """
+    hinge = design.hinge
+    phi = np.linspace(0, hinge.period, points)
+    pressure = design.assembly.pressure.absolute(phi)
+    return {
+        "phi": phi,
+        "pressure": pressure,
+        "piston_force": design.assembly.force(phi),
+        "hinge_torque": hinge.torque(phi),
+        "inertia_part": hinge.inertia_part(phi),
+        "gas_part": hinge.gas_part(phi),
+        "gravity_part": hinge.gravity_part(phi),
+        "hinge_work": hinge.work(phi),
+        "inertia": hinge.inertia(phi),
+    }
+
+
+def guide_columns(design: Design, turn: Turn) -> dict[str, np.ndarray]:
+    """Table of the guide over a turn of its shaft: path, cut profile, contact.
+
+    Parameters
+    ----------
+    design : Design
+        A design with a guide
+    turn : Turn
+        From `guide_turn`
+
+    Returns
+    -------
+    columns : dict of str to ndarray
+        SI units; the profile is in the frame of the track
+    """
+    x, y = parallel(turn.rho, turn.drho, turn.theta, design.assembly.case.need("rollers").radius)
+    columns = {
+        "theta": turn.theta, "phi": turn.phi, "rho": turn.rho, "drho_dtheta": turn.drho, "profile_x": x, "profile_y": y,
+        "z": turn.z, "spring_force": turn.force, "pressure_angle": turn.pressure_angle, "curvature": turn.curvature,
+        "roller_reaction_1": turn.reaction_1, "roller_reaction_2": turn.reaction_2, "hertz_stress": turn.hertz_stress,
+        "torque": turn.torque,
+    }  # fmt: skip
+    return columns | ({} if turn.pressure is None else {"spring_excess_pressure": turn.pressure})

@@ -1,0 +1,257 @@
+r"""The elastic hinge: the torque that keeps a crank turning at constant speed.
+
+    frame ==[ hinge: M_h(phi) ]== crank --- engine: I(phi), F dx/dphi, gravity --- load: M_r
+
+phi = 0 at (firing) top dead centre, positive in the sense of rotation. M_h > 0 drives the crank, M_r opposes it. The
+motion of one degree of freedom is
+
+.. math:: I \ddot\varphi + \tfrac12 I' \dot\varphi^2 = F x' - M_r + M_h + M_g
+
+with M_g the generalised force of gravity; a constant speed omega asks for the M_h that `build` returns. A spring can
+give that torque only if it takes as much work as it gives: the mean of M_h over a period must vanish.
+
+Source: Zotov et al. (2024), eqs. (3) to (8). `hinge_printed.py` has equation (8) as printed.
+"""
+
+import dataclasses
+import functools
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from mechsym import periodic
+from mechsym.mechanisms.record import Mechanism, curves
+
+_MEAN_TOLERANCE = 1e-9  # of the peak torque; what rounding leaves is far below
+
+Function = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class EngineTorques:
+    """What the hinge has to balance, as functions of the crank angle.
+
+    Parameters
+    ----------
+    inertia, dinertia_dphi : callable
+        phi of shape (n,) [rad] to reduced inertia [kg*m^2] and its derivative [kg*m^2/rad]
+    gas_torque : callable
+        phi to F dx/dphi, F positive away from the head [N*m]
+    gravity_torque : callable
+        phi to the generalised force of gravity M_g [N*m]
+    kinks : sequence of float
+        Angles where a function is not smooth [rad]
+    period : float
+        2 pi for a two-stroke, 4 pi for a four-stroke cycle [rad]
+    """
+
+    inertia: Function
+    dinertia_dphi: Function
+    gas_torque: Function
+    gravity_torque: Function
+    kinks: Sequence[float]
+    period: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Hinge:
+    """The hinge torque and its parts; the piecewise polynomials take any crank angle [rad].
+
+    Parameters
+    ----------
+    omega, period : float
+        Crank speed [rad/s] and period of the torque [rad]
+    load_torque : float
+        Constant torque M_r that the engine can drive, the mean of F dx/dphi [N*m]
+    torque : PPoly
+        M_h, the sum of the three parts [N*m]
+    inertia_part, gas_part, gravity_part : PPoly
+        omega^2 I'/2, M_r - F x' and -M_g [N*m]
+    inertia : PPoly
+        I [kg*m^2]
+    work : PPoly
+        W, integral of M_h from phi = 0 [J]
+    mean_torque : float
+        Mean of M_h over a period [N*m]
+    exists : bool
+        The mean is zero within 1e-9 of the peak, so that a spring can give the torque
+    torque_min, torque_max, work_min, work_max : float
+        Signed extremes [N*m], [J]
+    """
+
+    omega: float
+    period: float
+    load_torque: float
+    torque: PPoly
+    inertia_part: PPoly
+    gas_part: PPoly
+    gravity_part: PPoly
+    inertia: PPoly
+    work: PPoly
+    mean_torque: float
+    exists: bool
+    torque_min: float
+    torque_max: float
+    work_min: float
+    work_max: float
+
+
+def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float], period: float) -> EngineTorques:
+    """The functions of the crank angle that a mechanism and a piston force give.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        One coordinate, with outputs `inertia` and the travel `x`
+    force : callable
+        phi of shape (n,) [rad] to the net force F on the piston, positive away from the head [N]
+    kinks : sequence of float
+        Angles where the force is not smooth [rad]
+    period : float
+        Period of the force, 2 pi or 4 pi [rad]
+
+    Returns
+    -------
+    torques : EngineTorques
+        Functions of arrays of crank angles
+    """
+    (q,) = mechanism.coordinates
+    dynamics = mechanism.functions["dynamics"]
+
+    def gravity_torque(phi: np.ndarray) -> np.ndarray:
+        # at rest and without inputs gravity is the only generalised force
+        row = np.asarray(phi, dtype=float)[None, :]
+        values = dynamics.call([row if name == q else 0.0 for name in dynamics.name_in()])
+        return np.asarray(values[dynamics.index_out("generalized_force")]).ravel()
+
+    return EngineTorques(
+        inertia=lambda phi: curves(mechanism, phi)["inertia"],
+        dinertia_dphi=lambda phi: curves(mechanism, phi)[f"dinertia_d{q}"],
+        gas_torque=lambda phi: force(phi) * curves(mechanism, phi)[f"dx_d{q}"],
+        gravity_torque=gravity_torque,
+        kinks=kinks,
+        period=period,
+    )
+
+
+# the springs of a sweep share one engine, and so its hinge torque
+@functools.lru_cache(maxsize=8)
+def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
+    r"""Hinge torque that keeps the crank speed constant, with its parts and its work.
+
+    .. math:: M_h = \tfrac12 \omega^2 I'(\varphi) - F x'(\varphi) + M_r - M_g(\varphi), \qquad
+              M_r = \frac1T \int_0^T F x' d\varphi, \qquad W(\varphi) = \int_0^\varphi M_h\,d\varphi
+
+    Parameters
+    ----------
+    torques : EngineTorques
+        What the hinge has to balance
+    omega : float
+        Crank speed [rad/s]
+    tol : float
+        Error of the piecewise polynomials, as a share of the largest part [-]
+
+    Returns
+    -------
+    hinge : Hinge
+        Torque, parts, work, existence and extremes
+
+    Notes
+    -----
+    Source: Zotov et al. (2024), eqs. (4), (5) and (8), with the exact kinematics. Valid: rigid links, one degree of
+    freedom, constant speed. The mean of M_h is not set to zero: it is what quadrature leaves, and it is checked.
+    """
+    parts = periodic.fit(
+        lambda phi: np.stack(
+            [omega**2 / 2 * torques.dinertia_dphi(phi), -torques.gas_torque(phi), -torques.gravity_torque(phi)]
+        ),
+        torques.kinks,
+        torques.period,
+        tol,
+    )
+    inertia_part, gas_part, gravity_part = (_part(parts, i) for i in range(3))
+    load_torque = -periodic.mean(gas_part)
+    gas_part.c[-1] += load_torque
+    torque = PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
+    work = periodic.antiderivative(torque)
+    low, _, high, _ = periodic.extremes(torque)
+    work_low, _, work_high, _ = periodic.extremes(work)
+    return Hinge(
+        omega=omega,
+        period=torques.period,
+        load_torque=load_torque,
+        torque=torque,
+        inertia_part=inertia_part,
+        gas_part=gas_part,
+        gravity_part=gravity_part,
+        inertia=periodic.fit(torques.inertia, torques.kinks, torques.period, tol),
+        work=work,
+        mean_torque=periodic.mean(torque),
+        exists=exists(torque),
+        torque_min=low,
+        torque_max=high,
+        work_min=work_low,
+        work_max=work_high,
+    )
+
+
+def exists(torque: PPoly) -> bool:
+    """Whether a spring can give a torque: its work over a period vanishes.
+
+    Parameters
+    ----------
+    torque : PPoly
+        Periodic torque [N*m]
+
+    Returns
+    -------
+    exists : bool
+        The mean is below 1e-9 of the peak
+    """
+    low, _, high, _ = periodic.extremes(torque)
+    return abs(periodic.mean(torque)) <= _MEAN_TOLERANCE * max(abs(low), abs(high))
+
+
+def harmonics(torque: PPoly, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes of a torque by order of the crank speed.
+
+    Parameters
+    ----------
+    torque : PPoly
+        Periodic torque, period 2 pi or 4 pi [N*m]
+    count : int
+        Number of harmonics of the period
+
+    Returns
+    -------
+    orders, amplitudes : ndarray, shape (count,)
+        Orders [-] (1 is once a turn) and amplitudes [N*m]
+    """
+    n = 4096
+    period = torque.x[-1]
+    amplitudes = np.abs(np.fft.rfft(torque(np.arange(n) * period / n))) * 2 / n
+    return np.arange(1, count + 1) * (2 * math.pi / period), amplitudes[1 : count + 1]
+
+
+def odd_share(torque: PPoly) -> float:
+    """Share of the root mean square in odd orders of the period; a track of half that period cannot give it.
+
+    Parameters
+    ----------
+    torque : PPoly
+        Periodic torque of zero mean [N*m]
+
+    Returns
+    -------
+    share : float
+        Between 0 and 1 [-]
+    """
+    phi = np.arange(4096) * torque.x[-1] / 4096
+    odd = (torque(phi) - torque(phi + torque.x[-1] / 2)) / 2
+    return float(np.sqrt(np.mean(odd**2) / np.mean(torque(phi) ** 2)))
+
+
+def _part(parts: PPoly, i: int) -> PPoly:
+    return PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic")

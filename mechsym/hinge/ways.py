@@ -1,0 +1,80 @@
+"""What a hinge can offer: a two-stroke engine has one way to balance its torque, a four-stroke engine two.
+
+`whole_cycle` puts the guide on a slower shaft, which turns once per cycle, and leaves no ripple. `every_turn` lets the
+guide turn with the crank and takes only what repeats every turn; the rest stays as speed ripple.
+"""
+
+import dataclasses
+
+from mechsym.hinge import balance, guide
+from mechsym.hinge import limits as feasibility
+from mechsym.hinge.balance import KINDS, Balance
+from mechsym.hinge.choices import GuideParameters, closing_ratio
+from mechsym.hinge.guide import Guide, Spring
+from mechsym.hinge.limits import Limits, Verdict
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.torque import Hinge
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Offer:
+    """One way to balance the torque, with its guide.
+
+    Parameters
+    ----------
+    balance : Balance
+        The part that the hinge takes, and the ripple that the rest leaves
+    guide : Guide
+        Guide, or why there is none
+    verdict : Verdict
+        Whether it can be built
+    """
+
+    balance: Balance
+    guide: Guide
+    verdict: Verdict
+
+
+def offers(
+    hinge: Hinge, spring: Spring, choices: GuideParameters, rollers: RollerParameters, limits: Limits
+) -> tuple[Offer, ...]:
+    """The offer that was chosen, and for a torque that repeats every two turns the other one with the same spring.
+
+    Parameters
+    ----------
+    hinge : Hinge
+        Torque that would keep the speed constant
+    spring : record of mechsym.springs
+        Spring in the guide
+    choices : GuideParameters
+        Arrangement, start, shaft ratio and balance
+    rollers : RollerParameters
+        Rollers and tracks
+    limits : Limits
+        What is allowed
+
+    Returns
+    -------
+    offers : tuple of Offer
+        One or two, the chosen one first
+
+    Raises
+    ------
+    BadInput
+        The track of the chosen one would not close
+    """
+    kinds = [choices.balance] + [k for k in KINDS if k != choices.balance]
+    parts = [balance.build(hinge, kind) for kind in kinds]
+    if parts[0].period == parts[1].period:
+        parts = parts[:1]
+    found = []
+    for part in parts:
+        wanted = choices if part is parts[0] else _instead(choices, part)
+        cut = guide.build(part, spring, wanted)
+        found.append(Offer(balance=part, guide=cut, verdict=feasibility.judge(cut, spring, rollers, limits)))
+    return tuple(found)
+
+
+def _instead(choices: GuideParameters, part: Balance) -> GuideParameters:
+    ratio = closing_ratio(choices.arrangement, part.period)
+    return dataclasses.replace(choices, balance=part.kind, shaft_ratio=ratio)

@@ -1,0 +1,160 @@
+"""What acts on the crank train of a case: gas on every piston, a torque at the free end, the load at the flywheel.
+
+    M_drive --> [throw 1]--[throw 2]-- ... --[throw N]--[flywheel] <-- M (load law of the flywheel's speed)
+                   ^ F1       ^ F2              ^ FN
+                   each gas force follows the angle of its own throw, twist included
+
+Sections of a case: `[drive]` (input left out: the free end), `[cycle]`, `[load]`; at least one of the first two.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cycle.kinds.schmidt import Schmidt
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.on_pistons import Gas, gas
+from mechsym.errors import BadInput
+from mechsym.forces.turn import turn
+from mechsym.machine.loads import PropellerLoad, settle
+from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.simulate.engine import load_value
+from mechsym.simulate.problem import Kinks, Part, Periodic
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cylinders:
+    """Gas forces of a crank train.
+
+    Parameters
+    ----------
+    parts : tuple of Part
+        One a cylinder, `gas_1` and so on
+    kinks : tuple of Kinks
+        One a throw whose gas force is not smooth
+    torque : float
+        Their mean torque on the shaft [N*m]
+    """
+
+    parts: tuple[Part, ...] = ()
+    kinks: tuple[Kinks, ...] = ()
+    torque: float = 0.0
+
+
+def cylinders(case: Case) -> Cylinders:
+    """Gas forces of a crank train.
+
+    Parameters
+    ----------
+    case : Case
+        Perhaps with `[cycle]`; without it no gas acts
+
+    Returns
+    -------
+    cylinders : Cylinders
+        Over the angle of each cylinder's own throw
+
+    Raises
+    ------
+    BadInput
+        A cycle that follows the speed, or pistons on two throws that share one gas
+    """
+    if "cycle" not in case.sections:
+        return Cylinders()
+    if isinstance(case.sections["cycle"], SparkIgnition):
+        raise BadInput(f"{case.file}: spark ignition follows the motion; use 'mechsym cycle CASE --loop CYCLES'")
+    found, parameters = gas(case), case.need("parameters")
+    assert found is not None
+    starts = _starts(case, parameters)
+    rows = enumerate(zip(parameters.throw, starts, strict=True))
+    parts = [_part(found, i, throw, start) for i, (throw, start) in rows]
+    mean = float(np.mean(turn(case).torque))
+    return Cylinders(parts=tuple(parts), kinks=_kinks(found, parameters, starts), torque=mean)
+
+
+def _starts(case: Case, parameters: CrankTrainParameters) -> tuple[float, ...]:
+    """Shaft angle at which each cylinder's pressure has its angle 0."""
+    if not isinstance(case.sections["cycle"], Schmidt):
+        refuse_wrong_firing(parameters)
+        return each(parameters, "firing")
+    if len(set(parameters.throw)) > 1:
+        raise BadInput(
+            f"{case.file}: throw = {list(parameters.throw)}: the twist between throws would change the volume of a gas "
+            "that both cylinders share; put them on one throw"
+        )
+    return (0.0,) * len(parameters.throw)
+
+
+def _part(found: Gas, index: int, throw: int, start: float) -> Part:
+    def force(phi: np.ndarray) -> np.ndarray:
+        return (found.absolute(phi - start) - found.p_back) * found.area
+
+    kinks = tuple(sorted((k + start) % found.period for k in found.kinks))
+    value = Periodic(coordinate=f"phi{throw}", value=force, period=found.period, kinks=kinks)
+    return Part(name=f"gas_{index + 1}", input=f"F{index + 1}", value=value)
+
+
+def _kinks(found: Gas, parameters: CrankTrainParameters, starts: tuple[float, ...]) -> tuple[Kinks, ...]:
+    rows = []
+    for throw in range(1, max(parameters.throw) + 1):
+        own = [s for t, s in zip(parameters.throw, starts, strict=True) if t == throw]
+        angles = sorted({(k + start) % found.period for start in own for k in found.kinks})
+        if angles:
+            rows.append(Kinks(coordinate=f"phi{throw}", angles=tuple(angles), period=found.period))
+    return tuple(rows)
+
+
+def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
+    """The load at the flywheel.
+
+    Parameters
+    ----------
+    case : Case
+        Perhaps with `[load]`
+    torque : float
+        Mean torque of gas and drive, for a law without its own [N*m]
+    speed_start : float
+        Speed at the start [rad/s]
+
+    Returns
+    -------
+    parts : tuple of Part
+        None without that section
+
+    Raises
+    ------
+    BadInput
+        A law that pulls a shaft at rest backwards
+    """
+    if "load" not in case.sections:
+        return ()
+    law = case.sections["load"]
+    if speed_start <= 0 and not isinstance(law, PropellerLoad):
+        raise BadInput(
+            f"{case.file}: a load with a torque at rest would pull the shaft backwards; give simulation.speed_start "
+            "above 0 rad/s or [load] law = 'propeller'"
+        )
+    blank = isinstance(law, PropellerLoad) and law.speed is None
+    settled = settle(law, torque, case.need("operation").speed if blank else math.nan)
+    return (Part(name="load", input="M", role="load", value=load_value(settled, -1)),)
+
+
+def remarks(case: Case) -> tuple[str, ...]:
+    """What a reader of a run should know about a crank train.
+
+    Parameters
+    ----------
+    case : Case
+        A case
+
+    Returns
+    -------
+    remarks : tuple of str
+        Sentences; none for other mechanisms
+    """
+    if case.mechanism != "crank_train" or "load" in case.sections:
+        return ()
+    return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)

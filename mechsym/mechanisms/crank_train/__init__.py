@@ -1,0 +1,11 @@
+"""Any number of throws on a torsionally elastic shaft, with the flywheel at the load end.
+
+parameters  what a crank train consists of
+parts       one derived throw, instantiated for every cylinder and joined by the shaft
+forces      kinematics, reactions and momentum per throw
+firing      firing order, crank phases and gas forces
+"""
+
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, listing
+
+__all__ = ["CrankTrainParameters", "build", "listing"]

@@ -1,0 +1,108 @@
+"""Outputs of a crank train from the derived throw's: turned into the common frame and summed where they meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import casadi as ca
+
+if TYPE_CHECKING:
+    from mechsym.mechanisms.crank_train.parts import Part
+
+Outputs = dict[str, ca.SX]
+Call = Callable[["Part"], Outputs]
+
+
+def _common(part: Part, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
+    # the part's y axis stands a quarter turn ahead in its own sense of rotation
+    c, s = math.cos(part.bank), math.sin(part.bank)
+    return c * x - part.sense * s * y, s * x + part.sense * c * y
+
+
+def kinematics(all_parts: list[Part], call: Call, names: tuple[str, ...]) -> Outputs:
+    """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
+
+    Parameters
+    ----------
+    all_parts : list of Part
+        Cranks and cylinders
+    call : callable
+        Part to the outputs of the derived throw
+    names : tuple of str
+        Names of the coordinates; one name stands for all throws
+
+    Returns
+    -------
+    outputs : dict of str to casadi.SX
+        `x_1`, `dx_1_dphi1`, `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, ..
+    """
+    outputs: Outputs = {}
+    for part in all_parts:
+        if part.cylinder:
+            found, i = call(part), part.cylinder
+            q = names[part.throw] if len(names) > 1 else names[0]
+            twice = f"d{q}_d{q}" if len(names) > 1 else f"d{q}2"
+            outputs |= {f"x_{i}": found["x"], f"dx_{i}_d{q}": found["dx_dphi"], f"d2x_{i}_{twice}": found["d2x_dphi2"]}
+            outputs |= {f"psi_{i}": found["psi"], f"dpsi_{i}_d{q}": found["dpsi_dphi"]}
+    return outputs
+
+
+def reactions(all_parts: list[Part], call: Call) -> Outputs:
+    """Joint forces of every cylinder and the load on the main bearings of every throw.
+
+    Parameters
+    ----------
+    all_parts : list of Part
+        Cranks and cylinders
+    call : callable
+        Part to the outputs of the derived throw
+
+    Returns
+    -------
+    outputs : dict of str to casadi.SX
+        Per cylinder `pin_force_x_1, pin_force_y_1` (crank on rod, common frame), `piston_pin_force_along_1`,
+        `piston_pin_force_across_1` (rod on piston), `side_force_1` (cylinder on piston, across, positive in the sense
+        of rotation); per throw `main_bearing_force_x_1, main_bearing_force_y_1` (frame on crank, common frame)
+    """
+    outputs: Outputs = {}
+    bearings: Outputs = {}
+    for part in all_parts:
+        found, i, k = call(part), part.cylinder, part.throw + 1
+        for axis, force in zip("xy", _common(part, found["R_x_O"], found["R_y_O"]), strict=True):
+            name = f"main_bearing_force_{axis}_{k}"
+            bearings[name] = bearings.get(name, ca.SX(0)) + force
+        if i:
+            pin = _common(part, found["R_x_A"], found["R_y_A"])
+            outputs |= {f"pin_force_x_{i}": pin[0], f"pin_force_y_{i}": pin[1]}
+            outputs |= {f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"]}
+            outputs[f"side_force_{i}"] = found["R_y_G"]
+    return outputs | bearings
+
+
+def momentum(all_parts: list[Part], call: Call) -> Outputs:
+    """Rates of momentum of all moving parts in the common frame, without the flywheel.
+
+    Parameters
+    ----------
+    all_parts : list of Part
+        Cranks and cylinders
+    call : callable
+        Part to the outputs of the derived throw
+
+    Returns
+    -------
+    outputs : dict of str to casadi.SX
+        `momentum_rate_x`, `momentum_rate_y`, `angular_momentum_rate` about the shaft line through the origin, and
+        `rocking_rate_x`, `rocking_rate_y` about the X and the Y axis
+    """
+    names = ("momentum_rate_x", "momentum_rate_y", "angular_momentum_rate", "rocking_rate_x", "rocking_rate_y")
+    totals = {name: ca.SX(0) for name in names}
+    for part in all_parts:
+        found = call(part)
+        x, y = _common(part, found["momentum_rate_x"], found["momentum_rate_y"])
+        about_own = part.sense * found["angular_momentum_rate"]
+        rates = (x, y, about_own + part.axis[0] * y - part.axis[1] * x, -part.z * y, part.z * x)
+        totals = {name: totals[name] + rate for name, rate in zip(names, rates, strict=True)}
+    return totals

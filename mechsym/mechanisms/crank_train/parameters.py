@@ -1,0 +1,252 @@
+"""N throws on a torsionally elastic shaft with a flywheel at the load end: parameters and runtime mechanisms.
+
+    [throw 1]--k1,c1--[throw 2]--k2,c2-- ... --kN,cN--[flywheel I_f] <- M (load, opposing)
+
+                X (reference axis)         Each throw carries any number of cylinders. The pin of a cylinder stands at
+                |  / cylinder, bank        the angle phi + phase from the reference axis, in the shaft's sense of
+                | /                        rotation; bank is the angle of its axis from X towards Y. With sense = -1 a
+        Y ------O                          throw turns the other way round (geared crank of an opposed-piston engine).
+
+One throw is derived (derivations/crank_throw.py) and instantiated; `build` has the coordinates phi1..phiN, phi_f,
+`build_driven` a torque at the free end besides, `build_rigid` the one coordinate phi. A value for all cylinders or
+throws may be given once.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from mechsym.errors import BadInput
+from mechsym.mechanisms.crank_throw import refuse_short_rod
+from mechsym.mechanisms.record import Mechanism
+from mechsym.quantities import check, quantity
+
+Numbers = float | tuple[float, ...]
+_PER_CYLINDER = ("phase", "bank", "firing", "r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "z_rod")
+_PER_THROW = ("I0", "m0", "u0", "u_phase", "sense", "axis_x", "axis_y", "z", "k", "c")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CrankTrainParameters:
+    """A crank train. Lists have one value a cylinder or one a throw; a single number holds for all.
+
+    Parameters
+    ----------
+    throw : tuple of int
+        Throw of each cylinder, 1 to N from the free end
+    phase, bank : float or tuple of float
+        Per cylinder: angle of its crank pin at phi = 0, angle of its axis [rad]
+    firing : tuple of float
+        Per cylinder: shaft angle at which it fires, within its cycle; empty where no gas acts [rad]
+    r, l1, l2, offset : float or tuple of float
+        Per cylinder: crank radius, crank pin to the rod's centre of mass, from there to the piston pin, offset [m]
+    m_rod, m_piston : float or tuple of float
+        Per cylinder: mass of rod and piston [kg]
+    I_rod : float or tuple of float
+        Per cylinder: inertia of the rod about its centre of mass [kg*m^2]
+    z_rod : float or tuple of float
+        Per cylinder: position along the shaft from the middle of its throw [m]
+    I0, m0, u0, u_phase : float or tuple of float
+        Per throw: inertia about the axis [kg*m^2], mass [kg], unbalance [kg*m] and its angle at phi = 0 [rad]
+    sense : float or tuple of float
+        Per throw: 1, or -1 for a crank that turns the other way round
+    axis_x, axis_y, z : float or tuple of float
+        Per throw: place of its axis, and position along the shaft [m]
+    I_f : float
+        Inertia of the flywheel with what turns with it [kg*m^2]
+    k, c : float or tuple of float
+        Per throw: stiffness [N*m/rad] and damping [N*m*s/rad] of the shaft from it to the next throw or the flywheel
+    g : float
+        Acceleration of free fall [m/s^2]
+    axis_tilt : float
+        Angle of the reference axis against the horizontal [rad]
+    """
+
+    throw: tuple[int, ...]
+    phase: Numbers = quantity("rad", about="angle of the crank pin at phi = 0")
+    bank: Numbers = quantity("rad", default=0.0, about="angle of the cylinder axis")
+    firing: Numbers = quantity("rad", default=(), about="shaft angle at which the cylinder fires")
+    r: Numbers = quantity("m", above=0, about="crank radius")
+    l1: Numbers = quantity("m", low=0, about="crank pin to the rod's centre of mass")
+    l2: Numbers = quantity("m", low=0, about="rod's centre of mass to piston pin")
+    offset: Numbers = quantity("m", default=0.0, about="offset of the cylinder axis")
+    m_rod: Numbers = quantity("kg", low=0, about="mass of the rod")
+    m_piston: Numbers = quantity("kg", low=0, about="mass of the piston")
+    I_rod: Numbers = quantity("kg*m^2", low=0, about="inertia of the rod about its centre of mass")
+    z_rod: Numbers = quantity("m", default=0.0, about="position of the rod from the middle of its throw")
+    I0: Numbers = quantity("kg*m^2", above=0, about="inertia of the throw about the axis")
+    m0: Numbers = quantity("kg", default=0.0, low=0, about="mass of the throw")
+    u0: Numbers = quantity("kg*m", default=0.0, about="unbalance of the throw")
+    u_phase: Numbers = quantity("rad", default=0.0, about="angle of the unbalance at phi = 0")
+    sense: Numbers = quantity("-", default=1.0, low=-1, high=1, about="1, or -1 for a counter-rotating crank")
+    axis_x: Numbers = quantity("m", default=0.0, about="place of the throw's axis along X")
+    axis_y: Numbers = quantity("m", default=0.0, about="place of the throw's axis along Y")
+    z: Numbers = quantity("m", default=0.0, about="position of the throw along the shaft")
+    I_f: float = quantity("kg*m^2", above=0, about="inertia of the flywheel")
+    k: Numbers = quantity("N*m/rad", above=0, about="stiffness of the shaft towards the flywheel")
+    c: Numbers = quantity("N*m*s/rad", default=0.0, low=0, about="damping of the shaft towards the flywheel")
+    g: float = quantity("m/s^2", default=0.0, low=0, about="acceleration of free fall")
+    axis_tilt: float = quantity("rad", default=0.0, about="reference axis against the horizontal")
+
+    def __post_init__(self) -> None:
+        check(self)
+        _check_lists(self)
+        for i in range(len(self.throw)):
+            r, l1, l2, offset = (each(self, name)[i] for name in ("r", "l1", "l2", "offset"))
+            refuse_short_rod(l1 + l2, r, offset)
+
+
+def _check_lists(p: CrankTrainParameters) -> None:
+    if not p.throw or sorted(set(p.throw)) != list(range(1, max(p.throw) + 1)):
+        raise BadInput(f"throw = {list(p.throw)} must name the throws 1 to N, each at least once")
+    for name in (*_PER_CYLINDER, *_PER_THROW):
+        value = getattr(p, name)
+        wanted = len(p.throw) if name in _PER_CYLINDER else max(p.throw)
+        if isinstance(value, tuple) and len(value) != wanted and not (name == "firing" and not value):
+            what = "cylinder" if name in _PER_CYLINDER else "throw"
+            raise BadInput(f"{name} has {len(value)} values; give one number for all, or one a {what}: {wanted}")
+    if set(each(p, "sense")) - {1.0, -1.0}:
+        raise BadInput(f"sense = {p.sense} is not an option; options are 1 and -1")
+
+
+def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
+    """Values of one letter for every cylinder or throw.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Crank train
+    name : str
+        A letter that is given per cylinder or per throw
+
+    Returns
+    -------
+    values : tuple of float
+        One a cylinder or one a throw
+    """
+    value = getattr(parameters, name)
+    count = len(parameters.throw) if name in _PER_CYLINDER else max(parameters.throw)
+    return value if isinstance(value, tuple) else (value,) * count
+
+
+def local_shift(parameters: CrankTrainParameters) -> tuple[float, ...]:
+    """What turns a shaft angle into each cylinder's own crank angle (0 where its crank points to its head).
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Crank train
+
+    Returns
+    -------
+    shifts : tuple of float
+        phase - sense * bank, one a cylinder [rad]
+    """
+    rows = zip(parameters.throw, each(parameters, "phase"), each(parameters, "bank"), strict=True)
+    return tuple(phase - each(parameters, "sense")[k - 1] * bank for k, phase, bank in rows)
+
+
+def dead_centre(parameters: CrankTrainParameters) -> tuple[float, ...]:
+    """Each cylinder's own crank angle at top dead centre, 0 without offset.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Crank train
+
+    Returns
+    -------
+    angles : tuple of float
+        One a cylinder [rad]
+    """
+    lengths = (each(parameters, name) for name in ("r", "l1", "l2", "offset"))
+    return tuple(math.asin(offset / (r + l1 + l2)) for r, l1, l2, offset in zip(*lengths, strict=True))
+
+
+def build(parameters: CrankTrainParameters) -> Mechanism:
+    """The crank train on its elastic shaft.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Data
+
+    Returns
+    -------
+    mechanism : Mechanism
+        Coordinates phi1..phiN, phi_f; inputs F1.. (gas force of each cylinder), M (load torque, opposing)
+    """
+    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
+
+    return crank_train_assembly.elastic(parameters)
+
+
+def build_rigid(parameters: CrankTrainParameters) -> Mechanism:
+    """The crank train on a rigid shaft.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Data
+
+    Returns
+    -------
+    mechanism : Mechanism
+        Coordinate phi; inputs F1.. (gas force of each cylinder), M (load torque, opposing)
+    """
+    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
+
+    return crank_train_assembly.rigid(parameters)
+
+
+def build_driven(parameters: CrankTrainParameters) -> Mechanism:
+    """The crank train on its elastic shaft, turned by a torque at the free end.
+
+    Parameters
+    ----------
+    parameters : CrankTrainParameters
+        Data
+
+    Returns
+    -------
+    mechanism : Mechanism
+        As of `build`, with the further input M_drive (torque on throw 1, forward)
+    """
+    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
+
+    return crank_train_assembly.driven(parameters)
+
+
+def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
+    """Letters and units, like the stored listing of a generated mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism, optional
+        Of `build`; without it the letters stand for any number of throws
+
+    Returns
+    -------
+    listing : mapping
+        Keys name, about, source, coordinates, parameters, inputs, outputs, equations
+    """
+    coordinates = mechanism.coordinates if mechanism else ("phi1..phiN", "phi_f")
+    inputs = mechanism.inputs if mechanism else ("F1..", "M")
+    names = ("x_1", "psi_1", "pin_force_x_1", "side_force_1", "main_bearing_force_x_1", "shaft_torque_1", "..")
+    outputs = names if mechanism is None else _outputs(mechanism)
+    fields = dataclasses.fields(CrankTrainParameters)
+    return {
+        "name": "crank_train",
+        "about": "N throws on an elastic shaft with a flywheel.",
+        "source": "002_d7297926d6c52225",
+        "coordinates": dict.fromkeys(coordinates, "rad"),
+        "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
+        "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
+        "outputs": dict.fromkeys(outputs, ""),
+        "equations": [],
+    }
+
+
+def _outputs(mechanism: Mechanism) -> list[str]:
+    return [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]

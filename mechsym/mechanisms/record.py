@@ -1,0 +1,287 @@
+"""The runtime record of a mechanism: named CasADi functions with the parameters bound.
+
+Conventions of the package: crank angles are 0 at top dead centre and positive in the sense of rotation; piston travel
+x is 0 at top dead centre and positive away from the head; F is the net force on the piston, F = (p - p_back) A,
+positive away from the head; mass_matrix * qdd + bias = generalized_force, with gravity, springs, dampers and inputs on
+the right; a reaction R_j is the force of the first body on the second along the joint displacement j.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module, resources
+from types import ModuleType
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.errors import BadInput
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mechanism:
+    """A mechanism with values for its parameters.
+
+    Parameters
+    ----------
+    name : str
+        Name through all stages
+    coordinates, inputs : tuple of str
+        Names in order
+    parameters : mapping of str to float
+        Values that are bound into the functions
+    functions : mapping of str to casadi.Function
+        `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force,
+        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)`
+        giving closure, jacobian, bias; only those that exist
+    """
+
+    name: str
+    coordinates: tuple[str, ...]
+    inputs: tuple[str, ...]
+    parameters: Mapping[str, float]
+    functions: Mapping[str, ca.Function]
+
+
+def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
+    """Names of the velocities.
+
+    Parameters
+    ----------
+    mechanism : Mechanism or generated module
+        What has coordinates
+
+    Returns
+    -------
+    names : tuple of str
+        `phid` for `phi`
+    """
+    return tuple(f"{q}d" for q in _coordinates(mechanism))
+
+
+def accelerations(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
+    """Names of the accelerations.
+
+    Parameters
+    ----------
+    mechanism : Mechanism or generated module
+        What has coordinates
+
+    Returns
+    -------
+    names : tuple of str
+        `phidd` for `phi`
+    """
+    return tuple(f"{q}dd" for q in _coordinates(mechanism))
+
+
+def _coordinates(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
+    return mechanism.coordinates if isinstance(mechanism, Mechanism) else mechanism.COORDINATES
+
+
+def generated(name: str) -> ModuleType:
+    """The generated module of a mechanism.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mechanism
+
+    Returns
+    -------
+    module : module
+        Tables of names and plain functions for floats or CasADi symbols
+    """
+    return import_module(f"mechsym.generated.{name}")
+
+
+def listing(name: str) -> dict[str, Any]:
+    """Letters, units, source and equations of a mechanism, as stored by the derivation.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mechanism
+
+    Returns
+    -------
+    listing : dict
+        See `mechsym.derive.listing`
+    """
+    return json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
+    """Build the named CasADi functions of a generated module for given parameters.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mechanism
+    parameters : mapping of str to float or casadi.SX
+        A value for every parameter; symbols make functions that can be differentiated by them
+
+    Returns
+    -------
+    mechanism : Mechanism
+        Functions with scalar inputs; a row vector (1, n) maps over its columns
+    """
+    module = generated(name)
+    missing = [p for p in module.PARAMETERS if p not in parameters]
+    if missing:
+        raise BadInput(f"{name}: no value for {', '.join(missing)}; parameters are {', '.join(module.PARAMETERS)}")
+    values = {p: parameters[p] for p in module.PARAMETERS}
+    q, u, a = module.COORDINATES, velocities(module), accelerations(module)
+    letters = {
+        "kinematics": q,
+        "dynamics": (*q, *u, *module.INPUTS),
+        "energy": (*q, *u),
+        "reactions": (*q, *u, *a, *module.INPUTS),
+        "momentum": (*q, *u, *a),
+        "constraints": (*q, *u),
+    }
+    functions = {f: casadi_function(module, f, letters[f], values) for f in module.FUNCTIONS}
+    return Mechanism(name=name, coordinates=q, inputs=module.INPUTS, parameters=values, functions=functions)
+
+
+def casadi_function(
+    module: ModuleType, function: str, letters: Sequence[str], parameters: Mapping[str, Any]
+) -> ca.Function:
+    """One generated function as a casadi.Function with named inputs and outputs.
+
+    Parameters
+    ----------
+    module : module
+        A generated module
+    function : str
+        Name of one of its functions
+    letters : sequence of str
+        Names of the inputs, in order
+    parameters : mapping of str to value
+        Values or symbols for the other arguments
+
+    Returns
+    -------
+    function : casadi.Function
+        Scalar outputs; for `dynamics` the matrix and the two vectors
+    """
+    symbols = {name: ca.SX.sym(name) for name in letters}
+    arguments, outputs = module.FUNCTIONS[function]
+    values = getattr(module, function)(**{n: symbols.get(n, parameters.get(n)) for n in arguments})
+    results = dict(zip(outputs, (ca.SX(v) for v in values), strict=True))
+    if function == "dynamics":
+        results = _matrices(results, module.COORDINATES)
+    if function == "constraints":
+        results = _constraint_matrices(results, module.COORDINATES)
+    free = [p for p in parameters.values() if isinstance(p, ca.SX)]
+    inputs = [*symbols.values(), *free]
+    names = [*symbols, *(p.name() for p in free)]
+    return ca.Function(function, inputs, list(results.values()), names, list(results))
+
+
+def _matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:
+    mass = ca.vertcat(*(ca.horzcat(*(results[f"mass_{a}_{b}"] for b in q)) for a in q))
+    bias = ca.vertcat(*(results[f"bias_{a}"] for a in q))
+    force = ca.vertcat(*(results[f"force_{a}"] for a in q))
+    return {"mass_matrix": mass, "bias": bias, "generalized_force": force}
+
+
+def _constraint_matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:
+    names = [n.removeprefix("closure_") for n in results if n.startswith("closure_")]
+    jacobian = ca.vertcat(*(ca.horzcat(*(results[f"jacobian_{c}_{a}"] for a in q)) for c in names))
+    stacked = {group: ca.vertcat(*(results[f"{group}_{c}"] for c in names)) for group in ("closure", "bias")}
+    return {"closure": stacked["closure"], "jacobian": jacobian, "bias": stacked["bias"]}
+
+
+def acceleration_function(mechanism: Mechanism) -> ca.Function:
+    r"""Accelerations :math:`\ddot q = M^{-1}(Q - h)` of a mechanism without constraints.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Its dynamics
+
+    Returns
+    -------
+    function : casadi.Function
+        Same inputs as `dynamics`; one output `acceleration`, shape (n, 1)
+    """
+    dynamics = mechanism.functions["dynamics"]
+    inputs = [ca.SX.sym(dynamics.name_in(i)) for i in range(dynamics.n_in())]
+    mass, bias, force = dynamics(*inputs)
+    solved = ca.solve(mass, force - bias) if mass.shape != (1, 1) else (force - bias) / mass
+    return ca.Function("acceleration", inputs, [solved], dynamics.name_in(), ["acceleration"])
+
+
+def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:
+    """Kinematic outputs of a one-coordinate mechanism along an array of angles.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With one coordinate
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+
+    Returns
+    -------
+    curves : dict of str to ndarray, shape (n,)
+        By output name
+    """
+    function = mechanism.functions["kinematics"]
+    values = function.call([ca.DM(np.atleast_1d(phi)).T])
+    return {name: np.asarray(v).ravel() for name, v in zip(function.name_out(), values, strict=True)}
+
+
+def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
+    """Everything that is known of a mechanism at one state.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With its parameters
+    values : mapping of str to float
+        Coordinates, velocities and inputs; what is not named is 0, or what the constraints make it
+
+    Returns
+    -------
+    state : dict
+        Keys mass_matrix, bias, generalized_force, acceleration, kinetic_energy, potential_energy, outputs; the
+        energies are None for a model given only by its equations
+    """
+    q, u = mechanism.coordinates, velocities(mechanism)
+    values, qdd, joint_forces = _motion(mechanism, values)
+
+    def numbers(names: Sequence[str]) -> list[float]:
+        return [float(values.get(n, 0.0)) for n in names]
+
+    dynamics = mechanism.functions["dynamics"]
+    mass, bias, force = (np.asarray(v) for v in dynamics.call(numbers(dynamics.name_in())))
+    found = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
+    outputs: dict[str, float | None] = {**_named(mechanism.functions["kinematics"], numbers(q)), **joint_forces}
+    if "reactions" in mechanism.functions:
+        reactions = mechanism.functions["reactions"]
+        outputs |= _named(reactions, [float(found.get(n, 0.0)) for n in reactions.name_in()])
+    energies: dict[str, float | None] = {"kinetic_energy": None, "potential_energy": None}
+    if "energy" in mechanism.functions:
+        energies |= _named(mechanism.functions["energy"], numbers([*q, *u]))
+    vectors = {"mass_matrix": mass.tolist(), "bias": bias.ravel().tolist(), "generalized_force": force.ravel().tolist()}
+    return vectors | {"acceleration": qdd.tolist()} | energies | {"outputs": outputs}
+
+
+def _motion(
+    mechanism: Mechanism, values: Mapping[str, float]
+) -> tuple[dict[str, float], np.ndarray, dict[str, float | None]]:
+    if "constraints" in mechanism.functions:
+        from mechsym.mechanisms import constraints
+
+        return constraints.motion(mechanism, values)
+    dynamics = mechanism.functions["dynamics"]
+    given = [float(values.get(n, 0.0)) for n in dynamics.name_in()]
+    mass, bias, force = (np.asarray(v) for v in dynamics.call(given))
+    return dict(values), np.linalg.solve(mass, force - bias).ravel(), {}
+
+
+def _named(function: ca.Function, values: Sequence[float]) -> dict[str, float]:
+    return {n: float(v) for n, v in zip(function.name_out(), function.call(list(values)), strict=True)}

@@ -1,0 +1,1 @@
+"""chmielewski2015."""

@@ -1,0 +1,60 @@
+"""Moroianu (2017) prints definitions and nine curves without any data: no number of it can be checked.
+
+The chain (2) to (13) is computed for the case `moroianu`, a marine drive whose data are assumed, and drawn as in the
+source. Only the rule of Terskih, (3), gives numbers of its own.
+"""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import load
+from mechsym.forces.textbook import Chain, chain, terskih
+from mechsym.forces.turn import Turn, turn
+from mechsym.papers.rows import NOT_COMPUTABLE, row
+
+SOURCE = "001_a140ef4f7e005dde"
+CASE = "moroianu"
+# number of the figure: (field of the chain, its name in the source, unit)
+FIGURES = {
+    "1": ("F_p", "pressure force", "N"), "3": ("F_it", "inertia force", "N"), "4": ("F", "total force", "N"),
+    "6": ("B", "longitudinal force", "N"), "7": ("N", "normal force", "N"), "9": ("Z_B", "radial force", "N"),
+    "10": ("T", "tangential force", "N"), "11": ("Z", "total radial force", "N"), "12": ("M", "driving moment", "N*m"),
+}  # fmt: skip
+_SPEEDS_RPM = (100, 500, 1000)
+_MISSING = "no mass, length, speed or diagram is printed; computed: largest value with the assumed case moroianu"
+_NO_VALUE = "no value is printed; an empirical rule that knows nothing of the rod itself"
+
+
+@cache
+def curves() -> tuple[Turn, Chain]:
+    """The source's chain over a turn, with the assumed data.
+
+    Returns
+    -------
+    turn, chain : Turn, Chain
+        Rod as two masses with its centre of mass after Terskih
+    """
+    one = turn(load(CASE))
+    return one, chain(one, terskih(one.omega))
+
+
+def rows() -> list[dict[str, Any]]:
+    """Every figure with curves, and the rule of Terskih.
+
+    Returns
+    -------
+    rows : list of dict
+        Keys as in `rows.row`
+    """
+    found = curves()[1]
+    drawn = [
+        _row(f"Fig. {number}: {name} [{unit}]", float(np.abs(getattr(found, field)).max()), _MISSING)
+        for number, (field, name, unit) in FIGURES.items()
+    ]
+    return drawn + [_row(f"(3): L_m/L at {rpm} rpm", terskih(rpm * np.pi / 30), _NO_VALUE) for rpm in _SPEEDS_RPM]
+
+
+def _row(item: str, computed: float, note: str) -> dict[str, Any]:
+    return row(SOURCE, item, None, computed, NOT_COMPUTABLE, note)

@@ -1,0 +1,29 @@
+"""The nine curves of Moroianu (2017) as the source drew them, with the assumed data of the case `moroianu`."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.hinge.plots import BLUE
+from mechsym.papers.drawing import panels, turn_axis
+from mechsym.papers.moroianu2017.computed import FIGURES, curves
+
+
+def figures() -> dict[str, Figure]:
+    """All figures with curves.
+
+    Returns
+    -------
+    figures : dict of str to Figure
+        `figure_1` to `figure_12`
+    """
+    one, found = curves()
+    drawn = {}
+    for number, (field, name, unit) in FIGURES.items():
+        figure, (axis,) = panels(size=(6.4, 3.4))
+        axis.plot(np.degrees(one.phi), getattr(found, field) / 1e3, color=BLUE)
+        axis.axhline(0, color="black", linewidth=0.6)
+        axis.set_ylabel(f"{name} {field} [k{unit.replace('*', ' ')}]")
+        axis.set_title(f"Fig. {number}, assumed data", loc="left", fontsize=10)
+        turn_axis(axis)
+        drawn[f"figure_{number}"] = figure
+    return drawn

@@ -1,0 +1,152 @@
+"""Figures of chapters 3 and 5 of Nunes (2017) as the source drew them, by the thesis's own one-degree march."""
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.cases import load
+from mechsym.cycle.chamber import chamber as make_chamber
+from mechsym.cycle.chamber import travel, volume
+from mechsym.cycle.closed.model import Engine
+from mechsym.cycle.kinds.march import crank_torque
+from mechsym.cycle.kinds.printed import marched
+from mechsym.hinge.plots import BLUE, GREEN, ORANGE, RED
+from mechsym.jobs.cycle import RPM, engine
+from mechsym.papers.drawing import panels, turn_axis
+from mechsym.papers.nunes2017.computed import over_printed_speeds
+
+_TOP_SPEED = 8000 * RPM
+_SPEEDS_RPM = (2000, 4000, 6000, 8000)
+_COLORS = (BLUE, RED, GREEN, ORANGE)
+_ENGINES = {"OPSCE": "nunes-slider-crank", "OPGHE": "nunes-hypocycloid"}
+_PERFORMANCE = (
+    ("torque_avg", "average torque [N m]"), ("power_kw", "power [kW]"), ("sfc_g_kwh", "consumption [g/kWh]"),
+    ("mep_kpa", "mean effective pressure [kPa]"), ("", "share of the fuel's energy"),
+    ("efficiency_percent", "thermal efficiency [%]"),
+)  # fmt: skip
+_SHARES = ("heat", "work", "exhaust", "unburnt")
+
+
+def figures() -> dict[str, Figure]:
+    """All figures of chapter 3 from 3.1 on, and of chapter 5.
+
+    Returns
+    -------
+    figures : dict of str to Figure
+        `figure_3_1` to `figure_5_19`
+    """
+    machines = {name: engine(load(case, {"cycle.method": "nunes2017_printed"})) for name, case in _ENGINES.items()}
+    return {
+        f"figure_{n.replace('.', '_')}": f for n, f in (_kinematics(machines) | _cycles(machines) | _maps()).items()
+    }
+
+
+def _kinematics(machines: Mapping[str, Engine]) -> dict[str, Figure]:
+    theta = np.linspace(0, 2 * np.pi, 721)
+    rooms = {name: make_chamber(m.chamber, m.motion) for name, m in machines.items()}
+    moved = {name: travel(room.motion, theta) for name, room in rooms.items()}
+    rate = (1e3, _TOP_SPEED, _TOP_SPEED**2)
+    both = {name: [np.asarray(y) * k for y, k in zip(m, rate, strict=True)] for name, m in moved.items()}
+    volumes = {name: 1e6 * volume(room, theta)[0] for name, room in rooms.items()}
+    found = {"3.1": _over_turn("3.1", {n: m[0] for n, m in both.items()}, "piston position [mm]")}
+    for order, label in ((1, "piston velocity [m/s]"), (2, "piston acceleration [m/s$^2$]")):
+        for k, name in enumerate(both):
+            number = f"3.{2 * order + k}"
+            found[number] = _over_turn(number, {name: both[name][order]}, f"{label} at 8000 rpm")
+    return found | {"3.6": _over_turn("3.6", volumes, "chamber volume [cm$^3$]")}
+
+
+def _over_turn(number: str, curves: Mapping[str, np.ndarray], label: str) -> Figure:
+    figure, (axis,) = panels(size=(6.4, 3.6))
+    for (name, y), color, line in zip(curves.items(), (BLUE, RED), ("-", "--"), strict=False):
+        axis.plot(np.linspace(0, 360, y.size), y, color=color, linestyle=line, label=name)
+    _finish(axis, number, label)
+    turn_axis(axis)
+    return figure
+
+
+def _cycles(machines: Mapping[str, Engine]) -> dict[str, Figure]:
+    found: dict[str, Figure] = {}
+    for first, (name, machine) in zip((7, 10), machines.items(), strict=True):
+        room = make_chamber(machine.chamber, machine.motion)
+        result = marched(machine, RPM * np.array(_SPEEDS_RPM, float))
+        degrees = result.theta_deg - 180.0
+        figure, (axis,) = panels(size=(6.4, 3.8))
+        for k, speed in enumerate(_SPEEDS_RPM):
+            axis.plot(1e6 * result.v, result.p[:, k] / 1e6, color=_COLORS[k], label=f"{speed} rpm")
+        axis.set_xlabel("volume [cm$^3$]")
+        _finish(axis, f"3.{first}", f"{name}: pressure [MPa]")
+        found[f"3.{first}"] = figure
+        found[f"3.{first + 1}"] = _piston_forces(f"3.{first + 1}", name, machine, room, result)
+        torques = crank_torque(room, result)
+        found[f"3.{first + 2}"] = _over_cycle(f"3.{first + 2}", degrees, torques, f"{name}: torque of one crank [N m]")
+    tooth = crank_torque(room, result) / (2 * machines["OPGHE"].motion.parameters["e"])
+    found["3.13"] = _over_cycle("3.13", degrees, tooth, "OPGHE: tangential tooth load [N]")
+    return found
+
+
+def _piston_forces(number: str, name: str, machine: Engine, room: Any, result: Any) -> Figure:
+    figure, axes = panels(2, 1, (6.4, 6), sharex=True)
+    phi, degrees = np.radians(result.theta_deg - 360.0), result.theta_deg - 180.0
+    mass = sum(machine.motion.parameters[m] for m in machine.motion.masses)
+    for axis, speed in zip(axes, (4000, 8000), strict=True):
+        k = _SPEEDS_RPM.index(speed)
+        pressure = (result.p[:, k] - machine.chamber.back_pressure) * room.area
+        inertia = -mass * travel(room.motion, phi)[2] * result.omega[k] ** 2
+        for y, color, label in (
+            (pressure, BLUE, "pressure"),
+            (inertia, GREEN, "inertia"),
+            (pressure + inertia, RED, "sum"),
+        ):
+            axis.plot(degrees, y / 1e3, color=color, label=label)
+        _finish(axis, f"{number}, {speed} rpm", f"{name}: force [kN]")
+    axes[-1].set_xlabel("crank angle from the start of compression [deg]")
+    return figure
+
+
+def _over_cycle(number: str, degrees: np.ndarray, curves: np.ndarray, label: str) -> Figure:
+    figure, (axis,) = panels(size=(6.4, 3.8))
+    for k, speed in enumerate(_SPEEDS_RPM):
+        axis.plot(degrees, curves[:, k], color=_COLORS[k], label=f"{speed} rpm")
+    _finish(axis, number, label)
+    axis.set_xlabel("crank angle from the start of compression [deg]")
+    return figure
+
+
+def _maps() -> dict[str, Figure]:
+    curves = over_printed_speeds()
+    short, own = curves["slider_crank_74"], curves["hypocycloid"]
+    found: dict[str, Figure] = {}
+    for k, (key, label) in enumerate(_PERFORMANCE):
+        one = partial(_over_speeds, key=key, label=label)
+        a = curves["slider_crank"] if key == "" else short  # the shares were computed with the rod of 90 mm
+        found[f"5.{1 + k}"] = one(f"5.{1 + k}", {"OPSCE": a})
+        found[f"5.{7 + k}"] = one(f"5.{7 + k}", {"OPGHE": own})
+        found[f"5.{14 + k}"] = one(f"5.{14 + k}", {"OPSCE": a, "OPGHE": own})
+    weight = "power to weight [kW/kg]"
+    return found | {"5.13": _over_speeds("5.13", {"OPGHE": own}, key="power_to_weight", label=weight)}
+
+
+def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], key: str, label: str) -> Figure:
+    figure, (axis,) = panels(size=(6.4, 3.8))
+    for (name, found), line in zip(engines.items(), ("-", "--"), strict=False):
+        for quantity, color in zip((key,) if key else _SHARES, _COLORS, strict=False):
+            shade = color if key == "" or line == "-" else RED
+            axis.plot(
+                found["speed_rpm"], found[quantity], line, color=shade, label=f"{name} {quantity if not key else ''}"
+            )
+    axis.set_xlabel("speed [rpm]")
+    _finish(axis, number, label)
+    if not key:
+        axis.set_ylim(0, 0.8)
+        axis.legend(fontsize=8, ncols=len(engines), loc="upper right")
+    return figure
+
+
+def _finish(axis: Any, number: str, label: str) -> None:
+    axis.set_ylabel(label)
+    axis.set_title(f"Fig. {number}", loc="left", fontsize=10)
+    axis.legend(fontsize=8)

@@ -1,0 +1,115 @@
+"""Files of a reproduction: table as CSV, pictures as SVG and PNG, and one HTML page that opens offline."""
+
+import io
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from mechsym.files import write_csv, write_text
+from mechsym.hinge.plots import svg
+from mechsym.papers.rows import KEYS, VERDICTS
+from mechsym.papers.sources import Source, figures
+
+_DPI = 110
+
+
+def write(
+    folder: Path,
+    sources: Sequence[Source],
+    rows: Mapping[str, Sequence[dict[str, Any]]],
+    differences: Sequence[str],
+) -> list[Path]:
+    """Write everything.
+
+    Parameters
+    ----------
+    folder : Path
+        Where to write; made when missing
+    sources : sequence of Source
+        What was reproduced
+    rows : mapping of str to sequence of dict
+        Rows of each source by its stem
+    differences : sequence of str
+        How the outcome differs from the recorded one
+
+    Returns
+    -------
+    files : list of Path
+        reproduction.html first
+    """
+    drawn = {source.stem: figures(source) for source in sources}
+    files = [write_text(folder / "reproduction.html", html(sources, rows, drawn, differences))]
+    flat = [row for source in sources for row in rows[source.stem]]
+    files.append(write_csv(folder / "reproduction.csv", {key: [r[key] for r in flat] for key in KEYS}))
+    for source in sources:
+        for name, figure in drawn[source.stem].items():
+            files.append(write_text(folder / source.name / f"{name}.svg", svg(figure)))
+            files.append(_write_png(folder / source.name / f"{name}.png", figure))
+    return files
+
+
+def html(
+    sources: Sequence[Source],
+    rows: Mapping[str, Sequence[dict[str, Any]]],
+    drawn: Mapping[str, Mapping[str, Any]],
+    differences: Sequence[str],
+) -> str:
+    """The page as text.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+        What was reproduced
+    rows : mapping of str to sequence of dict
+        Rows of each source by its stem
+    drawn : mapping of str to mapping
+        Figures of each source by its stem
+    differences : sequence of str
+        How the outcome differs from the recorded one
+
+    Returns
+    -------
+    text : str
+        HTML without any outside reference
+    """
+    import jinja2
+
+    source = (resources.files("mechsym") / "templates" / "reproduction.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
+    return environment.from_string(source).render(
+        sources=sources,
+        rows=rows,
+        counts={s.stem: counts(rows[s.stem]) for s in sources},
+        pictures={stem: {n: svg(f) for n, f in found.items()} for stem, found in drawn.items()},
+        differences=differences,
+    )
+
+
+def counts(rows: Sequence[dict[str, Any]]) -> dict[str, int]:
+    """How many rows have each verdict.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Rows of a reproduction
+
+    Returns
+    -------
+    counts : dict of str to int
+        In the order of the verdicts
+    """
+    found = Counter(row["verdict"] for row in rows)
+    return {verdict: found[verdict] for verdict in VERDICTS}
+
+
+def _write_png(path: Path, figure: Any) -> Path:
+    buffer = io.BytesIO()
+    # no software version in the file, so that equal data give equal bytes
+    figure.savefig(buffer, format="png", dpi=_DPI, metadata={"Software": None})
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.name}.part")
+    part.write_bytes(buffer.getvalue())
+    part.replace(path)
+    return path

@@ -1,0 +1,221 @@
+"""Zotov et al. (2024): its sections 2 and 3, with a stated cycle in place of the force that it does not print.
+
+The paper's F(phi) came from measured diagrams that are not printed, so that its torques and guides cannot be computed
+again number by number. The built-in cases `zotov-89` and `zotov-142` carry a typical cycle of such an engine.
+"""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+
+from mechsym import cases, periodic
+from mechsym.hinge import balance, guide, retune
+from mechsym.hinge import torque as hinge
+from mechsym.hinge.choices import GuideParameters
+from mechsym.hinge.guide import Guide
+from mechsym.hinge.retune import Retuning, at_setting
+from mechsym.hinge.springs import AirGauge
+from mechsym.hinge.torque import Hinge
+from mechsym.jobs.machine import Assembly, assemble
+from mechsym.papers.zotov2024.family import Member, family
+from mechsym.papers.zotov2024.hinge_printed import hinge_torque_printed, load_torque_printed
+from mechsym.periodic import even_angles
+
+CASES = ("zotov-89", "zotov-142")
+PRESSURES = (5e6, 9.5e6)  # Fig. 6 [Pa]
+# what the source leaves open and what changes the ripple of the retuned guide
+VARIANTS: dict[str, dict[str, str]] = {
+    "atmosphere under the piston": {},
+    "scavenge pressure under the piston": {"cycle.crank_side": "scavenge"},
+    "atmosphere, engine upright": {"axis_tilt": "90 deg"},
+}
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Engines:
+    """Both speeds of the paper.
+
+    Parameters
+    ----------
+    assemblies : tuple of two Assembly
+        Engine at 89 and at 142 rpm
+    hinges : tuple of two Hinge
+        Torque that keeps each speed constant
+    cut : Guide
+        Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
+    placed : Guide
+        The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
+    """
+
+    assemblies: tuple[Assembly, Assembly]
+    hinges: tuple[Hinge, Hinge]
+    cut: Guide
+    placed: Guide
+
+
+@cache
+def engines(variant: str = "atmosphere under the piston") -> Engines:
+    """Both engines with their hinges and the paper's guide.
+
+    Parameters
+    ----------
+    variant : str
+        One of `VARIANTS`
+
+    Returns
+    -------
+    engines : Engines
+        Made once
+    """
+    slow, fast = (assemble(cases.load(name, VARIANTS[variant])) for name in CASES)
+    hinges = (hinge.build(slow.torques, slow.omega), hinge.build(fast.torques, fast.omega))
+    part = balance.build(hinges[0], "whole_cycle")
+    placed = guide.build(part, slow.case.need("spring"), _choices(slow))
+    return Engines(assemblies=(slow, fast), hinges=hinges, cut=_printed_guide(slow, hinges[0]), placed=placed)
+
+
+def _printed_guide(engine: Assembly, wanted: Hinge) -> Guide:
+    spring = engine.case.need("spring")
+    printed = AirGauge(A=spring.A, H=spring.H, p0=spring.p0, n=spring.n)
+    choices = dataclasses.replace(_choices(engine), start="as_printed", arrangement="two_tracks")
+    return guide.build(balance.build(wanted, "whole_cycle"), printed, choices)
+
+
+def _choices(engine: Assembly) -> GuideParameters:
+    found: GuideParameters = engine.case.need("guide")
+    return found
+
+
+def peak(wanted: Hinge) -> float:
+    """Largest size of a hinge torque.
+
+    Parameters
+    ----------
+    wanted : Hinge
+        Hinge
+
+    Returns
+    -------
+    peak : float
+        max |M_h| [N*m]
+    """
+    return max(abs(wanted.torque_min), abs(wanted.torque_max))
+
+
+def retuned(pressure: float) -> Retuning:
+    """The guide of 89 rpm with another pressure at 142 rpm.
+
+    Parameters
+    ----------
+    pressure : float
+        Excess pressure p0 [Pa]
+
+    Returns
+    -------
+    retuned : Retuning
+        What remains
+    """
+    found = engines()
+    return at_setting(found.cut, found.hinges[1], pressure)
+
+
+def best_pressure() -> Retuning:
+    """The pressure with which that guide comes nearest to the torque needed at 142 rpm.
+
+    Returns
+    -------
+    retuned : Retuning
+        By least squares of the torque
+    """
+    found = engines()
+    return retune.retune(found.cut, found.hinges[1], "least_squares_torque")
+
+
+def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
+    """Hinge torque exactly as equation (8) prints it, with M_r by (5).
+
+    Parameters
+    ----------
+    index : int
+        0 for 89 rpm, 1 for 142 rpm
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+
+    Returns
+    -------
+    M_h : ndarray, shape (n,)
+        Torque on the crank [N*m]
+    """
+    engine = engines().assemblies[index]
+    p, even = engine.case.need("parameters"), even_angles(2 * np.pi)
+    load = load_torque_printed(p, engine.force(even), even)
+    return hinge_torque_printed(p, engine.omega, engine.force(phi), load, phi)
+
+
+@cache
+def guides() -> tuple[Member, ...]:
+    """The twelve guides of Fig. 5, as printed and placed.
+
+    Returns
+    -------
+    guides : tuple of Member
+        24 members
+    """
+    found = engines()
+    case = found.assemblies[0].case
+    slow, fast = (balance.build(h, "whole_cycle") for h in found.hinges)
+    settings = (case.need(k) for k in ("spring", "guide", "rollers", "limits"))
+    return family((slow, fast), *settings)
+
+
+def longest_stretch(cut: Guide) -> float:
+    """By how much the spring in a guide is longer than its free height.
+
+    Parameters
+    ----------
+    cut : Guide
+        Guide
+
+    Returns
+    -------
+    stretch : float
+        0 when the guide presses it everywhere [m]
+    """
+    if cut.rho is None:
+        return float("nan")
+    _, _, rho, _ = periodic.extremes(cut.rho)
+    return max(0.0, cut.rollers * (rho - cut.parameters.rho0))
+
+
+def departure(cut: Guide) -> float:
+    """How far a guide is from a circle: largest minus smallest distance over their mean.
+
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
+
+    Returns
+    -------
+    departure : float
+        0 for a circle [-]
+    """
+    rho = distances(cut)
+    return float(np.ptp(rho) / ((rho.max() + rho.min()) / 2))
+
+
+def distances(cut: Guide) -> np.ndarray:
+    """Distances of the roller centres from the axis around a turn.
+
+    Parameters
+    ----------
+    cut : Guide
+        A guide that could be cut
+
+    Returns
+    -------
+    rho : ndarray, shape (n,)
+        At even angles, both ends included [m]
+    """
+    return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))

@@ -1,0 +1,93 @@
+"""The family of guides in Fig. 5 of the source: two speeds, two springs, three pressures; as printed and placed.
+
+    a, b: H = 1 m, rho0 = 0.8 m     c, d: H = 0.4 m, rho0 = 0.3 m     a, c: 89 rpm     b, d: 142 rpm
+    1, 2, 3: p0 = 3, 5, 8 MPa
+
+Source: Zotov et al. (2024), Fig. 5 and its caption.
+"""
+
+import dataclasses
+
+from mechsym.errors import BadInput
+from mechsym.hinge import guide
+from mechsym.hinge import limits as feasibility
+from mechsym.hinge.balance import Balance
+from mechsym.hinge.choices import GuideParameters
+from mechsym.hinge.guide import Guide, Spring
+from mechsym.hinge.limits import Limits, Verdict
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs import AirAbsolute, AirGauge
+
+# letter: (speed index, H [m], rho0 [m])
+_CURVES = {"a": (0, 1.0, 0.8), "b": (1, 1.0, 0.8), "c": (0, 0.4, 0.3), "d": (1, 0.4, 0.3)}
+_PRESSURES = {"1": 3e6, "2": 5e6, "3": 8e6}  # [Pa]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Member:
+    """One guide of the family.
+
+    Parameters
+    ----------
+    label : str
+        Letter and number in Fig. 5, `a1` to `d3`
+    start : str
+        `as_printed` with the paper's law, or `placed` with the case's law
+    guide : Guide
+        The guide
+    verdict : Verdict
+        Spring pressure, pressure angle, roller reaction, and whether it can be built
+    """
+
+    label: str
+    start: str
+    guide: Guide
+    verdict: Verdict
+
+
+def family(
+    balances: tuple[Balance, Balance],
+    spring: Spring,
+    parameters: GuideParameters,
+    rollers: RollerParameters,
+    limits: Limits,
+) -> tuple[Member, ...]:
+    """All twelve guides, as printed and placed.
+
+    Parameters
+    ----------
+    balances : tuple of two Balance
+        Torque at the lower and at the higher speed
+    spring : AirGauge or AirAbsolute
+        Area, polytropic index and law of the placed guides
+    parameters : GuideParameters
+        Arrangement and z_margin of the placed guides
+    rollers : RollerParameters
+        Rollers and tracks
+    limits : Limits
+        What is allowed
+
+    Returns
+    -------
+    members : tuple of Member
+        24 members, by label, as printed before placed
+
+    Raises
+    ------
+    BadInput
+        The spring holds no gas
+    """
+    if not isinstance(spring, (AirGauge, AirAbsolute)):
+        raise BadInput("spring.law = coil has no p0; the guides of Fig. 5 need air_absolute or air_gauge")
+    members = []
+    for letter, (speed, H, rho0) in _CURVES.items():
+        for number, p0 in _PRESSURES.items():
+            printed = GuideParameters(arrangement="two_tracks", start="as_printed", rho0=rho0)
+            placed = dataclasses.replace(parameters, start="placed", rho0=rho0)
+            gauge = AirGauge(A=spring.A, H=H, p0=p0, n=spring.n)
+            filled = dataclasses.replace(spring, H=H, p0=p0)
+            for chosen, air in ((printed, gauge), (placed, filled)):
+                cut = guide.build(balances[speed], air, chosen)
+                verdict = feasibility.judge(cut, air, rollers, limits)
+                members.append(Member(label=letter + number, start=chosen.start, guide=cut, verdict=verdict))
+    return tuple(members)

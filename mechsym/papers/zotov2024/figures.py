@@ -1,0 +1,105 @@
+"""Figs. 3 to 6 of Zotov et al. (2024) as the source drew them, with the stated cycle for the gas force."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.hinge import guide
+from mechsym.hinge.plots import BLUE, GREEN, GREY, RED
+from mechsym.hinge.setting import with_setting
+from mechsym.papers.drawing import panels, turn_axis
+from mechsym.papers.zotov2024.computed import (
+    PRESSURES,
+    Engines,
+    best_pressure,
+    distances,
+    engines,
+    guides,
+    printed_torque,
+)
+
+_PHI = np.linspace(0, 2 * np.pi, 1441)
+_DEG = np.degrees(_PHI)
+_LINES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))
+
+
+def figures() -> dict[str, Figure]:
+    """All figures with curves.
+
+    Returns
+    -------
+    figures : dict of str to Figure
+        `figure_3`, `figure_4`, `figure_5`, `figure_6`
+    """
+    found = engines()
+    return {
+        "figure_3": _forces(found),
+        "figure_4": _torques(found),
+        "figure_5": _guides(),
+        "figure_6": _fit(found),
+    }
+
+
+def _forces(found: Engines) -> Figure:
+    figure, (axis,) = panels()
+    for engine, (color, line), name in zip(found.assemblies, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
+        axis.plot(_DEG, engine.force(_PHI) / 1e3, color=color, linestyle=line, label=name)
+    axis.set_ylabel("force on the piston [kN]")
+    axis.set_title("Fig. 3, stated cycle")
+    axis.legend()
+    turn_axis(axis)
+    return figure
+
+
+def _torques(found: Engines) -> Figure:
+    figure, axes = panels(1, 2, (10, 4), sharey=True)
+    for index, (axis, name) in enumerate(zip(axes, ("a: 89 rpm", "b: 142 rpm"), strict=True)):
+        axis.plot(_DEG, found.hinges[index].torque(_PHI) / 1e3, color=BLUE, label="exact equation")
+        axis.plot(_DEG, printed_torque(index, _PHI) / 1e3, color=RED, ls="--", label="(8) as printed")
+        axis.axhline(0, color="black", linewidth=0.6)
+        axis.set_title(f"Fig. 4 {name}, stated cycle")
+        turn_axis(axis)
+    axes[0].set_ylabel("hinge torque $M_h$ [kN m]")
+    axes[0].legend()
+    return figure
+
+
+def _guides() -> Figure:
+    cut = {m.label: m.guide for m in guides() if m.start == "as_printed"}
+    about = {"a": "89 rpm, H = 1 m", "b": "142 rpm, H = 1 m", "c": "89 rpm, H = 0.4 m", "d": "142 rpm, H = 0.4 m"}
+    figure, axes = panels(2, 2, (9, 8.6))
+    theta = np.linspace(0, 2 * np.pi, 1441)
+    for axis, (letter, words) in zip(axes, about.items(), strict=True):
+        for number, p0, (color, line) in zip("123", (3, 5, 8), _LINES, strict=True):
+            rho = distances(cut[letter + number])
+            axis.plot(
+                rho * np.cos(theta), rho * np.sin(theta), color=color, linestyle=line, label=f"{number}: p0 = {p0} MPa"
+            )
+        axis.plot(0, 0, "+", color="black")
+        axis.set_aspect("equal")
+        axis.set_title(f"Fig. 5 {letter}: {words}, stated cycle", fontsize=10)
+        axis.set(xlabel="x [m]", ylabel="y [m]")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    return figure
+
+
+def _fit(found: Engines) -> Figure:
+    cut, best = found.cut, best_pressure().setting
+    figure, (axis,) = panels()
+    curves = (
+        ("1: wanted at 89 rpm", found.hinges[0].torque(_PHI), GREY, "-"),
+        ("2: same guide, p0 times 1.9", _torque_at(cut, PRESSURES[1]), RED, "--"),
+        ("3: wanted at 142 rpm", found.hinges[1].torque(_PHI), BLUE, "-"),
+        (f"not in the source: p0 times {best / PRESSURES[0]:.2f}", _torque_at(cut, best), GREEN, ":"),
+    )
+    for name, torque, color, line in curves:
+        axis.plot(_DEG, torque / 1e3, color=color, linestyle=line, label=name)
+    axis.axhline(0, color="black", linewidth=0.6)
+    axis.set_ylabel("hinge torque [kN m]")
+    axis.set_title("Fig. 6, stated cycle")
+    axis.legend(fontsize=8)
+    turn_axis(axis)
+    return figure
+
+
+def _torque_at(cut: guide.Guide, p0: float) -> np.ndarray:
+    return guide.crank_torque(cut, with_setting(cut.spring, p0), _PHI)

@@ -1,0 +1,120 @@
+r"""Gas in every cylinder and motion of the shaft as one differential equation in time.
+
+    cylinder k: T_k, work, heat  --F_k = (p_k - p_b) A-->  mechanism q, u  <--M-- load(u)
+         ^                                                     |
+         +------------- phi_k = q_i - firing_k ----------------+
+
+A cylinder is in one of four phases: before, during, after combustion, and open (ideal gas exchange at intake
+pressure). Phase, start and duration of combustion are held between events, so that each piece is smooth; they are
+decided when the inlet closes, from the speed that the crank has just then.
+"""
+
+import dataclasses
+from typing import Any
+
+import casadi as ca
+
+from mechsym.cycle.chamber import travel
+from mechsym.cycle.closed.equations import PHASES, pressure, rates
+from mechsym.cycle.closed.model import Engine, closed_period
+from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
+from mechsym.mechanisms.record import Mechanism, acceleration_function
+
+OPEN = len(PHASES)  # number of the fourth phase
+PER_CYLINDER = ("t", "work", "wall_heat")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Cylinder:
+    """Where a cylinder sits on the mechanism.
+
+    Parameters
+    ----------
+    input : str
+        The mechanism's input that its piston force acts on
+    coordinate : str
+        Coordinate that is the angle of its crank
+    firing : float
+        Value of that coordinate at the cylinder's firing top dead centre, within 4 pi [rad]
+    """
+
+    input: str
+    coordinate: str
+    firing: float
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Loop:
+    """An engine whose cylinders act on a mechanism against a load.
+
+    Parameters
+    ----------
+    engine : Engine
+        What every cylinder is
+    mechanism : Mechanism
+        With its parameters bound
+    cylinders : tuple of Cylinder
+        In any order
+    load : ConstantLoad or PropellerLoad
+        Settled law
+    load_input, load_coordinate : str
+        Input that takes the load torque, and the coordinate whose speed decides it
+    """
+
+    engine: Engine
+    mechanism: Mechanism
+    cylinders: tuple[Cylinder, ...]
+    load: ConstantLoad | PropellerLoad
+    load_input: str
+    load_coordinate: str
+
+
+def right_side(loop: Loop) -> ca.Function:
+    """The differential equation of a loop.
+
+    Parameters
+    ----------
+    loop : Loop
+        Engine, mechanism, cylinders, load
+
+    Returns
+    -------
+    function : casadi.Function
+        (y, held) -> dy/dt and the pressures of the cylinders [Pa]. y: coordinates, velocities, then for each cylinder
+        temperature [K], work and heat to the walls since the inlet closed [J], then work of all forces on the
+        mechanism and work of the pistons [J]. held, for each cylinder: phase, start [rad], duration [rad], and the
+        angle of its last firing dead centre [rad]
+    """
+    q_names, n = loop.mechanism.coordinates, len(loop.mechanism.coordinates)
+    count = len(loop.cylinders)
+    y, held = ca.SX.sym("y", 2 * n + 3 * count + 2), ca.SX.sym("held", 4 * count)
+    q, u = y[:n], y[n : 2 * n]
+    inputs: dict[str, Any] = {name: 0 for name in loop.mechanism.inputs}
+    slopes, pressures, piston_power = [], [], 0
+    for k, cylinder in enumerate(loop.cylinders):
+        i = q_names.index(cylinder.coordinate)
+        phi, t = q[i] - held[4 * k + 3], y[2 * n + 3 * k]
+        p, per_angle = _gas(loop.engine, u[i], phi, t, held[4 * k : 4 * k + 3])
+        slopes += [slope * u[i] for slope in per_angle]
+        pressures.append(p)
+        room = closed_period(loop.engine, {"omega": u[i]}).chamber
+        inputs[cylinder.input] += (p - room.back_pressure) * room.area
+        piston_power += inputs[cylinder.input] * travel(room.motion, phi)[1] * u[i]
+    inputs[loop.load_input] += load_torque(loop.load, u[q_names.index(loop.load_coordinate)])
+    arguments = [*ca.vertsplit(q), *ca.vertsplit(u), *(inputs[name] for name in loop.mechanism.inputs)]
+    force = loop.mechanism.functions["dynamics"].call(arguments)[2]
+    acceleration = acceleration_function(loop.mechanism).call(arguments)[0]
+    rate = ca.vertcat(u, acceleration, *slopes, ca.dot(force, u), piston_power)
+    return ca.Function("loop", [y, held], [rate, ca.vertcat(*pressures)])
+
+
+def _gas(engine: Engine, omega: Any, phi: Any, t: Any, held: Any) -> tuple[Any, tuple[Any, ...]]:
+    closed = closed_period(engine, {"omega": omega})
+    closed = dataclasses.replace(closed, starts=held[1], duration=held[2])
+    p, slopes = engine.cycle.intake_pressure, (0.0, 0.0, 0.0)
+    for number, phase in enumerate(PHASES):
+        here = held[0] == number
+        p = ca.if_else(here, pressure(closed, phase, phi, t), p)
+        found = rates(closed, phase, phi, t)
+        slopes = tuple(ca.if_else(here, a, b) for a, b in zip(found, slopes, strict=True))
+    return p, slopes

@@ -1,0 +1,256 @@
+"""Masses of the hypocycloid engine's parts, and how they move.
+
+The crankshaft is reckoned from its sizes; the other parts start from the printed part (its mass stands for what the
+source drew and does not print) and change by the volume that the sizes change. A web's mass is split between the
+crankpin on the cylinder axis and the shaft at the planet's centre, so that its centre stays where it is.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechsym.sizing.hypocycloid.engine import shaft_length, spans
+from mechsym.sizing.hypocycloid.parts import Parts, Stock, chosen
+from mechsym.sizing.parts.bearing_design import mass as bearing_mass
+from mechsym.sizing.parts.records import MassPart, PistonPart
+from mechsym.sizing.rules.masses import area_and_centre, cylinder_mass, roll_up, web_outline
+from mechsym.sizing.rules.materials import get
+from mechsym.sizing.wants import Wants
+
+_SUPPORT_SHAFT = 0.020  # free length of the support shaft, assumed: the source prints none [m]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Printed:
+    """The source's parts and their masses, the reference of the mass model.
+
+    Parameters
+    ----------
+    parts : Parts
+        Printed sizes
+    masses : MassPart
+        Printed masses
+    bore, e : float
+        Bore, throw [m]
+    """
+
+    parts: Parts
+    masses: MassPart
+    bore: float
+    e: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moving:
+    """Masses of one crank as the dynamics know them.
+
+    Parameters
+    ----------
+    rod : float
+        On the rod's side of the crankpin: piston with rod, its bearings [kg]
+    axis : float
+        All that moves on the cylinder axis: rod side, crankpin, the webs' share [kg]
+    planet : float
+        At the planet's centre, both sides: shafts, pinions, the webs' share [kg]
+    unbalance : float
+        What each shaft set must balance: mass times throw of one side, journal bearings included [kg*m]
+    """
+
+    rod: float
+    axis: float
+    planet: float
+    unbalance: float
+
+
+def moving_printed(printed: Printed, stock: Stock) -> Moving:
+    """Moving masses from the printed masses (errata E20).
+
+    Parameters
+    ----------
+    printed : Printed
+        The source's parts
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    moving : Moving
+        0.579 kg on the cylinder axis; the source's dynamics use 0.250 kg
+    """
+    m, places = printed.masses, chosen(printed.parts.bearings, stock)
+    density = 6675.0  # the source's Nitralloy N, from which its 90.8 g of shaft follow
+    shaft = cylinder_mass(density, printed.parts.crank.shaft, printed.parts.crank.shaft_length)
+    rod = m.piston + bearing_mass(places["rod"])
+    journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
+    return Moving(
+        rod=rod, axis=rod + m.crankshaft - 2 * shaft, planet=2 * (shaft + m.pinion),
+        unbalance=(shaft + m.pinion + journals) * printed.e,
+    )  # fmt: skip
+
+
+def moving(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> Moving:
+    """Moving masses of sized parts.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    printed : Printed
+        Reference
+    wants : Wants
+        Materials
+    stock : Stock
+        Materials and bearings
+
+    Returns
+    -------
+    moving : Moving
+        Masses that the dynamics must use
+    """
+    part = part_masses(parts, printed, wants, stock)
+    pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
+    places = chosen(parts.bearings, stock)
+    rod = part["piston"][0] + bearing_mass(places["rod"])
+    planet_side = shaft + part["pinion"][0] + web * outward
+    journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
+    return Moving(
+        rod=rod, axis=rod + pin + 2 * web * (1 - outward), planet=2 * planet_side,
+        unbalance=(planet_side + journals) * printed.e,
+    )  # fmt: skip
+
+
+def part_masses(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
+    """Mass and number of every part of the engine.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    printed : Printed
+        Reference
+    wants : Wants
+        Materials
+    stock : Stock
+        Materials and bearings
+
+    Returns
+    -------
+    masses : dict of str to (float, int)
+        Part to mass [kg] and number [-]
+    """
+    ref, base, rho = printed.masses, printed.parts, _densities(wants, stock)
+    pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
+    places = chosen(parts.bearings, stock)
+    pinion = ref.pinion * _pinion_volume(parts) / _pinion_volume(base) * rho["gears"] / _density(stock, "nitralloy-n")
+    planet_side = shaft + pinion + web * outward
+    journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
+    balance = (planet_side + journals) * printed.e / moving_printed(printed, stock).unbalance
+    volume = _piston_volume(parts.piston, printed.bore) - _piston_volume(base.piston, printed.bore)
+    length = spans(parts, stock).outboard / spans(base, stock).outboard
+    return {
+        "piston": (ref.piston + rho["piston"] * volume, 2),
+        "cylinder": (_cylinder(parts, printed, rho["cylinder"]), 1),
+        "pinion": (pinion, 4),
+        "ring": (ref.ring * _ring_volume(parts) / _ring_volume(base), 4),
+        "crankshaft": (pin + 2 * web + 2 * shaft, 2),
+        "output shaft set": (_shaft_set(parts, printed, rho["shaft"], balance, output=True), 2),
+        "support shaft set": (_shaft_set(parts, printed, rho["shaft"], balance, output=False), 2),
+        "crankcases": (ref.crankcases * length, 2),
+        **{f"bearing {key}": (bearing_mass(choice), 4 if key != "rod" else 2) for key, choice in places.items()},
+    }
+
+
+def total_mass(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> float:
+    """Mass of the engine without belt drive.
+
+    Parameters
+    ----------
+    parts : Parts
+        Sizes
+    printed : Printed
+        Reference
+    wants : Wants
+        Materials
+    stock : Stock
+        Materials and bearings
+
+    Returns
+    -------
+    m : float
+        Mass [kg]
+    """
+    return roll_up(part_masses(parts, printed, wants, stock))
+
+
+def total_mass_printed(printed: Printed, stock: Stock) -> float:
+    """Mass of the engine from the printed masses.
+
+    Parameters
+    ----------
+    printed : Printed
+        The source's parts
+    stock : Stock
+        Bearing data
+
+    Returns
+    -------
+    m : float
+        13.4066 kg with the source's numbers [kg]
+    """
+    m, places = printed.masses, chosen(printed.parts.bearings, stock)
+    counts = {"piston": 2, "cylinder": 1, "pinion": 4, "ring": 4, "crankshaft": 2, "output_set": 2, "support_set": 2,
+              "crankcases": 2}  # fmt: skip
+    parts = {name: (getattr(m, name), count) for name, count in counts.items()}
+    return roll_up(parts | {key: (bearing_mass(c), 2 if key == "rod" else 4) for key, c in places.items()})
+
+
+def _crankshaft(parts: Parts, e: float, wants: Wants, stock: Stock) -> tuple[float, float, float, float]:
+    """Crankpin, one web, one shaft, and the share of a web that moves with the shaft."""
+    crank, density = parts.crank, _densities(wants, stock)["crankshaft"]
+    margin = max(crank.web_width - min(crank.pin, crank.shaft), 0.0)
+    area, centre = area_and_centre(*web_outline(crank.pin + margin, crank.shaft + margin, e))
+    seat = spans(parts, stock).inner * 2 - crank.pin_length - 2 * crank.web  # symmetric about the inner journal
+    outer = max(shaft_length(parts, stock) - seat, 0.0)
+    shaft = cylinder_mass(density, crank.shaft, seat) + cylinder_mass(density, parts.gears.pinion_bore, outer)
+    pin = cylinder_mass(density, crank.pin, crank.pin_length, crank.pin_bore)
+    return pin, density * area * crank.web, shaft, centre / e
+
+
+def _shaft_set(parts: Parts, printed: Printed, density: float, balance: float, output: bool) -> float:
+    """A shaft set: its counterweight grows with what it balances, its shaft with the diameter."""
+    ref, base = printed.masses, printed.parts.crank.output
+    longer = (ref.output_set - ref.support_set) / cylinder_mass(density, base, 1.0)  # the two differ by their shafts
+    length = _SUPPORT_SHAFT + (longer if output else 0.0)
+    disc = (ref.output_set if output else ref.support_set) - cylinder_mass(density, base, length)
+    return disc * balance + cylinder_mass(density, parts.crank.output, length)
+
+
+def _cylinder(parts: Parts, printed: Printed, density: float) -> float:
+    ref, now, bore = printed.parts.cylinder, parts.cylinder, printed.bore
+    wall = cylinder_mass(density, bore + 2 * now.wall, now.length, bore)
+    reference = cylinder_mass(density, bore + 2 * ref.wall, now.length, bore)
+    return printed.masses.cylinder * now.length / ref.length + wall - reference
+
+
+def _piston_volume(part: PistonPart, bore: float) -> float:
+    barrel = np.pi * (bore - part.barrel) * part.barrel * (part.height - part.head)
+    return float(np.pi / 4 * bore**2 * part.head + barrel + np.pi / 4 * part.rod**2 * part.rod_length)
+
+
+def _pinion_volume(parts: Parts) -> float:
+    gears = parts.gears
+    return ((gears.module * gears.teeth_pinion) ** 2 - gears.pinion_bore**2) * gears.face
+
+
+def _ring_volume(parts: Parts) -> float:
+    gears = parts.gears
+    return (gears.ring_outside**2 - (gears.module * gears.teeth_ring) ** 2) * (gears.face + 1e-3)
+
+
+def _densities(wants: Wants, stock: Stock) -> dict[str, float]:
+    return {place: _density(stock, getattr(wants, place))
+            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
+
+
+def _density(stock: Stock, key: str) -> float:
+    return get(dict(stock.materials), key).density

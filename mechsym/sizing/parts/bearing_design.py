@@ -1,0 +1,179 @@
+"""Choosing and checking rolling bearings for a load history over the speeds."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechsym.sizing.checks import Check, at_least, at_most, unsafe
+from mechsym.sizing.rounding import at_speed
+from mechsym.sizing.rules import bearings
+from mechsym.sizing.rules.bearing_data import Bearing
+from mechsym.sizing.wants import Wants
+
+_STEEL = 7800.0  # for the inner ring that is left out [kg/m^3]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seat:
+    """A place for bearings.
+
+    Parameters
+    ----------
+    name : str
+        Name of the place, for the checks
+    omega : ndarray, shape (k,)
+        Crank speeds, for the notes [rad/s]
+    load : ndarray, shape (k, n)
+        Radial load of the place over the period [N]
+    turning : ndarray, shape (k,)
+        Speed of one ring relative to the other [rad/s]
+    """
+
+    name: str
+    omega: np.ndarray
+    load: np.ndarray
+    turning: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """Bearings for a place.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Which
+    count : int
+        How many side by side
+    ring_off : bool
+        Whether the shaft replaces the inner ring
+    """
+
+    bearing: Bearing
+    count: int = 1
+    ring_off: bool = False
+
+
+def seat_diameter(choice: Choice) -> float:
+    """Diameter of the shaft under a bearing.
+
+    Parameters
+    ----------
+    choice : Choice
+        Bearings
+
+    Returns
+    -------
+    d : float
+        Bore, or the raceway when the inner ring is left out [m]
+    """
+    return float(choice.bearing.raceway if choice.ring_off and choice.bearing.raceway else choice.bearing.bore)
+
+
+def mass(choice: Choice) -> float:
+    """Mass of the bearings of one place.
+
+    Parameters
+    ----------
+    choice : Choice
+        Bearings
+
+    Returns
+    -------
+    m : float
+        Mass, without the inner rings that are left out [kg]
+    """
+    one = choice.bearing.mass
+    if choice.ring_off and choice.bearing.raceway:
+        one -= _STEEL * np.pi / 4 * (choice.bearing.raceway**2 - choice.bearing.bore**2) * choice.bearing.width
+    return float(choice.count * one)
+
+
+def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
+    """Static load, life and speed of the bearings of one place, each at its worst crank speed.
+
+    Parameters
+    ----------
+    choice : Choice
+        Bearings
+    seat : Seat
+        Loads and speeds
+    wants : Wants
+        Static factors, life and reliability
+
+    Returns
+    -------
+    checks : list of Check
+        Three
+    """
+    bearing, name = choice.bearing, f"{seat.name}, {choice.count} x {choice.bearing.designation}"
+    peak = np.abs(seat.load).max(axis=1)
+    k = int(np.argmax(peak))
+    P = bearings.equivalent_load(seat.load, bearing.kind)
+    C = bearings.set_rating(bearing.C, choice.count, bearing.kind)
+    life = np.full(P.shape, np.inf)
+    loaded = P > 0
+    turns = bearings.life_revolutions(C, P[loaded], bearing.kind, wants.bearing_reliability)
+    life[loaded] = bearings.life_hours(turns, seat.turning[loaded])
+    j, i = int(np.argmin(life)), int(np.argmax(np.abs(seat.turning)))
+    static = wants.static_ball if bearing.kind == "ball" else wants.static_roller
+    rpm = 30 / np.pi
+    return [
+        at_most(name, "static load", float(peak[k]), choice.count * bearing.C0, "N", wanted=static,
+                rule="static rating", source="ISO 76", note=at_speed(seat.omega, k)),
+        at_least(name, "life", float(life[j]) * 3600, wants.life, "s", wanted=1.0, rule="rating life", source="ISO 281",
+                 note=f"{at_speed(seat.omega, j)}: {life[j]:.0f} h, equivalent load {P[j]:.0f} N"),
+        at_most(name, "speed", float(abs(seat.turning[i])), bearing.limiting, "rad/s", wanted=1.0,
+                rule="limiting speed", source=bearing.source,
+                note=f"{abs(seat.turning[i]) * rpm:.0f} rpm of one ring against the other"),
+    ]  # fmt: skip
+
+
+def choices(catalogue: Iterable[Bearing], shaft: tuple[float, float], outside: float, most: int = 3) -> list[Choice]:
+    """Bearings that fit a shaft and a bore, the lightest first.
+
+    Parameters
+    ----------
+    catalogue : iterable of Bearing
+        Bearings to choose from
+    shaft : (float, float)
+        Smallest and largest shaft diameter [m]
+    outside : float
+        Largest outside diameter [m]
+    most : int
+        Most bearings side by side
+
+    Returns
+    -------
+    choices : list of Choice
+        With and without inner ring
+    """
+    found = []
+    for bearing in catalogue:
+        for ring_off in (False, True) if bearing.raceway and bearing.raceway > bearing.bore else (False,):
+            for count in range(1, most + 1):
+                choice = Choice(bearing=bearing, count=count, ring_off=ring_off)
+                if shaft[0] - 1e-9 <= seat_diameter(choice) <= shaft[1] + 1e-9 and bearing.outside <= outside + 1e-9:
+                    found.append(choice)
+    return sorted(found, key=mass)
+
+
+def choose(options: Iterable[Choice], seat: Seat, wants: Wants) -> Choice | None:
+    """The first of the bearings offered that passes every check.
+
+    Parameters
+    ----------
+    options : iterable of Choice
+        Bearings in order of preference
+    seat : Seat
+        Loads and speeds
+    wants : Wants
+        Wanted factors
+
+    Returns
+    -------
+    choice : Choice or None
+        None when no bearing passes
+    """
+    return next((option for option in options if not unsafe(check_bearing(option, seat, wants))), None)

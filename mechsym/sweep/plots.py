@@ -1,0 +1,191 @@
+"""The picture of a sweep: lines over one axis, maps over two, histograms and scatter for samples; gaps are marked."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.hinge.plots import BLUE, GREEN, GREY, ORANGE, RED
+from mechsym.sweep import Axis, Sweep, failures, main_results
+from mechsym.sweep.units import unit_of
+
+_MOST = 6  # panels
+_FEW = 4  # values of an axis that are drawn as lines of their own
+_ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
+_COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
+
+
+def picture(result: Sweep) -> Figure | None:
+    """The main results of a sweep, see `mechsym.sweep.main_results`.
+
+    Parameters
+    ----------
+    result : Sweep
+        A sweep
+
+    Returns
+    -------
+    figure : Figure or None
+        None when there is nothing to draw: a single point, or gaps only
+    """
+    shown = _worth_drawing(result)
+    if not shown or len(result.points) == 1:
+        return None
+    if "sample" in result.dims:
+        return _samples(result, shown)
+    long = sorted(range(len(result.axes)), key=lambda i: -len(result.axes[i].values))[:2]
+    # words are better told apart by colours than by places
+    first, *second = sorted(long, key=lambda i: len(result.axes[i].values) > 1 and _words(result, [i]))
+    if second and len(result.axes[second[0]].values) > 1:
+        wide = len(result.axes[second[0]].values) > _FEW and not _words(result, long)
+        # the axis that was named first goes to the right
+        pair = (min(long), max(long)) if wide else (first, second[0])
+        return (_maps if wide else _lines)(result, shown, pair)
+    return _lines(result, shown, (first, None))
+
+
+def _worth_drawing(result: Sweep) -> dict[str, np.ndarray]:
+    """Main results, without those that stay the same or are round-off; all when none is left."""
+    found = main_results(result)
+    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
+    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
+    chosen = found if result.show or not lively else lively
+    return dict(list(chosen.items())[:_MOST])
+
+
+def _words(result: Sweep, axes: list[int]) -> bool:
+    return any(isinstance(result.axes[i].values[0], str) for i in axes)
+
+
+def _panels(result: Sweep, shown: Mapping[str, Any], rows: int = 1) -> tuple[Figure, Any]:
+    columns = len(shown) if rows > 1 else {4: 2}.get(len(shown), min(len(shown), 3))
+    down = rows if rows > 1 else -(-len(shown) // columns)
+    figure = Figure(figsize=(max(4.4, 3.5 * columns), 3.0 * down + 0.4), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(down, columns)).ravel()
+    for axis in axes:
+        axis.grid(True, color="#e3e6ea", linewidth=0.7)
+        axis.set_axisbelow(True)
+        axis.spines[["top", "right"]].set_visible(False)
+    for axis in axes[len(shown) * rows :]:
+        axis.set_visible(False)
+    return figure, axes
+
+
+def _label(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
+
+
+def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
+    """A result over the free axes, the others at their middle value."""
+    shape = tuple(len(a.values) for a in result.axes)
+    at = tuple(slice(None) if i in free else n // 2 for i, n in enumerate(shape))
+    found = column.reshape(shape)[at]
+    return found if len(free) == 1 or free[0] < free[1] else found.T
+
+
+def _title(result: Sweep, free: list[int]) -> str:
+    fixed = [a for i, a in enumerate(result.axes) if i not in free and len(a.values) > 1]
+    held = ", ".join(_value(a, a.values[len(a.values) // 2]) for a in fixed)
+    gaps = len(failures(result))
+    parts = [
+        f"{result.analysis} of {result.case}" + (f" at {held}" if held else ""),
+        f"{gaps} of {len(result.points)} points failed" if gaps else "",
+    ]
+    return "; ".join(part for part in parts if part)
+
+
+def _value(axis: Axis, value: Any) -> str:
+    return f"{axis.key} = {value}" if isinstance(value, str) else f"{axis.key} = {value:.4g} {axis.unit}".rstrip(" -")
+
+
+def _ticks(axis: Any, along: Axis) -> np.ndarray:
+    if not isinstance(along.values[0], str):
+        return np.array(along.values)
+    places = np.arange(len(along.values))
+    axis.set_xticks(places, along.values)
+    return places
+
+
+def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int | None]) -> Figure:
+    along, other = result.axes[over[0]], None if over[1] is None else result.axes[over[1]]
+    free = [i for i in over if i is not None]
+    figure, axes = _panels(result, shown)
+    figure.suptitle(_title(result, free), fontsize=10)
+    for axis, (name, column) in zip(axes, shown.items(), strict=False):
+        values = np.atleast_2d(_slice(result, free, column).T)
+        x = _ticks(axis, along)
+        for k, y in enumerate(values):
+            label = None if other is None else _value(other, other.values[k])
+            # nothing lies between two words, and many dots hide the line
+            style = "o" if isinstance(along.values[0], str) else "o-" if len(x) <= 25 else "-"
+            axis.plot(x, y, style, color=_COLORS[k % len(_COLORS)], markersize=3, label=label)
+        gaps = np.isnan(values).any(axis=0)
+        if gaps.any():
+            foot = axis.get_xaxis_transform()
+            axis.plot(x[gaps], np.zeros(gaps.sum()), "x", color=GREY, transform=foot, clip_on=False)
+        if _changes_sign(values):
+            axis.axhline(0, color="black", linewidth=0.6)
+        axis.set_xlabel(_label(along.key, along.unit))
+        axis.set_ylabel(_label(name, unit_of(name)))
+    if other is not None:
+        handles, labels = axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    return figure
+
+
+def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int]) -> Figure:
+    right, up = result.axes[over[0]], result.axes[over[1]]
+    figure, axes = _panels(result, shown)
+    figure.suptitle(_title(result, list(over)), fontsize=10)
+    x, y = np.array(right.values), np.array(up.values)
+    for axis, (name, column) in zip(axes, shown.items(), strict=False):
+        values = _slice(result, list(over), column).T
+        axis.set_facecolor("#f0f1f3")
+        axis.grid(False)
+        if np.isfinite(values).any():
+            filled = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
+            figure.colorbar(filled, ax=axis)
+        if _changes_sign(values):
+            # where a margin ends
+            axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors="white", linestyles="--")
+        gaps = np.argwhere(np.isnan(values))
+        if gaps.size:
+            axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
+        axis.set_title(_label(name, unit_of(name)), fontsize=9)
+        axis.set_xlabel(_label(right.key, right.unit))
+        axis.set_ylabel(_label(up.key, up.unit))
+    return figure
+
+
+def _changes_sign(values: np.ndarray) -> bool:
+    return bool(np.any(values < 0) and np.any(values > 0))
+
+
+def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
+    shown = dict(list(shown.items())[:4])
+    figure, axes = _panels(result, shown, rows=2)
+    figure.suptitle(_title(result, list(range(len(result.axes)))), fontsize=10)
+    inputs = np.array(result.points, dtype=float).T
+    for k, (name, column) in enumerate(shown.items()):
+        there = np.isfinite(column)
+        y = column[there]
+        upper, lower = axes[k], axes[len(shown) + k]
+        upper.hist(y, bins=min(40, max(5, round(np.sqrt(y.size)))), color=BLUE, alpha=0.8)
+        upper.axvline(y.mean(), color=RED, linewidth=1)
+        upper.set_title(f"{y.mean():.5g} ± {y.std():.2g}", fontsize=9)
+        upper.set_xlabel(_label(name, unit_of(name)))
+        upper.set_ylabel("samples")
+        i = int(np.argmax([_rank_correlation(values[there], y) for values in inputs]))
+        lower.plot(inputs[i][there], y, ".", color=BLUE, markersize=3)
+        lower.set_xlabel(_label(result.axes[i].key, result.axes[i].unit))
+        lower.set_ylabel(_label(name, unit_of(name)))
+    return figure
+
+
+def _rank_correlation(x: np.ndarray, y: np.ndarray) -> float:
+    """Magnitude of the correlation of ranks: which input a result follows most."""
+    if np.ptp(x) == 0 or np.ptp(y) == 0:
+        return 0.0
+    ranks = np.array([np.argsort(np.argsort(values)) for values in (x, y)])
+    return abs(float(np.corrcoef(ranks)[0, 1]))

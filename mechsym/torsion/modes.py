@@ -1,0 +1,275 @@
+r"""Torsional vibration of a chain of inertias: natural frequencies, orders of excitation, critical speeds.
+
+    [I0]--k1,c1--[I2]      all coordinates turn together at omega, plus a small twist v(t)
+     ^
+     T_k(omega) cos(k omega t)    k orders per turn, from the reciprocating inertia (~ omega^2) and the gas
+
+.. math:: \bar M \ddot v + C \dot v + K v = \sum_k \mathrm{Re}\,\big(T_k e^{\mathrm{i} k \omega t}\big)
+
+M is the mean mass matrix over a turn. A speed is critical where an order meets a natural frequency.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.mechanisms.record import Mechanism
+
+_POINTS = 512
+
+
+@dataclass(frozen=True, kw_only=True)
+class Matrices:
+    """Linear model of the twist about uniform turning.
+
+    Parameters
+    ----------
+    coordinates : tuple of str
+        Names, n of them
+    mass : ndarray, shape (n, n)
+        Mean mass matrix over a turn [kg*m^2]
+    stiffness : ndarray, shape (n, n)
+        Second derivative of the potential energy, mean over a turn [N*m/rad]
+    damping : ndarray, shape (n, n)
+        Torque per speed [N*m*s/rad]
+    """
+
+    coordinates: tuple[str, ...]
+    mass: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Modes:
+    """Natural frequencies and shapes.
+
+    Parameters
+    ----------
+    frequencies : ndarray, shape (n,)
+        Ascending; 0 for turning as a whole [rad/s]
+    shapes : ndarray, shape (n, n)
+        One column a mode, shape^T M shape = 1 [1/sqrt(kg*m^2)]
+    """
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Orders:
+    """Torques on the coordinates by order, at uniform speed.
+
+    Parameters
+    ----------
+    order : ndarray, shape (k,)
+        Oscillations per turn, halves included when the gas repeats every two turns [-]
+    inertia : ndarray, shape (k, n)
+        Complex amplitudes from the reciprocating masses, per square of the speed [N*m*s^2/rad^2]
+    gas : ndarray, shape (k, n)
+        Complex amplitudes from the gas forces [N*m]
+    """
+
+    order: np.ndarray
+    inertia: np.ndarray
+    gas: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Critical:
+    """A speed at which an order excites a mode.
+
+    Parameters
+    ----------
+    mode : int
+        Index of the mode
+    order : float
+        Order [-]
+    speed : float
+        Natural frequency / order [rad/s]
+    force : float
+        Amplitude of the modal force there [N*m/sqrt(kg*m^2)]
+    damping : float
+        Modal damping, shape^T C shape [1/s]
+    holding_torque : float or None
+        Mean torque that the resonance takes at this speed; a weaker drive is held there. None without damping,
+        when the amplitude grows until something else limits it [N*m]
+    """
+
+    mode: int
+    order: float
+    speed: float
+    force: float
+    damping: float
+    holding_torque: float | None
+
+
+def matrices(mechanism: Mechanism) -> Matrices:
+    """Linear model of a mechanism whose coordinates turn together.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        All coordinates are angles that advance alike
+
+    Returns
+    -------
+    matrices : Matrices
+        Means over a turn
+
+    Raises
+    ------
+    BadInput
+        The mechanism is given only by its equations
+    """
+    if "energy" not in mechanism.functions:
+        raise BadInput(f"{mechanism.name} has no energies; use the derived mechanism for torsional analysis")
+    n = len(mechanism.coordinates)
+    phi, q, u = ca.SX.sym("phi"), ca.SX.sym("q", n), ca.SX.sym("u", n)
+    zeros = [0.0] * len(mechanism.inputs)
+    mass, _, force = mechanism.functions["dynamics"](*ca.vertsplit(q), *ca.vertsplit(u), *zeros)
+    potential = mechanism.functions["energy"](*ca.vertsplit(q), *ca.vertsplit(u))[1]
+    found = [mass, ca.hessian(potential, q)[0], -ca.jacobian(force, u)]
+    together = ca.substitute(found, [q, u], [ca.repmat(phi, n, 1), ca.SX.zeros(n, 1)])
+    values = ca.Function("linear", [phi], [ca.densify(m) for m in together])(_angles(2 * np.pi)[None, :])
+    mean = [np.asarray(v).reshape(n, _POINTS, n).mean(axis=1) for v in values]
+    return Matrices(coordinates=mechanism.coordinates, mass=mean[0], stiffness=mean[1], damping=mean[2])
+
+
+def modes(mass: np.ndarray, stiffness: np.ndarray) -> Modes:
+    r"""Natural frequencies and mass-normalised shapes.
+
+    .. math:: (K - \omega_n^2 M)\,v = 0, \qquad v^T M v = 1
+
+    Parameters
+    ----------
+    mass, stiffness : ndarray, shape (n, n)
+        Symmetric; the mass matrix positive definite [kg*m^2, N*m/rad]
+
+    Returns
+    -------
+    modes : Modes
+        The first component of each shape is not negative
+    """
+    from scipy.linalg import eigh
+
+    squares, shapes = eigh(stiffness, mass)
+    scale = float(np.max(np.abs(squares)))
+    squares = np.where(squares > 1e-12 * scale, squares, 0.0)
+    return Modes(frequencies=np.sqrt(squares), shapes=shapes * np.where(shapes[0] < 0, -1.0, 1.0))
+
+
+def orders(
+    mechanism: Mechanism,
+    count: int = 8,
+    gas: Mapping[str, Callable[[np.ndarray], np.ndarray]] | None = None,
+    period: float = 2 * np.pi,
+) -> Orders:
+    r"""Torques by order while all coordinates turn uniformly together.
+
+    .. math:: T_\mathrm{inertia} = -h(\varphi, \omega), \qquad T_\mathrm{gas} = Q(\varphi, F(\varphi)) - Q(\varphi, 0)
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        All coordinates are angles that advance alike
+    count : int
+        Highest order
+    gas : mapping of str to callable, optional
+        Input to its value over the angle, ndarray (m,) to (m,)
+    period : float
+        Period of the gas force, 2 pi or 4 pi [rad]
+
+    Returns
+    -------
+    orders : Orders
+        Complex amplitudes T with torque = Re(T exp(i k phi))
+    """
+    phi = _angles(period)
+    turning = [np.reshape(phi, (1, -1))] * len(mechanism.coordinates)
+    inputs = {name: np.reshape(force(phi), (1, -1)) for name, force in (gas or {}).items()}
+    zero, one = np.zeros((1, _POINTS)), np.ones((1, _POINTS))
+    at_rest = [zero] * len(mechanism.coordinates)
+    dynamics = mechanism.functions["dynamics"]
+    none = [zero] * len(mechanism.inputs)
+    bias = np.asarray(dynamics(*turning, *[one] * len(turning), *none)[1])
+    idle = np.asarray(dynamics(*turning, *at_rest, *none)[2])
+    pushed = np.asarray(dynamics(*turning, *at_rest, *(inputs.get(name, zero) for name in mechanism.inputs))[2])
+    per_turn = round(period / (2 * np.pi))
+    index = np.arange(1, count * per_turn + 1)
+    return Orders(order=index / per_turn, inertia=_amplitudes(-bias, index), gas=_amplitudes(pushed - idle, index))
+
+
+def _angles(period: float) -> np.ndarray:
+    return period * np.arange(_POINTS) / _POINTS
+
+
+def _amplitudes(torque: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """Complex amplitudes of rows over one period, shape (k, n)."""
+    return (2 * np.fft.rfft(torque, axis=-1) / torque.shape[-1])[:, index].T
+
+
+def critical_speeds(found: Modes, excitation: Orders, damping: np.ndarray) -> tuple[Critical, ...]:
+    r"""Where orders meet natural frequencies, and what drive they hold.
+
+    .. math:: \omega = \omega_n / k,\quad f = |v^T T_k(\omega)|,\quad d = v^T C v,
+              \quad M_\mathrm{hold} = \frac{f^2}{2 d \omega}
+
+    Parameters
+    ----------
+    found : Modes
+        Natural frequencies and shapes
+    excitation : Orders
+        Torques by order
+    damping : ndarray, shape (n, n)
+        Damping matrix [N*m*s/rad]
+
+    Returns
+    -------
+    criticals : tuple of Critical
+        From the highest speed down; orders without force are left out
+
+    Notes
+    -----
+    At resonance the modal speed is f / d, so the mean power into the vibration is f^2 / (2 d); it comes from the
+    shaft, as a mean torque at speed omega. A drive that is weaker cannot pass (Sommerfeld effect).
+    """
+    rows = []
+    for mode in np.flatnonzero(found.frequencies > 0):
+        shape, loss = found.shapes[:, mode], float(found.shapes[:, mode] @ damping @ found.shapes[:, mode])
+        for order, inertia, gas in zip(excitation.order, excitation.inertia, excitation.gas, strict=True):
+            speed = float(found.frequencies[mode] / order)
+            force = float(abs(shape @ (inertia * speed**2 + gas)))
+            holding = force**2 / (2 * loss * speed) if loss > 0 else None
+            rows.append(
+                Critical(
+                    mode=int(mode), order=float(order), speed=speed, force=force, damping=loss, holding_torque=holding
+                )
+            )
+    strongest = max((c.force for c in rows), default=0.0)
+    return tuple(sorted((c for c in rows if c.force > 1e-9 * strongest), key=lambda c: -c.speed))
+
+
+def holding_damping(critical: Critical, drive: float, unit_damping: float) -> float:
+    r"""Damping below which a drive is held at a critical speed.
+
+    .. math:: c = \frac{f^2}{2 M \omega\, d_1}
+
+    Parameters
+    ----------
+    critical : Critical
+        A critical speed
+    drive : float
+        Driving torque [N*m]
+    unit_damping : float
+        Modal damping d_1 that a damper of 1 N m s/rad brings [1/s per N*m*s/rad]
+
+    Returns
+    -------
+    c : float
+        With a stronger damper the drive passes [N*m*s/rad]
+    """
+    return critical.force**2 / (2 * drive * critical.speed * unit_damping)

@@ -1,0 +1,261 @@
+"""Start-up of an elastic shaft by a weak drive: which resonances it passes, which hold it, and what to think of it.
+
+speed |            . rigid            The mean speed follows the rigid shaft until an order k of the excitation
+      |         .      ___,----       meets a natural frequency. There the drive feeds the vibration instead of
+      |      ,--------'  released     the speed: the shaft is held ("captured") at omega_n / k, the twist grows.
+      |   .    captured
+      | .
+      +---------------------------- t
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mechsym import mechanisms
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.jobs.run import StepTorque, problem_of, settings_of
+from mechsym.quantities import check, quantity
+from mechsym.simulate import Result, simulate, simulate_many
+from mechsym.torsion import modes as torsion
+from mechsym.torsion.modes import Critical
+
+_BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
+_LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
+AVERAGE = 1.0  # the mean speed is taken over this time [s]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StartUpClaim:
+    """Section `[startup]`: what the source says of a start-up, and what the model can bear.
+
+    Parameters
+    ----------
+    claim_speed : float or None
+        Speed that the source reports [rad/s]
+    claim_time : float or None
+        Time from which it is said to hold [s]
+    twist_limit : float
+        Twist beyond which a linear spring is no model of the shaft [rad]
+    """
+
+    claim_speed: float | None = quantity("rad/s", default=None, above=0, about="speed that the source reports")
+    claim_time: float | None = quantity("s", default=None, above=0, about="time from which it is said to hold")
+    twist_limit: float = quantity("rad", default=0.1, above=0, about="largest twist of the linear shaft")
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capture:
+    """A stay at a critical speed.
+
+    Parameters
+    ----------
+    critical : Critical
+        Order and speed
+    t_start, t_end : float
+        From when until when the mean speed is at it [s]
+    released : bool
+        Whether the shaft left it within the run
+    """
+
+    critical: Critical
+    t_start: float
+    t_end: float
+    released: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class StartUp:
+    """A start-up, explained.
+
+    Parameters
+    ----------
+    c1 : float
+        Torsional damping of the run [N*m*s/rad]
+    drive : StepTorque
+        What drives it
+    claim : StartUpClaim
+        What the source says, and the limit of the model
+    result : Result
+        The run
+    t, speed_mean : ndarray, shape (m,)
+        Times and mean speed of the crank over a second [s, rad/s]
+    twist_amplitude : ndarray, shape (m,)
+        Largest twist within that second [rad]
+    natural_bare, natural : float
+        Natural frequency without and with the mean reciprocating inertia [rad/s]
+    criticals : tuple of Critical
+        Where the orders meet the latter
+    holding_damping : tuple of float
+        For each of them: with a weaker damper the drive is held there [N*m*s/rad]
+    rigid_rate : float
+        Acceleration of a rigid shaft [rad/s^2]
+    captures : tuple of Capture
+        Critical speeds that held the shaft
+    twist_peak, torque_peak : float
+        Largest twist and torque of the shaft [rad, N*m]
+    speed_min, speed_max : float
+        Extreme speeds of the crank [rad/s]
+    """
+
+    c1: float
+    drive: StepTorque
+    claim: StartUpClaim
+    result: Result
+    t: np.ndarray
+    speed_mean: np.ndarray
+    twist_amplitude: np.ndarray
+    natural_bare: float
+    natural: float
+    criticals: tuple[Critical, ...]
+    holding_damping: tuple[float, ...]
+    rigid_rate: float
+    captures: tuple[Capture, ...]
+    twist_peak: float
+    torque_peak: float
+    speed_min: float
+    speed_max: float
+
+
+def start_up(case: Case, result: Result | None = None) -> StartUp:
+    """Run a start-up case, or take its finished run, and explain it.
+
+    Parameters
+    ----------
+    case : Case
+        Mechanism `crankshaft_flywheel` with `[drive]` and `[simulation]`
+    result : Result, optional
+        Its run, when there is one already
+
+    Returns
+    -------
+    start_up : StartUp
+        Natural frequencies, critical speeds, captures
+
+    Raises
+    ------
+    BadInput
+        Another mechanism
+    """
+    if case.mechanism != "crankshaft_flywheel":
+        raise BadInput(
+            f"{case.file}: [startup] explains a crankshaft_flywheel, not a {case.mechanism}; leave the section out"
+        )
+    if result is None:
+        result = simulate(problem_of(case), settings_of(case))
+    parameters, drive = case.need("parameters"), case.need("drive")
+    linear = _linear(case.mechanism, parameters)
+    modes = torsion.modes(linear.mass, linear.stiffness)
+    bare = _linear(case.mechanism, replace(parameters, m0=0.0))
+    excitation = torsion.orders(mechanisms.build(case.mechanism, parameters))
+    criticals = torsion.critical_speeds(modes, excitation, linear.damping)
+    unit = float(
+        modes.shapes[:, -1] @ _linear(case.mechanism, replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1]
+    )
+    rate = drive.torque / float(linear.mass.sum())
+    t, speed, twist = series(result)
+    peak = float(np.abs(result.columns["phi0"] - result.columns["phi2"]).max())
+    return StartUp(
+        c1=parameters.c1,
+        drive=drive,
+        claim=case.sections.get("startup", StartUpClaim()),
+        result=result,
+        t=t,
+        speed_mean=speed,
+        twist_amplitude=twist,
+        natural_bare=float(torsion.modes(bare.mass, bare.stiffness).frequencies[-1]),
+        natural=float(modes.frequencies[-1]),
+        criticals=criticals,
+        holding_damping=tuple(torsion.holding_damping(c, drive.torque, unit) for c in criticals),
+        rigid_rate=rate,
+        captures=find_captures(t, speed, criticals, rate),
+        twist_peak=peak,
+        torque_peak=peak * parameters.k1,
+        speed_min=float(result.columns["phi0d"].min()),
+        speed_max=float(result.columns["phi0d"].max()),
+    )
+
+
+def _linear(mechanism: str, parameters: Any) -> torsion.Matrices:
+    return torsion.matrices(mechanisms.build(mechanism, parameters))
+
+
+def start_up_map(case: Case, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:
+    """The same start-up with several dampers.
+
+    Parameters
+    ----------
+    case : Case
+        As for `start_up`
+    dampings : tuple of float
+        Values of c1 [N*m*s/rad]
+
+    Returns
+    -------
+    start_ups : tuple of StartUp
+        One for each
+    """
+    damped = [replace(case.need("parameters"), c1=c1) for c1 in dampings]
+    cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]
+    results = simulate_many([problem_of(c) for c in cases], settings_of(case))
+    return tuple(start_up(c, r) for c, r in zip(cases, results, strict=True))
+
+
+def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean speed of the crank and largest twist, each over a second.
+
+    Parameters
+    ----------
+    result : Result
+        A run longer than a second
+
+    Returns
+    -------
+    t, speed_mean, twist_amplitude : ndarray, shape (m,)
+        Every tenth of a second, from half a second after the start to half a second before the end
+        [s, rad/s, rad]
+    """
+    half = AVERAGE / 2
+    count = int((result.t[-1] - result.t[0] - AVERAGE) / 0.1 + 1e-9)
+    t = result.t[0] + half + 0.1 * np.arange(count + 1)
+    phi = np.interp(np.stack([t - half, t + half]), result.t, result.columns["phi0"])
+    twist = np.abs(result.columns["phi0"] - result.columns["phi2"])
+    first, last = np.searchsorted(result.t, [t - half, t + half])
+    largest = np.array([twist[a:b].max() for a, b in zip(first, np.maximum(last, first + 1), strict=True)])
+    return t, (phi[1] - phi[0]) / AVERAGE, largest
+
+
+def find_captures(
+    t: np.ndarray, speed: np.ndarray, criticals: tuple[Critical, ...], rate: float
+) -> tuple[Capture, ...]:
+    """Critical speeds at which the mean speed stays much longer than a rigid shaft would.
+
+    Parameters
+    ----------
+    t, speed : ndarray, shape (m,)
+        Times and mean speed [s, rad/s]
+    criticals : tuple of Critical
+        Critical speeds
+    rate : float
+        Acceleration of the rigid shaft [rad/s^2]
+
+    Returns
+    -------
+    captures : tuple of Capture
+        In the order of time
+    """
+    found = []
+    for critical in criticals:
+        near = np.abs(speed - critical.speed) <= _BAND * critical.speed
+        jumps = np.flatnonzero(np.diff(np.concatenate([[False], near, [False]]).astype(int)))
+        for a, b in zip(jumps[::2], jumps[1::2], strict=True):
+            usual = 2 * _BAND * critical.speed / rate
+            if t[b - 1] - t[a] > _LONGER * usual:
+                released = bool(b < len(t))
+                found.append(Capture(critical=critical, t_start=float(t[a]), t_end=float(t[b - 1]), released=released))
+    return tuple(sorted(found, key=lambda c: c.t_start))

@@ -1,0 +1,259 @@
+"""Diagrams with known offset, scale and dead centre are taken apart again; the smooth pressure is periodic."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from slider_crank import slider_crank
+
+from mechsym.cycle.cylinder import clearance_volume, volume
+from mechsym.cycle.measured.compression_line import Window, find_dead_centre, fit_line, polytropic_exponent
+from mechsym.cycle.measured.diagram import Diagram, window
+from mechsym.cycle.measured.facts import cycle_work, weak_cycles, work_per_angle
+from mechsym.cycle.measured.measure import measured_cycles
+from mechsym.cycle.measured.pressure import diagram_pressure
+from mechsym.cycle.measured.smoothing import noise, smooth
+from mechsym.cycle.wiebe import wiebe
+from mechsym.errors import BadInput
+
+DEG = math.pi / 180
+BAR = 1e5
+SMALL = slider_crank(0.0275, 0.0842, 0.0677, 8.5)
+
+
+def four_stroke(phi, n_c=1.30, heat=2.2, start=-8 * DEG):
+    """Absolute pressure of a plain four-stroke cycle: inlet 0.6 bar, exhaust 1.05 bar, both blended over 40 degrees."""
+    # from the middle of the exhaust stroke, where nothing is blended
+    phi = np.remainder(np.asarray(phi) + 450 * DEG, 4 * math.pi) - 450 * DEG
+    v = volume(SMALL, phi) / (clearance_volume(SMALL) * SMALL.compression_ratio)
+    closed = 0.6 * BAR * v**-n_c * (1 + heat * wiebe((phi - start) / (60 * DEG), 5.0, 2.0))
+
+    def blend(angle):
+        return 0.5 * (1 + np.tanh((phi - angle) / (12 * DEG)))
+
+    release, induce, trap = blend(160 * DEG), blend(-350 * DEG), blend(-190 * DEG)
+    outside = 1.05 * BAR + induce * (0.6 - 1.05) * BAR
+    return np.where(phi < 0, trap * closed + (1 - trap) * outside, (1 - release) * closed + release * 1.05 * BAR)
+
+
+def generator(file, **changes) -> Diagram:
+    values = {"bore": 0.0677, "compression_ratio": 8.5, "working_cycle": "four-stroke", "inlet_pressure": 0.6 * BAR}
+    return Diagram(file=file, **{**values, **changes})
+
+
+def recorded(diagram_file, tdc=234.0, offset=88.0, gain=1.0, cycles=4, step=1.0, sigma=0.0, seed=1):
+    angle = np.arange(0, 720 * cycles, step)
+    pressure = offset + gain * four_stroke((angle - tdc) * DEG) / BAR
+    noisy = pressure + np.random.default_rng(seed).normal(0, sigma, angle.size) if sigma else pressure
+    return diagram_file({"crank_angle_deg": angle, "pressure_bar": noisy})
+
+
+def test_dead_centre_offset_and_exponent_are_recovered(diagram_file):
+    measured = measured_cycles(generator(recorded(diagram_file)), SMALL)
+    assert measured.tdc / DEG % 720 == pytest.approx(234.0, abs=0.05)
+    assert np.allclose(measured.offsets, 88.0 * BAR, atol=0.01 * BAR)
+    mean = measured.cycles.mean(axis=0)
+    assert np.allclose(mean, four_stroke(measured.phi), atol=0.02 * BAR)
+    exponent = polytropic_exponent(measured.phi, mean, SMALL, window(generator("")))
+    assert exponent == pytest.approx(1.30, abs=0.005)
+
+
+def test_noise_moves_the_dead_centre_less_than_the_stated_uncertainty(diagram_file):
+    measured = measured_cycles(generator(recorded(diagram_file, cycles=12, sigma=0.05)), SMALL)
+    assert abs(measured.tdc / DEG % 720 - 234.0) < measured.tdc_uncertainty / DEG < 4.0
+
+
+def test_wrong_exponent_is_inside_the_stated_uncertainty(diagram_file):
+    measured = measured_cycles(generator(recorded(diagram_file), n_c=1.34), SMALL)
+    error = abs(measured.tdc / DEG % 720 - 234.0)
+    assert 0.3 < error < measured.tdc_uncertainty / DEG
+
+
+@pytest.mark.parametrize("scale", ["trapped", "exhaust"])
+def test_scale_is_recovered(diagram_file, scale):
+    file = recorded(diagram_file, gain=3.4)
+    measured = measured_cycles(generator(file, scale=scale, exhaust_pressure=1.05 * BAR), SMALL)
+    assert measured.scale == pytest.approx(1 / 3.4, rel=0.005)
+    assert np.allclose(measured.cycles[0], four_stroke(measured.phi), atol=0.05 * BAR)
+    doubts = diagram_pressure(generator(file), SMALL).doubts
+    assert any("scale" in doubt for doubt in doubts)
+
+
+def test_pegging_at_the_inlet_and_given_dead_centre(diagram_file):
+    file = recorded(diagram_file, offset=5.0)
+    diagram = generator(file, alignment="given", tdc_offset=234 * DEG, pegging="inlet")
+    measured = measured_cycles(diagram, SMALL)
+    assert measured.tdc_uncertainty is None
+    at_bdc = float(four_stroke(np.linspace(-190, -170, 21) * DEG).mean())
+    assert np.allclose(measured.offsets, 5.0 * BAR + at_bdc - 0.6 * BAR, atol=10.0)
+
+
+def test_file_taken_as_absolute_or_gauge(diagram_file):
+    given_tdc = {"alignment": "given", "tdc_offset": 234 * DEG}
+    absolute = measured_cycles(generator(recorded(diagram_file, offset=0.0), pegging="none", **given_tdc), SMALL)
+    gauge = generator(recorded(diagram_file, offset=-1.01325), pegging="gauge", **given_tdc)
+    assert np.allclose(absolute.cycles, measured_cycles(gauge, SMALL).cycles, rtol=1e-8)
+    assert np.allclose(absolute.cycles[0], four_stroke(absolute.phi), rtol=1e-8)
+
+
+def test_motored_peak_plus_loss_angle(diagram_file):
+    angle = np.arange(720.0)
+    motored = four_stroke((angle - 300.6) * DEG, heat=0.0) / BAR
+    diagram = generator(
+        diagram_file({"phi_deg": angle, "p_bar": motored}), alignment="motored_peak", loss_angle=0.0, pegging="none"
+    )
+    assert measured_cycles(diagram, SMALL).tdc / DEG == pytest.approx(300.6, abs=0.02)
+
+
+@pytest.mark.parametrize("tdc", [0.0, 30.0, 120.0, 234.0, 355.0, 594.0, 700.0])
+def test_any_start_of_the_record(diagram_file, tdc):
+    for cycles in (1, 3):
+        measured = measured_cycles(generator(recorded(diagram_file, tdc=tdc, cycles=cycles)), SMALL)
+        assert math.remainder(measured.tdc - tdc * DEG, 4 * math.pi) / DEG == pytest.approx(0.0, abs=0.05)
+        # compression, combustion and expansion of each cycle stand in one row
+        assert measured.phi[0] < -100 * DEG and measured.phi[-1] > 60 * DEG
+        assert len(measured.cycles) in (cycles, cycles - 1)
+        assert np.allclose(measured.cycles, four_stroke(measured.phi), atol=0.03 * BAR)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.5, 0.7, 2.0, 5.0])
+def test_any_spacing(diagram_file, step):
+    pressure = diagram_pressure(generator(recorded(diagram_file, step=step, cycles=2)), SMALL)
+    assert pressure.mean_indicated == pytest.approx(reference_work(), rel=0.01)
+
+
+def reference_work():
+    phi = np.linspace(-2 * math.pi, 2 * math.pi, 14400, endpoint=False)
+    return float(np.mean(four_stroke(phi) * SMALL.dx_dphi(phi))) * 4 * math.pi / SMALL.stroke
+
+
+def test_uneven_spacing_is_interpolated(diagram_file):
+    angle = np.concatenate([np.arange(0, 180, 4.0), np.arange(180, 300, 0.5), np.arange(300, 720, 4.0)])
+    file = diagram_file({"phi_deg": angle, "p_bar": four_stroke((angle - 234) * DEG) / BAR})
+    pressure = diagram_pressure(generator(file, alignment="given", tdc_offset=234 * DEG, pegging="none"), SMALL)
+    phi = np.linspace(-2 * math.pi, 2 * math.pi, 999)
+    assert np.allclose(pressure.absolute(phi), four_stroke(phi), atol=0.1 * BAR)
+    assert pressure.mean_indicated == pytest.approx(reference_work(), rel=2e-3)
+
+
+def test_pressure_is_smooth_periodic_and_at_the_noise(diagram_file):
+    pressure = diagram_pressure(generator(recorded(diagram_file, cycles=12, sigma=0.1)), SMALL)
+    phi = np.linspace(-7, 7, 1001)
+    assert pressure.kinks == () and pressure.period == 4 * math.pi
+    assert np.allclose(pressure.absolute(phi), pressure.absolute(phi + 8 * math.pi), rtol=1e-9)
+    residual = pressure.absolute(phi) - four_stroke(phi)
+    assert np.sqrt(np.mean(residual**2)) < 0.06 * BAR
+    assert pressure.mean_indicated == pytest.approx(reference_work(), rel=0.02)
+    assert 0 < pressure.phi_p_max < 45 * DEG and pressure.doubts == ()
+
+
+def test_interpolation_goes_through_the_mean(diagram_file):
+    diagram = generator(recorded(diagram_file, sigma=0.1), smoothing="interpolate")
+    measured = measured_cycles(diagram, SMALL)
+    assert np.allclose(diagram_pressure(diagram, SMALL).absolute(measured.phi), measured.cycles.mean(axis=0), rtol=1e-9)
+
+
+def test_noise_is_estimated_from_the_samples_alone():
+    phi = np.linspace(0, 4 * math.pi, 720, endpoint=False)
+    values = np.exp(3 * np.cos(phi)) * 1e5
+    assert noise(values) < 50.0
+    assert noise(values + np.random.default_rng(3).normal(0, 2e3, 720)) == pytest.approx(2e3, rel=0.15)
+
+
+def test_smooth_closes_with_continuous_curvature():
+    phi = np.linspace(0, 2 * math.pi, 360, endpoint=False)
+    spline = smooth(phi, np.cos(phi) + np.random.default_rng(5).normal(0, 0.01, 360), 2 * math.pi, "spline")
+    for order in (0, 1, 2):
+        ends = spline(np.array([1e-9, 2 * math.pi - 1e-9]), nu=order)
+        assert ends[0] == pytest.approx(ends[1], abs=1e-6)
+
+
+def test_a_weak_cycle_is_found_and_kept(diagram_file):
+    angle = np.arange(720.0 * 5)
+    heat = np.where(angle // 720 == 3, 0.3, 2.2)
+    file = diagram_file({"phi_deg": angle, "p_bar": four_stroke((angle - 234) * DEG, heat=heat) / BAR})
+    diagram = generator(file, pegging="none", alignment="given", tdc_offset=234 * DEG)
+    measured = measured_cycles(diagram, SMALL)
+    assert weak_cycles(cycle_work(measured, SMALL)) == (3,)
+    pressure = diagram_pressure(diagram, SMALL)
+    assert any("nearly misfired" in fact and "cycle 4" in fact for fact in pressure.facts)
+    assert pressure.mean_indicated == pytest.approx(cycle_work(measured, SMALL).mean(), rel=1e-3)
+
+
+def test_a_degree_of_dead_centre_is_worth_per_cents_of_work(diagram_file):
+    file = recorded(diagram_file, offset=0.0)
+    earlier, middle, later = (
+        measured_cycles(generator(file, pegging="none", alignment="given", tdc_offset=a * DEG), SMALL)
+        for a in (233.5, 234.0, 234.5)
+    )
+    works = [cycle_work(measured, SMALL)[0] for measured in (earlier, middle, later)]
+    slope = work_per_angle(middle, SMALL) * DEG
+    assert slope == pytest.approx((works[2] - works[0]) / works[1], rel=1e-3)
+    assert -0.08 < slope < -0.01
+
+
+@settings(deadline=None, derandomize=True, max_examples=30)
+@given(
+    tdc=st.floats(-25, 25),
+    offset=st.floats(-50, 100),
+    gain=st.floats(0.3, 5),
+    n=st.floats(1.2, 1.4),
+    end=st.floats(-30, -12),
+)
+def test_exact_line_gives_back_its_dead_centre(tdc, offset, gain, n, end):
+    phi = np.arange(-200, 40, 1.0) * DEG
+    v = volume(SMALL, phi - tdc * DEG) / (clearance_volume(SMALL) * SMALL.compression_ratio)
+    pressure = offset * BAR + gain * 0.6 * BAR * v**-n
+    line_window = Window(fit_from=-95 * DEG, fit_to=end * DEG, n=n)
+    shift = find_dead_centre(phi, pressure, SMALL, line_window)
+    assert shift / DEG == pytest.approx(tdc, abs=2e-3)
+    line = fit_line(phi - shift, pressure, SMALL, line_window)
+    assert line.p_off == pytest.approx(offset * BAR, abs=50 * gain)
+    assert line.p_bdc == pytest.approx(gain * 0.6 * BAR, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"working_cycle": "six-stroke"}, "working_cycle"),
+        ({"alignment": "guess"}, "alignment"),
+        ({"pegging": "absolute"}, "pegging"),
+        ({"smoothing": "fourier"}, "smoothing"),
+        ({"fit_to": -80 * DEG}, "fit_to"),
+        ({"fit_from": 10 * DEG}, "fit_from"),
+        ({"n_c": 2.0}, "n_c"),
+        ({"scale": "trapped", "pegging": "inlet"}, "scale"),
+        ({"scale": "exhaust", "working_cycle": "two-stroke"}, "exhaust"),
+        ({"inlet_pressure": -1.0}, "inlet_pressure"),
+    ],
+)
+def test_bad_inputs_are_refused_by_name(changes, named):
+    values = {"bore": 0.0677, "compression_ratio": 8.5, "working_cycle": "four-stroke", **changes}
+    with pytest.raises(BadInput, match=named):
+        Diagram(**values)
+
+
+def test_no_file_says_how_to_name_one():
+    with pytest.raises(BadInput, match="--diagram FILE"):
+        measured_cycles(generator(""), SMALL)
+
+
+def test_negative_absolute_pressure_is_refused(diagram_file):
+    file = recorded(diagram_file, offset=-5.0)
+    with pytest.raises(BadInput, match=r"falls to -4.* bar.*pegging"):
+        measured_cycles(generator(file, pegging="none", alignment="given", tdc_offset=234 * DEG), SMALL)
+
+
+def test_gas_exchange_dead_centre_given_for_the_firing_one_is_doubted(diagram_file):
+    diagram = generator(recorded(diagram_file, offset=5.0), alignment="given", tdc_offset=-126 * DEG, pegging="none")
+    assert any("dead centre" in doubt for doubt in diagram_pressure(diagram, SMALL).doubts)
+
+
+def test_no_dead_centre_where_the_window_leaves_the_samples():
+    phi = np.linspace(-60, -20, 41) * DEG
+    falling = np.linspace(20, 1, 41) * BAR  # no compression: the search walks off the data
+    assert math.isnan(
+        find_dead_centre(phi - 300 * DEG, falling, SMALL, Window(fit_from=-90 * DEG, fit_to=-15 * DEG, n=1.3))
+    )

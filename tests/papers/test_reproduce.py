@@ -1,0 +1,115 @@
+"""`mechsym reproduce`: keys, verdicts, the record, files; the whole of it in the slow suite."""
+
+import json
+from collections import Counter
+
+import pytest
+from click.testing import CliRunner
+
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+from mechsym.papers import page, recorded
+from mechsym.papers.rows import KEYS, NOT_REPRODUCED, REPRODUCED, VERDICTS, by_digits, last_digit, row
+from mechsym.papers.sources import SOURCES, chosen, figures, rows
+
+FAST = ("zotov2024", "moroianu2017", "prymak")
+FIGURES = {"zotov2024": 4, "moroianu2017": 9, "chmielewski2015": 8, "prymak": 1, "nunes2017": 32}
+
+
+def run(*arguments):
+    return CliRunner().invoke(mechsym, ["reproduce", *arguments])
+
+
+def test_rows_by_digits():
+    assert last_digit("9.188") == pytest.approx(1e-3) and last_digit("2.9405e-4") == pytest.approx(1e-8)
+    assert by_digits("9.188", 9.18849) == REPRODUCED and by_digits("9.188", 9.1886) == NOT_REPRODUCED
+    assert by_digits("194", 103.98) == NOT_REPRODUCED
+
+
+def test_row_keeps_words_and_numbers_apart():
+    assert row("s", "i", "194", 97.0, NOT_REPRODUCED)["rel_error"] == -0.5
+    words = row("s", "i", "rises", 97.0, NOT_REPRODUCED)
+    assert words["published"] is None and words["printed"] == "rises" and words["rel_error"] is None
+    assert row("s", "i", "0", 1e-3, NOT_REPRODUCED)["rel_error"] is None
+    with pytest.raises(BadInput, match="reproduced"):
+        row("s", "i", None, None, "maybe")
+
+
+@pytest.mark.parametrize("name", FAST)
+def test_fast_sources_give_the_recorded_outcome(name):
+    result = run(name, "--json")
+    found = json.loads(result.stdout)
+    assert result.exit_code == 0 and found
+    (source,) = chosen(name)
+    for one in found:
+        assert set(KEYS) <= set(one) and one["source"] == source.stem and one["verdict"] in VERDICTS
+        assert one["note"] or one["verdict"] == REPRODUCED
+        for key in ("published", "computed", "rel_error"):
+            assert one[key] is None or isinstance(one[key], (int, float))
+
+
+def test_source_by_stem_and_text_for_people():
+    result = run("003_8746f5f4ad51b1d1")
+    assert result.exit_code == 0
+    assert "squared" in result.stdout and "the outcome is the recorded one" in result.stdout
+
+
+def test_another_outcome_is_exit_status_1(monkeypatch):
+    known = recorded.stored("mechsym.papers")
+    changed = [r | {"verdict": REPRODUCED} if r["item"].startswith("conclusion 3") else r for r in known]
+    monkeypatch.setattr(recorded, "stored", lambda package: changed)
+    result = run("prymak")
+    assert result.exit_code == 1 and "conclusion 3" in result.stdout.split("differs from")[1]
+    assert run("moroianu2017").exit_code == 0
+    monkeypatch.setattr(recorded, "stored", lambda package: known[1:])
+    assert run("zotov2024", "--json").exit_code == 1
+
+
+def test_unknown_source_and_write_of_one_source_are_refused():
+    assert isinstance(run("nobody").exception, BadInput)
+    assert isinstance(run("prymak", "--write").exception, BadInput)
+
+
+def test_files(tmp_path):
+    assert run("prymak", "--out", str(tmp_path)).exit_code == 0
+    text = (tmp_path / "reproduction.html").read_text()
+    assert "<svg" in text and not any(outside in text for outside in ("src=", 'href="http', "@import", "<script"))
+    assert (tmp_path / "reproduction.csv").read_text().startswith("source,item,published,computed,rel_error,verdict,")
+    assert (tmp_path / "prymak" / "figure_3.png").read_bytes().startswith(b"\x89PNG")
+    first = (tmp_path / "prymak" / "figure_3.svg").read_text()
+    assert run("prymak", "--out", str(tmp_path)).exit_code == 0
+    assert (tmp_path / "prymak" / "figure_3.svg").read_text() == first
+
+
+def test_counts():
+    assert page.counts([{"verdict": REPRODUCED}]) == {v: int(v == REPRODUCED) for v in VERDICTS}
+
+
+@pytest.mark.slow
+def test_the_whole_reproduction_is_the_recorded_one(tmp_path):
+    result = run("--json", "--out", str(tmp_path))
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert {r["source"] for r in found} == {s.stem for s in SOURCES}
+    twice = [key for key, count in Counter((r["source"], r["item"]) for r in found).items() if count > 1]
+    assert not twice
+    for name, count in FIGURES.items():
+        assert len(list((tmp_path / name).glob("*.svg"))) == count
+    page_text = (tmp_path / "reproduction.html").read_text()
+    assert "The outcome is the recorded one." in page_text
+
+
+@pytest.mark.parametrize("name", ["zotov2024", "moroianu2017"])
+def test_figures_have_curves(name):
+    (source,) = chosen(name)
+    drawn = figures(source)
+    assert len(drawn) == FIGURES[name]
+    for figure in drawn.values():
+        assert all(axis.lines for axis in figure.axes) and all(
+            axis.get_title(loc="left") or axis.get_title() for axis in figure.axes
+        )
+
+
+def test_rows_of_a_source_carry_the_print():
+    (source,) = chosen("prymak")
+    assert {r["printed"] for r in rows(source)} >= {"4", "along the rod"}
