@@ -19,13 +19,6 @@ class MissingExtra(BadInput):
 def suggest(word: str, options: Iterable[str]) -> str:
     """What is allowed in place of a word that is not, the nearest first.
 
-    Parameters
-    ----------
-    word : str
-        What was found
-    options : iterable of str
-        What is allowed
-
     Returns
     -------
     text : str
@@ -43,19 +36,6 @@ def suggest(word: str, options: Iterable[str]) -> str:
 
 
 def shown(value: Any, longest: int = 60) -> str:
-    """A value as a message shows it, cut where it is very long.
-
-    Parameters
-    ----------
-    value : object
-        What was found
-    longest : int
-        Most characters
-
-    Returns
-    -------
-    text : str
-        Its Python form, perhaps cut
-    """
+    """A value as a message shows it, cut where it is very long."""
     text = repr(value)
     return text if len(text) <= longest else f"{text[: longest - 3]}..."

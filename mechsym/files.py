@@ -22,11 +22,6 @@ def make_folder(path: Path) -> Path:
     path : Path
         Folder; its parents are made when they are missing
 
-    Returns
-    -------
-    path : Path
-        The same path
-
     Raises
     ------
     BadInput
@@ -49,11 +44,6 @@ def write_text(path: Path, text: str) -> Path:
         File to write; its folder is made when it is missing
     text : str
         Contents, stored as UTF-8 with newline line ends
-
-    Returns
-    -------
-    path : Path
-        The same path
     """
     path = Path(path)
     try:
@@ -81,15 +71,8 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -
 
     Parameters
     ----------
-    path : Path
-        File to write
     columns : mapping of str to sequence
         Column name to values; all of one length
-
-    Returns
-    -------
-    path : Path
-        The same path
     """
     import io
 
@@ -118,11 +101,6 @@ def to_json(value: Any) -> str:
     ----------
     value : object
         Mappings, sequences, arrays, numbers, text, booleans, None
-
-    Returns
-    -------
-    text : str
-        Indented JSON
     """
     return json.dumps(plain(value), indent=2, allow_nan=False)
 

@@ -34,8 +34,6 @@ def even_angles(period: float, count: int = 4096) -> np.ndarray:
     ----------
     period : float
         Period [rad]
-    count : int
-        Number of angles
 
     Returns
     -------
@@ -97,11 +95,6 @@ def fit(
 def mean(poly: PPoly) -> float:
     """Mean over a period.
 
-    Parameters
-    ----------
-    poly : scipy.interpolate.PPoly
-        Periodic piecewise polynomial
-
     Returns
     -------
     mean : float
@@ -112,11 +105,6 @@ def mean(poly: PPoly) -> float:
 
 def antiderivative(poly: PPoly) -> PPoly:
     """Exact integral from the first break, without the drift that a mean would bring.
-
-    Parameters
-    ----------
-    poly : scipy.interpolate.PPoly
-        Periodic piecewise polynomial f
 
     Returns
     -------
@@ -183,13 +171,6 @@ def extremes(poly: PPoly) -> tuple[float, float, float, float]:
 
 def piece_points(poly: PPoly, count: int = 17) -> np.ndarray:
     """Angles on every piece, both of its ends included, denser towards the ends.
-
-    Parameters
-    ----------
-    poly : scipy.interpolate.PPoly
-        Periodic piecewise polynomial
-    count : int
-        Points on each piece
 
     Returns
     -------

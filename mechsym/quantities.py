@@ -3,19 +3,18 @@
 Inside the package every number is SI, angles in radians. A case file or `--set` may write `"142 rpm"` or `"5 MPa"`;
 `parse` turns that into SI and refuses a wrong dimension. A record declares each field with its unit and range:
 
-    @dataclass(frozen=True, kw_only=True)
+    @record
     class Spring:
         p0: float = quantity("Pa", above=0, about="initial excess pressure")
-
-        def __post_init__(self):
-            check(self)
+        stage: str = choice("low", "high", default="low")
+        area: float  #: of the piston [m^2]; a result needs no range, only its unit
 """
 
 import dataclasses
 import functools
 import math
 import re
-from typing import Any
+from typing import Any, TypeVar, dataclass_transform
 
 from mechsym.errors import BadInput, shown
 
@@ -45,13 +44,7 @@ _SMALLEST, _LARGEST = 1e-20, 1e20
 
 
 def units() -> list[str]:
-    """The units that texts may use, besides products and quotients of them.
-
-    Returns
-    -------
-    names : list of str
-        Sorted unit names
-    """
+    """The units that texts may use, besides products and quotients of them."""
     return sorted(_BASE)
 
 
@@ -87,11 +80,6 @@ def dimension(unit: str) -> tuple[int, ...]:
     ----------
     unit : str
         Product of units, `"-"` for a pure number
-
-    Returns
-    -------
-    exponents : tuple of int
-        Of kg, m, s, K
 
     Examples
     --------
@@ -186,8 +174,6 @@ def quantity(
         Bounds that the value must not reach [unit]
     low, high : float, optional
         Bounds that the value may reach [unit]
-    about : str
-        Meaning in a few words
 
     Returns
     -------
@@ -200,15 +186,6 @@ def quantity(
 
 def choice(*options: str, default: Any = dataclasses.MISSING, about: str = "") -> Any:
     """A field of a record that is one of several names.
-
-    Parameters
-    ----------
-    *options : str
-        Allowed names
-    default : str, optional
-        Name when none is given
-    about : str
-        Meaning in a few words
 
     Returns
     -------
@@ -233,6 +210,40 @@ def allowed(metadata: Any) -> str:
     """
     words = [("above", ">"), ("low", ">="), ("below", "<"), ("high", "<=")]
     return " and ".join(f"{sign} {metadata[key]:g}" for key, sign in words if metadata.get(key) is not None)
+
+
+Record = TypeVar("Record")
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, dataclasses.field))
+def record(cls: type[Record]) -> type[Record]:
+    """A frozen dataclass with keyword arguments whose quantities and choices are checked when it is made.
+
+    A `__post_init__` of the class runs behind that check and may rely on it.
+
+    Returns
+    -------
+    cls : type
+        The same class as a record
+
+    Examples
+    --------
+    >>> @record
+    ... class Rod:
+    ...     length: float = quantity("m", above=0)
+    >>> Rod(length=2.0)
+    Rod(length=2.0)
+    """
+    own = cls.__dict__.get("__post_init__")
+
+    def checked(self: Any) -> None:
+        check(self)
+        if own is not None:
+            own(self)
+
+    if any(isinstance(value, dataclasses.Field) and value.metadata for value in vars(cls).values()):
+        cls.__post_init__ = checked  # type: ignore[attr-defined]
+    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
 
 
 def check(record: Any) -> None:

@@ -1,4 +1,8 @@
-"""Public functions: every parameter stands in the docstring, nothing else does, and units stand in brackets."""
+"""Docstrings say what signatures do not: units and shapes always, never a repetition; and sizes stay readable.
+
+Every float or array that a public function takes or gives, and every such field of a record, has its unit in brackets.
+An entry without a unit or shape and of five words or fewer repeats its name and is refused.
+"""
 
 import ast
 import re
@@ -10,6 +14,10 @@ import mechsym
 
 ROOT = Path(mechsym.__file__).parent
 FILES = sorted(p for p in ROOT.rglob("*.py") if "generated" not in p.parts and "derivations" not in p.parts)
+UNIT = re.compile(r"\[[^\]]+\]")
+NUMBER = re.compile(r"\b(float|ndarray)\b")
+NAMED = re.compile(r"Mapping|dict|Callable|Sequence\[tuple")  # the unit belongs to each name
+KEEPS_TEMPLATE = ("derive",)  # its text is stamped into generated/
 
 
 def public_functions(tree):
@@ -31,21 +39,35 @@ def section(doc, title):
     return match[1] if match else ""
 
 
-def documented(text):
-    names = []
-    for line in re.findall(r"^(\S.*?)(?: : .*)?$", text, re.M):
-        names += [n.strip().lstrip("*") for n in line.split(",")]
-    return names
-
-
 def arguments(node):
     a = node.args
     named = [*a.posonlyargs, *a.args, *a.kwonlyargs, *([a.vararg] if a.vararg else []), *([a.kwarg] if a.kwarg else [])]
-    return [x.arg for x in named if x.arg not in ("self", "cls")]
+    return {x.arg: ast.unparse(x.annotation) if x.annotation else "" for x in named if x.arg not in ("self", "cls")}
+
+
+def entries(text):
+    """Names, type and description of each entry of a section."""
+    found = []
+    for line in text.splitlines():
+        if line and not line.startswith(" "):
+            names, _, kind = line.partition(" : ")
+            found.append([[n.strip().lstrip("*") for n in names.split(",")], kind, ""])
+        elif found:
+            found[-1][2] += line + "\n"
+    return found
+
+
+def is_noise(kind, about):
+    return not UNIT.search(about) and "shape" not in kind and len(about.split()) <= 5
+
+
+def in_words(doc):
+    """What stands before the first section."""
+    return re.split(r"^\S[^\n]*\n-{3,}\n", doc, flags=re.M)[0]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_docstrings_match_signatures(path):
+def test_docstrings_say_what_signatures_do_not(path):
     tree = ast.parse(path.read_text())
     assert path.name == "__main__.py" or ast.get_docstring(tree), f"{path.name} has no module docstring"
     for name, node in public_functions(tree):
@@ -53,33 +75,56 @@ def test_docstrings_match_signatures(path):
         assert doc, f"{name} has no docstring"
         if is_command(node):
             continue
-        assert sorted(documented(section(doc, "Parameters"))) == sorted(arguments(node)), (
-            f"{name}: docstring and signature differ"
-        )
-        returns = node.returns is not None and ast.unparse(node.returns) != "None"
-        assert not returns or section(doc, "Returns") or section(doc, "Yields"), f"{name}: no Returns section"
-
-
-def entries(text):
-    """Name, type and description of each entry of a section."""
-    found = []
-    for line in text.splitlines():
-        if line and not line.startswith(" "):
-            name, _, kind = line.partition(" : ")
-            found.append([name, kind, ""])
-        elif found:
-            found[-1][2] += line + "\n"
-    return found
+        taken, given = entries(section(doc, "Parameters")), entries(section(doc, "Returns"))
+        unknown = {n for names, _, _ in taken for n in names} - set(arguments(node))
+        assert not unknown, f"{name}: the docstring tells of {sorted(unknown)}, the signature does not"
+        if path.relative_to(ROOT).parts[0] not in KEEPS_TEMPLATE:
+            noise = [names for names, kind, about in taken + given if is_noise(kind, about)]
+            assert not noise, f"{name}: {noise} repeat the signature; say what it does not, or nothing"
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_numbers_carry_a_unit(path):
     for name, node in public_functions(ast.parse(path.read_text())):
+        if is_command(node):
+            continue
         doc = ast.get_docstring(node) or ""
-        for title in ("Parameters", "Returns"):
-            for entry, kind, about in entries(section(doc, title)):
-                if kind.startswith(("float", "ndarray")):
-                    assert re.search(r"\[[^\]]+\]", about), f"{name}: {entry} has no unit in brackets"
+        told = {n for names, _, about in entries(section(doc, "Parameters")) if UNIT.search(about) for n in names}
+        numbers = {n for n, kind in arguments(node).items() if NUMBER.search(kind) and not NAMED.search(kind)}
+        silent = set() if UNIT.search(in_words(doc)) else numbers - told
+        assert not silent, f"{name}: {sorted(silent)} without unit in brackets"
+        for names, kind, about in entries(section(doc, "Returns")):
+            if kind.startswith(("float", "ndarray")):
+                assert UNIT.search(about), f"{name}: {names} without unit in brackets"
+
+
+def silent_fields(node, lines):
+    """Fields of numbers with no unit in their `quantity`, beside them, or in the lines above their group."""
+    group = ""
+    for field in (f for f in node.body if isinstance(f, ast.AnnAssign)):
+        above = lines[field.lineno - 2].strip()
+        beside = lines[field.end_lineno - 1].partition("#:")[2]
+        group = above if above.startswith("#:") else "" if beside else group
+        own = field.value is not None and "quantity(" in ast.unparse(field.value)
+        kind = ast.unparse(field.annotation)
+        if NUMBER.search(kind) and not NAMED.search(kind):
+            block = group
+            for line in reversed(lines[: field.lineno - 1]):
+                if not line.strip().startswith("#:"):
+                    break
+                block += line
+            if not own and not UNIT.search(block + beside):
+                yield field.target.id
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_fields_carry_a_unit(path):
+    if path.relative_to(ROOT).parts[0] in KEEPS_TEMPLATE:
+        return
+    text = path.read_text()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ClassDef) and any("record" in ast.unparse(d) for d in node.decorator_list):
+            assert not (silent := list(silent_fields(node, text.splitlines()))), f"{node.name}: {silent} without unit"
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))

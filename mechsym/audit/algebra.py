@@ -6,7 +6,6 @@ bounds) is nan in the first two systems, so that hostile input costs nothing and
 
 import ast
 from collections.abc import Callable, Mapping, MutableMapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -16,29 +15,18 @@ import sympy
 
 from mechsym.audit.tree import Node, children, function_of
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 MAX_EXPONENT = 10_000
 MAX_ARGUMENT = 1e12
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Algebra:
-    """A number system.
-
-    Parameters
-    ----------
-    number : callable
-        From an exact Fraction
-    operations : mapping
-        ast operator class to function of two values
-    functions : mapping of str to callable
-        Functions of one value
-    pi : callable
-        The value of pi, now
-    """
+    """A number system."""
 
     number: Callable[[Fraction], Any]
-    operations: Mapping[type, Callable]
+    operations: Mapping[type, Callable]  #: ast operator class to function of two values
     functions: Mapping[str, Callable]
     pi: Callable[[], Any]
 
@@ -54,12 +42,6 @@ def evaluate(
 
     Parameters
     ----------
-    tree : Node
-        Expression
-    names : mapping of str to value
-        Values of its letters
-    algebra : Algebra
-        Number system
     memo : mutable mapping of Node to value, optional
         Filled while evaluating; trees that share nodes share work
     calls : mutable mapping of str to value, optional
@@ -189,13 +171,6 @@ SYMBOLS = Algebra(
 
 def states(values: Mapping[str, Any], algebra: Algebra) -> dict[str, Any]:
     """Letters with their values, and pi.
-
-    Parameters
-    ----------
-    values : mapping of str to value
-        Values of the number system
-    algebra : Algebra
-        Number system
 
     Returns
     -------

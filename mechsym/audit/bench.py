@@ -2,7 +2,7 @@
 
 from collections import ChainMap
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import mpmath
@@ -13,52 +13,24 @@ from mechsym.audit.question import Question, turn_values
 from mechsym.audit.reader import Formula
 from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node, letters, walk
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Bench:
-    """States with everything that formulas need there.
-
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-    algebra : Algebra
-        Number system
-    base : dict of str to array
-        Values of the theory's letters and of its names as far as they were needed
-    own : dict of str to array
-        Values of the author's letters
-    expected : array, shape (n,)
-        The derived quantity
-    digits : int
-        Working precision, 0 for floats
-    calls : dict of str to array
-        Values of functions that were needed before
-    """
+    """States with everything that formulas need there."""
 
     theory: Theory
     algebra: Algebra
-    base: dict[str, Any]
+    base: dict[str, Any]  #: Values of the theory's letters and of its names as far as they were needed
     own: dict[str, Any]
-    expected: Any
+    expected: Any  #: shape (n,): The derived quantity
     digits: int = 0
-    calls: dict[str, Any] = field(default_factory=dict)
+    calls: dict[str, Any] = field(default_factory=dict)  #: Values of functions that were needed before
 
 
 def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digits: int = 0) -> Bench:
     """Everything that formulas need at given states.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-    values : mapping of str to array
-        Values of the theory's letters
-    algebra : Algebra
-        Number system
-    digits : int
-        Working precision, 0 for floats
 
     Returns
     -------
@@ -75,37 +47,13 @@ def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digit
 
 
 def used_names(formula: Formula) -> list[str]:
-    """Names that a formula and its author's letters use.
-
-    Parameters
-    ----------
-    formula : Formula
-        As printed
-
-    Returns
-    -------
-    names : list of str
-        Without repetition
-    """
+    """Names that a formula and its author's letters use."""
     trees = [*formula.letters.values(), formula.tree]
     return list(dict.fromkeys(n for tree in trees for n in letters(tree) if n not in formula.letters))
 
 
 def part_values(asked: Bench, tree: Node) -> dict[Node, Any]:
-    """Values of an expression and of all its parts at the states of a bench.
-
-    Parameters
-    ----------
-    asked : Bench
-        States
-    tree : Node
-        Expression in the formula's letters
-
-    Returns
-    -------
-    values : dict of Node to array
-        By node
-    """
+    """Values of an expression and of all its parts at the states of a bench."""
     memo: dict[Node, Any] = {}
     known = names(asked, letters(tree))
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
@@ -116,13 +64,6 @@ def part_values(asked: Bench, tree: Node) -> dict[Node, Any]:
 
 def value(asked: Bench, tree: Node) -> Any:
     """Value of an expression at the states of a bench.
-
-    Parameters
-    ----------
-    asked : Bench
-        States
-    tree : Node
-        Expression in the formula's letters
 
     Returns
     -------
@@ -136,13 +77,6 @@ def value(asked: Bench, tree: Node) -> Any:
 
 def shaped(asked: Bench, found: Any) -> Any:
     """A value as one number per state.
-
-    Parameters
-    ----------
-    asked : Bench
-        States
-    found : scalar or array
-        What an evaluation gave
 
     Returns
     -------
@@ -161,8 +95,6 @@ def names(asked: Bench, wanted: Iterable[str]) -> Mapping[str, Any]:
     ----------
     asked : Bench
         States; names that were not needed before are computed and kept
-    wanted : iterable of str
-        Names that formulas use
 
     Returns
     -------
@@ -174,30 +106,12 @@ def names(asked: Bench, wanted: Iterable[str]) -> Mapping[str, Any]:
 
 
 def turn(question: Question) -> Bench:
-    """The bench of one turn at the source's data, in floats.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-
-    Returns
-    -------
-    bench : Bench
-        States of the turn
-    """
+    """The bench of one turn at the source's data, in floats."""
     return bench(question, turn_values(question), FLOATS)
 
 
 def max_rel_error(asked: Bench, tree: Node) -> float:
     r"""Largest relative error, :math:`\max |P - E| / \max(|E|, 0.1 \max|E|)`.
-
-    Parameters
-    ----------
-    asked : Bench
-        States of a turn
-    tree : Node
-        Expression
 
     Returns
     -------

@@ -4,7 +4,6 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -22,7 +21,7 @@ from mechsym.audit.required import Required, quotient, required
 from mechsym.audit.slips import single_edits
 from mechsym.audit.theory.record import known
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
-from mechsym.quantities import dimension
+from mechsym.quantities import dimension, record
 
 _MET = 1e-5
 _VALID = 0.6
@@ -30,13 +29,6 @@ _VALID = 0.6
 
 def listed_edits(question: Question, tree: Node) -> list[Edit]:
     """Slips that are tried one by one.
-
-    Parameters
-    ----------
-    question : Question
-        Letters and theory
-    tree : Node
-        The formula as it stands
 
     Returns
     -------
@@ -48,11 +40,6 @@ def listed_edits(question: Question, tree: Node) -> list[Edit]:
 
 def repeated_edits(tree: Node) -> list[Edit]:
     """One slip wherever the same part stands: an error that was carried through.
-
-    Parameters
-    ----------
-    tree : Node
-        The formula as it stands
 
     Returns
     -------
@@ -79,13 +66,6 @@ def _instead(texts: Mapping[Node, str], text: str, new: Node, node: Node) -> Nod
 def confusable(question: Question, letter: str) -> list[str]:
     """Letters that one may be mistaken for: another index, the same unit, or a derived name with the same initial.
 
-    Parameters
-    ----------
-    question : Question
-        Letters and theory
-    letter : str
-        A letter of the formula
-
     Returns
     -------
     letters : list of str
@@ -111,21 +91,10 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
 
     Parameters
     ----------
-    question : Question
-        Letters and theory
-    asked : Bench
-        States
-    tree : Node
-        The formula as it stands
     listed : sequence of Edit
         Edits to try one by one
     insert : bool
         Whether to look for terms and factors that were left out, rather than for wrong numbers and signs
-
-    Returns
-    -------
-    edits : list of Edit
-        Candidates
     """
     memo = part_values(asked, tree)
     wishes = required(asked, tree, memo)
@@ -141,7 +110,7 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
         return [e for e in edits if _meets(asked, nodes, wishes, _Values(names=known, memo=memo), e)]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class _Values:
     """Values of letters and of the parts of the formula, shared by all edits."""
 

@@ -22,8 +22,6 @@ def is_consistent(question: Question, tree: Node) -> bool:
     ----------
     question : Question
         Letters with units, and the quantity
-    tree : Node
-        Expression
 
     Returns
     -------

@@ -2,7 +2,6 @@
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 
 from mechsym.audit.tree import (
@@ -15,6 +14,7 @@ from mechsym.audit.tree import (
     replace,
     value_of,
 )
+from mechsym.quantities import record
 
 # the simplest slip first; kinds of one rank compete by length
 RANKS = {
@@ -23,41 +23,19 @@ RANKS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Edit:
-    """One change of a formula.
-
-    Parameters
-    ----------
-    kind : str
-        One of RANKS
-    path : tuple of str
-        Where
-    new : Node
-        What stands there afterwards
-    about : str
-        What was changed, where the whole formula is given anew
-    """
+    """One change of a formula."""
 
     kind: str
     path: Path
     new: Node
-    about: str = ""
+    about: str = ""  #: What was changed, where the whole formula is given anew
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Place:
-    """A node with what surrounds it.
-
-    Parameters
-    ----------
-    path : tuple of str
-        Steps from the root
-    node : Node
-        The node
-    parent : Node or None
-        None at the root
-    """
+    """A node with what surrounds it."""
 
     path: Path
     node: Node
@@ -65,18 +43,7 @@ class Place:
 
 
 def places(tree: Node) -> Iterator[Place]:
-    """Every node with its parent, a node before its operands.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-
-    Yields
-    ------
-    place : Place
-        Node, path and parent
-    """
+    """Every node with its parent, a node before its operands."""
     waiting = [Place(path=(), node=tree, parent=None)]
     while waiting:
         place = waiting.pop()
@@ -86,36 +53,12 @@ def places(tree: Node) -> Iterator[Place]:
 
 
 def apply(tree: Node, edit: Edit) -> Node:
-    """The formula after an edit.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-    edit : Edit
-        Change
-
-    Returns
-    -------
-    tree : Node
-        A new tree
-    """
+    """The formula after an edit."""
     return replace(tree, edit.path, edit.new)
 
 
 def without_double_signs(tree: Node) -> Node:
-    """The same formula with `a - -b*c` written `a + b*c`.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-
-    Returns
-    -------
-    tree : Node
-        The same value
-    """
+    """The same formula with `a - -b*c` written `a + b*c`."""
     for step, child in children(tree):
         tree = replace(tree, (step,), without_double_signs(child))
     if not is_operation(tree, ast.Add, ast.Sub):
@@ -140,11 +83,6 @@ def _without_leading_sign(node: Node) -> Node | None:
 def is_term(place: Place) -> bool:
     """Whether something can be added here that could not be added further up the same sum.
 
-    Parameters
-    ----------
-    place : Place
-        A node in a formula
-
     Returns
     -------
     answer : bool
@@ -155,11 +93,6 @@ def is_term(place: Place) -> bool:
 
 def is_product(place: Place) -> bool:
     """Whether a factor here could not be put further up the same product.
-
-    Parameters
-    ----------
-    place : Place
-        A node in a formula
 
     Returns
     -------
@@ -175,36 +108,12 @@ def is_product(place: Place) -> bool:
 
 
 def is_exponent(place: Place) -> bool:
-    """Whether a node is an exponent.
-
-    Parameters
-    ----------
-    place : Place
-        A node in a formula
-
-    Returns
-    -------
-    answer : bool
-        True when it is
-    """
+    """Whether a node is an exponent."""
     return place.parent is not None and is_operation(place.parent, ast.Pow) and place.path[-1] == "right"
 
 
 def scaled(node: Node, factor: Fraction) -> Node:
-    """An expression times a number, the number merged with one that is there already.
-
-    Parameters
-    ----------
-    node : Node
-        Expression
-    factor : Fraction
-        Number
-
-    Returns
-    -------
-    node : Node
-        Their product
-    """
+    """An expression times a number, the number merged with one that is there already."""
     if factor == 1:
         return node
     own = value_of(node)

@@ -15,22 +15,7 @@ _TITLES = {
 
 
 def text(sources: Sequence[Source], rows: Sequence[Row], found: Trust) -> str:
-    """The errata of all sources.
-
-    Parameters
-    ----------
-    sources : sequence of Source
-        The registry
-    rows : sequence of dict
-        Its verdicts
-    found : Trust
-        Mutation tests of the auditor
-
-    Returns
-    -------
-    text : str
-        Markdown
-    """
+    """The errata of all sources."""
     parts = [_HEAD, _summary(sources, rows)]
     for source in sources:
         own = [r for r in rows if r["source"] == source.stem]

@@ -22,11 +22,6 @@ _LONGEST = 90
 def question_of(entry: Printed) -> Question:
     """The question that a printed formula raises.
 
-    Parameters
-    ----------
-    entry : Printed
-        From the registry
-
     Returns
     -------
     question : Question
@@ -46,13 +41,6 @@ def question_of(entry: Printed) -> Question:
 def rows(sources: Iterable[Source], done: Callable[[], Any] = lambda: None) -> list[Row]:
     """Audit sources.
 
-    Parameters
-    ----------
-    sources : iterable of Source
-        What to audit
-    done : callable, optional
-        Called after each entry
-
     Returns
     -------
     rows : list of dict
@@ -68,13 +56,6 @@ def rows(sources: Iterable[Source], done: Callable[[], Any] = lambda: None) -> l
 
 def row(source: str, entry: Entry) -> Row:
     """The verdict on one entry.
-
-    Parameters
-    ----------
-    source : str
-        File stem
-    entry : Entry
-        From the registry
 
     Returns
     -------
@@ -101,19 +82,10 @@ def formula_row(question: Question, verdict: Verdict, printed: str, note: str, e
 
     Parameters
     ----------
-    question : Question
-        What was asked
-    verdict : Verdict
-        The answer
     printed : str
         The formula as it was given
     note, effect : str
         What else there is to say
-
-    Returns
-    -------
-    row : dict
-        Documented keys from verdict on
     """
     best = verdict.repairs[0] if verdict.repairs else None
     notes = [verdict.note, _edits(question, verdict), note, effect]

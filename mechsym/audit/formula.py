@@ -26,10 +26,6 @@ def check_formula(
     ----------
     text : str
         Python syntax or LaTeX; `name = expression` or the expression alone
-    against : str
-        `mechanism.quantity`, for example `crosshead.inertia`
-    letters : str or mapping of str to str
-        The author's letters: `R=r1+r2, L=l1+l2`
     case : str
         Case whose data the error is measured with; empty for the source's
     name : str
@@ -58,11 +54,6 @@ def check_formula(
 
 def question_of(text: str, against: str, letters: str | Mapping[str, str], case: str) -> Question:
     """The question that a user asks.
-
-    Parameters
-    ----------
-    text, against, letters, case : str
-        As for `check_formula`
 
     Returns
     -------
@@ -105,11 +96,6 @@ def check_file(path: Path) -> list[Row]:
     ----------
     path : Path
         With tables `[[formula]]` of text, against and perhaps letters, case, name
-
-    Returns
-    -------
-    rows : list of dict
-        One per formula
 
     Raises
     ------

@@ -7,7 +7,6 @@ give them all at once, and only whole or half exponents with a simple number c a
 
 import ast
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -18,6 +17,7 @@ from mechsym.audit.bench import Bench, value
 from mechsym.audit.question import Question
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, binary, call, is_operation, letters, name, number, value_of, walk
+from mechsym.quantities import record
 
 MAX_WORDS = 26
 MAX_FACTORS = 6
@@ -27,26 +27,14 @@ UNITS = (1000, 60, 3600, 360, 10**6, 100, 180)
 _CLOSE = 1e-5
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Vocabulary:
-    """Words of which missing factors are made, with their values at the states of a bench.
-
-    Parameters
-    ----------
-    words : tuple of Node
-        Letters, functions and brackets
-    signs : ndarray, shape (k, n)
-        Signs of their values [-]
-    logs : ndarray, shape (k, n)
-        Logarithms of their absolute values [-]
-    basis : tuple of int
-        Words that are no products of powers of earlier ones
-    """
+    """Words of which missing factors are made, with their values at the states of a bench."""
 
     words: tuple[Node, ...]
-    signs: np.ndarray
-    logs: np.ndarray
-    basis: tuple[int, ...]
+    signs: np.ndarray  #: shape (k, n): Signs of their values [-]
+    logs: np.ndarray  #: shape (k, n): Logarithms of their absolute values [-]
+    basis: tuple[int, ...]  #: Words that are no products of powers of earlier ones
 
 
 Words = list[tuple[Node, Fraction]]  # with their exponents
@@ -54,20 +42,7 @@ Product = tuple[Fraction, Words]
 
 
 def candidate_words(question: Question, tree: Node) -> list[Node]:
-    """Words that a missing factor may be made of, the formula's own first.
-
-    Parameters
-    ----------
-    question : Question
-        Formula and theory
-    tree : Node
-        The formula as it stands
-
-    Returns
-    -------
-    words : list of Node
-        Letters, functions and brackets
-    """
+    """Words that a missing factor may be made of, the formula's own first."""
     theory, own = question.theory, question.formula.letters
     needed = dependencies(theory, [question.quantity])
     angles = [theory.angle, *(k for k in theory.tape if f"cos_{k}" in theory.tape)]
@@ -97,20 +72,7 @@ def _distinct(nodes: Iterable[Node]) -> list[Node]:
 
 
 def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
-    """The words that have values at the states of a bench.
-
-    Parameters
-    ----------
-    asked : Bench
-        States
-    words : sequence of Node
-        Candidates, the preferred first
-
-    Returns
-    -------
-    vocabulary : Vocabulary
-        Without constants
-    """
+    """The words that have values at the states of a bench."""
     usable: list[Node] = []
     basis: list[int] = []
     signs, logs = [], []
@@ -145,8 +107,6 @@ def logarithm(asked: Bench, values: Any) -> tuple[np.ndarray, np.ndarray]:
 
     Parameters
     ----------
-    asked : Bench
-        States
     values : array, shape (n,)
         Values of its number system
 
@@ -168,10 +128,6 @@ def product(asked: Bench, words: Vocabulary, values: Any) -> Product | None:
 
     Parameters
     ----------
-    asked : Bench
-        States
-    words : Vocabulary
-        Words at the same states
     values : array, shape (n,)
         What is missing
 
@@ -246,11 +202,6 @@ def simple(constants: np.ndarray) -> Fraction | None:
 def is_unit(factor: Fraction) -> bool:
     """Whether a factor is more likely a change of unit than a slip of the pen.
 
-    Parameters
-    ----------
-    factor : Fraction
-        Simple number
-
     Returns
     -------
     answer : bool
@@ -261,13 +212,6 @@ def is_unit(factor: Fraction) -> bool:
 
 def product_tree(factor: Fraction, words: Sequence[tuple[Node, Fraction]]) -> Node:
     """A product of powers as an expression.
-
-    Parameters
-    ----------
-    factor : Fraction
-        Positive number
-    words : sequence of (Node, Fraction)
-        Words with their exponents
 
     Returns
     -------

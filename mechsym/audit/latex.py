@@ -41,15 +41,8 @@ def read_latex(text: str) -> tuple[Node, dict[str, str]]:
 
     Returns
     -------
-    tree : Node
-        Expression in plain names
     spelled : dict of str to str
         Plain name to the LaTeX that the author wrote for it
-
-    Raises
-    ------
-    BadInput
-        What cannot be read, or can be read in two ways
     """
     cursor = Cursor([t for t in _TOKEN.findall(text) if t not in _SILENT])
     tree = _sum(cursor)

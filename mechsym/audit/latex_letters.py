@@ -17,36 +17,16 @@ WORDS = {"\\mathrm", "\\text", "\\mathit", "\\mathbf", "\\operatorname", "\\text
 
 @dataclass
 class Cursor:
-    """Where the reader is; the one thing that changes while reading.
-
-    Parameters
-    ----------
-    tokens : list of str
-        Commands, numbers and single signs
-    position, depth : int
-        Next token, and how deep the reader is in brackets
-    spelled : dict of str to str
-        Plain name to the author's LaTeX
-    """
+    """Where the reader is; the one thing that changes while reading."""
 
     tokens: list[str]
+    #: Next token, and how deep the reader is in brackets
     position: int = 0
     depth: int = 0
-    spelled: dict[str, str] = field(default_factory=dict)
+    spelled: dict[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
 
     def peek(self, ahead: int = 0) -> str:
-        """A token that is not taken yet.
-
-        Parameters
-        ----------
-        ahead : int
-            How many tokens further on
-
-        Returns
-        -------
-        token : str
-            Empty at the end
-        """
+        """A token that is not taken yet."""
         index = self.position + ahead
         return self.tokens[index] if index < len(self.tokens) else ""
 
@@ -57,16 +37,6 @@ class Cursor:
         ----------
         wanted : str
             What it must be; anything when empty
-
-        Returns
-        -------
-        token : str
-            Empty at the end
-
-        Raises
-        ------
-        BadInput
-            It is another one
         """
         token = self.peek()
         if wanted and token != wanted:
@@ -76,18 +46,7 @@ class Cursor:
 
 
 def place(cursor: Cursor) -> str:
-    """Where the reader is, for messages.
-
-    Parameters
-    ----------
-    cursor : Cursor
-        Where it is
-
-    Returns
-    -------
-    words : str
-        The last tokens
-    """
+    """Where the reader is, for messages."""
     before = "".join(cursor.tokens[max(0, cursor.position - 6) : cursor.position])
     return f"after {before!r}" if before else "at the start"
 
@@ -97,20 +56,8 @@ def letter(cursor: Cursor, bare: bool) -> Node:
 
     Parameters
     ----------
-    cursor : Cursor
-        Where the reader is
     bare : bool
         Whether it is the one token after a fraction or a power, without a subscript
-
-    Returns
-    -------
-    node : Node
-        Its plain name
-
-    Raises
-    ------
-    BadInput
-        What stands there is no letter
     """
     start = cursor.position
     dots = {"\\dot": 1, "\\ddot": 2}.get(cursor.peek(), 0)
@@ -174,11 +121,6 @@ def _subscript(cursor: Cursor) -> str:
 
 def derivative(cursor: Cursor) -> str | None:
     r"""Read what follows `\frac` when it is a derivative such as dx over d phi.
-
-    Parameters
-    ----------
-    cursor : Cursor
-        Behind the command
 
     Returns
     -------

@@ -15,18 +15,7 @@ LEAST, LARGEST = 1e-30, 1e30
 
 
 def check_size(tree: Node) -> None:
-    """Refuse a tree that is too large or too deep to work with.
-
-    Parameters
-    ----------
-    tree : Node
-        What a reader made
-
-    Raises
-    ------
-    BadInput
-        Says what is allowed
-    """
+    """Refuse a tree that is too large or too deep to work with."""
     for count, (path, _) in enumerate(walk(tree)):
         if count >= MAX_NODES:
             raise BadInput(f"the formula has more than {MAX_NODES} parts; split it and check the parts")
@@ -35,18 +24,7 @@ def check_size(tree: Node) -> None:
 
 
 def check(tree: Node) -> None:
-    """Refuse a tree that is too large, too deep, or holds anything but arithmetic on letters.
-
-    Parameters
-    ----------
-    tree : Node
-        What a reader made
-
-    Raises
-    ------
-    BadInput
-        Names what is not allowed and what is
-    """
+    """Refuse a tree that is too large, too deep, or holds anything but arithmetic on letters."""
     check_size(tree)
     for _, node in walk(tree):
         _check_node(node)

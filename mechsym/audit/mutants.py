@@ -3,7 +3,7 @@
 import random
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from mechsym.audit.edits import Edit, apply
 from mechsym.audit.printer import to_python
@@ -13,53 +13,33 @@ from mechsym.audit.repair import Examination, examine, fingerprint, standing
 from mechsym.audit.slips import single_edits
 from mechsym.audit.tree import Node, letters
 from mechsym.audit.verdict import search
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Kills:
-    """How many mutants of exact formulas were refuted.
+    """How many mutants of exact formulas were refuted."""
 
-    Parameters
-    ----------
-    mutants, refuted, equivalent : int
-        All; those refuted; those proved to be the same function
-    survivors : tuple of str
-        Mutants that were neither refuted nor proved equal
-    """
-
+    #: All; those refuted; those proved to be the same function
     mutants: int
     refuted: int
     equivalent: int
-    survivors: tuple[str, ...] = ()
+    survivors: tuple[str, ...] = ()  #: Mutants that were neither refuted nor proved equal
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Returns:
-    """How many spoiled formulas came back to the original.
+    """How many spoiled formulas came back to the original."""
 
-    Parameters
-    ----------
-    spoiled, returned : int
-        All, and those whose first repair is the original function
-    misses : tuple of str
-        The others: what was spoiled, and what was found instead
-    by_kind : mapping of str to (int, int)
-        Kind of slip to (spoiled, returned)
-    """
-
+    #: All, and those whose first repair is the original function
     spoiled: int
     returned: int
-    misses: tuple[str, ...] = ()
-    by_kind: dict[str, tuple[int, int]] = field(default_factory=dict)
+    misses: tuple[str, ...] = ()  #: The others: what was spoiled, and what was found instead
+    by_kind: dict[str, tuple[int, int]] = field(default_factory=dict)  #: Kind of slip to (spoiled, returned)
 
 
 def mutants(tree: Node) -> list[Edit]:
     """Every single edit of a formula.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
 
     Returns
     -------
@@ -76,18 +56,7 @@ def mutants(tree: Node) -> list[Edit]:
 
 
 def kills(question: Question) -> Kills:
-    """Try to have every mutant of an exact formula refuted.
-
-    Parameters
-    ----------
-    question : Question
-        With an exact formula
-
-    Returns
-    -------
-    kills : Kills
-        Counts and survivors
-    """
+    """Try to have every mutant of an exact formula refuted."""
     judged, original = judges(question), question.formula.tree
     changed = [apply(original, edit) for edit in mutants(original)]
     alive = [tree for tree in changed if is_exact(judged, tree)]
@@ -109,13 +78,6 @@ def returns(question: Question, count: int, seed: int) -> Returns:
         With an exact or honestly approximate formula
     count : int
         How often at most; mutants that are the same function are passed over
-    seed : int
-        Seed of the choice
-
-    Returns
-    -------
-    returns : Returns
-        Counts and misses
     """
     exam = examine(question)
     original = question.formula.tree
@@ -153,18 +115,7 @@ def _by_kind(edits: Sequence[Edit], misses: Sequence[str]) -> dict[str, tuple[in
 
 
 def total_kills(parts: Sequence[Kills]) -> Kills:
-    """Kills of several formulas together.
-
-    Parameters
-    ----------
-    parts : sequence of Kills
-        One per formula
-
-    Returns
-    -------
-    total : Kills
-        Sums
-    """
+    """Kills of several formulas together."""
     return Kills(
         mutants=sum(p.mutants for p in parts),
         refuted=sum(p.refuted for p in parts),
@@ -174,18 +125,7 @@ def total_kills(parts: Sequence[Kills]) -> Kills:
 
 
 def total_returns(parts: Sequence[Returns]) -> Returns:
-    """Returns of several formulas together.
-
-    Parameters
-    ----------
-    parts : sequence of Returns
-        One per formula
-
-    Returns
-    -------
-    total : Returns
-        Sums
-    """
+    """Returns of several formulas together."""
     kinds = sorted({k for p in parts for k in p.by_kind})
     pairs = {k: [p.by_kind.get(k, (0, 0)) for p in parts] for k in kinds}
     return Returns(

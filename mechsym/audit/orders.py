@@ -6,7 +6,6 @@ The order k of a group is the power of eps with which its relative error vanishe
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -17,7 +16,7 @@ from mechsym.audit.algebra import DIGITS
 from mechsym.audit.bench import Bench, bench, value
 from mechsym.audit.question import Question, digit_values, random_fractions, small_rods
 from mechsym.audit.tree import Node
-from mechsym.quantities import dimension
+from mechsym.quantities import dimension, record
 
 EXACT = math.inf
 ORDER_DIGITS = 110
@@ -32,30 +31,17 @@ _TRUSTED = 10  # coefficients that the nodes give to eight digits
 _SHIFT = 2  # powers of eps below zero that a quantity may start with
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Group:
-    """One mass, inertia or force with all others left out.
+    """One mass, inertia or force with all others left out."""
 
-    Parameters
-    ----------
-    name : str
-        The letter, `"all"` when the quantity is no such sum
-    coarse, fine : Bench
-        States at two small lambdas
-    """
-
-    name: str
+    name: str  #: The letter, `"all"` when the quantity is no such sum
     coarse: Bench
     fine: Bench
 
 
 def groups(question: Question) -> list[Group]:
     """The groups of a quantity; none without rods, when there is no small parameter.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
 
     Returns
     -------
@@ -84,22 +70,7 @@ def _group(question: Question, name: str, loads: list[str]) -> Group:
 
 
 def at_small_rods(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
-    """States with long rods and many digits.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-    values : mapping of str to list of Fraction
-        States
-    eps : Fraction
-        What lambda is multiplied by
-
-    Returns
-    -------
-    bench : Bench
-        With 110 digits
-    """
+    """States with long rods and many digits."""
     with mpmath.workdps(ORDER_DIGITS):
         digits = digit_values(small_rods(question.theory, values, eps))
     return bench(question, digits, DIGITS, ORDER_DIGITS)
@@ -118,13 +89,6 @@ def _adds_up(found: list[Group], whole: Group) -> bool:
 def orders(found: list[Group], tree: Node) -> dict[str, float]:
     """Order of every group's error.
 
-    Parameters
-    ----------
-    found : list of Group
-        Groups of the quantity
-    tree : Node
-        Expression
-
     Returns
     -------
     orders : dict of str to float
@@ -135,13 +99,6 @@ def orders(found: list[Group], tree: Node) -> dict[str, float]:
 
 def residual(asked: Bench, tree: Node) -> Any:
     """Largest difference over the states, relative to the largest value.
-
-    Parameters
-    ----------
-    asked : Bench
-        States
-    tree : Node
-        Expression
 
     Returns
     -------
@@ -169,11 +126,6 @@ def _order(coarse: Any, fine: Any) -> float:
 def lowest(found: Mapping[str, float]) -> int | None:
     """The order that is reported: the smallest of all groups.
 
-    Parameters
-    ----------
-    found : mapping of str to float
-        Orders by group
-
     Returns
     -------
     order : int or None
@@ -185,15 +137,6 @@ def lowest(found: Mapping[str, float]) -> int | None:
 
 def is_truncation(question: Question, found: list[Group], tree: Node) -> bool:
     """Whether every group is at least as good as leaving out one power of lambda, and everything above it.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-    found : list of Group
-        Groups of the quantity
-    tree : Node
-        Expression
 
     Returns
     -------

@@ -13,11 +13,6 @@ _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "log": "ln"}
 def to_python(tree: Node) -> str:
     """A formula as Python text.
 
-    Parameters
-    ----------
-    tree : Node
-        Expression
-
     Returns
     -------
     text : str
@@ -58,8 +53,6 @@ def to_latex(tree: Node, spelled: Mapping[str, str]) -> str:
 
     Parameters
     ----------
-    tree : Node
-        Expression
     spelled : mapping of str to str
         Plain name to the LaTeX that the author wrote for it
 

@@ -1,7 +1,5 @@
 """Is the formula exactly the derived quantity? Many digits at random states decide, a polynomial certificate proves."""
 
-from dataclasses import dataclass
-
 import mpmath
 import numpy as np
 import sympy
@@ -14,37 +12,23 @@ from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node
 from mechsym.derive.identity import vanishes
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 POINTS = 20
 WORKING_DIGITS = 50
 TOLERANCE_DIGITS = 40
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Judges:
-    """The states that decide whether a formula is exact, made once per question.
+    """The states that decide whether a formula is exact, made once per question."""
 
-    Parameters
-    ----------
-    quick : Bench
-        In floats: refutes almost everything that is wrong
-    strict : Bench
-        With 50 digits
-    """
-
-    quick: Bench
+    quick: Bench  #: In floats: refutes almost everything that is wrong
     strict: Bench
 
 
 def judges(question: Question, seed: int = 1) -> Judges:
     """Random states for a question.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-    seed : int
-        Seed of the states
 
     Returns
     -------
@@ -60,38 +44,12 @@ def judges(question: Question, seed: int = 1) -> Judges:
 
 
 def is_exact(judged: Judges, tree: Node) -> bool:
-    """Whether a formula agrees with the derived quantity to 40 digits at every random state.
-
-    Parameters
-    ----------
-    judged : Judges
-        Random states
-    tree : Node
-        Expression
-
-    Returns
-    -------
-    exact : bool
-        False is a refutation
-    """
+    """Whether a formula agrees with the derived quantity to 40 digits at every random state."""
     return agrees_quickly(judged, tree) and _agrees(judged.strict, tree)
 
 
 def agrees_quickly(judged: Judges, tree: Node) -> bool:
-    """Whether floats leave it open that a formula is exact.
-
-    Parameters
-    ----------
-    judged : Judges
-        Random states
-    tree : Node
-        Expression
-
-    Returns
-    -------
-    open : bool
-        False is a refutation
-    """
+    """Whether floats leave it open that a formula is exact."""
     printed, expected = value(judged.quick, tree), judged.quick.expected
     with np.errstate(all="ignore"):
         wrong = ~(np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected)))
@@ -131,10 +89,6 @@ def proves_equal(question: Question, tree: Node, other: Node | None = None) -> b
 
     Parameters
     ----------
-    question : Question
-        Letters and theory
-    tree : Node
-        Expression in the formula's letters
     other : Node, optional
         Expression in the same letters; the derived quantity when left out
 

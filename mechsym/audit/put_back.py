@@ -19,21 +19,8 @@ def insertions(
 
     Parameters
     ----------
-    asked : Bench
-        States
-    tree : Node
-        The formula as it stands
-    wishes : mapping of path to array
-        Required values of its parts
-    memo : mapping of Node to array
-        Their values
     words : Vocabulary
         What missing terms and factors may be made of
-
-    Yields
-    ------
-    edit : Edit
-        Candidates
     """
     # what is put back must not be more than what stands there, or any formula could be mended
     most = sum(not children(p.node) for p in places(tree))

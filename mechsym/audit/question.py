@@ -2,7 +2,7 @@
 
 import random
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 
 import mpmath
@@ -10,56 +10,29 @@ import numpy as np
 
 from mechsym.audit.reader import Formula
 from mechsym.audit.theory.record import Theory
+from mechsym.quantities import record
 
 TURN_POINTS = 360
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Question:
-    """A printed formula and what it claims to be.
-
-    Parameters
-    ----------
-    formula : Formula
-        As printed
-    theory : Theory
-        What derives the quantity
-    quantity : str
-        Name on the theory's tape
-    hold : mapping of str to float
-        Letters that the source's assumptions fix
-    turn : mapping of str to callable
-        Letters that change over a turn in the source's data, as functions of the angle array
-    """
+    """A printed formula and what it claims to be."""
 
     formula: Formula
     theory: Theory
     quantity: str
-    hold: Mapping[str, float] = field(default_factory=dict)
+    hold: Mapping[str, float] = field(default_factory=dict)  #: Letters that the source's assumptions fix
+    #: Letters that change over a turn in the source's data, as functions of the angle array
     turn: Mapping[str, Callable[[np.ndarray], np.ndarray]] = field(default_factory=dict)
 
 
 def random_fractions(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
-    """Random exact values near the source's data; the angle anywhere in a turn.
-
-    Parameters
-    ----------
-    question : Question
-        Letters, data and held letters
-    count : int
-        Number of states
-    seed : int
-        Seed of the generator
-
-    Returns
-    -------
-    values : dict of str to list of Fraction
-        By letter
-    """
+    """Random exact values near the source's data; the angle anywhere in a turn."""
     generator, theory = random.Random(seed), question.theory
     found = {}
-    for letter, record in theory.letters.items():
-        value = Fraction(record.value).limit_denominator(10**9)
+    for letter, about in theory.letters.items():
+        value = Fraction(about.value).limit_denominator(10**9)
         draw = [generator.randint(7000, 14000) for _ in range(count)]
         if letter in question.hold:
             found[letter] = [Fraction(str(question.hold[letter]))] * count
@@ -71,32 +44,12 @@ def random_fractions(question: Question, count: int, seed: int) -> dict[str, lis
 
 
 def small_rods(theory: Theory, values: Mapping[str, list[Fraction]], eps: Fraction) -> dict[str, list[Fraction]]:
-    """The same states with the rods divided by eps at a fixed crank.
-
-    Parameters
-    ----------
-    theory : Theory
-        Says which lengths are rods
-    values : mapping of str to list of Fraction
-        States
-    eps : Fraction
-        lambda becomes eps times lambda
-
-    Returns
-    -------
-    values : dict of str to list of Fraction
-        States
-    """
+    """The same states with the rods divided by eps at a fixed crank."""
     return {k: [x / eps for x in v] if k in theory.rods else list(v) for k, v in values.items()}
 
 
 def float_values(values: Mapping[str, list[Fraction]]) -> dict[str, np.ndarray]:
     """Exact values as floats.
-
-    Parameters
-    ----------
-    values : mapping of str to list of Fraction
-        States
 
     Returns
     -------
@@ -108,11 +61,6 @@ def float_values(values: Mapping[str, list[Fraction]]) -> dict[str, np.ndarray]:
 
 def digit_values(values: Mapping[str, list[Fraction]]) -> dict[str, np.ndarray]:
     """Exact values as mpmath numbers of the working precision.
-
-    Parameters
-    ----------
-    values : mapping of str to list of Fraction
-        States
 
     Returns
     -------

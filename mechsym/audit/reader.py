@@ -3,7 +3,7 @@
 import ast
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from mechsym.audit import limits
 from mechsym.audit import tree as trees
@@ -12,34 +12,21 @@ from mechsym.audit.printer import to_latex, to_python
 from mechsym.audit.spelling import from_greek, resolve
 from mechsym.audit.tree import Node
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 MAX_TEXT = 6000
 CONSTANTS = ("pi",)
 _ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "tg": "tan", "ctg": "cot", "ln": "log", "Abs": "abs"}
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Formula:
-    """A formula as printed, in its author's letters.
-
-    Parameters
-    ----------
-    tree : Node
-        Right-hand side
-    letters : mapping of str to Node
-        Author's letter to its expression in known letters
-    latex : bool
-        Whether it was written in LaTeX
-    spelled : mapping of str to str
-        Plain name to the author's LaTeX for it
-    note : str
-        What the reader noticed
-    """
+    """A formula as printed, in its author's letters."""
 
     tree: Node
-    letters: Mapping[str, Node] = field(default_factory=dict)
-    latex: bool = False
-    spelled: Mapping[str, str] = field(default_factory=dict)
+    letters: Mapping[str, Node] = field(default_factory=dict)  #: Author's letter to its expression in known letters
+    latex: bool = False  #: Whether it was written in LaTeX
+    spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX for it
     note: str = ""
 
 
@@ -50,20 +37,8 @@ def read(text: str, known: Iterable[str], letters: Mapping[str, str] | None = No
     ----------
     text : str
         An expression, or `name = expression`
-    known : iterable of str
-        Letters that may be used
     letters : mapping of str to str, optional
         Author's letter to its expression in known letters
-
-    Returns
-    -------
-    formula : Formula
-        What was understood
-
-    Raises
-    ------
-    BadInput
-        Not arithmetic, too large, ambiguous, or a letter that is not known
     """
     known = [*known, *CONSTANTS]
     own = {key: read_expression(value, known)[0] for key, value in _author_letters(letters or {}).items()}
@@ -75,24 +50,10 @@ def read(text: str, known: Iterable[str], letters: Mapping[str, str] | None = No
 def read_expression(text: str, known: Iterable[str]) -> tuple[Node, dict[str, str]]:
     """Read an expression without an equals sign.
 
-    Parameters
-    ----------
-    text : str
-        Python syntax or LaTeX
-    known : iterable of str
-        Letters that may be used
-
     Returns
     -------
-    tree : Node
-        Expression in known letters
     spelled : dict of str to str
         Known letter to the LaTeX that was written for it; empty for Python syntax
-
-    Raises
-    ------
-    BadInput
-        As for `read`
     """
     known = list(known)
     if len(text) > MAX_TEXT:
@@ -111,15 +72,8 @@ def write(formula: Formula, tree: Node | None = None) -> str:
 
     Parameters
     ----------
-    formula : Formula
-        As read
     tree : Node, optional
         Another tree in the same letters
-
-    Returns
-    -------
-    text : str
-        Python syntax or LaTeX
     """
     tree = formula.tree if tree is None else tree
     return to_latex(tree, formula.spelled) if formula.latex else to_python(tree)
@@ -127,11 +81,6 @@ def write(formula: Formula, tree: Node | None = None) -> str:
 
 def is_latex(text: str) -> bool:
     """Whether a text is LaTeX rather than Python syntax.
-
-    Parameters
-    ----------
-    text : str
-        Text of a formula
 
     Returns
     -------
@@ -148,16 +97,6 @@ def letter_pairs(text: str) -> dict[str, str]:
     ----------
     text : str
         Pairs separated by commas or semicolons
-
-    Returns
-    -------
-    letters : dict of str to str
-        Author's letter to expression
-
-    Raises
-    ------
-    BadInput
-        A part that is not a pair
     """
     found = {}
     for part in filter(None, (p.strip() for p in re.split(r"[,;]", text))):

@@ -1,7 +1,7 @@
 """The repair search: which single edit makes the formula right? Found by search, never entered by hand."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any
 
@@ -17,95 +17,42 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
 from mechsym.audit.question import Question, digit_values, float_values, random_fractions, small_rods
 from mechsym.audit.tree import Node
+from mechsym.quantities import record
 
 SEARCH_DIGITS = 80
 SEARCH_POINTS = 34
 _BEAM = 6
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Examination:
-    """A question with all states at which it is asked, made once.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-    judged : Judges
-        States that decide exactness
-    groups : list of Group
-        States that decide the orders
-    turn : Bench
-        States that measure the error
-    search : dict of str to Bench
-        States of the search by group, made when needed
-    """
+    """A question with all states at which it is asked, made once."""
 
     question: Question
     judged: Judges
     groups: list[Group]
     turn: Bench
-    search: dict[str, Bench] = field(default_factory=dict)
+    search: dict[str, Bench] = field(default_factory=dict)  #: States of the search by group, made when needed
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Repair:
-    """A formula that an edit made better.
-
-    Parameters
-    ----------
-    tree : Node
-        The corrected formula
-    edits : tuple of Edit
-        What was changed, in order
-    exact : bool
-        Whether it is the derived quantity
-    orders : mapping of str to float
-        Order of each group's error
-    max_rel_error : float
-        Largest relative error over a turn [-]
-    """
+    """A formula that an edit made better."""
 
     tree: Node
     edits: tuple[Edit, ...]
-    exact: bool
+    exact: bool  #: Whether it is the derived quantity
     orders: Mapping[str, float]
-    max_rel_error: float
+    max_rel_error: float  #: Largest relative error over a turn [-]
 
 
 def examine(question: Question) -> Examination:
-    """Prepare the states at which a question is asked.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked
-
-    Returns
-    -------
-    examination : Examination
-        All states
-    """
+    """Prepare the states at which a question is asked."""
     return Examination(question=question, judged=judges(question), groups=groups(question), turn=turn(question))
 
 
 def standing(exam: Examination, tree: Node, edits: tuple[Edit, ...] = ()) -> Repair:
-    """How good a formula is as it stands.
-
-    Parameters
-    ----------
-    exam : Examination
-        States
-    tree : Node
-        Expression
-    edits : tuple of Edit
-        How it came about
-
-    Returns
-    -------
-    standing : Repair
-        Exactness, orders and error
-    """
+    """How good a formula is as it stands."""
     exact = is_exact(exam.judged, tree)
     known = {g.name: EXACT for g in exam.groups} if exact else orders(exam.groups, tree)
     return Repair(tree=tree, edits=edits, exact=exact, orders=known, max_rel_error=max_rel_error(exam.turn, tree))
@@ -116,10 +63,6 @@ def repairs(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
 
     Parameters
     ----------
-    exam : Examination
-        States
-    start : Repair
-        The formula as it stands
     insert : bool
         Whether terms and factors that were left out are looked for, rather than slips
 
@@ -136,10 +79,6 @@ def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
 
     Parameters
     ----------
-    exam : Examination
-        States
-    start : Repair
-        The formula as it stands
     insert : bool
         Whether terms and factors that were left out are looked for, rather than slips
 
@@ -192,11 +131,6 @@ def _worst_first(exam: Examination, start: Repair) -> list[Group]:
 def is_sound(repair: Repair) -> bool:
     """Whether every group's leading term is right.
 
-    Parameters
-    ----------
-    repair : Repair
-        A formula's standing
-
     Returns
     -------
     answer : bool
@@ -210,8 +144,6 @@ def search_bench(exam: Examination, group: str) -> Bench:
 
     Parameters
     ----------
-    exam : Examination
-        Keeps what was made
     group : str
         `"exact"` or the name of a group
 
@@ -260,13 +192,6 @@ def _by_simplicity(tree: Node, edits: list[Edit]) -> list[Edit]:
 
 def fingerprint(exam: Examination, tree: Node) -> bytes:
     """What two formulas that are the same function have in common: their values to eight digits.
-
-    Parameters
-    ----------
-    exam : Examination
-        States
-    tree : Node
-        Expression
 
     Returns
     -------

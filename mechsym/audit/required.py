@@ -21,15 +21,6 @@ Required = Mapping[Path, Any]
 def required(asked: Bench, tree: Node, memo: Mapping[Node, Any]) -> Required:
     """Required values of all parts that can be reached.
 
-    Parameters
-    ----------
-    asked : Bench
-        States and the derived quantity
-    tree : Node
-        The formula
-    memo : mapping of Node to array
-        Values of all its parts
-
     Returns
     -------
     required : mapping of path to array, shape (n,)
@@ -53,8 +44,6 @@ def quotient(asked: Bench, above: Any, below: Any) -> Any:
 
     Parameters
     ----------
-    asked : Bench
-        Gives the number system
     above, below : array, shape (n,)
         Values
 

@@ -18,13 +18,6 @@ _SAME = 1e-9
 def rounded_constant(exam: Examination, tree: Node) -> str:
     """Whether one number of the formula, given with all its digits, would make it exact.
 
-    Parameters
-    ----------
-    exam : Examination
-        States
-    tree : Node
-        The formula
-
     Returns
     -------
     note : str

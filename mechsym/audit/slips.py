@@ -15,8 +15,6 @@ def single_edits(tree: Node, siblings: Callable[[str], Sequence[str]]) -> Iterat
 
     Parameters
     ----------
-    tree : Node
-        Expression
     siblings : callable
         Takes a letter and gives the letters it may be mistaken for
 

@@ -29,11 +29,6 @@ _NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A
 def from_greek(text: str) -> str:
     """Replace Greek letters and typographic signs by the names and signs that Python reads.
 
-    Parameters
-    ----------
-    text : str
-        Text of a formula
-
     Returns
     -------
     text : str
@@ -44,44 +39,17 @@ def from_greek(text: str) -> str:
 
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
-    """A letter's plain name from what LaTeX spells out.
-
-    Parameters
-    ----------
-    base : str
-        Letter or command without backslash
-    subscript : str
-        Its subscript
-    dots : int
-        Time derivatives over it
-
-    Returns
-    -------
-    name : str
-        For example `phi0dd`
-    """
+    """A letter's plain name from what LaTeX spells out."""
     return _ALIASES.get(base, base) + re.sub(r"[^A-Za-z0-9]", "", subscript) + "d" * dots
 
 
 def resolve(written: str, known: Iterable[str]) -> str | None:
     """The known letter that a written one means; underscores do not matter.
 
-    Parameters
-    ----------
-    written : str
-        Plain name as read
-    known : iterable of str
-        Known letters
-
     Returns
     -------
     name : str or None
         None when there is no such letter
-
-    Raises
-    ------
-    BadInput
-        Two known letters fit
     """
     known = list(known)
     if written in known:
@@ -93,18 +61,7 @@ def resolve(written: str, known: Iterable[str]) -> str | None:
 
 
 def latex(name: str) -> str:
-    r"""A plain name as LaTeX.
-
-    Parameters
-    ----------
-    name : str
-        Plain name
-
-    Returns
-    -------
-    text : str
-        For example `\ddot{\varphi}_{0}`
-    """
+    r"""A plain name as LaTeX."""
     match = _NAME.fullmatch(name)
     if match is None:
         word = name.replace("_", r"\_")

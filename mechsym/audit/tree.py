@@ -15,18 +15,7 @@ _STEPS = {ast.BinOp: ("left", "right"), ast.UnaryOp: ("operand",), ast.Call: ("a
 
 
 def name(text: str) -> ast.Name:
-    """A letter.
-
-    Parameters
-    ----------
-    text : str
-        Identifier
-
-    Returns
-    -------
-    node : ast.Name
-        The letter as a node
-    """
+    """A letter."""
     return ast.Name(id=text, ctx=ast.Load())
 
 
@@ -35,8 +24,6 @@ def number(value: Fraction | int, decimal: bool = False) -> Node:
 
     Parameters
     ----------
-    value : Fraction or int
-        Exact value
     decimal : bool
         Whether a short decimal is preferred to a fraction bar
 
@@ -56,18 +43,7 @@ def number(value: Fraction | int, decimal: bool = False) -> Node:
 
 
 def negative(node: Node) -> Node:
-    """The negative of an expression; two signs cancel.
-
-    Parameters
-    ----------
-    node : Node
-        Expression
-
-    Returns
-    -------
-    node : Node
-        Its negative
-    """
+    """The negative of an expression; two signs cancel."""
     return node.operand if isinstance(node, ast.UnaryOp) else ast.UnaryOp(op=ast.USub(), operand=node)
 
 
@@ -78,60 +54,22 @@ def binary(operator: type[ast.operator], left: Node, right: Node) -> ast.BinOp:
     ----------
     operator : type
         One of ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow
-    left, right : Node
-        Operands
-
-    Returns
-    -------
-    node : ast.BinOp
-        The operation
     """
     return ast.BinOp(left=left, op=operator(), right=right)
 
 
 def call(function: str, argument: Node) -> ast.Call:
-    """A function of one expression.
-
-    Parameters
-    ----------
-    function : str
-        One of `limits.FUNCTIONS`
-    argument : Node
-        Its argument
-
-    Returns
-    -------
-    node : ast.Call
-        The call
-    """
+    """A function of one expression."""
     return ast.Call(func=name(function), args=[argument], keywords=[])
 
 
 def is_operation(node: Node, *operators: type[ast.operator]) -> bool:
-    """Whether a node is one of the named operations.
-
-    Parameters
-    ----------
-    node : Node
-        Any node
-    *operators : type
-        Operators asked for
-
-    Returns
-    -------
-    answer : bool
-        True when it is
-    """
+    """Whether a node is one of the named operations."""
     return isinstance(node, ast.BinOp) and isinstance(node.op, operators)
 
 
 def function_of(node: Node) -> str | None:
     """Name of the function that a node calls.
-
-    Parameters
-    ----------
-    node : Node
-        Any node
 
     Returns
     -------
@@ -143,11 +81,6 @@ def function_of(node: Node) -> str | None:
 
 def value_of(node: Node) -> Fraction | None:
     """Exact value of a number, a negative number or a quotient of numbers.
-
-    Parameters
-    ----------
-    node : Node
-        Any node
 
     Returns
     -------
@@ -166,38 +99,14 @@ def value_of(node: Node) -> Fraction | None:
 
 
 def children(node: Node) -> list[tuple[str, Node]]:
-    """Steps to the operands of a node.
-
-    Parameters
-    ----------
-    node : Node
-        Any node
-
-    Returns
-    -------
-    children : list of (str, Node)
-        Empty for letters and numbers
-    """
+    """Steps to the operands of a node."""
     if isinstance(node, ast.Call):
         return [("argument", argument) for argument in node.args[:1]]
     return [(step, getattr(node, step)) for step in _STEPS.get(type(node), ())]
 
 
 def walk(tree: Node) -> Iterator[tuple[Path, Node]]:
-    """Every node with the path to it, a node before its operands.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-
-    Yields
-    ------
-    path : tuple of str
-        Steps from the root
-    node : Node
-        The node there
-    """
+    """Every node with the path to it, a node before its operands."""
     waiting: list[tuple[Path, Node]] = [((), tree)]
     while waiting:
         path, node = waiting.pop()
@@ -206,42 +115,14 @@ def walk(tree: Node) -> Iterator[tuple[Path, Node]]:
 
 
 def at(tree: Node, path: Path) -> Node:
-    """The node at the end of a path.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-    path : tuple of str
-        Steps from the root
-
-    Returns
-    -------
-    node : Node
-        The node there
-    """
+    """The node at the end of a path."""
     for step in path:
         tree = dict(children(tree))[step]
     return tree
 
 
 def replace(tree: Node, path: Path, new: Node) -> Node:
-    """The tree with one node replaced; the rest is shared.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-    path : tuple of str
-        Where the new node goes
-    new : Node
-        The new node
-
-    Returns
-    -------
-    tree : Node
-        A new tree
-    """
+    """The tree with one node replaced; the rest is shared."""
     if not path:
         return new
     below = replace(dict(children(tree))[path[0]], path[1:], new)
@@ -260,15 +141,8 @@ def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
 
     Parameters
     ----------
-    tree : Node
-        Expression
     change : callable
         Takes a node, gives the new node or None to keep it and look at its operands
-
-    Returns
-    -------
-    tree : Node
-        A new tree
     """
     new = change(tree)
     if new is not None:
@@ -281,16 +155,5 @@ def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
 
 
 def letters(tree: Node) -> list[str]:
-    """Letters of an expression in the order of their first use.
-
-    Parameters
-    ----------
-    tree : Node
-        Expression
-
-    Returns
-    -------
-    names : list of str
-        Without repetition
-    """
+    """Letters of an expression in the order of their first use."""
     return list(dict.fromkeys(node.id for _, node in walk(tree) if isinstance(node, ast.Name)))

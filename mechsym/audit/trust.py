@@ -1,32 +1,24 @@
 """How far the auditor itself can be trusted: mutation tests over all formulas of the registry."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
 
 from mechsym.audit.entries import Printed, Source
 from mechsym.audit.findings import Row, question_of
 from mechsym.audit.mutants import Kills, Returns, kills, returns, total_kills, total_returns
+from mechsym.quantities import record
 
 # how often a formula of each verdict is spoiled; approximate ones take longer and say the same
 _SPOILED = {"exact": 4, "approximate": 2}
 _LARGEST = 260  # characters of a formula that is spoiled: longer ones only take time
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Trust:
-    """Results of the mutation tests.
-
-    Parameters
-    ----------
-    kills : Kills
-        Mutants of exact formulas
-    returns : Returns
-        Spoiled formulas, exact and approximate ones
-    """
+    """Results of the mutation tests."""
 
     kills: Kills
-    returns: Returns
+    returns: Returns  #: Spoiled formulas, exact and approximate ones
 
 
 def trust(sources: Iterable[Source], rows: list[Row], done: Callable[[], Any] = lambda: None) -> Trust:
@@ -34,17 +26,8 @@ def trust(sources: Iterable[Source], rows: list[Row], done: Callable[[], Any] = 
 
     Parameters
     ----------
-    sources : iterable of Source
-        The registry
     rows : list of dict
         Its verdicts, in the same order
-    done : callable, optional
-        Called after each entry
-
-    Returns
-    -------
-    trust : Trust
-        Totals
     """
     entries = [entry for source in sources for entry in source.entries]
     refuted, returned = [], []
@@ -61,11 +44,6 @@ def trust(sources: Iterable[Source], rows: list[Row], done: Callable[[], Any] = 
 
 def lines(found: Trust) -> list[str]:
     """The results in words.
-
-    Parameters
-    ----------
-    found : Trust
-        Results
 
     Returns
     -------

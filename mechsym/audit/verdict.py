@@ -1,7 +1,7 @@
 """The decision: exact, approximate, misprint (with the edit that repairs it) or wrong."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import mpmath
@@ -17,60 +17,29 @@ from mechsym.audit.question import Question
 from mechsym.audit.repair import Examination, Repair, better, examine, repairs, standing
 from mechsym.audit.rounding import rounded_constant
 from mechsym.audit.tree import Node, letters
+from mechsym.quantities import record
 
 _BEAM = 6
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Verdict:
-    """What the audit says of one formula, with its evidence.
-
-    Parameters
-    ----------
-    verdict : str
-        `exact`, `approximate`, `misprint` or `wrong`
-    max_rel_error : float
-        Largest relative error over a turn at the source's data [-]
-    order : int or None
-        Order of the first neglected power of lambda; None when exact or without a small parameter
-    orders : mapping of str to float
-        The same by group
-    repairs : tuple of Repair
-        Corrected formulas, the most plausible first
-    certificate : str
-        What proves an exact formula: `polynomial` or `50 digits`
-    dimensions : bool
-        Whether the formula rescales with mass, length and time as the quantity does
-    counterexample : mapping of str to float
-        State with the largest error, and both values; empty for an exact formula
-    note : str
-        Remarks of the reader and of the decision
-    """
+    """What the audit says of one formula, with its evidence."""
 
     verdict: str
-    max_rel_error: float
-    order: int | None
+    max_rel_error: float  #: Largest relative error over a turn at the source's data [-]
+    order: int | None  #: Order of the first neglected power of lambda; None when exact or without a small parameter
     orders: Mapping[str, float]
-    repairs: tuple[Repair, ...] = ()
-    certificate: str = ""
-    dimensions: bool = True
+    repairs: tuple[Repair, ...] = ()  #: Corrected formulas, the most plausible first
+    certificate: str = ""  #: What proves an exact formula: `polynomial` or `50 digits`
+    dimensions: bool = True  #: Whether the formula rescales with mass, length and time as the quantity does
+    #: State with the largest error, and both values; empty for an exact formula
     counterexample: Mapping[str, float] = field(default_factory=dict)
-    note: str = ""
+    note: str = ""  #: Remarks of the reader and of the decision
 
 
 def decide(question: Question) -> Verdict:
-    """Compare a printed formula with the derived quantity.
-
-    Parameters
-    ----------
-    question : Question
-        Formula, theory and quantity
-
-    Returns
-    -------
-    verdict : Verdict
-        Decision and evidence
-    """
+    """Compare a printed formula with the derived quantity."""
     exam = examine(question)
     start = standing(exam, question.formula.tree)
     if start.exact:
@@ -87,17 +56,8 @@ def search(exam: Examination, start: Repair) -> tuple[str, list[Repair]]:
     A slip that one edit mends is a misprint even if the rest is an honest approximation; only what is neither is
     searched for lost terms and factors, since every truncation lacks those.
 
-    Parameters
-    ----------
-    exam : Examination
-        States
-    start : Repair
-        The formula as it stands
-
     Returns
     -------
-    verdict : str
-        `misprint`, `approximate` or `wrong`
     repairs : list of Repair
         For a misprint, the most plausible first
     """

@@ -16,45 +16,25 @@ from typing import Any
 from mechsym.cases import schema
 from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.quantities import record
 
 _HEAD = ("mechanism", "source", "about")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Case:
-    """A data set for one mechanism.
+    """A data set for one mechanism."""
 
-    Parameters
-    ----------
-    name : str
-        Name of a built-in case, or the file's stem
-    file : str
-        Where it was read, for messages
-    mechanism, source, about : str
-        Mechanism's name, the source's file stem, one line of text
-    sections : mapping of str to record
-        Section name to its checked record
-    """
-
-    name: str
-    file: str
+    name: str  #: Name of a built-in case, or the file's stem
+    file: str  #: Where it was read, for messages
+    #: Mechanism's name, the source's file stem, one line of text
     mechanism: str
     source: str
     about: str
-    sections: Mapping[str, Any]
+    sections: Mapping[str, Any]  #: Section name to its checked record
 
     def need(self, section: str) -> Any:
         """The record of a section that the caller cannot do without.
-
-        Parameters
-        ----------
-        section : str
-            Name of the section
-
-        Returns
-        -------
-        record : dataclass instance
-            The section's record
 
         Raises
         ------
@@ -67,13 +47,7 @@ class Case:
 
 
 def names() -> list[str]:
-    """Names of the built-in cases.
-
-    Returns
-    -------
-    names : list of str
-        Sorted names
-    """
+    """Names of the built-in cases."""
     return sorted(p.name.removesuffix(".toml") for p in _folder().iterdir() if p.name.endswith(".toml"))
 
 
@@ -84,11 +58,6 @@ def text(name: str) -> str:
     ----------
     name : str
         Name of a built-in case or a path
-
-    Returns
-    -------
-    text : str
-        Its text
 
     Raises
     ------
@@ -107,11 +76,6 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
         Name of a built-in case or a path to a TOML file
     overrides : mapping, optional
         Values to replace, by dotted key; a bare key works if it is unique
-
-    Returns
-    -------
-    case : Case
-        Checked records by section
 
     Raises
     ------
@@ -135,15 +99,8 @@ def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, opti
         Name of a built-in case or a path to a TOML file
     key : str
         Dotted key; a bare key works if it is unique
-    overrides : mapping, optional
-        Values that are replaced before
     option : str
         Where the key was written, for messages
-
-    Returns
-    -------
-    place : Place
-        Section, field and unit
 
     Raises
     ------

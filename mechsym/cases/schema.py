@@ -112,11 +112,6 @@ def sections() -> list[str]:
 def selector(section: str) -> str | None:
     """The key that chooses a section's variant.
 
-    Parameters
-    ----------
-    section : str
-        Name of the section
-
     Returns
     -------
     key : str or None
@@ -133,22 +128,8 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
     ----------
     mechanism : str
         Name of the mechanism, which decides `[parameters]`
-    section : str
-        Name of the section
     table : dict
         The section's raw values, read for its selector
-
-    Returns
-    -------
-    cls : type
-        A frozen dataclass
-
-    Raises
-    ------
-    KeyError
-        No such section
-    BadInput
-        Unknown mechanism, or a missing or unknown variant
     """
     if section == "parameters":
         from mechsym.mechanisms import parameters_class

@@ -8,7 +8,7 @@ from typing import Any, get_args, get_origin
 
 from mechsym.cases import schema
 from mechsym.errors import BadInput, shown, suggest
-from mechsym.quantities import parse, units
+from mechsym.quantities import parse, record, units
 
 _WORDS = {str: "a text", int: "a whole number", bool: "true or false"}
 
@@ -18,8 +18,6 @@ def convert(field: dataclasses.Field, value: Any, key: str) -> Any:
 
     Parameters
     ----------
-    field : dataclasses.Field
-        Field of a record
     value : object
         Text, number or list of them
     key : str
@@ -29,11 +27,6 @@ def convert(field: dataclasses.Field, value: Any, key: str) -> Any:
     -------
     value : object
         Of the field's type; a list becomes a tuple
-
-    Raises
-    ------
-    BadInput
-        Another type, another dimension, or a list where one value is wanted, or the reverse
     """
     kinds = get_args(field.type) if isinstance(field.type, UnionType) else (field.type,)
     lists = [k for k in kinds if get_origin(k) is tuple]
@@ -60,8 +53,6 @@ def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) 
 
     Parameters
     ----------
-    key : str
-        For example `speed_rpm`
     value : object
         A number, or a list of numbers
     fields : mapping of str to dataclasses.Field
@@ -71,8 +62,6 @@ def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) 
     -------
     key : str
         Name of a field, or the key as it is
-    value : object
-        With its unit
     """
     stem, _, unit = key.rpartition("_")
     if key in fields or unit not in units() or "unit" not in getattr(fields.get(stem), "metadata", ()):
@@ -80,24 +69,14 @@ def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) 
     return stem, [f"{item} {unit}" for item in value] if isinstance(value, list) else f"{value} {unit}"
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Place:
-    """Where a key belongs in a case.
-
-    Parameters
-    ----------
-    section, field : str
-        The record and its field
-    unit : str or None
-        SI unit of a number, None for a word
-    written : str
-        Unit that the key itself names, as in `speed_rpm`; empty when it names none
-    """
+    """Where a key belongs in a case."""
 
     section: str
     field: str
-    unit: str | None
-    written: str
+    unit: str | None  #: SI unit of a number, None for a word
+    written: str  #: Unit that the key itself names, as in `speed_rpm`; empty when it names none
 
 
 def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Place:
@@ -105,24 +84,10 @@ def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Plac
 
     Parameters
     ----------
-    tables : dict
-        Sections with their raw values
-    mechanism : str
-        Name of the mechanism
     key : str
         Dotted key; a bare key works if it is unique
     option : str
         Where the key was written, for messages
-
-    Returns
-    -------
-    place : Place
-        Section, field and unit
-
-    Raises
-    ------
-    BadInput
-        Unknown or ambiguous key
     """
     section, dot, name = key.partition(".")
     if not dot:
@@ -148,17 +113,8 @@ def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> No
     ----------
     tables : dict
         Sections with their raw values; changed in place
-    mechanism : str
-        Name of the mechanism
     key : str
         Dotted key; a bare key works if it is unique
-    value : object
-        Text or number
-
-    Raises
-    ------
-    BadInput
-        Unknown or ambiguous key
     """
     section, dot, name = key.partition(".")
     if not dot:

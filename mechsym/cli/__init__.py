@@ -31,29 +31,11 @@ class LazyGroup(click.Group):
     """A group that knows its commands by name and imports a command's module on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Names of all commands.
-
-        Parameters
-        ----------
-        ctx : click.Context
-            Context of the call
-
-        Returns
-        -------
-        names : list of str
-            Sorted command names
-        """
+        """Names of all commands."""
         return sorted(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of that name.
-
-        Parameters
-        ----------
-        ctx : click.Context
-            Context of the call
-        cmd_name : str
-            Name of the command
 
         Returns
         -------

@@ -24,8 +24,6 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
 
     Parameters
     ----------
-    texts : tuple of str
-        Values of a repeatable option
     option : str
         The option's name, for the message
 
@@ -50,8 +48,6 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
     ----------
     value : object
         The result with its documented keys
-    as_json : bool
-        Whether JSON was asked for
     text : callable
         Makes the text for people; called only when needed
     """
@@ -60,13 +56,6 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
 
 def progress(total: int, label: str) -> Any:
     """A progress bar on standard error, silent when that is no terminal.
-
-    Parameters
-    ----------
-    total : int
-        Number of steps
-    label : str
-        What is going on
 
     Returns
     -------
@@ -78,13 +67,6 @@ def progress(total: int, label: str) -> Any:
 
 def table(rows: list[dict[str, Any]], columns: list[str]) -> str:
     """Rows as an aligned text table.
-
-    Parameters
-    ----------
-    rows : list of dict
-        Values by column name
-    columns : list of str
-        Columns to show, in order
 
     Returns
     -------

@@ -12,14 +12,8 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
 
     Parameters
     ----------
-    case : Case
-        With a spark-ignition cycle
     cycles : float
         Engine cycles to run [-]
-    as_json : bool
-        Whether JSON was asked for
-    out : Path or None
-        Folder for `loop.csv`
     """
     from mechsym.files import write_csv
     from mechsym.jobs.loop import loop

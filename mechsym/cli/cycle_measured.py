@@ -15,10 +15,6 @@ def show(case: Any, diagram: str | None, as_json: bool, out: Path | None) -> Non
         With a cycle of kind `diagram`, or any cycle that a diagram replaces
     diagram : str or None
         CSV file in place of the case's
-    as_json : bool
-        Whether JSON was asked for
-    out : Path or None
-        Folder for `combustion.csv`
     """
     from mechsym.files import write_csv
     from mechsym.jobs.measured import measured_combustion, summary

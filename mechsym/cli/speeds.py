@@ -10,22 +10,10 @@ _MOST_SPEEDS = 100_000
 def parse_speeds(text: str, option: str = "--speeds") -> list[float]:
     """Speeds from A:B:STEP or a list with commas, in rpm.
 
-    Parameters
-    ----------
-    text : str
-        `500:8000:500`, `2000` or `1000,2000`
-    option : str
-        The option's name, for messages
-
     Returns
     -------
     omega : list of float
         Crank speeds [rad/s]
-
-    Raises
-    ------
-    BadInput
-        Not numbers, not positive, or too many
     """
     from mechsym.quantities import parse
 
@@ -57,15 +45,8 @@ def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
 
     Returns
     -------
-    name : str
-        Dotted name
     values : list of float
         In the SI unit of the name [-]
-
-    Raises
-    ------
-    BadInput
-        Unknown name, or no range
     """
     from mechsym.quantities import parse
 

@@ -14,7 +14,6 @@ Every attribute of a `Chamber` may be a number or a CasADi expression: the same 
 model that is differentiated.
 """
 
-import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,91 +21,54 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Motion:
-    """How one piston moves with the crank.
-
-    Parameters
-    ----------
-    name : str
-        Name of the mechanism
-    function : casadi.Function
-        (phi, parameters (k,)) -> x [m], dx_dphi [m/rad], d2x_dphi2 [m/rad^2]; scalars, mapped over columns
-    parameters : mapping of str to float
-        The k parameters in the order of the function's second input
-    masses : tuple of str
-        Parameters whose sum is the mass that moves with one piston
-    bottom : float
-        Crank angle of bottom dead centre, pi for every mechanism without offset [rad]
-    loads : casadi.Function or None
-        (phi, parameters (k,), omega [rad/s], F [N]) -> named loads of the mechanism at constant speed under the net
-        pressure force F on the piston
-    """
+    """How one piston moves with the crank."""
 
     name: str
+    #: (phi, parameters (k,)) -> x [m], dx_dphi [m/rad], d2x_dphi2 [m/rad^2]; scalars, mapped over columns
     function: ca.Function
-    parameters: Mapping[str, Any]
-    masses: tuple[str, ...]
-    bottom: float = np.pi
+    parameters: Mapping[str, Any]  #: The k parameters in the order of the function's second input
+    masses: tuple[str, ...]  #: Parameters whose sum is the mass that moves with one piston
+    bottom: float = np.pi  #: Crank angle of bottom dead centre, pi for every mechanism without offset [rad]
+    #: (phi, parameters (k,), omega [rad/s], F [N]) -> named loads of the mechanism at constant speed under the net
+    #: pressure force F on the piston
     loads: ca.Function | None = None
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ChamberParameters:
-    """Section `[chamber]` of a case.
-
-    Parameters
-    ----------
-    bore : float
-        Cylinder bore [m]
-    compression_ratio : float
-        Largest over smallest volume [-]
-    pistons : float
-        Pistons that bound the chamber: 1 under a head, or 2 opposed [-]
-    back_pressure : float
-        Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]
-    """
+    """Section `[chamber]` of a case."""
 
     bore: float = quantity("m", above=0, about="cylinder bore")
     compression_ratio: float = quantity("-", above=1, high=60, about="largest over smallest volume")
+    #: Pistons that bound the chamber: 1 under a head, or 2 opposed [-]
     pistons: float = quantity("-", default=1, about="1 under a head, or 2 opposed")
+    #: Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]
     back_pressure: float = quantity("Pa", default=101325.0, low=0, about="absolute pressure behind the piston")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.pistons not in (1, 2):
             raise BadInput(f"pistons = {self.pistons:g} is not an option; options are 1 (under a head), 2 (opposed)")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Chamber:
-    """A chamber of given size on a given motion; attributes are numbers or CasADi expressions.
-
-    Parameters
-    ----------
-    motion : Motion
-        Motion of one piston
-    pistons : int
-        Pistons that bound the chamber
-    bore, area, stroke : float
-        Bore [m], area [m^2] and stroke [m] of one piston
-    clearance, displacement : float
-        Smallest volume, and swept volume of all pistons together [m^3]
-    back_pressure : float
-        Absolute pressure on the other side of the piston [Pa]
-    """
+    """A chamber of given size on a given motion; attributes are numbers or CasADi expressions."""
 
     motion: Motion
     pistons: int
+    #: Bore [m], area [m^2] and stroke [m] of one piston
     bore: Any
     area: Any
     stroke: Any
+    #: Smallest volume, and swept volume of all pistons together [m^3]
     clearance: Any
     displacement: Any
-    back_pressure: Any
+    back_pressure: Any  #: Absolute pressure on the other side of the piston [Pa]
 
 
 def chamber(parameters: Any, motion: Motion) -> Chamber:
@@ -118,13 +80,6 @@ def chamber(parameters: Any, motion: Motion) -> Chamber:
     ----------
     parameters : ChamberParameters
         Bore, compression ratio, pistons; or any object with these attributes, which may be CasADi expressions
-    motion : Motion
-        Motion of one piston
-
-    Returns
-    -------
-    chamber : Chamber
-        Areas and volumes filled in
     """
     area = np.pi / 4 * parameters.bore**2
     stroke = travel(motion, motion.bottom)[0]
@@ -141,8 +96,6 @@ def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
 
     Parameters
     ----------
-    motion : Motion
-        Motion of one piston
     phi : float, ndarray of any shape, or CasADi scalar
         Crank angle from top dead centre [rad]
 
@@ -172,8 +125,6 @@ def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
 
     Parameters
     ----------
-    chamber : Chamber
-        The chamber
     phi : float, ndarray or CasADi scalar
         Crank angle from top dead centre [rad]
 
@@ -191,11 +142,6 @@ def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
 def moving_mass(motion: Motion) -> Any:
     """Mass that moves with one piston.
 
-    Parameters
-    ----------
-    motion : Motion
-        Motion of one piston
-
     Returns
     -------
     mass : float or CasADi expression
@@ -211,8 +157,6 @@ def wall_area(chamber: Chamber, v: Any) -> Any:
 
     Parameters
     ----------
-    chamber : Chamber
-        The chamber
     v : float, ndarray or CasADi scalar
         Volume of the chamber [m^3]
 
@@ -235,8 +179,6 @@ def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
 
     Parameters
     ----------
-    chamber : Chamber
-        The chamber
     phi : float, ndarray or CasADi scalar
         Crank angle from top dead centre [rad]
     omega : float or ndarray
@@ -258,18 +200,7 @@ def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
 
 
 def check_motion(motion: Motion) -> None:
-    """Refuse a motion whose dead centres are not where the chamber expects them.
-
-    Parameters
-    ----------
-    motion : Motion
-        With numbers for parameters
-
-    Raises
-    ------
-    BadInput
-        x(0) is not 0, x is negative somewhere, or x has no dead centre at `bottom`
-    """
+    """Refuse a motion whose dead centres are not where the chamber expects them."""
     x, dx, _ = travel(motion, np.append(np.linspace(0.0, 2 * np.pi, 181), motion.bottom))
     stroke = x.max()
     if not stroke > 0 or abs(x[0]) > 1e-9 * stroke or x.min() < -1e-9 * stroke:

@@ -10,7 +10,6 @@ r"""The cylinder: all that the gas knows of the mechanism.
 phi = 0 at (firing) top dead centre, x from the head towards the crank.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
@@ -18,31 +17,19 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Cylinder:
-    """Bore, clearance and the piston's travel.
-
-    Parameters
-    ----------
-    bore, stroke : float
-        Diameter of the piston and its travel between the dead centres [m]
-    compression_ratio : float
-        Geometric: largest volume by smallest volume [-]
-    x, dx_dphi : callable
-        Travel from top dead centre and its derivative: ndarray of phi [rad] to an ndarray of its shape [m], [m/rad]
-    """
+    """Bore, clearance and the piston's travel."""
 
     bore: float = quantity("m", above=0, about="diameter of the piston")
     stroke: float = quantity("m", above=0, about="travel between the dead centres")
     compression_ratio: float = quantity("-", above=1, about="largest volume by smallest volume")
+    #: Travel from top dead centre and its derivative: ndarray of phi [rad] to an ndarray of its shape [m], [m/rad]
     x: Callable[[Any], Any]
     dx_dphi: Callable[[Any], Any]
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def piston_area(bore: float) -> float:
@@ -67,11 +54,6 @@ def swept_volume(cylinder: Cylinder) -> float:
     r"""Volume between the dead centres.
 
     .. math:: V_d = A\,\mathrm{stroke}
-
-    Parameters
-    ----------
-    cylinder : Cylinder
-        Bore and stroke
 
     Returns
     -------
@@ -106,8 +88,6 @@ def volume(cylinder: Cylinder, phi: Any) -> Any:
 
     Parameters
     ----------
-    cylinder : Cylinder
-        Geometry
     phi : float or ndarray
         Crank angle from top dead centre [rad]
 
@@ -126,8 +106,6 @@ def dvolume_dphi(cylinder: Cylinder, phi: Any) -> Any:
 
     Parameters
     ----------
-    cylinder : Cylinder
-        Geometry
     phi : float or ndarray
         Crank angle from top dead centre [rad]
 

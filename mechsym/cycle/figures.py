@@ -38,11 +38,6 @@ def two_stroke_columns(case: Case, omega: np.ndarray) -> dict[str, Any]:
     columns : dict
         As `cycle.columns`, of one cylinder; consumption, efficiency and shares are nan for the algebraic cycle, which
         knows no fuel
-
-    Raises
-    ------
-    BadInput
-        A cycle of another kind
     """
     if not isinstance(case.need("cycle"), (TwoStrokeMarine, TwoStrokeZone)):
         raise BadInput(

@@ -1,17 +1,16 @@
 r"""Friction mean pressure by a named correlation, for brake figures where the mechanism itself declares no friction."""
 
-import dataclasses
 from typing import Any
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class NoFriction:
     """Section `[friction_pressure]`, `law = "none"`: brake figures equal indicated figures."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class MechanismFriction:
     """Section `[friction_pressure]`, `law = "mechanism"`: Chen and Flynn's form fitted to the friction of the joints.
 
@@ -19,47 +18,26 @@ class MechanismFriction:
     """
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ChenFlynn:
-    """Section `[friction_pressure]`, `law = "chen_flynn"`.
+    """Section `[friction_pressure]`, `law = "chen_flynn"`."""
 
-    Parameters
-    ----------
-    constant : float
-        Part that is always there [Pa]
-    per_peak_pressure : float
-        Part of the peak pressure [-]
-    per_speed : float
-        Part proportional to the mean piston speed [Pa*s/m]
-    per_speed_squared : float
-        Part proportional to its square [Pa*s^2/m^2]
-    """
-
+    #: Part that is always there [Pa]
     constant: float = quantity("Pa", default=0.4e5, low=0, about="constant part")
     per_peak_pressure: float = quantity("-", default=0.005, low=0, about="share of the peak pressure")
+    #: Part proportional to the mean piston speed [Pa*s/m]
     per_speed: float = quantity("Pa*s/m", default=0.09e5, low=0, about="per mean piston speed")
     per_speed_squared: float = quantity("Pa*s^2/m^2", default=0.0009e5, low=0, about="per its square")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Heywood:
-    """Section `[friction_pressure]`, `law = "heywood"`: motored four-cylinder spark-ignition engines, 0.8 to 2 litres.
+    """`[friction_pressure] law = "heywood"`: motored four-cylinder spark-ignition engines of 0.8 to 2 litres."""
 
-    Parameters
-    ----------
-    constant, per_speed, per_speed_squared : float
-        fmep = constant + per_speed n + per_speed_squared n^2 [Pa], n in 1000 rpm
-    """
-
+    #: fmep = constant + per_speed n + per_speed_squared n^2 [Pa], n in 1000 rpm
     constant: float = quantity("Pa", default=0.97e5, low=0, about="constant part")
     per_speed: float = quantity("Pa", default=0.15e5, low=0, about="per 1000 rpm")
     per_speed_squared: float = quantity("Pa", default=0.05e5, low=0, about="per (1000 rpm)^2")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 Friction = NoFriction | ChenFlynn | Heywood
@@ -74,8 +52,6 @@ def friction_pressure(law: Friction, p_max: Any, piston_speed: Any, omega: Any) 
 
     Parameters
     ----------
-    law : NoFriction, ChenFlynn or Heywood
-        Correlation and its coefficients
     p_max : float, ndarray or CasADi expression
         Peak pressure [Pa]
     piston_speed : float, ndarray or CasADi expression

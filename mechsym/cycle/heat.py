@@ -4,13 +4,12 @@ Each law is a record of its coefficients; `heat_flux` gives the flux in W/m^2. T
 arithmetic, so numbers, arrays and CasADi expressions all pass through.
 """
 
-import dataclasses
 from typing import Any, NamedTuple
 
 import casadi as ca
 
 from mechsym.cycle.mixture import conductivity, viscosity
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
 class GasState(NamedTuple):
@@ -29,76 +28,38 @@ class GasState(NamedTuple):
     swirl: Any = 0.0
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Annand:
-    """Section `[heat_transfer]`, `law = "annand"`: Nu = a Re^b and radiation.
-
-    Parameters
-    ----------
-    wall_temperature : float
-        Mean temperature of the walls [K]
-    a : float
-        Factor of the Nusselt number, 0.49 for four-stroke, 0.26 for two-stroke engines [-]
-    exponent : float
-        Exponent of the Reynolds number [-]
-    radiation : float
-        Factor of T^4 - T_w^4; 4.25e-9 for spark ignition, of order 3e-8 for compression ignition [W/(m^2*K^4)]
-    """
+    """Section `[heat_transfer]`, `law = "annand"`: Nu = a Re^b and radiation."""
 
     wall_temperature: float = quantity("K", above=0, about="mean wall temperature")
+    #: Factor of the Nusselt number, 0.49 for four-stroke, 0.26 for two-stroke engines [-]
     a: float = quantity("-", default=0.49, low=0, about="factor of the Nusselt number")
     exponent: float = quantity("-", default=0.7, above=0, below=1.5, about="exponent of the Reynolds number")
+    #: Factor of T^4 - T_w^4; 4.25e-9 for spark ignition, of order 3e-8 for compression ignition [W/(m^2*K^4)]
     radiation: float = quantity("W/m^2/K^4", default=4.25e-9, low=0, about="radiation factor")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Woschni:
-    """Section `[heat_transfer]`, `law = "woschni"`.
-
-    Parameters
-    ----------
-    wall_temperature : float
-        Mean temperature of the walls [K]
-    c1 : float
-        Gas velocity over mean piston speed while the valves are closed [-]
-    c2 : float
-        Gas velocity by combustion [m/(s*K)]
-    """
+    """Section `[heat_transfer]`, `law = "woschni"`."""
 
     wall_temperature: float = quantity("K", above=0, about="mean wall temperature")
+    #: Gas velocity over mean piston speed while the valves are closed [-]
     c1: float = quantity("-", default=2.28, low=0, about="gas velocity over mean piston speed")
     c2: float = quantity("m/s/K", default=3.24e-3, low=0, about="gas velocity by combustion")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Hohenberg:
-    """Section `[heat_transfer]`, `law = "hohenberg"`.
-
-    Parameters
-    ----------
-    wall_temperature : float
-        Mean temperature of the walls [K]
-    c1 : float
-        Factor, p in bar [-]
-    c2 : float
-        Velocity added to the mean piston speed [m/s]
-    """
+    """Section `[heat_transfer]`, `law = "hohenberg"`."""
 
     wall_temperature: float = quantity("K", above=0, about="mean wall temperature")
     c1: float = quantity("-", default=130.0, low=0, about="factor, pressure in bar")
     c2: float = quantity("m/s", default=1.4, low=0, about="velocity added to the mean piston speed")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Adiabatic:
     """Section `[heat_transfer]`, `law = "none"`: no heat is lost."""
 
@@ -115,13 +76,6 @@ def heat_flux(law: Law, state: GasState) -> Any:
         \text{Woschni:}\quad & q = 3.26\,B^{-0.2} p_{kPa}^{0.8} T^{-0.55} w^{0.8} (T - T_w), \quad
             w = C_1 \bar S_p + C_2 \frac{V_d T_r}{p_r V_r}(p - p_0) \\
         \text{Hohenberg:}\quad & q = C_1 V^{-0.06} p_{bar}^{0.8} T^{-0.4} (\bar S_p + C_2)^{0.8} (T - T_w)
-
-    Parameters
-    ----------
-    law : Annand, Woschni, Hohenberg or Adiabatic
-        Law and its coefficients
-    state : GasState
-        The gas
 
     Returns
     -------
@@ -154,8 +108,6 @@ def motored_swirl(law: Law, p: Any, p_motored: Any, scale: Any) -> Any:
 
     Parameters
     ----------
-    law : Annand, Woschni, Hohenberg or Adiabatic
-        The law in use
     p, p_motored : float or CasADi expression
         Pressure, and pressure of the motored cycle at the same volume [Pa]
     scale : float or CasADi expression

@@ -5,12 +5,11 @@ internal energy u, heat capacity c_v = du/dT, du/dX at constant T, and gas const
 298.15 K (NASA) or at 0 K (constant gamma); the heat of combustion enters the cycle as heat release.
 """
 
-import dataclasses
 from typing import Any, NamedTuple
 
 import casadi as ca
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 UNIVERSAL = 8.31446261815324  # [J/(mol K)], CODATA 2018, exact
 T_REFERENCE = 298.15  # zero of the sensible energies [K]
@@ -40,42 +39,22 @@ class Properties(NamedTuple):
     gas_constant: Any
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ConstantGamma:
-    """Section `[gas]`, `model = "constant_gamma"`: a perfect gas.
-
-    Parameters
-    ----------
-    gas_constant : float
-        Specific gas constant [J/(kg*K)]
-    gamma : float
-        Ratio of heat capacities [-]
-    """
+    """Section `[gas]`, `model = "constant_gamma"`: a perfect gas."""
 
     gas_constant: float = quantity("J/kg/K", default=287.0, above=0, about="specific gas constant")
     gamma: float = quantity("-", default=1.4, above=1, high=5 / 3, about="ratio of heat capacities")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class NasaMixture:
-    """Section `[gas]`, `model = "nasa"`: air that turns into the products of complete combustion of CH_y.
+    """Section `[gas]`, `model = "nasa"`: air that turns into the products of complete combustion of CH_y."""
 
-    Parameters
-    ----------
-    hydrogen_carbon : float
-        Atoms of hydrogen per atom of carbon in the fuel, y [-]
-    excess_air : float
-        Air over stoichiometric air; below 1 products would hold carbon monoxide, which is left out [-]
-    """
-
+    #: Atoms of hydrogen per atom of carbon in the fuel, y [-]
     hydrogen_carbon: float = quantity("-", default=1.87, low=0, high=4, about="H atoms per C atom in the fuel")
+    #: Air over stoichiometric air; below 1 products would hold carbon monoxide, which is left out [-]
     excess_air: float = quantity("-", default=1.0, low=1, about="air over stoichiometric air")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def properties(gas: ConstantGamma | NasaMixture, t: Any, burnt: Any) -> Properties:
@@ -86,8 +65,6 @@ def properties(gas: ConstantGamma | NasaMixture, t: Any, burnt: Any) -> Properti
 
     Parameters
     ----------
-    gas : ConstantGamma or NasaMixture
-        Model and its data
     t : float or CasADi expression
         Temperature [K]
     burnt : float or CasADi expression

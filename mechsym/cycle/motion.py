@@ -27,18 +27,11 @@ def motion(name: str, parameters: Mapping[str, float]) -> Motion:
     ----------
     name : str
         Name of a mechanism with one coordinate and a piston
-    parameters : mapping of str to float
-        Values of all its parameters
 
     Returns
     -------
     motion : Motion
         Travel and its derivatives, and the loads that limit a design
-
-    Raises
-    ------
-    BadInput
-        The mechanism has no piston of known mass
     """
     if name not in _PISTONS:
         raise BadInput(f"mechanism {name!r} has no piston for an engine cycle; use {', '.join(sorted(_PISTONS))}")

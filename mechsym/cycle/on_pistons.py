@@ -26,61 +26,35 @@ from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.quantities import record
 
 _STEP = math.radians(0.25)  # of the tabulated cycle
 _DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Gas:
-    """Pressure on one piston over the angle from its firing dead centre.
+    """Pressure on one piston over the angle from its firing dead centre."""
 
-    Parameters
-    ----------
-    absolute : callable
-        Angle, ndarray, to absolute pressure [Pa]
-    p_back : float
-        Absolute pressure on the other side of the piston [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-    bore, area, stroke : float
-        Of one piston [m], [m^2], [m]
-    compression_ratio : float
-        Largest over smallest volume of one cylinder [-]
-    facts : tuple of str
-        What was assumed, one sentence each
-    kinks : tuple of float
-        Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
-    """
-
-    absolute: Callable[[Any], Any]
-    p_back: float
-    period: float
-    bore: float
-    area: float
-    stroke: float
-    compression_ratio: float
-    facts: tuple[str, ...]
+    absolute: Callable[[Any], Any]  #: Angle, ndarray, to absolute pressure [Pa]
+    p_back: float  #: Absolute pressure on the other side of the piston [Pa]
+    period: float  #: 2 pi or 4 pi [rad]
+    bore: float  #: Of one piston [m]
+    area: float  #: [m^2]
+    stroke: float  #: [m]
+    compression_ratio: float  #: Largest over smallest volume of one cylinder [-]
+    facts: tuple[str, ...]  #: What was assumed, one sentence each
+    #: Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
     kinks: tuple[float, ...] = ()
 
 
 def gas(case: Case) -> Gas | None:
     """Gas of a case.
 
-    Parameters
-    ----------
-    case : Case
-        Any mechanism with a piston
-
     Returns
     -------
     gas : Gas or None
         None for a case without a cycle: only inertia and weight act
-
-    Raises
-    ------
-    BadInput
-        The cycle cannot be made
     """
     if "cycle" not in case.sections:
         return None
@@ -111,18 +85,6 @@ def measured(case: Case, file: str) -> Case:
     ----------
     case : Case
         With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
-    file : str
-        CSV file
-
-    Returns
-    -------
-    case : Case
-        For `gas`
-
-    Raises
-    ------
-    BadInput
-        A cycle whose cylinder is not known
     """
     cycle = case.need("cycle")
     if isinstance(cycle, SparkIgnition):
@@ -189,20 +151,10 @@ def _vectorised(function: ca.Function) -> Callable[[np.ndarray], np.ndarray]:
 def one_cylinder(case: Case) -> Case:
     """The case as one cylinder of it sees itself.
 
-    Parameters
-    ----------
-    case : Case
-        Any mechanism with a piston
-
     Returns
     -------
     case : Case
         With a mechanism that has one piston and its travel as `x`
-
-    Raises
-    ------
-    BadInput
-        The mechanism has no piston for a cycle, or one whose dead centres are no half turn apart
     """
     parameters = case.need("parameters")
     if isinstance(parameters, RodlessParameters):
@@ -227,11 +179,6 @@ def _seen(case: Case, mechanism: str, parameters: Any) -> Case:
 def travel(case: Case) -> ca.Function:
     """Travel of the piston of a mechanism with one coordinate.
 
-    Parameters
-    ----------
-    case : Case
-        Of `one_cylinder`
-
     Returns
     -------
     function : casadi.Function
@@ -254,8 +201,6 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
 
     Parameters
     ----------
-    found : Gas
-        Over the motion `own`
     own, other : casadi.Function
         Travels of `travel`, both with dead centres at 0 and pi
 

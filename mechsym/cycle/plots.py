@@ -24,15 +24,8 @@ def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
 
     Parameters
     ----------
-    path : Path
-        SVG file to write
     curves : mapping of str to ndarray, shape (k,)
         See `cycle.curves`
-
-    Returns
-    -------
-    path : Path
-        The same path
     """
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
     phi, p = curves["phi_deg"], curves["p_pa"] / 1e6
@@ -56,15 +49,8 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
 
     Parameters
     ----------
-    path : Path
-        SVG file to write
     engines : mapping of str to mapping
         Name of each engine to its `cycle.columns`
-
-    Returns
-    -------
-    path : Path
-        The same path
     """
     figure, axes = plt.subplots(2, 3, figsize=(12, 6.4), constrained_layout=True)
     for style, (name, found) in zip(("-", "--", ":"), engines.items(), strict=False):
@@ -89,17 +75,8 @@ def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, again
 
     Parameters
     ----------
-    path : Path
-        SVG file to write
     columns : mapping of str to sequence
         Both figures and the design variables, point by point
-    objective, against : str
-        Names of the two figures
-
-    Returns
-    -------
-    path : Path
-        The same path
     """
     variables = [name for name in columns if name not in (objective, against)]
     figure, axes = plt.subplots(1, 1 + len(variables), figsize=(3.2 * (1 + len(variables)), 3.2), layout="constrained")

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from mechsym.cycle.cylinder import Cylinder
+from mechsym.quantities import record
 
 ATMOSPHERE = 101325.0
 
@@ -25,42 +26,23 @@ _PANEL = math.pi / 90
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Pressure:
-    """Cylinder pressure over one period.
+    """Cylinder pressure over one period."""
 
-    Parameters
-    ----------
-    kind : str
-        How it was made: `two-stroke-marine`, `diagram`, ...
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
-    kinks : tuple of float
-        Crank angles in [0, period) where p is not smooth [rad]
-    absolute : callable
-        ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
-    p_max, phi_p_max : float
-        Highest pressure [Pa] and its crank angle in (-period/2, period/2] [rad]
-    mean_indicated : float
-        Mean indicated pressure, net over the period [Pa]
-    phases : mapping of str to float
-        Names and crank angles of the events, for tables and plots [rad]
-    facts : tuple of str
-        What was assumed and what came out, one sentence each
-    doubts : tuple of str
-        What looks physically implausible, one sentence each; empty if nothing does
-    """
-
-    kind: str
-    period: float
-    kinks: tuple[float, ...]
+    kind: str  #: How it was made: `two-stroke-marine`, `diagram`, ...
+    period: float  #: 2 pi (two-stroke) or 4 pi (four-stroke) [rad]
+    kinks: tuple[float, ...]  #: Crank angles in [0, period) where p is not smooth [rad]
+    #: ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
     absolute: Callable[[Any], Any]
+    #: Highest pressure [Pa] and its crank angle in (-period/2, period/2] [rad]
     p_max: float
     phi_p_max: float
-    mean_indicated: float
+    mean_indicated: float  #: Mean indicated pressure, net over the period [Pa]
+    #: Names and crank angles of the events, for tables and plots [rad]
     phases: Mapping[str, float] = dataclasses.field(default_factory=dict)
-    facts: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    facts: tuple[str, ...] = ()  #: What was assumed and what came out, one sentence each
+    doubts: tuple[str, ...] = ()  #: What looks physically implausible, one sentence each; empty if nothing does
 
 
 def piston_force(pressure: Pressure, p_back: float, area: float, phi: Any) -> Any:
@@ -70,8 +52,6 @@ def piston_force(pressure: Pressure, p_back: float, area: float, phi: Any) -> An
 
     Parameters
     ----------
-    pressure : Pressure
-        Pressure on the head side
     p_back : float
         Absolute pressure on the crank side [Pa]
     area : float
@@ -168,8 +148,6 @@ def mean_indicated_pressure(
         T: 2 pi or 4 pi; over 4 pi the gas exchange counts (net value) [rad]
     kinks : tuple of float
         Angles in [0, period) where the pressure is not smooth [rad]
-    cylinder : Cylinder
-        Geometry
 
     Returns
     -------

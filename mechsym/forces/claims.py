@@ -16,11 +16,6 @@ Row = Mapping[str, Any]
 def claims(rows: Sequence[Row]) -> list[dict[str, str]]:
     """Claims on friction and loads that the comparison can judge.
 
-    Parameters
-    ----------
-    rows : sequence of mapping
-        Of `comparison.compare`
-
     Returns
     -------
     claims : list of dict
@@ -45,11 +40,6 @@ def left_out(weight: Mapping[str, float], efficiency: float | None) -> dict[str,
         Of `textbook.weight_shares` [-]
     efficiency : float or None
         Mechanical efficiency; None where the case has no coefficients [-]
-
-    Returns
-    -------
-    claim : dict
-        As in `claims`
     """
     worst = max(weight, key=lambda name: weight[name])
     friction = 0.0 if efficiency is None else 1 - efficiency

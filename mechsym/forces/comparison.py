@@ -26,29 +26,20 @@ from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
 from mechsym.mechanisms.rodless_faces import RodlessFaces
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 _INERTIA = 1.0  # of a crank at constant speed: without effect
 _EQUAL = Stiffnesses(k_a=1.0, k_b=1.0, k_c=1.0)  # only their ratios matter
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ComparisonSettings:
-    """Section `[comparison]`: what the compared mechanisms need besides the case.
+    """Section `[comparison]`: what the compared mechanisms need besides the case."""
 
-    Parameters
-    ----------
-    lam : float
-        Crank radius over rod length of the slider crank [-]
-    alpha_n : float
-        Pressure angle of the hypocycloid's teeth [rad]
-    """
-
+    #: Crank radius over rod length of the slider crank [-]
     lam: float = quantity("-", default=26 / 90, above=0, below=1, about="crank radius over rod length")
+    #: Pressure angle of the hypocycloid's teeth [rad]
     alpha_n: float = quantity("rad", default=math.radians(25), low=0, below=math.pi / 2, about="pressure angle")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: ComparisonSettings) -> list[dict[str, Any]]:
@@ -60,20 +51,11 @@ def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: Compa
         Of the case, with a gas
     friction : Friction or None
         The same coefficients for all; None leaves friction out
-    rings : NoRings, Patton1989 or ContactPressure
-        The same rule for all
-    settings : ComparisonSettings
-        Rod ratio, pressure angle
 
     Returns
     -------
     rows : list of dict
         One a mechanism; forces in N, torque in N*m, `friction_per_piston` in W
-
-    Raises
-    ------
-    BadInput
-        The case has no gas force
     """
     if turn.gas is None:
         raise BadInput(f"{turn.case.file}: a comparison at equal gas force needs a [cycle]")
@@ -83,11 +65,6 @@ def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: Compa
 
 def reciprocating_mass(turn: Turn) -> float:
     """Mass that moves with one piston.
-
-    Parameters
-    ----------
-    turn : Turn
-        Of any mechanism
 
     Returns
     -------

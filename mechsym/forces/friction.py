@@ -6,7 +6,6 @@ The losses are taken as small: they change neither the reactions nor the speed. 
 without a rod or a side force; with the same coefficients everywhere that can be judged.
 """
 
-import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -15,28 +14,12 @@ from mechsym.forces.loads import Loads
 from mechsym.forces.rings import Rings, ring_power
 from mechsym.forces.turn import Turn
 from mechsym.mechanisms.crank_train.parameters import each
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Friction:
-    """Section `[friction]`: coefficients and radii.
-
-    Parameters
-    ----------
-    mu_guide : float
-        Piston skirt, crosshead or slider on its guide [-]
-    mu_pin, mu_main : float
-        Piston and crank pins, main bearings [-]
-    mu_mesh : float
-        Teeth [-]
-    radius_piston_pin, radius_crank_pin, radius_main : float
-        Radii of the bearings [m]
-    module : float
-        Module of the teeth [m]
-    contact_ratio : float
-        Contact ratio of the teeth [-]
-    """
+    """Section `[friction]`: coefficients and radii."""
 
     mu_guide: float = quantity("-", low=0, about="friction of piston or slider on its guide")
     mu_pin: float = quantity("-", low=0, about="friction of piston and crank pins")
@@ -48,33 +31,16 @@ class Friction:
     module: float = quantity("m", default=0.0, low=0, about="module of the teeth")
     contact_ratio: float = quantity("-", default=1.6, low=1, about="contact ratio of the teeth")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Losses:
-    """Friction of a machine at constant speed.
+    """Friction of a machine at constant speed."""
 
-    Parameters
-    ----------
-    places : mapping of str to float
-        Mean power lost at guides, piston pins, crank pins, main bearings, teeth, rings [W]
-    curves : mapping of str to ndarray, shape (n,)
-        The same over the angle [W]
-    indicated_power : float
-        Mean power of the gas [W]
-    mechanical_efficiency : float or None
-        (indicated - lost) / indicated; None where the gas gives no power [-]
-    friction_mean_pressure : float or None
-        Work lost in a cycle over the swept volume; None without a cylinder [Pa]
-    """
-
-    places: dict[str, float]
-    curves: dict[str, np.ndarray]
-    indicated_power: float
-    mechanical_efficiency: float | None
-    friction_mean_pressure: float | None
+    places: dict[str, float]  #: Mean power lost at guides, piston pins, crank pins, main bearings, teeth, rings [W]
+    curves: dict[str, np.ndarray]  #: shape (n,): The same over the angle [W]
+    indicated_power: float  #: Mean power of the gas [W]
+    mechanical_efficiency: float | None  #: (indicated - lost) / indicated; None where the gas gives no power [-]
+    friction_mean_pressure: float | None  #: Work lost in a cycle over the swept volume; None without a cylinder [Pa]
 
 
 Powers = dict[str, np.ndarray]
@@ -82,17 +48,6 @@ Powers = dict[str, np.ndarray]
 
 def losses(turn: Turn, found: Loads, friction: Friction, rings: Rings) -> Losses:
     """Friction losses of a turn.
-
-    Parameters
-    ----------
-    turn : Turn
-        Frictionless cycle at constant speed
-    found : Loads
-        Its loads
-    friction : Friction
-        Coefficients and radii
-    rings : NoRings, Patton1989 or ContactPressure
-        Rule for the rings
 
     Returns
     -------
@@ -118,11 +73,6 @@ def losses(turn: Turn, found: Loads, friction: Friction, rings: Rings) -> Losses
 def pistons(turn: Turn) -> list[tuple[np.ndarray, np.ndarray]]:
     """Working faces of a machine.
 
-    Parameters
-    ----------
-    turn : Turn
-        With a gas
-
     Returns
     -------
     faces : list of (ndarray, ndarray)
@@ -142,11 +92,6 @@ def pistons(turn: Turn) -> list[tuple[np.ndarray, np.ndarray]]:
 
 def swept_volume(turn: Turn) -> float:
     """Volume that all pistons sweep together.
-
-    Parameters
-    ----------
-    turn : Turn
-        With a gas
 
     Returns
     -------
@@ -199,8 +144,6 @@ def mesh_power(friction: Friction, tooth_force: np.ndarray, omega_rel: float) ->
 
     Parameters
     ----------
-    friction : Friction
-        Coefficient, module, contact ratio
     tooth_force : ndarray, shape (n,)
         Tangential force [N]
     omega_rel : float

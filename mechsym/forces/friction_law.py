@@ -19,27 +19,19 @@ from mechsym.forces.friction import losses
 from mechsym.forces.loads import loads
 from mechsym.forces.rings import NoRings
 from mechsym.forces.turn import Turn, turn
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class FittedLaw:
-    """A correlation fitted to a mechanism's friction.
+    """A correlation fitted to a mechanism's friction."""
 
-    Parameters
-    ----------
-    law : ChenFlynn
-        For `[friction_pressure]` of the case
-    omega, computed, fitted : ndarray, shape (k,)
-        Speeds [rad/s], friction mean pressure of the mechanism and of the law [Pa]
-    misfit : float
-        Largest difference over the largest value [-]
-    """
-
-    law: ChenFlynn
+    law: ChenFlynn  #: For `[friction_pressure]` of the case
+    #: shape (k,): Speeds [rad/s], friction mean pressure of the mechanism and of the law [Pa]
     omega: np.ndarray
     computed: np.ndarray
     fitted: np.ndarray
-    misfit: float
+    misfit: float  #: Largest difference over the largest value [-]
 
 
 def fitted_law(case: Case, omega: Sequence[float]) -> FittedLaw:

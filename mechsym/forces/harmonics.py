@@ -5,29 +5,20 @@ r"""Orders of a periodic force or torque.
 An order k counts oscillations per turn of the crank; a four-stroke cycle has half orders too.
 """
 
-import dataclasses
 import math
 
 import numpy as np
 
+from mechsym.quantities import record
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+
+@record
 class Orders:
-    """Harmonics of one quantity, arrays of shape (m,).
+    """Harmonics of one quantity, arrays of shape (m,)."""
 
-    Parameters
-    ----------
-    order : ndarray
-        Oscillations per turn, 0 first [-]
-    amplitude : ndarray
-        a_k; the mean for order 0, with its sign; unit of the quantity
-    phase : ndarray
-        delta_k, where the oscillation has its crest [rad]
-    """
-
-    order: np.ndarray
-    amplitude: np.ndarray
-    phase: np.ndarray
+    order: np.ndarray  #: Oscillations per turn, 0 first [-]
+    amplitude: np.ndarray  #: a_k; the mean for order 0, with its sign [unit of the quantity]
+    phase: np.ndarray  #: delta_k, where the oscillation has its crest [rad]
 
 
 def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Orders:
@@ -41,11 +32,6 @@ def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Orders:
         Period, 2 pi or 4 pi [rad]
     highest : float
         Highest order wanted [-]
-
-    Returns
-    -------
-    orders : Orders
-        From 0 to the highest
     """
     n = len(values)
     spectrum = np.fft.rfft(values) / n
@@ -58,13 +44,6 @@ def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Orders:
 
 def whole(found: Orders, order: int) -> complex:
     """One whole order as a complex amplitude.
-
-    Parameters
-    ----------
-    found : Orders
-        Of `orders`
-    order : int
-        Oscillations per turn
 
     Returns
     -------

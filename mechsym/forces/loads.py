@@ -6,85 +6,44 @@ crank, in the frame; the same forces turned into the crank give the polar diagra
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from mechsym.forces.turn import Turn
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Pin:
-    """A crank pin with what acts on it.
+    """A crank pin with what acts on it."""
 
-    Parameters
-    ----------
-    name : str
-        `crank_pin`, or `crank_pin_3` of a crank train
-    angle : ndarray, shape (n,)
-        Angle of its crank from the x axis of the frame [rad]
-    radius : float
-        Crank radius [m]
-    sense : float
-        Sense of rotation, 1 or -1
-    x, y : ndarray, shape (n,)
-        Force on the crank pin, in the frame [N]
-    """
-
-    name: str
-    angle: np.ndarray
-    radius: float
-    sense: float
+    name: str  #: `crank_pin`, or `crank_pin_3` of a crank train
+    angle: np.ndarray  #: shape (n,): Angle of its crank from the x axis of the frame [rad]
+    radius: float  #: Crank radius [m]
+    sense: float  #: Sense of rotation, 1 or -1 [-]
+    #: shape (n,): Force on the crank pin, in the frame [N]
     x: np.ndarray
     y: np.ndarray
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Loads:
-    """The loads that bearings and guides carry.
-
-    Parameters
-    ----------
-    pins : tuple of Pin
-        Crank pins
-    bearings : mapping of str to (ndarray, ndarray)
-        Main bearings by name: force on the crank in the frame [N]
-    guides : mapping of str to ndarray
-        Side forces by name [N]
-    weight_torque : ndarray, shape (n,)
-        Torque of the crank's own weight [N*m]
-    """
+    """The loads that bearings and guides carry."""
 
     pins: tuple[Pin, ...]
-    bearings: Mapping[str, tuple[np.ndarray, np.ndarray]]
-    guides: Mapping[str, np.ndarray]
-    weight_torque: np.ndarray
+    bearings: Mapping[str, tuple[np.ndarray, np.ndarray]]  #: Main bearings by name: force on the crank in the frame [N]
+    guides: Mapping[str, np.ndarray]  #: Side forces by name [N]
+    weight_torque: np.ndarray  #: shape (n,): Torque of the crank's own weight [N*m]
 
 
 def loads(turn: Turn) -> Loads:
-    """The loads of a turn.
-
-    Parameters
-    ----------
-    turn : Turn
-        Exact reactions over a cycle
-
-    Returns
-    -------
-    loads : Loads
-        Under common names
-    """
+    """The loads of a turn."""
     return _LOADS[turn.case.mechanism](turn)
 
 
 def pin_torque(found: Loads) -> np.ndarray:
     """Torque on the crank from the forces on its pins.
-
-    Parameters
-    ----------
-    found : Loads
-        Loads of a turn
 
     Returns
     -------
@@ -97,11 +56,6 @@ def pin_torque(found: Loads) -> np.ndarray:
 def radial(pin: Pin) -> np.ndarray:
     """Force on a crank pin along its crank.
 
-    Parameters
-    ----------
-    pin : Pin
-        Crank pin
-
     Returns
     -------
     force : ndarray, shape (n,)
@@ -113,11 +67,6 @@ def radial(pin: Pin) -> np.ndarray:
 def tangential(pin: Pin) -> np.ndarray:
     """Force on a crank pin across its crank.
 
-    Parameters
-    ----------
-    pin : Pin
-        Crank pin
-
     Returns
     -------
     force : ndarray, shape (n,)
@@ -128,13 +77,6 @@ def tangential(pin: Pin) -> np.ndarray:
 
 def power_residual(turn: Turn, found: Loads) -> float:
     """Largest gap between the power from the energies and the power from the forces on the crank.
-
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
-    found : Loads
-        Its loads
 
     Returns
     -------
@@ -235,13 +177,6 @@ _LOADS: dict[str, Callable[[Turn], Loads]] = {
 def polar(turn: Turn, found: Loads) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Polar diagrams: loads on the pins in their cranks, on the main bearings in the frame.
 
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
-    found : Loads
-        Its loads
-
     Returns
     -------
     curves : dict of str to (ndarray, ndarray)
@@ -254,11 +189,6 @@ def polar(turn: Turn, found: Loads) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 def roll_sense(turn: Turn) -> float:
     """Sense of rotation of the shaft end that carries the load: the flywheel stands behind the last throw.
-
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
 
     Returns
     -------

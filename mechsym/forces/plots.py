@@ -17,11 +17,6 @@ _MOST_CURVES = 6
 def chain(found: Forces) -> Figure:
     """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact forces.
 
-    Parameters
-    ----------
-    found : Forces
-        Of a case
-
     Returns
     -------
     figure : Figure
@@ -60,11 +55,6 @@ def chain(found: Forces) -> Figure:
 
 def polar_diagrams(found: Forces) -> Figure:
     """Load on each crank pin as its crank sees it, and on each main bearing as the frame sees it.
-
-    Parameters
-    ----------
-    found : Forces
-        Of a case
 
     Returns
     -------
@@ -106,18 +96,7 @@ def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color
 
 
 def orders(found: Forces) -> Figure:
-    """Orders of the torque, and of the shaking force and moments.
-
-    Parameters
-    ----------
-    found : Forces
-        Of a case
-
-    Returns
-    -------
-    figure : Figure
-        Two panels
-    """
+    """Orders of the torque, and of the shaking force and moments."""
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     torque = found.torque_orders
@@ -142,18 +121,7 @@ def orders(found: Forces) -> Figure:
 
 
 def friction(found: Forces) -> Figure:
-    """Friction power over the cycle by place.
-
-    Parameters
-    ----------
-    found : Forces
-        With losses
-
-    Returns
-    -------
-    figure : Figure
-        Stacked curves
-    """
+    """Friction power over the cycle by place."""
     assert found.losses is not None
     figure = Figure(figsize=(9, 3.4), layout="constrained")
     axis = figure.add_subplot()
@@ -170,18 +138,7 @@ def friction(found: Forces) -> Figure:
 
 
 def comparison(rows: Sequence[dict[str, Any]]) -> Figure:
-    """Loads and friction of the compared mechanisms.
-
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of `compare`
-
-    Returns
-    -------
-    figure : Figure
-        Bars, one group a mechanism
-    """
+    """Loads and friction of the compared mechanisms."""
     figure = Figure(figsize=(9, 0.55 * len(rows) + 2.2), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     place = np.arange(len(rows))[::-1]

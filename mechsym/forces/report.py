@@ -17,17 +17,8 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
 
     Parameters
     ----------
-    found : Forces
-        Of a case
-    numbers : dict
-        Its `summary`
     folder : Path
         Where to write; made when missing
-
-    Returns
-    -------
-    files : list of Path
-        report.html first
     """
     case, figures = found.turn.case, _figures(found)
     turning = plots_mechanism.animation(case.mechanism, case.need("parameters"), case.about)
@@ -43,22 +34,7 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
 
 
 def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str]) -> str:
-    """The page as text.
-
-    Parameters
-    ----------
-    found : Forces
-        Of a case
-    numbers : dict
-        Its `summary`
-    figures : dict of str to str
-        SVG by name
-
-    Returns
-    -------
-    text : str
-        HTML without any outside reference
-    """
+    """The page as text."""
     import jinja2
 
     source = (resources.files("mechsym") / "templates" / "forces.html").read_text(encoding="utf-8")

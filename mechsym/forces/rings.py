@@ -4,58 +4,33 @@ r"""Friction of piston rings by a named rule, for one piston.
 pressure of the rings on the wall, elastic and from the gas behind them.
 """
 
-import dataclasses
-
 import numpy as np
 
 from mechsym.cycle.on_pistons import Gas
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class NoRings:
     """Section `[rings]`, `law = "none"`: sealing without friction."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Patton1989:
-    """Section `[rings]`, `law = "patton1989"`.
-
-    Parameters
-    ----------
-    intake_ratio : float
-        Intake pressure over atmospheric pressure [-]
-    """
+    """Section `[rings]`, `law = "patton1989"`."""
 
     intake_ratio: float = quantity("-", default=1.0, above=0, about="intake over atmospheric pressure")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ContactPressure:
-    """Section `[rings]`, `law = "contact_pressure"`.
-
-    Parameters
-    ----------
-    mu : float
-        Coefficient of friction of the rings [-]
-    heights : tuple of float
-        Axial height of each ring [m]
-    gas_shares : tuple of float
-        Part of the gas pressure that stands behind each ring [-]
-    elastic : float
-        Pressure of a ring's own tension on the wall [Pa]
-    """
+    """Section `[rings]`, `law = "contact_pressure"`."""
 
     mu: float = quantity("-", low=0, about="coefficient of friction of the rings")
     heights: tuple[float, ...] = quantity("m", above=0, about="axial height of each ring")
     gas_shares: tuple[float, ...] = quantity("-", low=0, high=1, about="part of the gas pressure behind each ring")
+    #: Pressure of a ring's own tension on the wall [Pa]
     elastic: float = quantity("Pa", low=0, about="pressure of a ring's own tension")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 Rings = NoRings | Patton1989 | ContactPressure
@@ -71,10 +46,6 @@ def ring_power(law: Rings, gas: Gas, phi: np.ndarray, speed: np.ndarray, omega: 
 
     Parameters
     ----------
-    law : NoRings, Patton1989 or ContactPressure
-        Rule
-    gas : Gas
-        Pressure, bore, stroke
     phi : ndarray, shape (n,)
         Angles from the piston's firing dead centre, evenly spaced over a period [rad]
     speed : ndarray, shape (n,)
@@ -107,10 +78,6 @@ def patton_pressure(law: Patton1989, gas: Gas, omega: float) -> float:
 
     Parameters
     ----------
-    law : Patton1989
-        Intake pressure
-    gas : Gas
-        Bore, stroke, compression ratio
     omega : float
         Crank speed [rad/s]
 

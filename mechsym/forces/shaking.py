@@ -11,7 +11,6 @@ end, cancel the part of force and couple that turns with the crank, and so leave
 """
 
 import cmath
-import dataclasses
 import math
 
 import numpy as np
@@ -21,7 +20,7 @@ from mechsym.forces.loads import roll_sense
 from mechsym.forces.turn import Turn
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.rodless import RodlessParameters
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 _NAMES = {
     "force_x": "momentum_rate_x",
@@ -31,99 +30,50 @@ _NAMES = {
 }
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class BalanceWanted:
-    """Section `[shaking]`: which balance is asked for.
+    """Section `[shaking]`: which balance is asked for."""
 
-    Parameters
-    ----------
-    orders : tuple of float
-        Whole orders that shall vanish, for example 1 and 2 [-]
-    limit : float
-        What may be left of each, as part of the force (couple) of one cylinder's reciprocating mass [-]
-    """
-
+    #: Whole orders that shall vanish, for example 1 and 2 [-]
     orders: tuple[float, ...] = quantity("-", low=1, about="orders that shall vanish")
+    #: What may be left of each, as part of the force (couple) of one cylinder's reciprocating mass [-]
     limit: float = quantity("-", default=1e-3, above=0, below=1, about="what may be left of each order")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Counterweight:
-    """The counterweight on the crank that leaves the least mean square of the shaking force.
+    """The counterweight on the crank that leaves the least mean square of the shaking force."""
 
-    Parameters
-    ----------
-    unbalance : float
-        Mass times radius [kg*m]
-    angle : float
-        Where it stands on the crank, from the crank angle's zero in the sense of rotation [rad]
-    rms_before, rms_after : float
-        Root mean square of the shaking force without and with it [N]
-    """
-
-    unbalance: float
-    angle: float
+    unbalance: float  #: Mass times radius [kg*m]
+    angle: float  #: Where it stands on the crank, from the crank angle's zero in the sense of rotation [rad]
+    #: Root mean square of the shaking force without and with it [N]
     rms_before: float
     rms_after: float
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class PlaneWeight:
-    """One of two counterweights that balance force and couple together.
+    """One of two counterweights that balance force and couple together."""
 
-    Parameters
-    ----------
-    z : float
-        Place along the shaft [m]
-    unbalance : float
-        Mass times radius [kg*m]
-    angle : float
-        Where it stands at shaft angle 0, in the sense of rotation [rad]
-    """
-
-    z: float
-    unbalance: float
-    angle: float
+    z: float  #: Place along the shaft [m]
+    unbalance: float  #: Mass times radius [kg*m]
+    angle: float  #: Where it stands at shaft angle 0, in the sense of rotation [rad]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Shaking:
-    """Forces and moments on the frame at constant speed.
+    """Forces and moments on the frame at constant speed."""
 
-    Parameters
-    ----------
-    curves : mapping of str to ndarray, shape (n,)
-        `force_x`, `force_y` [N], `roll` [N*m], and of a crank train `rocking_x`, `rocking_y` [N*m]
-    orders : mapping of str to Orders
-        Harmonics of each
-    counterweight : Counterweight
-        Best one on the crank
-    planes : tuple of PlaneWeight
-        Best pair at the ends of a shaft whose throws all turn one way; empty for a single throw
-    """
-
+    #: shape (n,): `force_x`, `force_y` [N], `roll` [N*m], and of a crank train `rocking_x`, `rocking_y` [N*m]
     curves: dict[str, np.ndarray]
     orders: dict[str, Orders]
     counterweight: Counterweight
+    #: Best pair at the ends of a shaft whose throws all turn one way; empty for a single throw
     planes: tuple[PlaneWeight, ...]
 
 
 def shaking(turn: Turn) -> Shaking:
-    """Shaking forces and moments of a turn.
-
-    Parameters
-    ----------
-    turn : Turn
-        One cycle at constant speed
-
-    Returns
-    -------
-    shaking : Shaking
-        Curves, orders, counterweight
-    """
+    """Shaking forces and moments of a turn."""
     curves = {name: -turn.momentum[key] for name, key in _NAMES.items() if key in turn.momentum}
     curves["roll"] = -(turn.momentum["angular_momentum_rate"] + roll_sense(turn) * turn.torque)
     found = {name: orders(values, turn.period) for name, values in curves.items()}
@@ -162,15 +112,6 @@ def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...
 
 def verdict(turn: Turn, found: Shaking, wanted: BalanceWanted) -> list[str]:
     """Why an arrangement does not have the balance that was asked for.
-
-    Parameters
-    ----------
-    turn : Turn
-        One cycle
-    found : Shaking
-        Its shaking
-    wanted : BalanceWanted
-        Orders that shall vanish
 
     Returns
     -------

@@ -10,30 +10,12 @@ from mechsym.forces.turn import Turn
 
 
 def extremes(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, float], dict[str, float]]:
-    """Largest and smallest value of every column.
-
-    Parameters
-    ----------
-    columns : mapping of str to ndarray
-        Columns of a table
-
-    Returns
-    -------
-    largest, smallest : dict of str to float
-        By column
-    """
+    """Largest and smallest value of every column."""
     return {k: float(np.max(v)) for k, v in columns.items()}, {k: float(np.min(v)) for k, v in columns.items()}
 
 
 def columns(turn: Turn, found: Loads) -> dict[str, np.ndarray]:
     """The table of a turn: angle, gas, motion, loads, torque, SI units unless the name says otherwise.
-
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
-    found : Loads
-        Its loads
 
     Returns
     -------

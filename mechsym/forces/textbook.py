@@ -18,67 +18,43 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, radial, tangential
 from mechsym.forces.turn import Turn, at, one_coordinate
+from mechsym.quantities import record
 
 _FREE_FALL = 9.81  # [m/s^2]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class SliderCrank:
-    """A slider crank in the letters of the sources.
+    """A slider crank in the letters of the sources."""
 
-    Parameters
-    ----------
-    R, L : float
-        Crank radius and rod length [m]
-    L_m : float
-        Crank pin to the rod's centre of mass [m]
-    m_b, I_b : float
-        Mass of the rod [kg] and its inertia about the centre of mass [kg*m^2]
-    m_p : float
-        Mass that moves with the piston: piston, piston rod, crosshead [kg]
-    u_c : float
-        Unbalance of the crank on the pin's side [kg*m]
-    """
-
+    #: Crank radius and rod length [m]
     R: float
     L: float
-    L_m: float
+    L_m: float  #: Crank pin to the rod's centre of mass [m]
+    #: Mass of the rod [kg] and its inertia about the centre of mass [kg*m^2]
     m_b: float
     I_b: float
-    m_p: float
-    u_c: float
+    m_p: float  #: Mass that moves with the piston: piston, piston rod, crosshead [kg]
+    u_c: float  #: Unbalance of the crank on the pin's side [kg*m]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Chain:
-    """The whole chain of Moroianu (2017), arrays of shape (n,).
+    """The whole chain of Moroianu (2017), arrays of shape (n,)."""
 
-    Parameters
-    ----------
-    F_p, F_it, F : ndarray
-        Pressure force, inertia force of the masses in translation, their sum [N]
-    B, N : ndarray
-        Along the rod, across the cylinder [N]
-    Z_B, T : ndarray
-        On the crank pin towards the shaft, and in the sense of rotation [N]
-    F_ibm : ndarray
-        Inertia force of the rod's share on the crank pin, towards the shaft [N]
-    Z : ndarray
-        Total towards the shaft [N]
-    M : ndarray
-        Torque [N*m]
-    """
-
+    #: Pressure force, inertia force of the masses in translation, their sum [N]
     F_p: np.ndarray
     F_it: np.ndarray
     F: np.ndarray
+    #: Along the rod, across the cylinder [N]
     B: np.ndarray
     N: np.ndarray
+    #: On the crank pin towards the shaft, and in the sense of rotation [N]
     Z_B: np.ndarray
     T: np.ndarray
-    F_ibm: np.ndarray
-    Z: np.ndarray
-    M: np.ndarray
+    F_ibm: np.ndarray  #: Inertia force of the rod's share on the crank pin, towards the shaft [N]
+    Z: np.ndarray  #: Total towards the shaft [N]
+    M: np.ndarray  #: Torque [N*m]
 
 
 def terskih(omega: float) -> float:
@@ -112,20 +88,10 @@ def terskih(omega: float) -> float:
 def slider_crank(turn: Turn) -> SliderCrank:
     """The slider crank of a turn in the letters of the sources.
 
-    Parameters
-    ----------
-    turn : Turn
-        Of a crosshead or crank_throw
-
     Returns
     -------
     slider_crank : SliderCrank
         With the true centre of mass of the rod
-
-    Raises
-    ------
-    BadInput
-        Another mechanism
     """
     p = turn.mechanism.parameters
     if turn.case.mechanism == "crosshead":
@@ -146,15 +112,8 @@ def chain(turn: Turn, ratio: float) -> Chain:
 
     Parameters
     ----------
-    turn : Turn
-        Of a crosshead or crank_throw
     ratio : float
         L_m / L: the rod's centre of mass from the crank pin, as part of its length [-]
-
-    Returns
-    -------
-    chain : Chain
-        Forces over the turn
 
     Notes
     -----
@@ -175,13 +134,6 @@ def chain(turn: Turn, ratio: float) -> Chain:
 def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
     """How far a chain is from the exact rigid-body forces without weight, which the chain leaves out.
 
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
-    approximate : Chain
-        Of `chain`
-
     Returns
     -------
     errors : dict of str to float
@@ -193,11 +145,6 @@ def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
 
 def weight_shares(turn: Turn) -> dict[str, float]:
     """What the weights do to the forces, which the chain leaves out; also where the case leaves them out (g = 0).
-
-    Parameters
-    ----------
-    turn : Turn
-        Cycle
 
     Returns
     -------
@@ -212,15 +159,8 @@ def with_weight(turn: Turn, g: float) -> Turn:
 
     Parameters
     ----------
-    turn : Turn
-        Of a crosshead or crank_throw
     g : float
         Acceleration of free fall [m/s^2]
-
-    Returns
-    -------
-    turn : Turn
-        Forces with these weights
     """
     parameters = dataclasses.replace(turn.case.need("parameters"), g=g)
     case = dataclasses.replace(turn.case, sections={**turn.case.sections, "parameters": parameters})
@@ -255,11 +195,6 @@ def piston_inertia_printed(turn: Turn) -> np.ndarray:
     r"""Inertia force of the reciprocating mass to the first order in R/L.
 
     .. math:: P_j = -m_j R \omega^2 (\cos\varphi + \lambda\cos 2\varphi)
-
-    Parameters
-    ----------
-    turn : Turn
-        Of a crosshead or crank_throw
 
     Returns
     -------

@@ -7,7 +7,6 @@ At constant speed the load must take, at every angle, what gas and weight give a
 The same torque follows from the forces on the crank alone; their difference is the power residual.
 """
 
-import dataclasses
 import math
 from collections.abc import Mapping
 
@@ -24,49 +23,30 @@ from mechsym.mechanisms.crank_train import parameters as crank_train
 from mechsym.mechanisms.crank_train.firing import gas_forces
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.rodless_faces import axis_forces
+from mechsym.quantities import record
 
 _STEPS_PER_TURN = 1440
 _SUPPORTED = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Turn:
-    """One cycle at constant speed, evenly spaced angles without the last.
-
-    Parameters
-    ----------
-    case : Case
-        Data
-    mechanism : Mechanism
-        With one coordinate and all reactions
-    gas : Gas or None
-        Pressure on one piston
-    omega, period : float
-        Crank speed [rad/s], period of the cycle [rad]
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    inputs : mapping of str to ndarray, shape (n,)
-        Gas forces by the mechanism's input [N]
-    kinematics, reactions, momentum : mapping of str to ndarray, shape (n,)
-        Outputs of the mechanism at these angles
-    torque : ndarray, shape (n,)
-        Torque for the load, from the energies [N*m]
-    gas_power : ndarray, shape (n,)
-        Power of the gas forces [W]
-    """
+    """One cycle at constant speed, evenly spaced angles without the last."""
 
     case: Case
-    mechanism: Mechanism
+    mechanism: Mechanism  #: With one coordinate and all reactions
     gas: Gas | None
+    #: Crank speed [rad/s], period of the cycle [rad]
     omega: float
     period: float
-    phi: np.ndarray
-    inputs: Mapping[str, np.ndarray]
+    phi: np.ndarray  #: shape (n,): Crank angles [rad]
+    inputs: Mapping[str, np.ndarray]  #: shape (n,): Gas forces by the mechanism's input [N]
+    #: shape (n,): Outputs of the mechanism at these angles
     kinematics: Mapping[str, np.ndarray]
     reactions: Mapping[str, np.ndarray]
     momentum: Mapping[str, np.ndarray]
-    torque: np.ndarray
-    gas_power: np.ndarray
+    torque: np.ndarray  #: shape (n,): Torque for the load, from the energies [N*m]
+    gas_power: np.ndarray  #: shape (n,): Power of the gas forces [W]
 
 
 def turn(case: Case) -> Turn:
@@ -76,16 +56,6 @@ def turn(case: Case) -> Turn:
     ----------
     case : Case
         With `[operation]`; `[cycle]` gives the gas, `[faces]` and `[closing]` belong to a rodless engine
-
-    Returns
-    -------
-    turn : Turn
-        Forces over the cycle
-
-    Raises
-    ------
-    BadInput
-        Another mechanism, or a section is missing
     """
     mechanism, omega, found = one_coordinate(case), case.need("operation").speed, gas(case)
     period = found.period if found else 2 * math.pi
@@ -97,20 +67,10 @@ def turn(case: Case) -> Turn:
 def one_coordinate(case: Case) -> Mechanism:
     """The mechanism of a case with one coordinate and every reaction determined.
 
-    Parameters
-    ----------
-    case : Case
-        Data
-
     Returns
     -------
     mechanism : Mechanism
         A crank train on a rigid shaft, a rodless engine with its closing rule
-
-    Raises
-    ------
-    BadInput
-        A mechanism without forces over a turn
     """
     parameters = case.need("parameters")
     if case.mechanism not in _SUPPORTED:
@@ -127,21 +87,10 @@ def at(case: Case, mechanism: Mechanism, found: Gas | None, omega: float, phi: n
 
     Parameters
     ----------
-    case : Case
-        Data
-    mechanism : Mechanism
-        Of `one_coordinate`
-    found : Gas or None
-        Pressure on one piston
     omega : float
         Crank speed [rad/s]
     phi : ndarray, shape (n,)
         Crank angles, evenly spaced over a period [rad]
-
-    Returns
-    -------
-    turn : Turn
-        Forces at these angles
     """
     inputs = _inputs(case, found, phi)
     letters = _letters(mechanism, omega, phi) | inputs
@@ -193,8 +142,6 @@ def evaluate(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[s
 
     Parameters
     ----------
-    function : casadi.Function
-        Named scalar inputs and outputs
     letters : mapping of str to ndarray, shape (n,)
         At least its inputs
 
@@ -231,11 +178,6 @@ def _energy_slope(mechanism: Mechanism) -> ca.Function:
 
 def gas_inputs(mechanism: Mechanism) -> list[str]:
     """Inputs of a mechanism that are gas forces.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Of `one_coordinate`
 
     Returns
     -------

@@ -5,7 +5,6 @@ once per cycle) and `every_turn` (the track turns with the crank and takes the p
 the two turns). For a two-stroke both are the same.
 """
 
-import dataclasses
 import math
 
 import numpy as np
@@ -16,40 +15,25 @@ from mechsym.errors import BadInput
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
+from mechsym.quantities import record
 
 KINDS = ("whole_cycle", "every_turn")
 _TURN = 2 * math.pi
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Balance:
-    """The torque that a hinge shall give, and what it leaves.
-
-    Parameters
-    ----------
-    kind : str
-        `whole_cycle` or `every_turn`
-    omega : float
-        Crank speed that it is for [rad/s]
-    period : float
-        Period of the torque that the hinge gives [rad]
-    torque, work : PPoly
-        That torque [N*m] and its integral from phi = 0 [J]
-    rest : PPoly
-        Torque that is left over [N*m]
-    rest_swing : float
-        Largest minus smallest work of the rest [J]
-    ripple_constant_load, ripple_propeller_load : float or None
-        Speed ripple that the rest leaves; None if the crank would stop [-]
-    """
+    """The torque that a hinge shall give, and what it leaves."""
 
     kind: str
-    omega: float
-    period: float
+    omega: float  #: Crank speed that it is for [rad/s]
+    period: float  #: Period of the torque that the hinge gives [rad]
+    #: That torque [N*m] and its integral from phi = 0 [J]
     torque: PPoly
     work: PPoly
-    rest: PPoly
-    rest_swing: float
+    rest: PPoly  #: Torque that is left over [N*m]
+    rest_swing: float  #: Largest minus smallest work of the rest [J]
+    #: Speed ripple that the rest leaves; None if the crank would stop [-]
     ripple_constant_load: float | None
     ripple_propeller_load: float | None
 
@@ -61,8 +45,6 @@ def build(hinge: Hinge, kind: str) -> Balance:
     ----------
     hinge : Hinge
         Torque that would keep the speed constant
-    kind : str
-        `whole_cycle` or `every_turn`
 
     Returns
     -------

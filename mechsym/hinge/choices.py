@@ -15,46 +15,28 @@ Starts
 Source: Zotov et al. (2024), section 3, draws two rollers on one track, which can only give a torque of period pi.
 """
 
-import dataclasses
 import math
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import KINDS
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 ROLLERS = {"two_tracks": 2, "one_roller": 1, "half_speed_pi_periodic": 2}
 _PERIODS_MULTIPLE_OF = {"two_tracks": 1, "one_roller": 1, "half_speed_pi_periodic": 2}
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class GuideParameters:
-    """What is chosen about the guide.
-
-    Parameters
-    ----------
-    arrangement : str
-        `two_tracks`, `one_roller` or `half_speed_pi_periodic`
-    start : str
-        `placed` or `as_printed`
-    rho0 : float
-        Shaft axis to roller centre where the spring has its free height [m]
-    z_margin : float
-        Smallest closing that a placed start keeps [m]
-    shaft_ratio : float
-        Turns of the guide's shaft per turn of the crank [-]
-    balance : str
-        Part of the torque to balance, `whole_cycle` or `every_turn`
-    """
+    """What is chosen about the guide."""
 
     arrangement: str = choice(*ROLLERS, about="how the track carries the spring")
     start: str = choice("placed", "as_printed", default="placed", about="where the turn starts on the spring's curve")
+    #: Shaft axis to roller centre where the spring has its free height [m]
     rho0: float = quantity("m", above=0, high=100, about="roller centre to shaft axis at free height")
     z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
     shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
+    #: Part of the torque to balance, `whole_cycle` or `every_turn`
     balance: str = choice(*KINDS, default="whole_cycle", about="part of the torque to balance")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def closing_ratio(arrangement: str, period: float) -> float:
@@ -62,8 +44,6 @@ def closing_ratio(arrangement: str, period: float) -> float:
 
     Parameters
     ----------
-    arrangement : str
-        Name of the arrangement
     period : float
         Period of the torque over the crank angle [rad]
 
@@ -80,15 +60,8 @@ def refuse_open_track(parameters: GuideParameters, period: float) -> None:
 
     Parameters
     ----------
-    parameters : GuideParameters
-        What is chosen
     period : float
         Period of the torque over the crank angle [rad]
-
-    Raises
-    ------
-    BadInput
-        One turn of the guide's shaft does not hold a fitting number of periods; names the ratio that does
     """
     multiple = _PERIODS_MULTIPLE_OF[parameters.arrangement]
     periods = 2 * math.pi / (period * parameters.shaft_ratio)

@@ -9,51 +9,34 @@ from mechsym.hinge import rollers
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import law
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Turn:
-    """Arrays of shape (n,) over one period of the track.
+    """Arrays of shape (n,) over one period of the track."""
 
-    Parameters
-    ----------
-    theta, phi : ndarray
-        Angle of the guide's shaft and of the crank [rad]
-    rho, drho, d2rho : ndarray
-        Path of the roller centres [m], [m/rad], [m/rad^2]
-    z, force : ndarray
-        Closing [m] and force [N] of the spring
-    pressure : ndarray or None
-        Excess pressure in the spring [Pa]; None without gas
-    pressure_angle, curvature : ndarray
-        Of the path [rad], [1/m]
-    reaction_1, reaction_2 : ndarray
-        Contact forces N1 and N2; the second is on the spring seat for `one_roller` [N]
-    hertz_stress : ndarray
-        Contact pressure [Pa]
-    tilting_couple : ndarray
-        Of tracks in offset planes, 0 for other arrangements [N*m]
-    inertia_force : ndarray
-        Radial force for each kilogram that moves with a roller, left out by the massless model [N/kg]
-    torque, loss_torque : ndarray
-        On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
-    """
-
+    #: Angle of the guide's shaft and of the crank [rad]
     theta: np.ndarray
     phi: np.ndarray
+    #: Path of the roller centres [m], [m/rad], [m/rad^2]
     rho: np.ndarray
     drho: np.ndarray
     d2rho: np.ndarray
+    #: Closing [m] and force [N] of the spring
     z: np.ndarray
     force: np.ndarray
-    pressure: np.ndarray | None
-    pressure_angle: np.ndarray
-    curvature: np.ndarray
+    pressure: np.ndarray | None  #: Excess pressure in the spring [Pa]; None without gas
+    pressure_angle: np.ndarray  #: Of the path [rad]
+    curvature: np.ndarray  #: [1/m]
+    #: Contact forces N1 and N2; the second is on the spring seat for `one_roller` [N]
     reaction_1: np.ndarray
     reaction_2: np.ndarray
-    hertz_stress: np.ndarray
-    tilting_couple: np.ndarray
+    hertz_stress: np.ndarray  #: Contact pressure [Pa]
+    tilting_couple: np.ndarray  #: Of tracks in offset planes, 0 for other arrangements [N*m]
+    #: Radial force for each kilogram that moves with a roller, left out by the massless model [N/kg]
     inertia_force: np.ndarray
+    #: On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
     torque: np.ndarray
     loss_torque: np.ndarray
 
@@ -63,19 +46,8 @@ def at_angles(guide: Guide, spring: Spring, parameters: RollerParameters, theta:
 
     Parameters
     ----------
-    guide : Guide
-        With status `cut`
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that works in it
-    parameters : RollerParameters
-        Rollers and tracks
     theta : ndarray, shape (n,)
         Angles of the guide's shaft [rad]
-
-    Returns
-    -------
-    turn : Turn
-        Arrays of shape (n,)
     """
     rho = path(guide)
     values = [rho(theta), rho.derivative()(theta), rho.derivative(2)(theta)]
@@ -84,15 +56,6 @@ def at_angles(guide: Guide, spring: Spring, parameters: RollerParameters, theta:
 
 def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Turn:
     """The turn at points dense enough for extremes; each kink appears twice, with the values of both its sides.
-
-    Parameters
-    ----------
-    guide : Guide
-        With status `cut`
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that works in it
-    parameters : RollerParameters
-        Rollers and tracks
 
     Returns
     -------
@@ -107,11 +70,6 @@ def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Tur
 
 def columns(turn: Turn) -> dict[str, np.ndarray]:
     """The turn as columns of a CSV file.
-
-    Parameters
-    ----------
-    turn : Turn
-        One turn
 
     Returns
     -------

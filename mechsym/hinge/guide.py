@@ -16,7 +16,6 @@ Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `
 `mechsym.arrangement`.
 """
 
-import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -28,49 +27,30 @@ from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
 from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
 from mechsym.hinge.torque import exists
+from mechsym.quantities import record
 
 Spring = AirGauge | AirAbsolute | Coil
 
 _FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Guide:
-    """A guide, or the reason why there is none.
-
-    Parameters
-    ----------
-    parameters : GuideParameters
-        What was chosen
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that it was made for
-    omega : float
-        Crank speed that it was made for [rad/s]
-    rollers : int
-        Rollers c that move the spring
-    status : str
-        `cut`; or why not: `takes_work` (no spring gives this torque), `spring_bottoms`, `spring_pulls` (this spring
-        cannot hold the work), `crosses_axis` (rho would not stay positive)
-    reason : str
-        The numbers behind the status
-    energy_min, energy_max : float
-        Stored energy that the turn asks for [J]
-    rho : PPoly or None
-        Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
-    closure : float
-        Gap of the path after a period, before it is closed [m]
-    """
+    """A guide, or the reason why there is none."""
 
     parameters: GuideParameters
-    spring: Spring
-    omega: float
-    rollers: int
+    spring: Spring  #: Spring that it was made for
+    omega: float  #: Crank speed that it was made for [rad/s]
+    rollers: int  #: Rollers c that move the spring
+    #: `cut`; or why not: `takes_work` (no spring gives this torque), `spring_bottoms`, `spring_pulls` (this spring
+    #: cannot hold the work), `crosses_axis` (rho would not stay positive)
     status: str
     reason: str
+    #: Stored energy that the turn asks for [J]
     energy_min: float
     energy_max: float
-    rho: PPoly | None
-    closure: float
+    rho: PPoly | None  #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
+    closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
 def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guide:
@@ -83,10 +63,6 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     ----------
     balance : Balance
         Torque to give, with its work
-    spring : AirGauge, AirAbsolute or Coil
-        Its spring
-    parameters : GuideParameters
-        What is chosen
 
     Returns
     -------
@@ -128,11 +104,6 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
 def path(guide: Guide) -> PPoly:
     """The path of the roller centres.
 
-    Parameters
-    ----------
-    guide : Guide
-        A guide
-
     Returns
     -------
     rho : PPoly
@@ -155,8 +126,6 @@ def closing(guide: Guide, rho: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    guide : Guide
-        Arrangement and rho0
     rho : ndarray
         Distance of the roller centres [m]
 
@@ -175,10 +144,6 @@ def crank_torque(guide: Guide, spring: Spring, phi: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    guide : Guide
-        With status `cut`
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that works in it
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -198,13 +163,6 @@ def crank_torque(guide: Guide, spring: Spring, phi: np.ndarray) -> np.ndarray:
 
 def torque_function(guide: Guide, spring: Spring) -> Callable[[float], float]:
     """The same torque as a fast function of one float, for time simulations.
-
-    Parameters
-    ----------
-    guide : Guide
-        With status `cut`
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that works in it
 
     Returns
     -------

@@ -1,6 +1,5 @@
 """Can the guide be built? Each limit is checked with its number; the answer carries the reason and the margin."""
 
-import dataclasses
 import math
 from typing import Any
 
@@ -12,31 +11,15 @@ from mechsym.hinge.contact import Turn, at_pieces
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import Coil, law
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 _CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
 _ROUNDING = 1e-12  # equal values may differ in the last digits
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Limits:
-    """What the spring, the track and the rollers may be asked.
-
-    Parameters
-    ----------
-    spring_pressure : float
-        Highest excess pressure in an air spring [Pa]
-    closing_share : float
-        Largest closing z / H [-]
-    pressure_angle : float
-        Largest pressure angle [rad]
-    profile_radius : float
-        Smallest radius of the cut profile where it bulges towards the roller [m]
-    roller_reaction : float
-        Largest contact force on a roller [N]
-    hertz_stress : float
-        Largest contact pressure [Pa]
-    """
+    """What the spring, the track and the rollers may be asked."""
 
     spring_pressure: float = quantity("Pa", above=0, about="excess pressure in the air spring")
     closing_share: float = quantity("-", above=0, high=1, about="closing over free height, z / H")
@@ -45,83 +28,45 @@ class Limits:
     roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
     hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Check:
-    """One limit.
+    """One limit."""
 
-    Parameters
-    ----------
-    name, text : str
-        What is checked, and value against limit in words
-    kept : bool
-        Whether the limit is kept
-    margin : float or None
-        Share of the limit that is left, negative beyond it; None if a kept check knows no degree [-]
-    """
-
+    #: What is checked, and value against limit in words
     name: str
     text: str
     kept: bool
+    #: Share of the limit that is left, negative beyond it; None if a kept check knows no degree [-]
     margin: float | None
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Verdict:
-    """Whether a guide can be built; the numbers are None where there is no guide.
-
-    Parameters
-    ----------
-    feasible : bool
-        All limits are kept
-    reason : str
-        The limits that are not kept, or the tightest one
-    margin : float
-        Smallest margin of all checks, negative when infeasible [-]
-    checks : tuple of Check
-        All checks
-    rho_min, rho_max, z_min, z_max : float or None
-        Path and closing [m]
-    spring_force_max, spring_pressure_max : float or None
-        [N], [Pa]; pressure None without gas
-    pressure_angle_max : float or None
-        Largest magnitude [rad]
-    curvature_radius_min : float or None
-        Smallest radius of curvature of the path, bending either way [m]
-    undercut_radius : float or None
-        Roller radius from which the profile is undercut; None if the path never bends inwards [m]
-    roller_reaction_max, hertz_stress_max, tilting_couple_max : float or None
-        [N], [Pa], [N*m]
-    inertia_force_max : float or None
-        For each kilogram that moves with a roller, at the speed the guide was cut for; left out of all above [N/kg]
-    loss_torque_mean : float or None
-        Mean over the turn, on the guide's shaft [N*m]
-    closure : float
-        Gap of the path after a period [m]
-    """
+    """Whether a guide can be built; the numbers are None where there is no guide."""
 
     feasible: bool
-    reason: str
-    margin: float
+    reason: str  #: The limits that are not kept, or the tightest one
+    margin: float  #: Smallest margin of all checks, negative when infeasible [-]
     checks: tuple[Check, ...]
-    rho_min: float | None = None
-    rho_max: float | None = None
-    z_min: float | None = None
-    z_max: float | None = None
+    rho_min: float | None = None  #: Path and closing [m]
+    rho_max: float | None = None  #: Path and closing [m]
+    z_min: float | None = None  #: Path and closing [m]
+    z_max: float | None = None  #: Path and closing [m]
+    #: [N], [Pa]; pressure None without gas
     spring_force_max: float | None = None
     spring_pressure_max: float | None = None
-    pressure_angle_max: float | None = None
-    curvature_radius_min: float | None = None
+    pressure_angle_max: float | None = None  #: Largest magnitude [rad]
+    curvature_radius_min: float | None = None  #: Smallest radius of curvature of the path, bending either way [m]
+    #: Roller radius from which the profile is undercut; None if the path never bends inwards [m]
     undercut_radius: float | None = None
-    roller_reaction_max: float | None = None
-    hertz_stress_max: float | None = None
-    tilting_couple_max: float | None = None
+    roller_reaction_max: float | None = None  #: [N]
+    hertz_stress_max: float | None = None  #: [Pa]
+    tilting_couple_max: float | None = None  #: [N*m]
+    #: For each kilogram that moves with a roller, at the speed the guide was cut for; left out of all above [N/kg]
     inertia_force_max: float | None = None
-    loss_torque_mean: float | None = None
-    closure: float = 0.0
+    loss_torque_mean: float | None = None  #: Mean over the turn, on the guide's shaft [N*m]
+    closure: float = 0.0  #: Gap of the path after a period [m]
 
 
 def judge(guide: Guide, spring: Spring, rollers: RollerParameters, limits: Limits) -> Verdict:
@@ -129,19 +74,8 @@ def judge(guide: Guide, spring: Spring, rollers: RollerParameters, limits: Limit
 
     Parameters
     ----------
-    guide : Guide
-        Of any status
     spring : AirGauge, AirAbsolute or Coil
         Spring that works in it: the one it was cut for, or another
-    rollers : RollerParameters
-        Rollers and tracks
-    limits : Limits
-        What is allowed
-
-    Returns
-    -------
-    verdict : Verdict
-        Answer, reason, margin and numbers
     """
     if guide.rho is None:
         failed = Check(name="spring", text=guide.reason, kept=False, margin=-1.0)

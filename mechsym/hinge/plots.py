@@ -17,18 +17,7 @@ _DEG = 180 / np.pi
 
 
 def svg(figure: Figure) -> str:
-    """A figure as SVG text without a date, so that equal data give equal text.
-
-    Parameters
-    ----------
-    figure : Figure
-        Any figure
-
-    Returns
-    -------
-    text : str
-        From `<svg` on
-    """
+    """A figure as SVG text without a date, so that equal data give equal text."""
     import matplotlib
 
     buffer = io.StringIO()
@@ -75,18 +64,7 @@ def unit_of(peak: float, unit: str) -> tuple[float, str]:
 
 
 def pressure(design: Design) -> Figure:
-    """Cylinder pressure over the crank angle with the angles of its events, and over the volume.
-
-    Parameters
-    ----------
-    design : Design
-        A design
-
-    Returns
-    -------
-    figure : Figure
-        Two panels
-    """
+    """Cylinder pressure over the crank angle with the angles of its events, and over the volume."""
     gas, cylinder = design.assembly.pressure, design.assembly.cylinder
     figure, (left, right) = _axes(9, 3.2, 1, 2)
     phi = np.unique(np.append(np.linspace(0, gas.period, 1441), gas.kinks))
@@ -108,11 +86,6 @@ def pressure(design: Design) -> Figure:
 
 def torque(design: Design) -> Figure:
     """The hinge torque with its parts, and its work.
-
-    Parameters
-    ----------
-    design : Design
-        A design
 
     Returns
     -------
@@ -147,17 +120,10 @@ def track(design: Design, turn: Turn, radius: float) -> Figure:
 
     Parameters
     ----------
-    design : Design
-        A design with a guide
     turn : Turn
         The guide in numbers over a whole turn of its shaft
     radius : float
         Roller radius [m]
-
-    Returns
-    -------
-    figure : Figure
-        Equal scales
     """
     figure, (axis,) = _axes(5.2, 5.2)
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
@@ -217,11 +183,6 @@ def contact(turn: Turn) -> Figure:
 def speeds(design: Design) -> Figure:
     """Crank speed of the trials side by side.
 
-    Parameters
-    ----------
-    design : Design
-        A design
-
     Returns
     -------
     figure : Figure
@@ -253,18 +214,7 @@ def speeds(design: Design) -> Figure:
 
 
 def retuning(design: Design) -> Figure:
-    """Torque that the other speed needs, and what the same guide gives there with the best pressure.
-
-    Parameters
-    ----------
-    design : Design
-        A design that was retuned
-
-    Returns
-    -------
-    figure : Figure
-        Two panels
-    """
+    """Torque that the other speed needs, and what the same guide gives there with the best pressure."""
     from mechsym.hinge.guide import crank_torque
 
     again = design.retuned

@@ -12,11 +12,6 @@ from mechsym.simulate.steady import Steady
 def loads(rows: Sequence[AtLoad]) -> Figure:
     """Ripple of a guide over the load, with the spring as designed and set anew, and that setting.
 
-    Parameters
-    ----------
-    rows : sequence of AtLoad
-        The guide at some loads
-
     Returns
     -------
     figure : Figure

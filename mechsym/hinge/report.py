@@ -25,15 +25,8 @@ def write(design: Design, folder: Path) -> list[Path]:
 
     Parameters
     ----------
-    design : Design
-        A design
     folder : Path
         Where to write; made when missing
-
-    Returns
-    -------
-    files : list of Path
-        report.html first
     """
     numbers, figures = summary(design), _figures(design)
     files = [write_text(folder / "report.html", html(design, numbers, figures))]
@@ -45,22 +38,7 @@ def write(design: Design, folder: Path) -> list[Path]:
 
 
 def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> str:
-    """The report as text.
-
-    Parameters
-    ----------
-    design : Design
-        A design
-    numbers : dict
-        From `summary`
-    figures : dict of str to str
-        SVG by name
-
-    Returns
-    -------
-    text : str
-        HTML without any outside reference
-    """
+    """The report as text."""
     import jinja2
 
     source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
@@ -86,8 +64,6 @@ def significant(value: float | None, digits: int = 4) -> str:
     ----------
     value : float or None
         Number [-]
-    digits : int
-        Significant digits
 
     Returns
     -------

@@ -12,7 +12,6 @@ better.
 Source: Zotov et al. (2024), eqs. (12) to (14) and fig. 6, who raise p0 by 1.9 and compare torques by eye.
 """
 
-import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -24,6 +23,7 @@ from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripp
 from mechsym.hinge.setting import Affine, affine, missing_work, setting_of, with_setting, work_swing
 from mechsym.hinge.springs import Coil
 from mechsym.hinge.torque import Hinge
+from mechsym.quantities import record
 
 CRITERIA = (
     "least_squares_torque",
@@ -34,34 +34,17 @@ CRITERIA = (
 )
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Retuning:
-    """A guide with a new spring setting at another speed.
-
-    Parameters
-    ----------
-    criterion : str
-        What was made least
-    omega : float
-        Speed that it is for [rad/s]
-    setting : float
-        Excess pressure p0 [Pa], or preload F0 of a coil [N]
-    spring : AirGauge, AirAbsolute or Coil
-        Spring with that setting
-    torque_error : float
-        Root mean square of the missing torque, as a share of that of the wanted torque [-]
-    work_swing : float
-        Largest minus smallest missing work [J]
-    ripple_constant_load, ripple_propeller_load : float or None
-        Expected speed ripple; None if the crank would stop [-]
-    """
+    """A guide with a new spring setting at another speed."""
 
     criterion: str
-    omega: float
-    setting: float
+    omega: float  #: Speed that it is for [rad/s]
+    setting: float  #: Excess pressure p0 [Pa], or preload F0 of a coil [N]
     spring: Spring
-    torque_error: float
-    work_swing: float
+    torque_error: float  #: Root mean square of the missing torque, as a share of that of the wanted torque [-]
+    work_swing: float  #: Largest minus smallest missing work [J]
+    #: Expected speed ripple; None if the crank would stop [-]
     ripple_constant_load: float | None
     ripple_propeller_load: float | None
 
@@ -71,17 +54,8 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
 
     Parameters
     ----------
-    guide : Guide
-        As cut, status `cut`
     hinge : Hinge
         Torque that the other speed needs
-    criterion : str
-        One of `CRITERIA`
-
-    Returns
-    -------
-    retuning : Retuning
-        The setting and what remains
 
     Raises
     ------
@@ -111,19 +85,12 @@ def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "giv
 
     Parameters
     ----------
-    guide : Guide
-        As cut, status `cut`
     hinge : Hinge
         Torque that the other speed needs
     setting : float
         p0 [Pa], or F0 of a coil [N]
     criterion : str
         Where the setting comes from, for the record
-
-    Returns
-    -------
-    retuning : Retuning
-        The setting and what remains
     """
     parts = affine(guide, hinge)
     missing = parts.torque_wanted - parts.torque_0 - setting * parts.torque_1

@@ -15,44 +15,25 @@ Not in the source, which sets the roller radius to zero and names the large reac
 et al. 2024, section 3). Neglected: mass of rollers, spring pistons and gas (see `inertia_force`), bearing friction.
 """
 
-import dataclasses
 import math
 
 import numpy as np
 
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class RollerParameters:
-    """Rollers and tracks.
-
-    Parameters
-    ----------
-    radius : float
-        Roller radius r [m]
-    width : float
-        Width of contact w [m]
-    plane_offset : float
-        Distance of the two track planes along the shaft [m]
-    E, nu : float
-        Young's modulus [Pa] and Poisson's ratio [-] of roller and track
-    friction : str
-        `none`, or `rolling` with the resistance of `rolling_arm`
-    rolling_arm : float
-        Rolling resistance moment over normal force [m]
-    """
+    """Rollers and tracks."""
 
     radius: float = quantity("m", above=0, about="roller radius")
     width: float = quantity("m", above=0, about="width of contact")
     plane_offset: float = quantity("m", default=0.0, low=0, about="distance of the track planes along the shaft")
     E: float = quantity("Pa", default=2.06e11, above=0, about="Young's modulus of roller and track")
     nu: float = quantity("-", default=0.3, low=0, high=0.5, about="Poisson's ratio of roller and track")
+    #: `none`, or `rolling` with the resistance of `rolling_arm`
     friction: str = choice("none", "rolling", default="none", about="friction between roller and track")
     rolling_arm: float = quantity("m", default=1e-6, low=0, about="rolling resistance moment over normal force")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def pressure_angle(rho: np.ndarray, drho: np.ndarray) -> np.ndarray:
@@ -175,8 +156,6 @@ def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) ->
         Contact force [N]
     kappa : ndarray, shape (n,)
         Curvature of the path [1/m]
-    rollers : RollerParameters
-        Radius, width and material
 
     Returns
     -------

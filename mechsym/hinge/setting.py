@@ -15,33 +15,22 @@ from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path
 from mechsym.hinge.springs import Coil, law
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Affine:
-    """Torque and work of a guide as offset + setting * slope, beside what is wanted; arrays over even crank angles.
+    """Torque and work of a guide as offset + setting * slope, beside what is wanted; arrays over even crank angles."""
 
-    Parameters
-    ----------
-    omega, period, load_torque : float
-        Wanted speed [rad/s], period [rad] and load torque [N*m]
-    inertia : ndarray, shape (n,)
-        Reduced inertia [kg*m^2]
-    torque_wanted, torque_0 : ndarray, shape (n,)
-        Hinge torque at that speed, and the guide's at setting 0 [N*m]
-    torque_1 : ndarray, shape (n,)
-        Change of the guide's torque per unit of setting
-    work_wanted, work_0, work_1 : ndarray, shape (n,)
-        Integrals of these from phi = 0
-    """
-
-    omega: float
-    period: float
-    load_torque: float
-    inertia: np.ndarray
+    omega: float  #: Wanted speed [rad/s]
+    period: float  #: [rad]
+    load_torque: float  #: [N*m]
+    inertia: np.ndarray  #: shape (n,): Reduced inertia [kg*m^2]
+    #: shape (n,): Hinge torque at that speed, and the guide's at setting 0 [N*m]
     torque_wanted: np.ndarray
     torque_0: np.ndarray
-    torque_1: np.ndarray
+    torque_1: np.ndarray  #: shape (n,): Change of the guide's torque per unit of setting [N*m/Pa], of a coil [N*m/N]
+    #: shape (n,): integrals of the torques from phi = 0 [J], of `torque_1` [J/Pa] or [J/N]
     work_wanted: np.ndarray
     work_0: np.ndarray
     work_1: np.ndarray
@@ -49,11 +38,6 @@ class Affine:
 
 def setting_of(spring: Spring) -> float:
     """The value that retuning changes.
-
-    Parameters
-    ----------
-    spring : AirGauge, AirAbsolute or Coil
-        A spring
 
     Returns
     -------
@@ -68,8 +52,6 @@ def setting_text(spring: Spring, setting: float) -> str:
 
     Parameters
     ----------
-    spring : AirGauge, AirAbsolute or Coil
-        A spring of that kind
     setting : float
         p0 [Pa], or F0 of a coil [N]
 
@@ -86,20 +68,8 @@ def with_setting(spring: Spring, setting: float) -> Spring:
 
     Parameters
     ----------
-    spring : AirGauge, AirAbsolute or Coil
-        A spring
     setting : float
         p0 [Pa], or F0 of a coil [N]
-
-    Returns
-    -------
-    spring : AirGauge, AirAbsolute or Coil
-        Same class
-
-    Raises
-    ------
-    BadInput
-        The setting is out of range
     """
     if isinstance(spring, Coil):
         return dataclasses.replace(spring, F0=setting)
@@ -108,13 +78,6 @@ def with_setting(spring: Spring, setting: float) -> Spring:
 
 def affine(guide: Guide, hinge: Hinge) -> Affine:
     """Torque and work of a guide as functions of its spring setting, beside what a speed needs.
-
-    Parameters
-    ----------
-    guide : Guide
-        As cut, status `cut`
-    hinge : Hinge
-        Torque that the speed needs
 
     Returns
     -------
@@ -152,8 +115,6 @@ def missing_work(parts: Affine, setting: float) -> np.ndarray:
 
     Parameters
     ----------
-    parts : Affine
-        Guide and wanted work
     setting : float
         p0 [Pa], or F0 of a coil [N]
 
@@ -170,8 +131,6 @@ def work_swing(parts: Affine, setting: float) -> float:
 
     Parameters
     ----------
-    parts : Affine
-        Guide and wanted work
     setting : float
         p0 [Pa], or F0 of a coil [N]
 

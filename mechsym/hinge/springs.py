@@ -11,58 +11,28 @@ with the atmosphere outside) and `coil`.
 Source: Zotov et al. (2024), eq. (9).
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class AirGauge:
-    """Air spring as the paper prints it: the gauge pressure alone follows the polytrope.
-
-    Parameters
-    ----------
-    A : float
-        Piston area [m^2]
-    H : float
-        Free height of the gas column [m]
-    p0 : float
-        Excess pressure at z = 0 [Pa]
-    n : float
-        Polytropic index [-]
-    """
+    """Air spring as the paper prints it: the gauge pressure alone follows the polytrope."""
 
     A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
     H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
     p0: float = quantity("Pa", low=1, high=1e12, about="excess pressure at free height")
     n: float = quantity("-", low=1, high=2, about="polytropic index")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class AirAbsolute:
-    """Air spring with the absolute pressure on the polytrope and the atmosphere on the other side of the piston.
-
-    Parameters
-    ----------
-    A : float
-        Piston area [m^2]
-    H : float
-        Free height of the gas column [m]
-    p0 : float
-        Excess pressure at z = 0 [Pa]
-    n : float
-        Polytropic index [-]
-    pa : float
-        Pressure outside, absolute [Pa]
-    """
+    """Air spring with the absolute pressure on the polytrope and the atmosphere on the other side of the piston."""
 
     A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
     H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")
@@ -70,75 +40,34 @@ class AirAbsolute:
     n: float = quantity("-", low=1, high=2, about="polytropic index")
     pa: float = quantity("Pa", default=101325.0, above=0, about="pressure outside")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Coil:
-    """Linear coil spring.
-
-    Parameters
-    ----------
-    k : float
-        Stiffness [N/m]
-    F0 : float
-        Preload at z = 0 [N]
-    H : float
-        Closing at which the coils touch [m]
-    """
+    """Linear coil spring."""
 
     k: float = quantity("N/m", above=0, about="stiffness")
     F0: float = quantity("N", low=0, about="preload at z = 0")
     H: float = quantity("m", low=1e-4, high=100, about="closing at which the coils touch")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class SpringLaw:
-    """Functions of one spring. They take floats and arrays; `force` on a float stays plain Python and is fast.
+    """Functions of one spring. They take floats and arrays; `force` on a float stays plain Python and is fast."""
 
-    Parameters
-    ----------
-    force : callable
-        Closing z [m] to force, positive outwards [N]
-    energy : callable
-        Closing z [m] to stored energy, 0 at z = 0 [J]
-    closing : callable
-        Stored energy [J] to closing z [m], the inverse of `energy`
-    pressure : callable or None
-        Closing z [m] to excess pressure [Pa]; None for a spring without gas
-    z_low, z_high : float
-        The law holds strictly between these closings; -inf where there is no bound [m]
-    energy_low, energy_high : float
-        Stored energy at these bounds; +-inf where there is no bound [J]
-    """
-
-    force: Callable[[Any], Any]
-    energy: Callable[[Any], Any]
-    closing: Callable[[Any], Any]
-    pressure: Callable[[Any], Any] | None
+    force: Callable[[Any], Any]  #: Closing z [m] to force, positive outwards [N]
+    energy: Callable[[Any], Any]  #: Closing z [m] to stored energy, 0 at z = 0 [J]
+    closing: Callable[[Any], Any]  #: Stored energy [J] to closing z [m], the inverse of `energy`
+    pressure: Callable[[Any], Any] | None  #: Closing z [m] to excess pressure [Pa]; None for a spring without gas
+    #: The law holds strictly between these closings; -inf where there is no bound [m]
     z_low: float
     z_high: float
+    #: Stored energy at these bounds; +-inf where there is no bound [J]
     energy_low: float
     energy_high: float
 
 
 def law(spring: AirGauge | AirAbsolute | Coil) -> SpringLaw:
-    """The functions of a spring.
-
-    Parameters
-    ----------
-    spring : AirGauge, AirAbsolute or Coil
-        Its parameters
-
-    Returns
-    -------
-    law : SpringLaw
-        Force, energy and inverse
-    """
+    """The functions of a spring."""
     match spring:
         case AirGauge():
             return air_gauge(spring)
@@ -153,11 +82,6 @@ def air_gauge(spring: AirGauge) -> SpringLaw:
 
     .. math:: F = A p_0 \left(\frac{H}{H - z}\right)^n, \qquad
               U = \frac{A p_0 H}{n - 1}\left[\left(\frac{H}{H - z}\right)^{n - 1} - 1\right]
-
-    Parameters
-    ----------
-    spring : AirGauge
-        Its parameters
 
     Returns
     -------
@@ -195,11 +119,6 @@ def air_absolute(spring: AirAbsolute) -> SpringLaw:
     .. math:: F = A\left[(p_0 + p_a)\left(\frac{H}{H - z}\right)^n - p_a\right], \qquad
               U = A\left\{\frac{(p_0 + p_a) H}{n - 1}\left[\left(\frac{H}{H - z}\right)^{n - 1} - 1\right]
               - p_a z\right\}
-
-    Parameters
-    ----------
-    spring : AirAbsolute
-        Its parameters
 
     Returns
     -------
@@ -245,11 +164,6 @@ def coil(spring: Coil) -> SpringLaw:
     r"""Law of a linear spring.
 
     .. math:: F = F_0 + k z, \qquad U = F_0 z + \tfrac12 k z^2
-
-    Parameters
-    ----------
-    spring : Coil
-        Its parameters
 
     Returns
     -------

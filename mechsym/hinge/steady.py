@@ -16,6 +16,7 @@ from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import Trial, run
 from mechsym.jobs.machine import Assembly, running
 from mechsym.machine.loads import ConstantLoad, Load
+from mechsym.quantities import record
 from mechsym.simulate.angle import Panels, tabulate
 from mechsym.simulate.engine import Engine, machine
 from mechsym.simulate.steady import (
@@ -30,91 +31,46 @@ from mechsym.simulate.steady import (
 RIPPLE = 1 / 50
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Flywheels:
-    """Flywheels that would do without the hinge, or beside a faulty one.
+    """Flywheels that would do without the hinge, or beside a faulty one."""
 
-    Parameters
-    ----------
-    turns : Flywheel
-        Smallest with which the bare engine completes turns at all
-    steady : Flywheel
-        For a ripple of 1/50 without hinge
-    beside_faulty : Flywheel or None
-        For a ripple of 1/50 with the hinge when p0 is 2 per cent high; None without a guide
-    """
-
-    turns: Flywheel
-    steady: Flywheel
+    turns: Flywheel  #: Smallest with which the bare engine completes turns at all
+    steady: Flywheel  #: For a ripple of 1/50 without hinge
+    #: For a ripple of 1/50 with the hinge when p0 is 2 per cent high; None without a guide
     beside_faulty: Flywheel | None
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Sensitivity:
-    """Ripple for each per cent of error in the spring.
+    """Ripple for each per cent of error in the spring."""
 
-    Parameters
-    ----------
-    name, unit : str
-        Quantity that is off by one per cent, and its unit
-    value : float
-        Its value as designed [unit]
-    low, high : Steady
-        Steady motion with the quantity 1 per cent low and high
-    """
-
+    #: Quantity that is off by one per cent, and its unit
     name: str
     unit: str
-    value: float
+    value: float  #: Its value as designed [unit]
+    #: Steady motion with the quantity 1 per cent low and high
     low: Steady
     high: Steady
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Retuned:
-    """The same guide at another speed with the spring setting that ripples least.
-
-    Parameters
-    ----------
-    other : Assembly
-        Engine at the other speed
-    wanted : Hinge
-        Torque that it needs there
-    spring : record of mechsym.springs
-        Spring with the best setting
-    setting, ratio : float
-        p0 [Pa] (F0 of a coil [N]), and over that of the design [-]
-    steady : Steady
-        Steady motion with it
-    paper : Steady
-        Steady motion with the paper's factor 1.9 on the setting
-    trial : Trial or None
-        Run in time from the design speed; None when no setting turns steadily
-    """
+    """The same guide at another speed with the spring setting that ripples least."""
 
     other: Assembly
     wanted: Hinge
     spring: Spring
+    #: p0 [Pa] (F0 of a coil [N]), and over that of the design [-]
     setting: float
     ratio: float
     steady: Steady
-    paper: Steady
-    trial: Trial | None
+    paper: Steady  #: Steady motion with the paper's factor 1.9 on the setting
+    trial: Trial | None  #: Run in time from the design speed; None when no setting turns steadily
 
 
 def flywheels(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load) -> Flywheels:
     """Flywheels that replace the hinge, or that a faulty hinge needs.
-
-    Parameters
-    ----------
-    assembly : Assembly
-        Engine
-    wanted : Hinge
-        Designed torque
-    guide : Guide or None
-        Guide that could be cut
-    load : record of mechsym.loads
-        Load law of the case
 
     Returns
     -------
@@ -137,17 +93,6 @@ def flywheels(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load
 def sensitivities(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load) -> list[Sensitivity]:
     """Steady motion with one quantity of the spring one per cent off.
 
-    Parameters
-    ----------
-    assembly : Assembly
-        Engine
-    wanted : Hinge
-        Designed torque
-    guide : Guide
-        Guide that could be cut
-    load : record of mechsym.loads
-        Load law of the case
-
     Returns
     -------
     sensitivities : list of Sensitivity
@@ -167,16 +112,8 @@ def with_spring(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load, spr
 
     Parameters
     ----------
-    assembly : Assembly
-        Engine
     wanted : Hinge
         Gives the mean torque for the load
-    guide : Guide
-        Guide that could be cut
-    load : record of mechsym.loads
-        Load law
-    spring : record of mechsym.springs
-        The spring inside
 
     Returns
     -------
@@ -191,21 +128,10 @@ def retuned(other: Assembly, wanted: Hinge, guide: Guide, load: Load, turns: flo
 
     Parameters
     ----------
-    other : Assembly
-        Engine at the other speed
-    wanted : Hinge
-        Torque that it needs there
     guide : Guide
         Guide as cut for the design speed
-    load : record of mechsym.loads
-        Load law
     turns : float
         Turns to run in time [-]
-
-    Returns
-    -------
-    retuned : Retuned
-        Setting, ripple, run
     """
     design = setting_of(guide.spring)
     near = retune(guide, wanted, "least_ripple_propeller_load").setting

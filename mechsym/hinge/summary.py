@@ -19,11 +19,6 @@ _RPM = 60 / (2 * np.pi)
 def summary(design: Design) -> dict[str, Any]:
     """Results of a design by name, in SI unless a key names another unit.
 
-    Parameters
-    ----------
-    design : Design
-        A design
-
     Returns
     -------
     summary : dict
@@ -72,18 +67,7 @@ def summary(design: Design) -> dict[str, Any]:
 
 
 def offers(design: Design) -> list[dict[str, Any]]:
-    """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine.
-
-    Parameters
-    ----------
-    design : Design
-        A design
-
-    Returns
-    -------
-    offers : list of dict
-        The chosen one first
-    """
+    """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine."""
     chosen = Offer(balance=design.balance, guide=design.guide, verdict=design.verdict)
     return [
         {
@@ -151,15 +135,8 @@ def guide_turn(design: Design, points: int = 721) -> Turn:
 
     Parameters
     ----------
-    design : Design
-        A design with a guide
     points : int
         Number of angles, both ends included
-
-    Returns
-    -------
-    turn : Turn
-        Arrays of shape (points,)
     """
     theta = np.linspace(0, 2 * np.pi, points)
     return at_angles(design.guide, design.guide.spring, design.assembly.case.need("rollers"), theta)
@@ -170,15 +147,8 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
 
     Parameters
     ----------
-    design : Design
-        A design
     points : int
         Number of angles, both ends included
-
-    Returns
-    -------
-    columns : dict of str to ndarray
-        SI units
     """
     hinge = design.hinge
     phi = np.linspace(0, hinge.period, points)
@@ -198,13 +168,6 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
 
 def guide_columns(design: Design, turn: Turn) -> dict[str, np.ndarray]:
     """Table of the guide over a turn of its shaft: path, cut profile, contact.
-
-    Parameters
-    ----------
-    design : Design
-        A design with a guide
-    turn : Turn
-        From `guide_turn`
 
     Returns
     -------

@@ -13,7 +13,6 @@ give that torque only if it takes as much work as it gives: the mean of M_h over
 Source: Zotov et al. (2024), eqs. (3) to (8). `hinge_printed.py` has equation (8) as printed.
 """
 
-import dataclasses
 import functools
 import math
 from collections.abc import Callable, Sequence
@@ -23,79 +22,47 @@ from scipy.interpolate import PPoly
 
 from mechsym import periodic
 from mechsym.mechanisms.record import Mechanism, curves
+from mechsym.quantities import record
 
 _MEAN_TOLERANCE = 1e-9  # of the peak torque; what rounding leaves is far below
 
 Function = Callable[[np.ndarray], np.ndarray]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class EngineTorques:
-    """What the hinge has to balance, as functions of the crank angle.
+    """What the hinge has to balance, as functions of the crank angle."""
 
-    Parameters
-    ----------
-    inertia, dinertia_dphi : callable
-        phi of shape (n,) [rad] to reduced inertia [kg*m^2] and its derivative [kg*m^2/rad]
-    gas_torque : callable
-        phi to F dx/dphi, F positive away from the head [N*m]
-    gravity_torque : callable
-        phi to the generalised force of gravity M_g [N*m]
-    kinks : sequence of float
-        Angles where a function is not smooth [rad]
-    period : float
-        2 pi for a two-stroke, 4 pi for a four-stroke cycle [rad]
-    """
-
+    #: phi of shape (n,) [rad] to reduced inertia [kg*m^2] and its derivative [kg*m^2/rad]
     inertia: Function
     dinertia_dphi: Function
-    gas_torque: Function
-    gravity_torque: Function
-    kinks: Sequence[float]
-    period: float
+    gas_torque: Function  #: phi to F dx/dphi, F positive away from the head [N*m]
+    gravity_torque: Function  #: phi to the generalised force of gravity M_g [N*m]
+    kinks: Sequence[float]  #: Angles where a function is not smooth [rad]
+    period: float  #: 2 pi for a two-stroke, 4 pi for a four-stroke cycle [rad]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Hinge:
-    """The hinge torque and its parts; the piecewise polynomials take any crank angle [rad].
+    """The hinge torque and its parts; the piecewise polynomials take any crank angle [rad]."""
 
-    Parameters
-    ----------
-    omega, period : float
-        Crank speed [rad/s] and period of the torque [rad]
-    load_torque : float
-        Constant torque M_r that the engine can drive, the mean of F dx/dphi [N*m]
-    torque : PPoly
-        M_h, the sum of the three parts [N*m]
-    inertia_part, gas_part, gravity_part : PPoly
-        omega^2 I'/2, M_r - F x' and -M_g [N*m]
-    inertia : PPoly
-        I [kg*m^2]
-    work : PPoly
-        W, integral of M_h from phi = 0 [J]
-    mean_torque : float
-        Mean of M_h over a period [N*m]
-    exists : bool
-        The mean is zero within 1e-9 of the peak, so that a spring can give the torque
-    torque_min, torque_max, work_min, work_max : float
-        Signed extremes [N*m], [J]
-    """
-
+    #: Crank speed [rad/s] and period of the torque [rad]
     omega: float
     period: float
-    load_torque: float
-    torque: PPoly
+    load_torque: float  #: Constant torque M_r that the engine can drive, the mean of F dx/dphi [N*m]
+    torque: PPoly  #: M_h, the sum of the three parts [N*m]
+    #: omega^2 I'/2, M_r - F x' and -M_g [N*m]
     inertia_part: PPoly
     gas_part: PPoly
     gravity_part: PPoly
-    inertia: PPoly
-    work: PPoly
-    mean_torque: float
-    exists: bool
-    torque_min: float
-    torque_max: float
-    work_min: float
-    work_max: float
+    inertia: PPoly  #: I [kg*m^2]
+    work: PPoly  #: W, integral of M_h from phi = 0 [J]
+    mean_torque: float  #: Mean of M_h over a period [N*m]
+    exists: bool  #: The mean is zero within 1e-9 of the peak, so that a spring can give the torque
+    torque_min: float  #: Signed extremes [N*m], [J]
+    torque_max: float  #: Signed extremes [N*m], [J]
+    work_min: float  #: Signed extremes [N*m], [J]
+    work_max: float  #: Signed extremes [N*m], [J]
 
 
 def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float], period: float) -> EngineTorques:

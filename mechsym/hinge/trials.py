@@ -11,6 +11,7 @@ from mechsym.hinge.torque import Hinge
 from mechsym.jobs.machine import Assembly, running
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.mechanisms.record import bind
+from mechsym.quantities import record
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import Engine, machine, problem
@@ -18,24 +19,15 @@ from mechsym.simulate.steady import steady_state
 from mechsym.simulate.summary import speed_ripple
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Trial:
-    """One run in time.
+    """One run in time."""
 
-    Parameters
-    ----------
-    name, about : str
-        Key, and what is tried in a few words
-    result : Result
-        Series, energy audit, event
-    speed_ripple : float or None
-        (max - min) / mean over the last period; None if the shaft stopped before [-]
-    """
-
+    #: Key, and what is tried in a few words
     name: str
     about: str
     result: Result
-    speed_ripple: float | None
+    speed_ripple: float | None  #: (max - min) / mean over the last period; None if the shaft stopped before [-]
 
 
 def run(name: str, about: str, engine: Engine, speed: float, turns: float, settings: Settings | None = None) -> Trial:
@@ -43,21 +35,10 @@ def run(name: str, about: str, engine: Engine, speed: float, turns: float, setti
 
     Parameters
     ----------
-    name, about : str
-        Key, and what is tried
-    engine : Engine
-        Engine with its load
     speed : float
         Speed at the start [rad/s]
     turns : float
         Turns to run [-]
-    settings : Settings, optional
-        Tolerance and check
-
-    Returns
-    -------
-    trial : Trial
-        Result and ripple
     """
     result = simulate(problem(engine, speed, turns), settings or Settings(check="none"))
     (angle,) = engine.mechanism.coordinates
@@ -71,14 +52,6 @@ def side_by_side(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: L
 
     Parameters
     ----------
-    assembly : Assembly
-        Engine
-    wanted : Hinge
-        Designed torque
-    guide : Guide or None
-        Guide that could be cut
-    load : record of mechsym.loads
-        Load law of the case
     turns : float
         Turns to run [-]
 
@@ -103,21 +76,12 @@ def with_flywheel(assembly: Assembly, wanted: Hinge, load: Load, inertia: float,
 
     Parameters
     ----------
-    assembly : Assembly
-        Engine
     wanted : Hinge
         Gives the mean torque for the load
-    load : record of mechsym.loads
-        Load law of the case
     inertia : float
         Flywheel on top of what the case keeps [kg*m^2]
     turns : float
         Turns to run [-]
-
-    Returns
-    -------
-    trial : Trial
-        Key flywheel
     """
     mechanism = assembly.mechanism
     heavier = bind(mechanism.name, {**mechanism.parameters, "I01": mechanism.parameters["I01"] + inertia})

@@ -14,24 +14,15 @@ from mechsym.hinge.guide import Guide, Spring
 from mechsym.hinge.limits import Limits, Verdict
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Offer:
-    """One way to balance the torque, with its guide.
+    """One way to balance the torque, with its guide."""
 
-    Parameters
-    ----------
-    balance : Balance
-        The part that the hinge takes, and the ripple that the rest leaves
-    guide : Guide
-        Guide, or why there is none
-    verdict : Verdict
-        Whether it can be built
-    """
-
-    balance: Balance
-    guide: Guide
+    balance: Balance  #: The part that the hinge takes, and the ripple that the rest leaves
+    guide: Guide  #: Guide, or why there is none
     verdict: Verdict
 
 
@@ -44,24 +35,13 @@ def offers(
     ----------
     hinge : Hinge
         Torque that would keep the speed constant
-    spring : record of mechsym.springs
-        Spring in the guide
     choices : GuideParameters
         Arrangement, start, shaft ratio and balance
-    rollers : RollerParameters
-        Rollers and tracks
-    limits : Limits
-        What is allowed
 
     Returns
     -------
     offers : tuple of Offer
         One or two, the chosen one first
-
-    Raises
-    ------
-    BadInput
-        The track of the chosen one would not close
     """
     kinds = [choices.balance] + [k for k in KINDS if k != choices.balance]
     parts = [balance.build(hinge, kind) for kind in kinds]

@@ -35,11 +35,6 @@ def engine(case: Case) -> Engine:
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` and `[friction_pressure]`
         default to a constant gamma and no friction, the law `mechanism` is fitted to the case's `[friction]`
 
-    Returns
-    -------
-    engine : Engine
-        Ready for `performance`
-
     Raises
     ------
     BadInput
@@ -74,17 +69,10 @@ def over_speeds(engine: Engine, omega: np.ndarray, progress: Progress = lambda c
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
     progress : callable, optional
         Called with the number of points done after each block of them
-
-    Returns
-    -------
-    performance : Performance
-        Figures at the n speeds
     """
     return over_design(engine, {"omega": omega}, progress)
 
@@ -94,17 +82,10 @@ def over_design(engine: Engine, design: Mapping[str, Any], progress: Progress = 
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     design : mapping of str to ndarray, shape (n,)
         Operating points, see `model.design_names`; must hold `omega` [rad/s]
     progress : callable, optional
         Called with the number of points done after each block of them
-
-    Returns
-    -------
-    performance : Performance
-        Figures at the n points
 
     Raises
     ------
@@ -133,11 +114,6 @@ def _joined(parts: list[Performance]) -> Performance:
 
 def columns(found: Performance) -> dict[str, Any]:
     """Figures under the names and units of the command line.
-
-    Parameters
-    ----------
-    found : Performance
-        Figures at n points
 
     Returns
     -------
@@ -172,8 +148,6 @@ def curves(engine: Engine, omega: float, step: float = np.radians(0.5)) -> dict[
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     omega : float
         Crank speed [rad/s]
     step : float

@@ -18,45 +18,24 @@ from mechsym.forces.shaking import Shaking, shaking, verdict
 from mechsym.forces.table import angle_of_largest, columns, extremes
 from mechsym.forces.turn import Turn, turn
 from mechsym.mechanisms import constraints
+from mechsym.quantities import record
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
 _RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Forces:
-    """Everything that `mechsym forces` reports of a case.
-
-    Parameters
-    ----------
-    turn : Turn
-        One cycle
-    loads : Loads
-        Reactions under common names
-    columns : mapping of str to ndarray, shape (n,)
-        The table `forces.csv`
-    torque_orders : Orders
-        Harmonics of the torque
-    shaking : Shaking
-        Forces and moments on the frame
-    losses : Losses or None
-        Friction, where the case has coefficients
-    chains : mapping of str to Chain
-        For a slider crank: rod as two masses, and Terskih's rule
-    unbalanced : list of str
-        Why balance that was asked for is not reached
-    comparison : list of dict or None
-        The mechanisms side by side
-    """
+    """Everything that `mechsym forces` reports of a case."""
 
     turn: Turn
     loads: Loads
-    columns: dict[str, np.ndarray]
+    columns: dict[str, np.ndarray]  #: shape (n,): The table `forces.csv`
     torque_orders: Orders
-    shaking: Shaking
-    losses: Losses | None
-    chains: dict[str, textbook.Chain]
-    unbalanced: list[str]
+    shaking: Shaking  #: Forces and moments on the frame
+    losses: Losses | None  #: Friction, where the case has coefficients
+    chains: dict[str, textbook.Chain]  #: For a slider crank: rod as two masses, and Terskih's rule
+    unbalanced: list[str]  #: Why balance that was asked for is not reached
     comparison: list[dict[str, Any]] | None
 
 
@@ -69,11 +48,6 @@ def forces(case: Case, comparison: bool = False) -> Forces:
         See `turn`; `[friction]`, `[rings]`, `[shaking]` and `[comparison]` are read where they stand
     comparison : bool
         Whether the mechanisms are put side by side as well
-
-    Returns
-    -------
-    forces : Forces
-        Loads, shaking, friction
     """
     one = turn(case)
     found = loads(one)
@@ -109,11 +83,6 @@ def _chains(one: Turn) -> dict[str, textbook.Chain]:
 def summary(found: Forces) -> dict[str, Any]:
     """The result under the names of the command line.
 
-    Parameters
-    ----------
-    found : Forces
-        Of `forces`
-
     Returns
     -------
     summary : dict
@@ -147,11 +116,6 @@ def summary(found: Forces) -> dict[str, Any]:
 
 def quantities(numbers: dict[str, Any]) -> list[str]:
     """Columns that a reader wants to see the extremes of.
-
-    Parameters
-    ----------
-    numbers : dict
-        From `summary`
 
     Returns
     -------

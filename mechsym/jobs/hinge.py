@@ -21,54 +21,28 @@ from mechsym.hinge.ways import Offer, offers
 from mechsym.jobs.machine import Assembly, assemble, kept_flywheel, load_of
 from mechsym.jobs.other_loads import AtLoad, design_load, guide_at_loads
 from mechsym.machine.loads import Load
+from mechsym.quantities import record
 
 STEPS = 6  # how often `design` calls `progress`
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Design:
-    """A designed hinge and how it runs.
-
-    Parameters
-    ----------
-    assembly : Assembly
-        Engine
-    hinge : Hinge
-        Torque that keeps the speed constant
-    balance : Balance
-        Part of it that the guide gives
-    guide : Guide
-        Guide, or why there is none
-    verdict : Verdict
-        Whether it can be built
-    instead : tuple of Offer
-        The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
-    trials : tuple of Trial
-        Runs side by side
-    flywheels : Flywheels
-        What the hinge saves, and what a faulty one needs
-    sensitivities : tuple of Sensitivity
-        Ripple for each per cent of error
-    retuned : Retuned or None
-        The same guide at the other speed of the case
-    flywheel_kept : float
-        Flywheel of the case [kg*m^2]
-    loads : tuple of AtLoad
-        The same guide at other loads, as far as they were asked for
-    """
+    """A designed hinge and how it runs."""
 
     assembly: Assembly
-    hinge: Hinge
-    balance: Balance
-    guide: Guide
+    hinge: Hinge  #: Torque that keeps the speed constant
+    balance: Balance  #: Part of it that the guide gives
+    guide: Guide  #: Guide, or why there is none
     verdict: Verdict
+    #: The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
     instead: tuple[Offer, ...]
     trials: tuple[Trial, ...]
-    flywheels: Flywheels
-    sensitivities: tuple[Sensitivity, ...]
-    retuned: Retuned | None
-    flywheel_kept: float
-    loads: tuple[AtLoad, ...] = ()
+    flywheels: Flywheels  #: What the hinge saves, and what a faulty one needs
+    sensitivities: tuple[Sensitivity, ...]  #: Ripple for each per cent of error
+    retuned: Retuned | None  #: The same guide at the other speed of the case
+    flywheel_kept: float  #: Flywheel of the case [kg*m^2]
+    loads: tuple[AtLoad, ...] = ()  #: The same guide at other loads, as far as they were asked for
 
 
 def design(
@@ -89,11 +63,6 @@ def design(
         Called after each of the six steps
     loads : sequence of float
         Other loads to try the guide at, as shares of the case's mean indicated pressure [-]
-
-    Returns
-    -------
-    design : Design
-        Everything that the report shows
 
     Raises
     ------

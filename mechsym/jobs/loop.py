@@ -26,11 +26,6 @@ def loop(case: Case) -> Loop:
         With a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one mechanism
         is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque
 
-    Returns
-    -------
-    loop : Loop
-        Ready for `run_loop`
-
     Raises
     ------
     BadInput

@@ -1,6 +1,5 @@
 """An engine put together from a case: mechanism, cylinder pressure, what the hinge has to balance, and what runs."""
 
-import dataclasses
 import functools
 from collections.abc import Callable
 from typing import Any
@@ -20,40 +19,24 @@ from mechsym.hinge.torque import EngineTorques, Hinge
 from mechsym.machine.loads import ConstantLoad, Load, settle
 from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.mechanisms.record import Mechanism
+from mechsym.quantities import record
 from mechsym.simulate.engine import AngleForce, Engine
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Assembly:
-    """An engine of a case.
-
-    Parameters
-    ----------
-    case : Case
-        Its data
-    mechanism : Mechanism
-        Crosshead engine, with the flywheel of the case
-    pressure, cylinder : Pressure, Cylinder
-        Gas and its space
-    p_back, area : float
-        Absolute pressure under the piston [Pa], piston area [m^2]
-    force : callable
-        phi, ndarray (n,), to the net gas force F on the piston [N]
-    torques : EngineTorques
-        What the hinge has to balance
-    omega : float
-        Speed of operation [rad/s]
-    """
+    """An engine of a case."""
 
     case: Case
-    mechanism: Mechanism
+    mechanism: Mechanism  #: Crosshead engine, with the flywheel of the case
     pressure: Pressure
     cylinder: Cylinder
+    #: Absolute pressure under the piston [Pa], piston area [m^2]
     p_back: float
     area: float
-    force: Callable[[np.ndarray], np.ndarray]
-    torques: EngineTorques
-    omega: float
+    force: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to the net gas force F on the piston [N]
+    torques: EngineTorques  #: What the hinge has to balance
+    omega: float  #: Speed of operation [rad/s]
 
 
 def assemble(case: Case, diagram: str | None = None) -> Assembly:
@@ -65,11 +48,6 @@ def assemble(case: Case, diagram: str | None = None) -> Assembly:
         With sections parameters, operation, cycle and perhaps flywheel
     diagram : str, optional
         CSV file of a measured diagram in place of the case's cycle
-
-    Returns
-    -------
-    assembly : Assembly
-        Engine of the case
 
     Raises
     ------
@@ -111,11 +89,6 @@ def _parts(name: str, parameters: Any, cycle: Any) -> dict[str, Any]:
 def kept_flywheel(case: Case) -> float:
     """Inertia of the flywheel that a case keeps.
 
-    Parameters
-    ----------
-    case : Case
-        Perhaps with a section flywheel
-
     Returns
     -------
     inertia : float
@@ -132,21 +105,12 @@ def running(
 
     Parameters
     ----------
-    assembly : Assembly
-        Engine
     wanted : Hinge
         Gives the mean torque for a load law without numbers
-    load : record of mechsym.loads
-        Load law
     guide : Guide, optional
         Guide that could be cut; none runs the engine without hinge
     spring : record of mechsym.springs, optional
         Spring in the guide; by default the one it was cut for
-
-    Returns
-    -------
-    engine : Engine
-        For `mechsym.simulate.engine`
     """
     forces = [AngleForce(name="gas", input="F", role="drive", value=assembly.force)]
     if guide is not None:
@@ -167,11 +131,6 @@ def running(
 
 def load_of(case: Case) -> Load:
     """The load law of a case.
-
-    Parameters
-    ----------
-    case : Case
-        Perhaps with a section load
 
     Returns
     -------

@@ -43,11 +43,6 @@ def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustio
 def summary(found: DiagramCombustion) -> dict[str, Any]:
     """The analysis under the names and units of the command line.
 
-    Parameters
-    ----------
-    found : DiagramCombustion
-        The analysis
-
     Returns
     -------
     summary : dict

@@ -15,42 +15,25 @@ from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.hinge.steady import with_spring
 from mechsym.jobs.machine import assemble, load_of
+from mechsym.quantities import record
 from mechsym.simulate.steady import Steady
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class AtLoad:
-    """The hinge at one load.
+    """The hinge at one load."""
 
-    Parameters
-    ----------
-    share : float
-        Load over that of the design [-]
-    mean_indicated_pressure : float
-        Load [Pa]
-    as_cut : Steady
-        With the spring as designed
-    reset : Steady
-        With the spring setting that fits this load's work best
-    setting, ratio : float
-        That setting, p0 [Pa] or F0 of a coil [N], and over that of the design [-]
-    """
-
-    share: float
-    mean_indicated_pressure: float
+    share: float  #: Load over that of the design [-]
+    mean_indicated_pressure: float  #: Load [Pa]
     as_cut: Steady
-    reset: Steady
+    reset: Steady  #: With the spring setting that fits this load's work best
+    #: That setting, p0 [Pa] or F0 of a coil [N], and over that of the design [-]
     setting: float
     ratio: float
 
 
 def design_load(case: Case) -> float:
     """The load that a case is designed for.
-
-    Parameters
-    ----------
-    case : Case
-        As for `design`
 
     Returns
     -------
@@ -78,11 +61,6 @@ def hinge_at_loads(case: Case, loads: Sequence[float]) -> list[AtLoad]:
     loads : sequence of float
         Mean indicated pressures to try [Pa]
 
-    Returns
-    -------
-    rows : list of AtLoad
-        One a load
-
     Raises
     ------
     BadInput
@@ -102,17 +80,10 @@ def guide_at_loads(case: Case, cut: guide.Guide, loads: Sequence[float]) -> list
 
     Parameters
     ----------
-    case : Case
-        As for `hinge_at_loads`
     cut : Guide
         Guide of its hinge, status `cut`
     loads : sequence of float
         Mean indicated pressures to try [Pa]
-
-    Returns
-    -------
-    rows : list of AtLoad
-        One a load
     """
     return [_at(case, cut, load) for load in loads]
 

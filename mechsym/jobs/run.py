@@ -3,7 +3,6 @@
 import dataclasses
 import functools
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from mechsym.hinge import torque as hinge
 from mechsym.jobs import train as trains
 from mechsym.jobs.machine import assemble, load_of, running
 from mechsym.mechanisms.crank_train import parameters as crank_train
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 from mechsym.simulate import engine as engines
 from mechsym.simulate.backends import BACKENDS, DEFAULT
 from mechsym.simulate.engine import Engine
@@ -27,71 +26,43 @@ _WINDOW_POINTS = 4000
 _TURN_POINTS = 360  # results a turn of a run over turns
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Simulation:
-    """Section `[simulation]`: how long, from where, how exactly.
+    """Section `[simulation]`: how long, from where, how exactly."""
 
-    Parameters
-    ----------
-    t_end : float or None
-        Last time; with turns too, the run ends at what comes first [s]
-    turns : float or None
-        Turns of the crank to run [-]
-    speed_start : float or None
-        Speed of every coordinate at the start; None takes the speed of operation of an engine, else rest [rad/s]
-    phi_start : float
-        Every coordinate at the start [rad]
-    tolerance : float
-        Relative and absolute tolerance of a step [-]
-    backend : str
-        Integrator
-    output_step : float
-        Spacing of the results in a run to t_end [s]
-    window : float or None
-        Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
-    hinge : str
-        `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
-    difference_allowed : float
-        Largest relative difference to the run at the tighter tolerance that counts as converged [-]
-    """
-
+    #: Last time; with turns too, the run ends at what comes first [s]
     t_end: float | None = quantity("s", default=None, above=0, about="last time")
+    #: Turns of the crank to run [-]
     turns: float | None = quantity("-", default=None, above=0, about="turns to run")
+    #: Speed of every coordinate at the start; None takes the speed of operation of an engine, else rest [rad/s]
     speed_start: float | None = quantity("rad/s", default=None, about="speed at the start")
     phi_start: float = quantity("rad", default=0.0, about="angle at the start")
+    #: Relative and absolute tolerance of a step [-]
     tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
+    #: Spacing of the results in a run to t_end [s]
     output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
+    #: Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
     window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
+    #: `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
     hinge: str = choice("designed", "none", default="designed", about="hinge of an engine")
+    #: Largest relative difference to the run at the tighter tolerance that counts as converged [-]
     difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.t_end is None and self.turns is None:
             raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class StepTorque:
-    """Section `[drive]`: a torque that is switched on.
+    """Section `[drive]`: a torque that is switched on."""
 
-    Parameters
-    ----------
-    input : str or None
-        The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
-    time : float
-        When it is switched on [s]
-    torque : float
-        Torque from then on, 0 before [N*m]
-    """
-
+    #: The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
     input: str | None = None
     time: float = quantity("s", default=0.0, about="when the torque is switched on")
+    #: Torque from then on, 0 before [N*m]
     torque: float = quantity("N*m", about="driving torque")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def settings_of(case: Case) -> Settings:
@@ -101,11 +72,6 @@ def settings_of(case: Case) -> Settings:
     ----------
     case : Case
         With section `[simulation]`
-
-    Returns
-    -------
-    settings : Settings
-        For `simulate`
     """
     wanted: Simulation = case.need("simulation")
     return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
@@ -119,11 +85,6 @@ def problem_of(case: Case) -> Problem:
     case : Case
         With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
         train may have both
-
-    Returns
-    -------
-    problem : Problem
-        For `simulate`
 
     Raises
     ------
@@ -182,8 +143,6 @@ def window_of(case: Case, problem: Problem) -> float | None:
     ----------
     case : Case
         With section `[simulation]`
-    problem : Problem
-        Its run
 
     Returns
     -------

@@ -17,6 +17,7 @@ from mechsym.jobs.size_loads import (
     slider_crank_forces,
     speeds,
 )
+from mechsym.quantities import record
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import design as hypocycloid_design
@@ -33,27 +34,9 @@ from mechsym.sizing.slider_crank.parts import SliderDesign
 RPM = np.pi / 30
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Outcome:
-    """What sizing an engine gave.
-
-    Parameters
-    ----------
-    rows : list of dict
-        Sizes, checks and headline
-    failing : list of Check
-        Checks below the wanted factor
-    converged : bool
-        Whether masses and loads agree
-    rounds : int
-        Rounds that took
-    parts : Parts or SliderDesign
-        For the drawing
-    forces : Forces or SliderForces
-        For the drawing
-    stock : Stock
-        For the drawing
-    """
+    """What sizing an engine gave."""
 
     rows: list[dict[str, Any]]
     failing: list[Check]
@@ -69,17 +52,8 @@ def sized(name: str, overrides: dict[str, Any], as_printed: bool) -> Outcome:
 
     Parameters
     ----------
-    name : str
-        Built-in case or path
-    overrides : dict
-        Values to replace
     as_printed : bool
         Check `[part_*]` instead of sizing
-
-    Returns
-    -------
-    outcome : Outcome
-        Rows and verdict
 
     Raises
     ------

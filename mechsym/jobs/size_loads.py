@@ -20,6 +20,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine, over_speeds, speed_range
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
 from mechsym.mechanisms.record import bind, curves
+from mechsym.quantities import record
 from mechsym.sizing.hypocycloid.masses import Moving, Printed
 from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock
 from mechsym.sizing.loads import over_period
@@ -32,46 +33,25 @@ from mechsym.sizing.wants import Wants
 _STEPS = 720  # angles over a period of 4 pi; divisible by 4 for the teeth's returns
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Job:
-    """A case ready for sizing.
+    """A case ready for sizing."""
 
-    Parameters
-    ----------
-    case : Case
-        The case, with the cycle settings that its section `[sizing]` asks for
-    machine : Engine
-        Its engine
-    wants : Wants
-        Section `[sizing]`
-    stock : Stock
-        Materials and bearings
-    """
-
-    case: Case
+    case: Case  #: The case, with the cycle settings that its section `[sizing]` asks for
     machine: Engine
-    wants: Wants
+    wants: Wants  #: Section `[sizing]`
     stock: Stock
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Pressures:
-    """Pressure over the period at every speed.
+    """Pressure over the period at every speed."""
 
-    Parameters
-    ----------
-    omega, theta : ndarray, shape (k,), (n,)
-        Crank speeds [rad/s], crank angles from firing top dead centre [rad]
-    p : ndarray, shape (k, n)
-        Absolute pressure [Pa]
-    back : float
-        Pressure behind the piston [Pa]
-    """
-
+    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
     omega: np.ndarray
     theta: np.ndarray
-    p: np.ndarray
-    back: float
+    p: np.ndarray  #: shape (k, n): Absolute pressure [Pa]
+    back: float  #: Pressure behind the piston [Pa]
 
 
 def job(name: str, overrides: dict[str, Any]) -> Job:
@@ -83,11 +63,6 @@ def job(name: str, overrides: dict[str, Any]) -> Job:
         Name of a built-in case or a path
     overrides : dict
         Values to replace; they win over the settings of `[sizing]`
-
-    Returns
-    -------
-    job : Job
-        Case, engine, wants, stock
 
     Raises
     ------
@@ -106,11 +81,6 @@ def job(name: str, overrides: dict[str, Any]) -> Job:
 def speeds(found: Job) -> np.ndarray:
     """Crank speeds at which the parts are sized and checked.
 
-    Parameters
-    ----------
-    found : Job
-        The case
-
     Returns
     -------
     omega : ndarray, shape (k,)
@@ -126,8 +96,6 @@ def pressures(found: Job, omega: np.ndarray) -> Pressures:
 
     Parameters
     ----------
-    found : Job
-        The case
     omega : ndarray, shape (k,)
         Crank speeds [rad/s]
 
@@ -145,13 +113,6 @@ def pressures(found: Job, omega: np.ndarray) -> Pressures:
 
 def hypocycloid_forces(found: Job, gas: Pressures) -> Callable[[Moving], Forces]:
     """Forces of the derived hypocycloid mechanism for given moving masses.
-
-    Parameters
-    ----------
-    found : Job
-        The case
-    gas : Pressures
-        Pressure over the period
 
     Returns
     -------
@@ -184,8 +145,6 @@ def fuel_flow(found: Job, omega: float) -> float:
 
     Parameters
     ----------
-    found : Job
-        The case
     omega : float
         Crank speed [rad/s]
 
@@ -228,15 +187,8 @@ def performance(found: Job, omega: np.ndarray) -> Performance:
 
     Parameters
     ----------
-    found : Job
-        The case
     omega : ndarray, shape (k,)
         Crank speeds [rad/s]
-
-    Returns
-    -------
-    performance : Performance
-        Torque, power and the rest
     """
     return over_speeds(found.machine, omega)
 
@@ -267,8 +219,6 @@ def slider_crank_forces(found: Job, gas: Pressures) -> Callable[[float], SliderF
     ----------
     found : Job
         The case; mechanism `crosshead` without offset
-    gas : Pressures
-        Pressure over the period
 
     Returns
     -------

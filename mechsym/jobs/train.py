@@ -8,7 +8,6 @@ Sections of a case: `[drive]` (input left out: the free end), `[cycle]`, `[load]
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,27 +20,18 @@ from mechsym.forces.turn import turn
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.quantities import record
 from mechsym.simulate.engine import load_value
 from mechsym.simulate.problem import Kinks, Part, Periodic
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Cylinders:
-    """Gas forces of a crank train.
+    """Gas forces of a crank train."""
 
-    Parameters
-    ----------
-    parts : tuple of Part
-        One a cylinder, `gas_1` and so on
-    kinks : tuple of Kinks
-        One a throw whose gas force is not smooth
-    torque : float
-        Their mean torque on the shaft [N*m]
-    """
-
-    parts: tuple[Part, ...] = ()
-    kinks: tuple[Kinks, ...] = ()
-    torque: float = 0.0
+    parts: tuple[Part, ...] = ()  #: One a cylinder, `gas_1` and so on
+    kinks: tuple[Kinks, ...] = ()  #: One a throw whose gas force is not smooth
+    torque: float = 0.0  #: Their mean torque on the shaft [N*m]
 
 
 def cylinders(case: Case) -> Cylinders:
@@ -119,11 +109,6 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
     speed_start : float
         Speed at the start [rad/s]
 
-    Returns
-    -------
-    parts : tuple of Part
-        None without that section
-
     Raises
     ------
     BadInput
@@ -143,18 +128,7 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
 
 
 def remarks(case: Case) -> tuple[str, ...]:
-    """What a reader of a run should know about a crank train.
-
-    Parameters
-    ----------
-    case : Case
-        A case
-
-    Returns
-    -------
-    remarks : tuple of str
-        Sentences; none for other mechanisms
-    """
+    """What a reader of a run should know about a crank train."""
     if case.mechanism != "crank_train" or "load" in case.sections:
         return ()
     return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)

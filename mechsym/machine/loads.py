@@ -4,63 +4,39 @@ The torque opposes the motion: positive values brake a shaft that turns forwards
 of an engine undetermined; one that grows with speed brings it back.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class ConstantLoad:
-    """The same torque at every speed.
+    """The same torque at every speed."""
 
-    Parameters
-    ----------
-    torque : float or None
-        Load torque; None takes the mean torque of the engine cycle [N*m]
-    """
-
+    #: Load torque; None takes the mean torque of the engine cycle [N*m]
     torque: float | None = quantity("N*m", default=None, about="load torque; without it the cycle's mean torque")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class PropellerLoad:
-    """Torque that grows with the square of the speed.
+    """Torque that grows with the square of the speed."""
 
-    Parameters
-    ----------
-    torque : float or None
-        Torque at the reference speed; None takes the mean torque of the engine cycle [N*m]
-    speed : float or None
-        Reference speed; None takes the speed of operation [rad/s]
-    """
-
+    #: Torque at the reference speed; None takes the mean torque of the engine cycle [N*m]
     torque: float | None = quantity("N*m", default=None, low=0, about="torque at the reference speed")
+    #: Reference speed; None takes the speed of operation [rad/s]
     speed: float | None = quantity("rad/s", default=None, low=0.1, about="reference speed")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class TableLoad:
-    """Torque over speed from a table, joined without overshoot by cubics (PCHIP), constant beyond its ends.
+    """Torque over speed from a table, joined without overshoot by cubics (PCHIP), constant beyond its ends."""
 
-    Parameters
-    ----------
-    speeds : tuple of float
-        Ascending speeds, at least two [rad/s]
-    torques : tuple of float
-        Torque at each speed [N*m]
-    """
-
+    #: Ascending speeds, at least two [rad/s]
     speeds: tuple[float, ...] = quantity("rad/s", about="ascending speeds")
     torques: tuple[float, ...] = quantity("N*m", about="torque at each speed")
 
@@ -120,8 +96,6 @@ def load_torque(load: Load, omega: Any) -> Any:
 
     Parameters
     ----------
-    load : record of this module
-        A settled law
     omega : float, ndarray or casadi.SX
         Shaft speed; symbols are taken by the constant and the propeller law [rad/s]
 
@@ -158,8 +132,6 @@ def load_slope(load: Load, omega: Any) -> Any:
 
     Parameters
     ----------
-    load : record of this module
-        A settled law
     omega : float or ndarray
         Shaft speed [rad/s]
 

@@ -24,28 +24,12 @@ _ASSEMBLED = ("crank_train",)  # put together at run time from a derived part
 
 
 def names() -> list[str]:
-    """Names of the mechanisms.
-
-    Returns
-    -------
-    names : list of str
-        Sorted names
-    """
+    """Names of the mechanisms."""
     return sorted(_CLASSES)
 
 
 def parameters_class(name: str) -> Any:
     """The record of a mechanism's parameters.
-
-    Parameters
-    ----------
-    name : str
-        Name of the mechanism
-
-    Returns
-    -------
-    cls : type
-        A frozen dataclass
 
     Raises
     ------
@@ -59,20 +43,7 @@ def parameters_class(name: str) -> Any:
 
 
 def build(name: str, parameters: Any) -> Mechanism:
-    """The mechanism of that name with values for its parameters.
-
-    Parameters
-    ----------
-    name : str
-        Name of the mechanism
-    parameters : dataclass instance
-        Its record of parameters
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Named CasADi functions
-    """
+    """The mechanism of that name with values for its parameters."""
     if not isinstance(parameters, parameters_class(name)):
         raise BadInput(f"{name} takes {parameters_class(name).__name__}, not {type(parameters).__name__}")
     if name in _ASSEMBLED:
@@ -85,8 +56,6 @@ def listing(name: str, mechanism: Mechanism | None = None) -> Mapping[str, Any]:
 
     Parameters
     ----------
-    name : str
-        Name of the mechanism
     mechanism : Mechanism, optional
         What was built; a crank train's letters depend on its number of throws and cylinders
 

@@ -7,41 +7,30 @@ of the null space of J^T balances the bodies as well. A least-squares solver hid
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, listing, velocities
+from mechsym.quantities import record
 
 _TOLERANCE = 1e-9  # relative: below it a singular value or a component counts as zero
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Solution:
-    """Motion and joint forces of a constrained mechanism at one state.
+    """Motion and joint forces of a constrained mechanism at one state."""
 
-    Parameters
-    ----------
-    acceleration : ndarray, shape (n,)
-        Accelerations of the coordinates [m/s^2] or [rad/s^2]
-    multipliers : dict of str to float or None
-        Generalised force of each constraint on the coordinates; None where the rank does not determine it
-    rank, count : int
-        Rank of the constraints, and how many there are
-    free : ndarray, shape (count, count - rank)
-        Columns: combinations of multipliers in balance with themselves; c . mu is determined where c . free = 0
-    particular : ndarray, shape (count,)
-        The shortest of all multipliers that balance the bodies, for determined combinations only
-    names : tuple of str
-        Names of the constraints
-    """
-
-    acceleration: np.ndarray
+    acceleration: np.ndarray  #: shape (n,): Accelerations of the coordinates [m/s^2] or [rad/s^2]
+    #: Generalised force of each constraint on the coordinates; None where the rank does not determine it
     multipliers: dict[str, float | None]
+    #: Rank of the constraints, and how many there are
     rank: int
     count: int
+    #: shape (count, count - rank): Columns: combinations of multipliers in balance with themselves; c . mu is
+    #: determined where c . free = 0 [-]
     free: np.ndarray
+    #: shape (count,): The shortest of all multipliers that balance the bodies, for determined ones only [N] or [N*m]
     particular: np.ndarray
     names: tuple[str, ...]
 
@@ -49,22 +38,10 @@ class Solution:
 def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     """Coordinates and velocities that satisfy the constraints; those that are given are kept.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        With constraints
-    values : mapping of str to float
-        Given coordinates, velocities and inputs
-
     Returns
     -------
     values : dict of str to float
         The same with all coordinates and velocities
-
-    Raises
-    ------
-    BadInput
-        The given coordinates do not close the loop, or leave others free
     """
     q, u = mechanism.coordinates, velocities(mechanism)
     position = np.array([float(values.get(n, 0.0)) for n in q])
@@ -104,8 +81,6 @@ def solve(mechanism: Mechanism, values: Mapping[str, float]) -> Solution:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With constraints
     values : mapping of str to float
         All coordinates and velocities (see `close`); inputs that are not named are 0
 
@@ -113,11 +88,6 @@ def solve(mechanism: Mechanism, values: Mapping[str, float]) -> Solution:
     -------
     solution : Solution
         With the rank of the constraints
-
-    Raises
-    ------
-    BadInput
-        A free motion has no mass
     """
     q, u = mechanism.coordinates, velocities(mechanism)
     dynamics = mechanism.functions["dynamics"]
@@ -160,8 +130,6 @@ def determined(solution: Solution, combination: Mapping[str, float]) -> float | 
 
     Parameters
     ----------
-    solution : Solution
-        Of `solve`
     combination : mapping of str to float
         Coefficient of each constraint that takes part
 
@@ -179,13 +147,6 @@ def motion(
     mechanism: Mechanism, values: Mapping[str, float]
 ) -> tuple[dict[str, float], np.ndarray, dict[str, float | None]]:
     """Closed state, accelerations and named joint forces in one step.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        With constraints
-    values : mapping of str to float
-        Given coordinates, velocities and inputs
 
     Returns
     -------

@@ -1,52 +1,32 @@
 """One throw of a crank train: parameters and runtime mechanism. Drawing and letters: derivations/crank_throw.py."""
 
-import dataclasses
-
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CrankThrowParameters:
-    """Crank, rod with its own inertia, piston on an offset axis.
-
-    Parameters
-    ----------
-    r : float
-        Crank radius [m]
-    l1, l2 : float
-        Crank pin to the rod's centre of mass, and from there to the piston pin [m]
-    offset : float
-        Distance of the piston pin's path from the shaft axis, on the side of phi = 90 deg [m]
-    m0, m_rod, m_piston : float
-        Mass of crank, rod, piston [kg]
-    I0, I_rod : float
-        Inertia of the crank about the shaft axis, of the rod about its centre of mass [kg*m^2]
-    u0 : float
-        Unbalance of the crank on the pin's side, negative for a counterweight [kg*m]
-    g : float
-        Acceleration of free fall [m/s^2]
-    axis_tilt : float
-        Angle of the cylinder axis against the horizontal [rad]
-    """
+    """Crank, rod with its own inertia, piston on an offset axis."""
 
     r: float = quantity("m", above=0, about="crank radius")
     l1: float = quantity("m", low=0, about="crank pin to the rod's centre of mass")
     l2: float = quantity("m", low=0, about="rod's centre of mass to piston pin")
+    #: Distance of the piston pin's path from the shaft axis, on the side of phi = 90 deg [m]
     offset: float = quantity("m", default=0.0, about="offset of the cylinder axis")
     m0: float = quantity("kg", default=0.0, low=0, about="mass of the crank")
     m_rod: float = quantity("kg", low=0, about="mass of the rod")
     m_piston: float = quantity("kg", low=0, about="mass of the piston")
     I0: float = quantity("kg*m^2", above=0, about="inertia of the crank about the shaft axis")
     I_rod: float = quantity("kg*m^2", low=0, about="inertia of the rod about its centre of mass")
+    #: Unbalance of the crank on the pin's side, negative for a counterweight [kg*m]
     u0: float = quantity("kg*m", default=0.0, about="unbalance of the crank on the pin's side")
     g: float = quantity("m/s^2", default=0.0, low=0, about="acceleration of free fall")
+    #: Angle of the cylinder axis against the horizontal [rad]
     axis_tilt: float = quantity("rad", default=0.0, about="cylinder axis against the horizontal")
 
     def __post_init__(self) -> None:
-        check(self)
         refuse_short_rod(self.l1 + self.l2, self.r, self.offset)
 
 
@@ -61,11 +41,6 @@ def refuse_short_rod(l: float, r: float, offset: float) -> None:
         Crank radius [m]
     offset : float
         Offset of the cylinder axis [m]
-
-    Raises
-    ------
-    BadInput
-        The rod is not longer than crank radius and offset together
     """
     if l <= r + abs(offset):
         raise BadInput(
@@ -75,11 +50,6 @@ def refuse_short_rod(l: float, r: float, offset: float) -> None:
 
 def build(parameters: CrankThrowParameters) -> Mechanism:
     """A single throw on its own shaft.
-
-    Parameters
-    ----------
-    parameters : CrankThrowParameters
-        Geometry and masses
 
     Returns
     -------

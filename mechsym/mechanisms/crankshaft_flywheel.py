@@ -1,52 +1,32 @@
 """Crankshaft and flywheel on a torsional spring: parameters and runtime mechanisms (Chmielewski et al. 2015)."""
 
-import dataclasses
-
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CrankshaftFlywheelParameters:
-    """Two discs, one slider crank.
-
-    Parameters
-    ----------
-    I0, I2 : float
-        Inertia of crankshaft and flywheel [kg*m^2]
-    r, l : float
-        Crank radius and rod length [m]
-    m0 : float
-        Reciprocating mass [kg]
-    k1 : float
-        Torsional stiffness of the shaft [N*m/rad]
-    c1 : float
-        Torsional damping of the shaft, 0 in the paper [N*m*s/rad]
-    """
+    """Two discs, one slider crank."""
 
     I0: float = quantity("kg*m^2", above=0, about="inertia of the crankshaft")
     I2: float = quantity("kg*m^2", above=0, about="inertia of the flywheel")
     r: float = quantity("m", above=0, about="crank radius")
     l: float = quantity("m", above=0, about="rod length")
     m0: float = quantity("kg", low=0, about="reciprocating mass")
+    #: Torsional stiffness of the shaft [N*m/rad]
     k1: float = quantity("N*m/rad", low=0, about="torsional stiffness")
+    #: Torsional damping of the shaft, 0 in the paper [N*m*s/rad]
     c1: float = quantity("N*m*s/rad", default=0.0, low=0, about="torsional damping")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.l <= self.r:
             raise BadInput(f"rod too short: l = {self.l:g} m, needs more than r = {self.r:g} m; lengthen l")
 
 
 def build(parameters: CrankshaftFlywheelParameters) -> Mechanism:
     """The exact mechanism.
-
-    Parameters
-    ----------
-    parameters : CrankshaftFlywheelParameters
-        Data
 
     Returns
     -------
@@ -58,11 +38,6 @@ def build(parameters: CrankshaftFlywheelParameters) -> Mechanism:
 
 def build_printed(parameters: CrankshaftFlywheelParameters) -> Mechanism:
     """The model exactly as equation (6) with (11) prints it, for comparison only.
-
-    Parameters
-    ----------
-    parameters : CrankshaftFlywheelParameters
-        Data
 
     Returns
     -------

@@ -5,28 +5,12 @@ import dataclasses
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CrossheadParameters:
-    """Geometry and masses; r = r1 + r2 is the crank radius, l = l1 + l2 the rod's length.
-
-    Parameters
-    ----------
-    r1, r2 : float
-        Shaft axis to the crank's centre of mass, and from there to the crank pin [m]
-    l1, l2 : float
-        Crank pin to the rod's centre of mass, and from there to the crosshead pin [m]
-    m1, m2, m3, m4, m5 : float
-        Mass of crank, rod, crosshead, piston rod, piston [kg]
-    I01, IC2 : float
-        Inertia of the crank about the shaft axis, of the rod about its centre of mass [kg*m^2]
-    g : float
-        Acceleration of free fall [m/s^2]
-    axis_tilt : float
-        Angle of the cylinder axis against the horizontal, 0 lying, pi/2 upright [rad]
-    """
+    """Geometry and masses; r = r1 + r2 is the crank radius, l = l1 + l2 the rod's length."""
 
     r1: float = quantity("m", low=0, about="shaft axis to the crank's centre of mass")
     r2: float = quantity("m", low=0, about="crank's centre of mass to crank pin")
@@ -40,10 +24,10 @@ class CrossheadParameters:
     I01: float = quantity("kg*m^2", above=0, about="inertia of the crank about the shaft axis")
     IC2: float = quantity("kg*m^2", low=0, about="inertia of the rod about its centre of mass")
     g: float = quantity("m/s^2", default=9.81, low=0, about="acceleration of free fall")
+    #: Angle of the cylinder axis against the horizontal, 0 lying, pi/2 upright [rad]
     axis_tilt: float = quantity("rad", default=0.0, about="cylinder axis against the horizontal")
 
     def __post_init__(self) -> None:
-        check(self)
         r, l = self.r1 + self.r2, self.l1 + self.l2
         if r <= 0:
             raise BadInput(f"r1 + r2 = {r:g} m leaves no crank; it must be > 0 m")
@@ -53,11 +37,6 @@ class CrossheadParameters:
 
 def build(parameters: CrossheadParameters) -> Mechanism:
     """The crosshead engine's mechanism.
-
-    Parameters
-    ----------
-    parameters : CrossheadParameters
-        Geometry and masses
 
     Returns
     -------
@@ -72,14 +51,7 @@ def with_flywheel(parameters: CrossheadParameters, inertia: float) -> CrossheadP
 
     Parameters
     ----------
-    parameters : CrossheadParameters
-        Engine
     inertia : float
         Inertia of the flywheel about the shaft [kg*m^2]
-
-    Returns
-    -------
-    parameters : CrossheadParameters
-        I01 larger by the flywheel
     """
     return dataclasses.replace(parameters, I01=parameters.I01 + inertia)

@@ -7,50 +7,32 @@ colours; the roles say what belongs together.
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train.parameters import each, local_shift
+from mechsym.quantities import record
 
 Point = tuple[float, float]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Line:
-    """A line through points, closed when it ends where it starts.
-
-    Parameters
-    ----------
-    role : str
-        What it belongs to
-    points : tuple of (float, float)
-        Corners [m]
-    """
+    """A line through points, closed when it ends where it starts."""
 
     role: str
-    points: tuple[Point, ...]
+    points: tuple[Point, ...]  #: Corners [m]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Circle:
-    """A circle.
-
-    Parameters
-    ----------
-    role : str
-        What it belongs to
-    centre : (float, float)
-        Middle [m]
-    radius : float
-        Radius [m]
-    """
+    """A circle."""
 
     role: str
-    centre: Point
-    radius: float
+    centre: Point  #: Middle [m]
+    radius: float  #: Radius [m]
 
 
 Shapes = tuple[Line | Circle, ...]
@@ -61,22 +43,8 @@ def shapes(mechanism: str, parameters: Any, angle: float) -> Shapes:
 
     Parameters
     ----------
-    mechanism : str
-        Name of the mechanism
-    parameters : record
-        Its parameters
     angle : float
         Crank angle of every coordinate that is one [rad]
-
-    Returns
-    -------
-    shapes : tuple of Line or Circle
-        To scale
-
-    Raises
-    ------
-    BadInput
-        The mechanism has no drawing
     """
     if mechanism not in _DRAWINGS:
         raise BadInput(f"mechanism {mechanism!r} has no drawing; there are {', '.join(sorted(_DRAWINGS))}")
@@ -85,13 +53,6 @@ def shapes(mechanism: str, parameters: Any, angle: float) -> Shapes:
 
 def extent(mechanism: str, parameters: Any) -> tuple[float, float, float, float]:
     """Box that holds the mechanism at every angle.
-
-    Parameters
-    ----------
-    mechanism : str
-        Name of the mechanism
-    parameters : record
-        Its parameters
 
     Returns
     -------

@@ -28,12 +28,6 @@ def paint(axes: Any, mechanism: str, parameters: Any, angle: float) -> None:
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
-        Where to
-    mechanism : str
-        Name of the mechanism
-    parameters : record
-        Its parameters
     angle : float
         Crank angle [rad]
     """
@@ -63,17 +57,8 @@ def figure(mechanism: str, parameters: Any, angle: float) -> Figure:
 
     Parameters
     ----------
-    mechanism : str
-        Name of the mechanism
-    parameters : record
-        Its parameters
     angle : float
         Crank angle [rad]
-
-    Returns
-    -------
-    figure : matplotlib.figure.Figure
-        Drawing to scale
     """
     left, right, low, high = extent(mechanism, parameters)
     wide, tall = right - left, high - low
@@ -92,22 +77,7 @@ def figure(mechanism: str, parameters: Any, angle: float) -> Figure:
 
 
 def animation(mechanism: str, parameters: Any, title: str) -> str:
-    """A page in which the mechanism turns; it needs nothing from outside.
-
-    Parameters
-    ----------
-    mechanism : str
-        Name of the mechanism
-    parameters : record
-        Its parameters
-    title : str
-        Heading
-
-    Returns
-    -------
-    html : str
-        Text of the page
-    """
+    """A page in which the mechanism turns; it needs nothing from outside."""
     import jinja2
 
     source = (resources.files("mechsym") / "templates" / "mechanism.html").read_text(encoding="utf-8")

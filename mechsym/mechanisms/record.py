@@ -8,7 +8,6 @@ the right; a reaction R_j is the force of the first body on the second along the
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from importlib import import_module, resources
 from types import ModuleType
 from typing import Any
@@ -17,62 +16,30 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Mechanism:
-    """A mechanism with values for its parameters.
-
-    Parameters
-    ----------
-    name : str
-        Name through all stages
-    coordinates, inputs : tuple of str
-        Names in order
-    parameters : mapping of str to float
-        Values that are bound into the functions
-    functions : mapping of str to casadi.Function
-        `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force,
-        `energy(q.., u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)`
-        giving closure, jacobian, bias; only those that exist
-    """
+    """A mechanism with values for its parameters."""
 
     name: str
     coordinates: tuple[str, ...]
     inputs: tuple[str, ...]
-    parameters: Mapping[str, float]
+    parameters: Mapping[str, float]  #: Values that are bound into the functions
+    #: `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force, `energy(q..,
+    #: u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)` giving closure,
+    #: jacobian, bias; only those that exist
     functions: Mapping[str, ca.Function]
 
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
-    """Names of the velocities.
-
-    Parameters
-    ----------
-    mechanism : Mechanism or generated module
-        What has coordinates
-
-    Returns
-    -------
-    names : tuple of str
-        `phid` for `phi`
-    """
+    """Names of the velocities."""
     return tuple(f"{q}d" for q in _coordinates(mechanism))
 
 
 def accelerations(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
-    """Names of the accelerations.
-
-    Parameters
-    ----------
-    mechanism : Mechanism or generated module
-        What has coordinates
-
-    Returns
-    -------
-    names : tuple of str
-        `phidd` for `phi`
-    """
+    """Names of the accelerations."""
     return tuple(f"{q}dd" for q in _coordinates(mechanism))
 
 
@@ -83,11 +50,6 @@ def _coordinates(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
 def generated(name: str) -> ModuleType:
     """The generated module of a mechanism.
 
-    Parameters
-    ----------
-    name : str
-        Name of the mechanism
-
     Returns
     -------
     module : module
@@ -97,18 +59,7 @@ def generated(name: str) -> ModuleType:
 
 
 def listing(name: str) -> dict[str, Any]:
-    """Letters, units, source and equations of a mechanism, as stored by the derivation.
-
-    Parameters
-    ----------
-    name : str
-        Name of the mechanism
-
-    Returns
-    -------
-    listing : dict
-        See `mechsym.derive.listing`
-    """
+    """Letters, units, source and equations of a mechanism, as stored by the derivation."""
     return json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text(encoding="utf-8"))
 
 
@@ -117,8 +68,6 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
 
     Parameters
     ----------
-    name : str
-        Name of the mechanism
     parameters : mapping of str to float or casadi.SX
         A value for every parameter; symbols make functions that can be differentiated by them
 
@@ -152,8 +101,6 @@ def casadi_function(
 
     Parameters
     ----------
-    module : module
-        A generated module
     function : str
         Name of one of its functions
     letters : sequence of str
@@ -197,11 +144,6 @@ def _constraint_matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict
 def acceleration_function(mechanism: Mechanism) -> ca.Function:
     r"""Accelerations :math:`\ddot q = M^{-1}(Q - h)` of a mechanism without constraints.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Its dynamics
-
     Returns
     -------
     function : casadi.Function
@@ -219,8 +161,6 @@ def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With one coordinate
     phi : ndarray, shape (n,)
         Crank angles [rad]
 
@@ -239,8 +179,6 @@ def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With its parameters
     values : mapping of str to float
         Coordinates, velocities and inputs; what is not named is 0, or what the constraints make it
 

@@ -11,71 +11,40 @@ import casadi as ca
 
 from mechsym import mechanisms
 from mechsym.mechanisms.record import Mechanism
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class RodlessParameters:
-    """Crank, link A-C-B, two sliders at right angles.
+    """Crank, link A-C-B, two sliders at right angles."""
 
-    Parameters
-    ----------
-    r : float
-        Crank radius; the sliders move with amplitude 2 r, stroke 4 r [m]
-    I1 : float
-        Inertia of the crank about the shaft axis [kg*m^2]
-    u1 : float
-        Unbalance of the crank on the crank pin's side, negative for a counterweight [kg*m]
-    m_link, I_link : float
-        Mass of the link and its inertia about its middle C [kg], [kg*m^2]
-    m_a, m_b : float
-        All mass that reciprocates on axis a and on axis b [kg]
-    """
-
+    #: Crank radius; the sliders move with amplitude 2 r, stroke 4 r [m]
     r: float = quantity("m", above=0, about="crank radius")
     I1: float = quantity("kg*m^2", above=0, about="inertia of the crank about the shaft axis")
+    #: Unbalance of the crank on the crank pin's side, negative for a counterweight [kg*m]
     u1: float = quantity("kg*m", default=0.0, about="unbalance of the crank on the pin's side")
     m_link: float = quantity("kg", low=0, about="mass of the link")
     I_link: float = quantity("kg*m^2", low=0, about="inertia of the link about its middle")
     m_a: float = quantity("kg", low=0, about="reciprocating mass on axis a")
     m_b: float = quantity("kg", low=0, about="reciprocating mass on axis b")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CrankFreeRadially:
     """Closing rule: the crank gives way along its radius and carries no radial pin force."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Stiffnesses:
-    """Closing rule: guides and crank pin are springs, stiff against the motion, whose strain energy is least.
-
-    Parameters
-    ----------
-    k_a, k_b : float
-        Stiffness of the guide of slider a and of slider b, across the axis [N/m]
-    k_c : float
-        Stiffness of crank and crank pin along the crank's radius [N/m]
-    """
+    """Closing rule: guides and crank pin are springs, stiff against the motion, whose strain energy is least."""
 
     k_a: float = quantity("N/m", above=0, about="stiffness of the guide of slider a")
     k_b: float = quantity("N/m", above=0, about="stiffness of the guide of slider b")
     k_c: float = quantity("N/m", above=0, about="stiffness of crank and pin along the radius")
 
-    def __post_init__(self) -> None:
-        check(self)
-
 
 def build(parameters: RodlessParameters) -> Mechanism:
     """The rodless mechanism with the reactions that the rigid mechanism determines.
-
-    Parameters
-    ----------
-    parameters : RodlessParameters
-        Geometry and masses
 
     Returns
     -------
@@ -90,13 +59,6 @@ def closed(mechanism: Mechanism, rule: CrankFreeRadially | Stiffnesses) -> Mecha
 
     With the radial pin force S the reactions are :math:`X_a = X_a^0 - S \sin\alpha`,
     :math:`X_b = X_b^0 - S \cos\alpha`; the rule chooses S.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Of `build`
-    rule : CrankFreeRadially or Stiffnesses
-        How the parts give way
 
     Returns
     -------

@@ -5,34 +5,25 @@ compresses (dead centre at alpha = 0); "b+" has its dead centre at pi/2, "a-" at
 on the same rod and the inner face of a double-acting piston both have a "-" side.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
+from mechsym.quantities import check, quantity, record
 
 DEAD_CENTRES = {"a+": 0.0, "b+": math.pi / 2, "a-": math.pi, "b-": 3 * math.pi / 2}
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class RodlessFaces:
-    """Section `[faces]`: the working faces of one link.
+    """Section `[faces]`: the working faces of one link."""
 
-    Parameters
-    ----------
-    sides : tuple of str
-        Side of each face, of a+, a-, b+, b-
-    areas : tuple of float
-        Area of each working face; less by the rod's where a rod passes through [m^2]
-    firing : tuple of float
-        Crank angle at which the chamber of each face fires, a dead centre of its side, within one cycle [rad]
-    """
-
-    sides: tuple[str, ...]
+    sides: tuple[str, ...]  #: Side of each face, of a+, a-, b+, b-
+    #: Area of each working face; less by the rod's where a rod passes through [m^2]
     areas: tuple[float, ...] = quantity("m^2", above=0, about="area of each working face")
+    #: Crank angle at which the chamber of each face fires, a dead centre of its side, within one cycle [rad]
     firing: tuple[float, ...] = quantity("rad", about="crank angle at which each face's chamber fires")
 
     def __post_init__(self) -> None:
@@ -65,8 +56,6 @@ def axis_forces(
 
     Parameters
     ----------
-    faces : RodlessFaces
-        The working faces
     net_pressure : callable
         p - p_back by the angle after the firing dead centre, ndarray to ndarray [Pa]
     alpha : ndarray, shape (n,)

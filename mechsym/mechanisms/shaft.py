@@ -1,7 +1,5 @@
 """Matrices of a torsionally elastic shaft, for torsional analysis: inertia, stiffness, damping."""
 
-import dataclasses
-
 import casadi as ca
 import numpy as np
 
@@ -9,48 +7,24 @@ from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, buil
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.mechanisms.crankshaft_flywheel import build as build_two
 from mechsym.mechanisms.record import Mechanism
+from mechsym.quantities import record
 
 _POINTS = 720
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class ShaftMatrices:
-    """Linear torsional model of a shaft.
+    """Linear torsional model of a shaft."""
 
-    Parameters
-    ----------
-    coordinates : tuple of str
-        Angles, in the order of rows and columns
-    inertia : ndarray, shape (n, n)
-        Discs alone (bare) [kg*m^2]
-    inertia_mean : ndarray, shape (n, n)
-        Discs with the mean over a turn of what reciprocates [kg*m^2]
-    stiffness : ndarray, shape (n, n)
-        Stiffness; rows sum to zero, the shaft turns freely [N*m/rad]
-    damping : ndarray, shape (n, n)
-        Damping [N*m*s/rad]
-    """
-
-    coordinates: tuple[str, ...]
-    inertia: np.ndarray
-    inertia_mean: np.ndarray
-    stiffness: np.ndarray
-    damping: np.ndarray
+    coordinates: tuple[str, ...]  #: Angles, in the order of rows and columns
+    inertia: np.ndarray  #: shape (n, n): Discs alone (bare) [kg*m^2]
+    inertia_mean: np.ndarray  #: shape (n, n): Discs with the mean over a turn of what reciprocates [kg*m^2]
+    stiffness: np.ndarray  #: shape (n, n): Stiffness; rows sum to zero, the shaft turns freely [N*m/rad]
+    damping: np.ndarray  #: shape (n, n): Damping [N*m*s/rad]
 
 
 def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) -> ShaftMatrices:
-    """Matrices of a crank train or of the crankshaft with flywheel.
-
-    Parameters
-    ----------
-    parameters : CrankTrainParameters or CrankshaftFlywheelParameters
-        Data
-
-    Returns
-    -------
-    matrices : ShaftMatrices
-        One row a coordinate
-    """
+    """Matrices of a crank train or of the crankshaft with flywheel."""
     k, c = springs(parameters)
     if isinstance(parameters, CrankTrainParameters):
         mechanism, discs = build(parameters), [*each(parameters, "I0"), parameters.I_f]
@@ -70,11 +44,6 @@ def springs(
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Stiffness and damping of each section of the shaft, from the free end to the flywheel.
 
-    Parameters
-    ----------
-    parameters : CrankTrainParameters or CrankshaftFlywheelParameters
-        Data
-
     Returns
     -------
     k, c : tuple of float
@@ -91,7 +60,7 @@ def chain(values: tuple[float, ...]) -> np.ndarray:
     Parameters
     ----------
     values : tuple of float
-        Stiffness or damping from each disc to the next
+        Stiffness or damping from each disc to the next [N*m/rad] or [N*m*s/rad]
 
     Returns
     -------

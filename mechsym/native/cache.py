@@ -44,22 +44,7 @@ def directory() -> Path:
 
 
 def key(source: str, options: tuple[str, ...], stamp: str) -> str:
-    """Name of what a source compiles to.
-
-    Parameters
-    ----------
-    source : str
-        C text
-    options : tuple of str
-        Options of the compiler
-    stamp : str
-        The compiler's stamp
-
-    Returns
-    -------
-    key : str
-        Hexadecimal digits
-    """
+    """Name of what a source compiles to."""
     parts = [source, *options, stamp, compiler.processor(), str(sysconfig.get_config_var("EXT_SUFFIX"))]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:_LENGTH]
 
@@ -67,22 +52,10 @@ def key(source: str, options: tuple[str, ...], stamp: str) -> str:
 def shared_object(source: str, mode: str) -> Path:
     """The shared object of a source, compiled when the cache has no sound one.
 
-    Parameters
-    ----------
-    source : str
-        C text
-    mode : str
-        `fast` or `strict`
-
     Returns
     -------
     path : Path
         File whose contents have been checked
-
-    Raises
-    ------
-    mechsym.native.compiler.NoCompiler
-        No compiler, or it failed
     """
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
@@ -159,25 +132,13 @@ def _private() -> str:
 
 
 def contents() -> list[Path]:
-    """All files of the cache.
-
-    Returns
-    -------
-    files : list of Path
-        Sources and shared objects, sorted
-    """
+    """All files of the cache."""
     folder = directory()
     return sorted(p for p in folder.iterdir() if p.is_file()) if folder.is_dir() else []
 
 
 def clear() -> int:
-    """Remove everything from the cache; running processes keep what they have loaded.
-
-    Returns
-    -------
-    count : int
-        Number of files removed
-    """
+    """Remove everything from the cache; running processes keep what they have loaded."""
     files = contents()
     if directory().is_dir():
         shutil.rmtree(directory(), ignore_errors=True)

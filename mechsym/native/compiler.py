@@ -1,6 +1,5 @@
 """Which C compiler there is, how it is called, and for which processor."""
 
-import dataclasses
 import functools
 import hashlib
 import os
@@ -12,6 +11,7 @@ import sysconfig
 from pathlib import Path
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 # `strict` is IEEE arithmetic as written; the sums of both modes are in the order written, so that cancellation is safe
 MODES = {
@@ -27,35 +27,16 @@ class NoCompiler(Exception):
     """There is no working C compiler; the message says what was tried and the way out."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Compiler:
-    """A C compiler.
-
-    Parameters
-    ----------
-    command : tuple of str
-        Program and its own options
-    stamp : str
-        Changes when the program changes: path, size and time of its file
-    """
+    """A C compiler."""
 
     command: tuple[str, ...]
-    stamp: str
+    stamp: str  #: Changes when the program changes: path, size and time of its file
 
 
 def find() -> Compiler:
-    """The compiler named by CC, otherwise the first of gcc, clang, cc that is in PATH.
-
-    Returns
-    -------
-    compiler : Compiler
-        Ready to be called
-
-    Raises
-    ------
-    NoCompiler
-        None is there
-    """
+    """The compiler named by CC, otherwise the first of gcc, clang, cc that is in PATH."""
     return _find(os.environ.get("CC", ""), os.environ.get("PATH", ""))
 
 
@@ -74,23 +55,7 @@ def _find(named: str, path: str) -> Compiler:
 
 
 def flags(mode: str) -> tuple[str, ...]:
-    """Options for a mode on this processor.
-
-    Parameters
-    ----------
-    mode : str
-        `fast` or `strict`
-
-    Returns
-    -------
-    flags : tuple of str
-        Options of gcc and clang
-
-    Raises
-    ------
-    BadInput
-        No such mode
-    """
+    """Options for a mode on this processor."""
     if mode not in MODES:
         raise BadInput(f"mode = {mode!r} is not an option; options are {', '.join(MODES)}")
     machine = platform.machine().lower()
@@ -139,18 +104,7 @@ def processor() -> str:
 
 
 def version(compiler: Compiler) -> str:
-    """First line of what the compiler says of itself.
-
-    Parameters
-    ----------
-    compiler : Compiler
-        The compiler
-
-    Returns
-    -------
-    text : str
-        Name and version
-    """
+    """First line of what the compiler says of itself."""
     done = subprocess.run([*compiler.command, "--version"], capture_output=True, text=True, check=False)
     return (done.stdout.splitlines() or ["unknown"])[0]
 
@@ -160,12 +114,8 @@ def compile_file(compiler: Compiler, source: Path, target: Path, options: tuple[
 
     Parameters
     ----------
-    compiler : Compiler
-        The compiler
     source, target : Path
         C file to read, shared object to write
-    options : tuple of str
-        Made by `flags`
 
     Raises
     ------

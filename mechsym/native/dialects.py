@@ -53,13 +53,6 @@ NUMPY = {
 def unknown(tape: Tape, dialect: dict[str, str]) -> list[str]:
     """Operators of a program that a dialect cannot write.
 
-    Parameters
-    ----------
-    tape : Tape
-        The program
-    dialect : dict of str to str
-        `C` or `NUMPY`
-
     Returns
     -------
     operators : list of str
@@ -74,24 +67,8 @@ def expression(dialect: dict[str, str], op: str, args: list[str], exponent: floa
 
     Parameters
     ----------
-    dialect : dict of str to str
-        `C` or `NUMPY`
-    op : str
-        Operator
-    args : list of str
-        Texts of the operands
     exponent : float, optional
         Value of a constant exponent, which may become products [-]
-
-    Returns
-    -------
-    text : str
-        Right-hand side of an assignment
-
-    Raises
-    ------
-    BadInput
-        The dialect does not know the operator
     """
     if op == "pow" and exponent in _PRODUCTS:
         return _PRODUCTS[exponent].format(args[0])

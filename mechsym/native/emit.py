@@ -18,20 +18,7 @@ Place = Callable[[str], str]
 
 
 def bodies(kernels: tuple[Kernel, ...], name: str) -> str:
-    """The bodies of a program, and the places of its repeated kernels.
-
-    Parameters
-    ----------
-    kernels : tuple of Kernel
-        The program
-    name : str
-        Name of the program
-
-    Returns
-    -------
-    text : str
-        C functions `<name>_0`, `<name>_1`, ..
-    """
+    """The bodies of a program, and the places of its repeated kernels."""
     text = []
     for number, kernel in enumerate(kernels):
         text.append(body(kernel, f"{name}_{number}"))
@@ -41,20 +28,7 @@ def bodies(kernels: tuple[Kernel, ...], name: str) -> str:
 
 
 def body(kernel: Kernel, name: str) -> str:
-    """A kernel as an inline function of scalars.
-
-    Parameters
-    ----------
-    kernel : Kernel
-        Straight-line code
-    name : str
-        Name of the C function
-
-    Returns
-    -------
-    text : str
-        C function
-    """
+    """A kernel as an inline function of scalars."""
     count = len(kernel.inputs[0])
     arguments = [
         *(f"const double k{i}" for i in range(len(kernel.constants[0]))),
@@ -98,10 +72,6 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
 
     Parameters
     ----------
-    kernels : tuple of Kernel
-        The program
-    name : str
-        Name of the program
     lanes : int
         Number of lanes; 1 gives the function at one point
 
@@ -119,13 +89,6 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
 def block(kernels: tuple[Kernel, ...], name: str) -> str:
     """A function over m points in columns, with the same constants at all of them.
 
-    Parameters
-    ----------
-    kernels : tuple of Kernel
-        The program
-    name : str
-        Name of the program
-
     Returns
     -------
     text : str
@@ -142,8 +105,6 @@ def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
     ----------
     kernel : Kernel
         The whole step as one kernel with one instance
-    name : str
-        Name of the program
     sizes : tuple of int
         Numbers of states, of stage values and of lane values, the inputs in this order
 

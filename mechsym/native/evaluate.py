@@ -8,7 +8,6 @@ Both routes take the same arguments and agree with the interpreted function to 1
 """
 
 import ctypes
-import dataclasses
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -20,37 +19,24 @@ from mechsym.errors import BadInput
 from mechsym.native import fallback, library, source
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.kernels import constant_table
+from mechsym.quantities import record
 
 _LOG = logging.getLogger("mechsym.native")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Compiled:
-    """A function of scalars in two forms.
-
-    Parameters
-    ----------
-    name : str
-        Name of the function
-    inputs, outputs : tuple of str
-        Scalar inputs and outputs in order; the elements of a vector y are `y[0]`, `y[1]`, a matrix goes by columns
-    scalar : callable
-        Floats -> float, or tuple of floats where there are several outputs
-    batch : callable
-        Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
-    route : str
-        `C` or `numpy`
-    reason : str
-        Why it is not C, else empty
-    """
+    """A function of scalars in two forms."""
 
     name: str
+    #: Scalar inputs and outputs in order; the elements of a vector y are `y[0]`, `y[1]`, a matrix goes by columns
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-    scalar: Callable[..., Any]
+    scalar: Callable[..., Any]  #: Floats -> float, or tuple of floats where there are several outputs
+    #: Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
     batch: Callable[..., np.ndarray]
     route: str
-    reason: str
+    reason: str  #: Why it is not C, else empty
 
 
 def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
@@ -62,11 +48,6 @@ def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
         SX function, or an MX function that can be expanded
     mode : str
         `strict` (IEEE arithmetic as written) or `fast` (contracted products, reciprocals)
-
-    Returns
-    -------
-    compiled : Compiled
-        Scalar and batch form
 
     Examples
     --------
@@ -84,13 +65,6 @@ def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -
     ----------
     functions : mapping of str to casadi.Function
         For example the functions of a mechanism; their names differ
-    mode : str
-        `strict` or `fast`
-
-    Returns
-    -------
-    compiled : dict of str to Compiled
-        By the same keys
     """
     programs = [source.program(f, mode) for f in functions.values()]
     try:

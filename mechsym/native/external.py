@@ -26,8 +26,6 @@ def external(function: casadi.Function, mode: str = "fast") -> casadi.Function:
     ----------
     function : casadi.Function
         SX function; parameters that change between solves should be inputs, as constants are compiled in
-    mode : str
-        `fast` or `strict`
 
     Returns
     -------
@@ -43,25 +41,7 @@ def external(function: casadi.Function, mode: str = "fast") -> casadi.Function:
 
 
 def externals(functions: Sequence[casadi.Function], mode: str = "fast") -> list[casadi.Function]:
-    """Functions compiled into one file, each without derivatives of its own unless they are among the others.
-
-    Parameters
-    ----------
-    functions : sequence of casadi.Function
-        Functions with different names
-    mode : str
-        `fast` or `strict`
-
-    Returns
-    -------
-    functions : list of casadi.Function
-        In the same order
-
-    Raises
-    ------
-    mechsym.native.compiler.NoCompiler
-        No compiler, or it failed
-    """
+    """Functions compiled into one file, each without derivatives of its own unless they are among the others."""
     path = cache.shared_object("\n".join([preamble(), *(_one(f, mode) for f in functions)]), mode)
     return [casadi.external(f.name(), str(path)) for f in functions]
 

@@ -8,11 +8,12 @@ import collections
 import dataclasses
 
 from mechsym.native.tape import Tape, prune, wait
+from mechsym.quantities import record
 
 _PRODUCTS, _SUMS = ("mul", "sq"), ("add", "sub")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Work:
     # nodes written so far and when they are known, the node of each key, where old nodes went, and products that are
     # not written yet
@@ -25,11 +26,6 @@ class _Work:
 
 def factored(tape: Tape) -> Tape:
     """The same program with common factors of two terms taken out.
-
-    Parameters
-    ----------
-    tape : Tape
-        A program
 
     Returns
     -------

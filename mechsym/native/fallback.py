@@ -27,16 +27,6 @@ def columns(name: str, count: int, values: tuple[Any, ...]) -> list[np.ndarray]:
         Number of arguments that it takes
     values : tuple
         Arrays of shape (n,) and numbers
-
-    Returns
-    -------
-    columns : list of ndarray
-        Of shape (n,) or (1,)
-
-    Raises
-    ------
-    BadInput
-        Wrong number of arguments, or lengths that do not fit
     """
     if len(values) != count:
         raise BadInput(f"{name} takes {count} arrays or numbers, not {len(values)}")
@@ -55,7 +45,7 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
     name : str
         Name of the function, for messages
     shape : tuple of int
-        Outputs and points
+        Number of outputs and number of points, as (m, n)
     out : ndarray or None
         The caller's own array [SI]
 
@@ -63,11 +53,6 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
     -------
     target : ndarray, shape `shape`
         New unless the caller has one [SI]
-
-    Raises
-    ------
-    BadInput
-        The caller's array has another shape or type
     """
     if out is None:
         return np.empty(shape)
@@ -79,24 +64,7 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
 
 
 def record(kind: Callable[..., T], function: casadi.Function, tape: Tape, reason: str) -> T:
-    """The two forms of a function without a compiler.
-
-    Parameters
-    ----------
-    kind : type
-        Record to fill
-    function : casadi.Function
-        The function
-    tape : Tape
-        Its program
-    reason : str
-        Why it is not compiled
-
-    Returns
-    -------
-    record : kind
-        Route `numpy`
-    """
+    """The two forms of a function without a compiler."""
     return kind(
         name=tape.name,
         inputs=tape.inputs,
@@ -110,11 +78,6 @@ def record(kind: Callable[..., T], function: casadi.Function, tape: Tape, reason
 
 def numpy_text(tape: Tape) -> str:
     """The program as a Python function of arrays.
-
-    Parameters
-    ----------
-    tape : Tape
-        The program
 
     Returns
     -------
@@ -139,20 +102,10 @@ def numpy_text(tape: Tape) -> str:
 def numpy_function(tape: Tape) -> Callable[[Any, Any], None]:
     """The program as a Python function of arrays.
 
-    Parameters
-    ----------
-    tape : Tape
-        The program
-
     Returns
     -------
     function : callable
         (x, y): lists of columns to read and to write
-
-    Raises
-    ------
-    BadInput
-        numpy does not know one of its operators
     """
     if unknown(tape, NUMPY):
         raise BadInput(f"{tape.name}: numpy has no {', '.join(unknown(tape, NUMPY))}; install a C compiler")

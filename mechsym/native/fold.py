@@ -1,7 +1,6 @@
 """Equal steps of an explicit Runge-Kutta method for many runs side by side: an engine cycle at many designs."""
 
 import ctypes
-import dataclasses
 import logging
 from collections.abc import Callable
 
@@ -12,6 +11,7 @@ from mechsym.native import fallback, integrators, library
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.kernels import constant_table
 from mechsym.native.source import Program, header, program
+from mechsym.quantities import record
 
 _LOG = logging.getLogger("mechsym.native")
 _LANES = 16
@@ -19,35 +19,19 @@ _LANES = 16
 Fold = Callable[[np.ndarray, np.ndarray, int], np.ndarray]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Method:
-    """An explicit Runge-Kutta method.
+    """An explicit Runge-Kutta method."""
 
-    Parameters
-    ----------
-    rows : tuple of dict of int to float
-        For each stage the weights of the stages before it, counted from 0; their sum is the stage's node [-]
-    weights : dict of int to float
-        Weights of the stages in the step [-]
-    """
-
+    #: For each stage the weights of the stages before it, counted from 0; their sum is the stage's node [-]
     rows: tuple[dict[int, float], ...]
-    weights: dict[int, float]
+    weights: dict[int, float]  #: Weights of the stages in the step [-]
 
 
 def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
     r"""A function that integrates runs over s from 0 to 1 in equal steps.
 
     .. math:: \frac{\mathrm{d}y}{\mathrm{d}s} = f(s, y, z)
-
-    Parameters
-    ----------
-    rate : casadi.Function
-        (s, y, z) -> dy/ds
-    method : Method
-        Numbers of the method
-    mode : str
-        `fast` or `strict`
 
     Returns
     -------
@@ -69,20 +53,7 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
 
 
 def text(found: Program, method: Method) -> str:
-    """A file that exports `ms_fold`, see `c/fold.h`.
-
-    Parameters
-    ----------
-    found : Program
-        The rate
-    method : Method
-        Numbers of the method
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """A file that exports `ms_fold`, see `c/fold.h`."""
     stages = " ".join(
         f"F({j}, {sum(row.values())!r}, {integrators.weighted(row) or '0.0'})" for j, row in enumerate(method.rows)
     )

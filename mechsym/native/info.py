@@ -1,54 +1,30 @@
 """What the native route would use on this machine."""
 
-import dataclasses
-
 from mechsym.native import cache, compiler
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Info:
-    """State of the native route.
+    """State of the native route."""
 
-    Parameters
-    ----------
-    route : str
-        `C`, or `numpy` without a compiler
-    reason : str
-        Why it is not C, else empty
-    compiler, version : str or None
-        Path of the compiler and what it says of itself
-    flags : mapping of str to tuple of str
-        Options in each mode
-    processor : str
-        Processor that code is compiled for
-    python_header : str or None
-        Folder of Python.h; without it scalar calls go through ctypes and cost about a microsecond
-    cache : str
-        Cache directory
-    files, size : int
-        Files in it and their size [byte]
-    """
-
-    route: str
-    reason: str
+    route: str  #: `C`, or `numpy` without a compiler
+    reason: str  #: Why it is not C, else empty
+    #: Path of the compiler and what it says of itself
     compiler: str | None
     version: str | None
     flags: dict[str, tuple[str, ...]]
-    processor: str
+    processor: str  #: Processor that code is compiled for
+    #: Folder of Python.h; without it scalar calls go through ctypes and cost about a microsecond
     python_header: str | None
     cache: str
+    #: Files in it and their size [byte]
     files: int
     size: int
 
 
 def info() -> Info:
-    """Look for a compiler and at the cache.
-
-    Returns
-    -------
-    info : Info
-        State of the native route
-    """
+    """Look for a compiler and at the cache."""
     found, reason = None, ""
     try:
         found = compiler.find()

@@ -1,7 +1,6 @@
 """Integration in C: one run, or many side by side in the lanes of the processor and on its cores."""
 
 import ctypes
-import dataclasses
 import functools
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -16,6 +15,7 @@ from mechsym.native.kernels import constant_table
 from mechsym.native.runs import Outcome, Runs, Surface, Table
 from mechsym.native.source import Program, program
 from mechsym.native.tape import ANALYTIC
+from mechsym.quantities import record
 
 # runs in one block of an ensemble: one vector register of doubles, or two, which wait less for each other
 LANES = (1, 8, 16)
@@ -52,12 +52,13 @@ class _Run(ctypes.Structure):
     ]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Batch:
     """Runs with every array spread to shape (runs, ..), and the program of each."""
 
     runs: Runs
     programs: list[Program]
+    #: in the units of the program, as in `Runs` [SI]
     constants: list[np.ndarray]
     start: np.ndarray
     until: np.ndarray
@@ -71,15 +72,11 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
 
     Parameters
     ----------
-    runs : Runs
-        What to run
     method : str
         `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
         all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations, as
         long as it converges fast, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
         `first_step`, for conservative runs without kinks and surfaces
-    mode : str
-        `fast` or `strict`
 
     Returns
     -------
@@ -88,8 +85,6 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
 
     Raises
     ------
-    BadInput
-        Arrays that do not fit together, or what the method cannot do
     mechsym.native.compiler.NoCompiler
         No compiler; `mechsym.simulate` then goes on with scipy
     """

@@ -21,16 +21,6 @@ def sizes(program: Program) -> tuple[int, int]:
     ----------
     program : Program
         Inputs t, y and p in this order, one output of the shape of y
-
-    Returns
-    -------
-    n, p : int
-        States and held values
-
-    Raises
-    ------
-    BadInput
-        The inputs are not t, y, p
     """
     n = len(program.tape.outputs)
     if len(program.tape.inputs) < 1 + n:
@@ -42,38 +32,12 @@ def sizes(program: Program) -> tuple[int, int]:
 
 
 def dop853(program: Program, lanes: int) -> str:
-    """A file that exports `ms_dop853`, see `c/run.h` for its argument.
-
-    Parameters
-    ----------
-    program : Program
-        Right-hand side
-    lanes : int
-        Runs side by side
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """A file that exports `ms_dop853`, see `c/run.h` for its argument."""
     return "\n".join([system(program, lanes), dop853_numbers(), header("dop853.h"), header("advance.h")])
 
 
 def system(program: Program, lanes: int) -> str:
-    """What the file of any method begins with: elementary functions, the right-hand side MS_RATES, sizes.
-
-    Parameters
-    ----------
-    program : Program
-        Right-hand side
-    lanes : int
-        Runs side by side
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """What the file of any method begins with: elementary functions, the right-hand side MS_RATES, sizes."""
     name, (n, p) = program.tape.name, sizes(program)
     return "\n".join(
         [
@@ -105,13 +69,7 @@ def weighted(weights: dict[int, float]) -> str:
 
 @functools.cache
 def dop853_numbers() -> str:
-    """The numbers of DOP853 as macros: MS_STAGES, MS_EXTRA_STAGES, MS_WEIGHTS, MS_ERROR_5, MS_ERROR_3, MS_DENSE_1..4.
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """Numbers of DOP853 as macros: MS_STAGES, MS_EXTRA_STAGES, MS_WEIGHTS, MS_ERROR_5, MS_ERROR_3, MS_DENSE_1..4."""
     lower = {stage: table.A[13].get(stage, 0.0) - table.WEIGHTS_3.get(stage, 0.0) for stage in table.A[13]}
     stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {weighted(table.A[s])})" for s in table.A if s != 13}
     first = " \\\n    ".join(text for s, text in stages.items() if s < 13)
@@ -132,17 +90,8 @@ def gauss(program: Program, lanes: int, stages: int = 4) -> str:
 
     Parameters
     ----------
-    program : Program
-        Right-hand side
-    lanes : int
-        Runs side by side
     stages : int
         Order is twice the number of stages
-
-    Returns
-    -------
-    text : str
-        C text
     """
     return "\n".join([system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
 
@@ -151,11 +100,6 @@ def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.n
     r"""Numbers of the Gauss-Legendre method.
 
     .. math:: a_{ij} = \int_0^{c_i} \ell_j(x)\,dx, \qquad b_j = \int_0^1 \ell_j(x)\,dx, \qquad e_{ij} = \ell_j(1 + c_i)
-
-    Parameters
-    ----------
-    stages : int
-        Number of stages s
 
     Returns
     -------
@@ -193,15 +137,8 @@ def collocation(program: Program, lanes: int = STAGES) -> str:
 
     Parameters
     ----------
-    program : Program
-        Right-hand side
     lanes : int
         Stages of the one run, always `STAGES`
-
-    Returns
-    -------
-    text : str
-        C text
     """
     parts = [system(program, lanes), _collocation_numbers(lanes), _structure(program)]
     return "\n".join([*parts, header("collocation.h"), header("collocation_run.h")])
@@ -222,11 +159,6 @@ def legendre_coefficients(stages: int) -> np.ndarray:
     r"""Matrix from values at Gauss points to coefficients of Legendre polynomials.
 
     .. math:: c_n = \tfrac{2 n + 1}{2} \sum_j w_j P_n(x_j) f_j
-
-    Parameters
-    ----------
-    stages : int
-        Number of points s
 
     Returns
     -------

@@ -8,12 +8,11 @@ that the text, and with it the time to compile it, does not grow with N.
 Constants are data, not text: two sets of parameters share the compiled file.
 """
 
-import dataclasses
-
 import numpy as np
 
 from mechsym.native.dialects import literal
 from mechsym.native.tape import CHEAP, Tape
+from mechsym.quantities import record
 
 # a loop is worth its index tables only when it saves this many operations and assignments
 _WORTH = 32
@@ -21,45 +20,30 @@ _WORTH = 32
 _DEARER = 1.2
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Kernel:
-    """One body of straight-line code and the places it is applied to.
+    """One body of straight-line code and the places it is applied to."""
 
-    Parameters
-    ----------
-    nodes : tuple of (str, tuple)
-        As in `Tape`, but `("input", (i,))` and `("constant", (j,))` count leaves of the instance
-    results : tuple of int
-        Node of each result of an instance
-    inputs, outputs : tuple of tuple of int
-        For each instance the program's inputs and outputs that it reads and writes
-    constants : tuple of tuple of float
-        For each instance its constants
-    """
-
+    #: As in `Tape`, but `("input", (i,))` and `("constant", (j,))` count leaves of the instance
     nodes: tuple[tuple[str, tuple], ...]
-    results: tuple[int, ...]
+    results: tuple[int, ...]  #: Node of each result of an instance
+    #: For each instance the program's inputs and outputs that it reads and writes
     inputs: tuple[tuple[int, ...], ...]
     outputs: tuple[tuple[int, ...], ...]
-    constants: tuple[tuple[float, ...], ...]
+    constants: tuple[tuple[float, ...], ...]  #: numbers of the program text [-]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Part:
     nodes: tuple[tuple[str, tuple], ...]
     results: tuple[int, ...]
     inputs: tuple[int, ...]
     outputs: tuple[int, ...]
-    constants: tuple[float, ...]
+    constants: tuple[float, ...]  #: numbers of the program text [-]
 
 
 def kernels(tape: Tape) -> tuple[Kernel, ...]:
     """The program as kernels.
-
-    Parameters
-    ----------
-    tape : Tape
-        The program
 
     Returns
     -------
@@ -80,18 +64,7 @@ def kernels(tape: Tape) -> tuple[Kernel, ...]:
 
 
 def whole(tape: Tape) -> Kernel:
-    """The program as one kernel with one instance.
-
-    Parameters
-    ----------
-    tape : Tape
-        The program
-
-    Returns
-    -------
-    kernel : Kernel
-        Writes every output
-    """
+    """The program as one kernel with one instance."""
     return _kernel([_part(tape, list(range(len(tape.results))))])
 
 
@@ -187,11 +160,6 @@ def _kernel(parts: list[_Part]) -> Kernel:
 
 def constant_table(found: tuple[Kernel, ...]) -> np.ndarray:
     """The constants of all kernels in the order in which the C code reads them.
-
-    Parameters
-    ----------
-    found : tuple of Kernel
-        A program's kernels
 
     Returns
     -------

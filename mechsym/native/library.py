@@ -13,22 +13,10 @@ from mechsym.native import cache
 def load(source: str, mode: str) -> ctypes.CDLL:
     """Compile a source when needed and load it.
 
-    Parameters
-    ----------
-    source : str
-        C text
-    mode : str
-        `fast` or `strict`
-
     Returns
     -------
     library : ctypes.CDLL
         Its `_name` is the path of the file
-
-    Raises
-    ------
-    mechsym.native.compiler.NoCompiler
-        No compiler, or it failed
     """
     return ctypes.CDLL(str(cache.shared_object(source, mode)))
 

@@ -28,8 +28,6 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
     ----------
     step : casadi.Function
         (state, stage, lane) -> state, or state and record
-    mode : str
-        `fast` or `strict`
 
     Returns
     -------
@@ -93,15 +91,8 @@ def text(found: Program, sizes: tuple[int, int, int]) -> str:
 
     Parameters
     ----------
-    found : Program
-        The step
     sizes : tuple of int
         Numbers of states, stage values, lane values
-
-    Returns
-    -------
-    text : str
-        C text
     """
     name, kernel = found.tape.name, whole(found.tape)
     states, stages, lanes = sizes

@@ -15,9 +15,10 @@ import dataclasses
 import math
 
 from mechsym.native.tape import Tape, prune, wait
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Work:
     # nodes written so far, the node of each key, and where each old node went
     nodes: list[tuple[str, tuple]] = dataclasses.field(default_factory=list)
@@ -27,11 +28,6 @@ class _Work:
 
 def cheaper(tape: Tape) -> Tape:
     """The same program with reciprocals shared and broken powers taken apart.
-
-    Parameters
-    ----------
-    tape : Tape
-        A program
 
     Returns
     -------

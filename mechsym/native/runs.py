@@ -10,6 +10,8 @@ from collections.abc import Sequence
 import casadi
 import numpy as np
 
+from mechsym.quantities import record
+
 STATUS = (
     "done",
     "met a surface",
@@ -21,134 +23,71 @@ STATUS = (
 )
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Table:
-    """A held value that follows a state periodically.
+    """A held value that follows a state periodically."""
 
-    Parameters
-    ----------
-    held, state : int
-        Index of the held value and of the state
-    polynomials : tuple of (ndarray, ndarray)
-        For each run, or one for all: breaks (k + 1,) from the start to the end of one period, and coefficients
-        (terms, k) in the distance from the left break, highest power first, as in `scipy.interpolate.PPoly`
-    """
-
+    #: Index of the held value and of the state
     held: int
     state: int
+    #: For each run, or one for all: breaks (k + 1,) from the start to the end of one period, and coefficients (terms,
+    #: k) in the distance from the left break, highest power first, as in `scipy.interpolate.PPoly` [SI]
     polynomials: tuple[tuple[np.ndarray, np.ndarray], ...]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Surface:
-    """A level of a state at which a run ends.
-
-    Parameters
-    ----------
-    state : int
-        Index of the state
-    level : float or ndarray, shape (runs,)
-        Its value there
-    direction : int
-        1 rising, -1 falling, 0 either
-    """
+    """A level of a state at which a run ends."""
 
     state: int
-    level: float | np.ndarray
-    direction: int = 0
+    level: float | np.ndarray  #: shape (runs,): Its value there [SI]
+    direction: int = 0  #: 1 rising, -1 falling, 0 either
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Kinks:
-    """Values of one state at which the equations are not smooth.
-
-    Parameters
-    ----------
-    state : int
-        Index of the state
-    angles : ndarray, shape (k,) or (runs, k)
-        Within one period
-    period : float
-        After which they repeat
-    """
+    """Values of one state at which the equations are not smooth."""
 
     state: int
-    angles: np.ndarray
+    angles: np.ndarray  #: shape (k,) or (runs, k): Within one period
     period: float
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Runs:
-    """Runs to integrate, in one lane each.
+    """Runs to integrate, in one lane each."""
 
-    Parameters
-    ----------
-    rhs : casadi.Function, or a sequence of one for each run
-        (t, y, p) -> dy/dt; functions of a sequence may differ in their constants
-    start : ndarray, shape (n,) or (runs, n)
-        States at the start
-    t : float
-        Time at the start [s]
-    until : ndarray, shape (segments,) or (runs, segments)
-        Ends of the segments, ascending; the last is the end of the run [s]
-    held : ndarray, shape (segments, p) or (runs, segments, p)
-        Held values in each segment; empty when there are none
-    times : ndarray, shape (m,) or (runs, m)
-        Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
-    tables, surfaces : tuple of Table, of Surface
-        See there
-    kinks : tuple of Kinks
-        Where no step may reach across
-    rtol, atol : float
-        Relative and absolute tolerance of a step [-]
-    first_step : float
-        First step of every segment; 0 lets the integrator choose [s]
-    max_steps : int
-        Limit of tries for each run
-    """
-
+    #: (t, y, p) -> dy/dt; functions of a sequence may differ in their constants
     rhs: casadi.Function | Sequence[casadi.Function]
-    start: np.ndarray
+    start: np.ndarray  #: shape (n,) or (runs, n): States at the start
+    #: shape (segments,) or (runs, segments): Ends of the segments, ascending; the last is the end of the run [s]
     until: np.ndarray
-    t: float = 0.0
+    t: float = 0.0  #: Time at the start [s]
+    #: shape (segments, p) or (runs, segments, p): Held values in each segment; empty when there are none
     held: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((1, 0)))
+    #: shape (m,) or (runs, m): Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
     times: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
     tables: tuple[Table, ...] = ()
     surfaces: tuple[Surface, ...] = ()
-    kinks: tuple[Kinks, ...] = ()
+    kinks: tuple[Kinks, ...] = ()  #: Where no step may reach across
+    #: Relative and absolute tolerance of a step [-]
     rtol: float = 1e-10
     atol: float = 1e-10
-    first_step: float = 0.0
-    max_steps: int = 5_000_000
+    first_step: float = 0.0  #: First step of every segment; 0 lets the integrator choose [s]
+    max_steps: int = 5_000_000  #: Limit of tries for each run
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Outcome:
-    """What came out of runs.
+    """What came out of runs."""
 
-    Parameters
-    ----------
-    t : ndarray, shape (runs,)
-        Where each ended [s]
-    y : ndarray, shape (runs, n)
-        State there
-    samples : ndarray, shape (runs, m, n)
-        States at the wanted times; those after the end of a run are not a number
-    steps, rejected : ndarray, shape (runs,)
-        Steps accepted and thrown away
-    met : ndarray, shape (runs,)
-        Index of the surface that ended the run, or -1
-    last_step : ndarray, shape (runs,)
-        Last step that was not cut short [s]
-    status : ndarray, shape (runs,)
-        Index into `STATUS`: 0 and 1 are success
-    """
-
-    t: np.ndarray
-    y: np.ndarray
+    t: np.ndarray  #: shape (runs,): Where each ended [s]
+    y: np.ndarray  #: shape (runs, n): State there
+    #: shape (runs, m, n): States at the wanted times; those after the end of a run are not a number
     samples: np.ndarray
+    #: shape (runs,): Steps accepted and thrown away
     steps: np.ndarray
     rejected: np.ndarray
-    met: np.ndarray
-    last_step: np.ndarray
-    status: np.ndarray
+    met: np.ndarray  #: shape (runs,): Index of the surface that ended the run, or -1
+    last_step: np.ndarray  #: shape (runs,): Last step that was not cut short [s]
+    status: np.ndarray  #: shape (runs,): Index into `STATUS`: 0 and 1 are success

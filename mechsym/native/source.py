@@ -40,11 +40,6 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
         Function of scalars or small vectors
     mode : str
         `fast` shares reciprocals and factors, `strict` leaves every operation as it is
-
-    Returns
-    -------
-    program : Program
-        What the emitter takes
     """
     return stored_program(function.serialize(), mode)
 
@@ -53,13 +48,6 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
 @functools.lru_cache(maxsize=1024)
 def stored_program(text: str, mode: str) -> Program:
     """As `program`, from a function as CasADi stores it.
-
-    Parameters
-    ----------
-    text : str
-        What `casadi.Function.serialize` gives
-    mode : str
-        `fast` or `strict`
 
     Returns
     -------
@@ -77,13 +65,6 @@ def prepared(function: casadi.Function, mode: str) -> Tape:
     ----------
     function : casadi.Function
         Function of scalars or small vectors
-    mode : str
-        `fast` or `strict`
-
-    Returns
-    -------
-    tape : Tape
-        Straight-line program
     """
     tape = read(function)
     return factored(cheaper(tape)) if mode == "fast" else tape
@@ -91,46 +72,18 @@ def prepared(function: casadi.Function, mode: str) -> Tape:
 
 @functools.cache
 def header(name: str) -> str:
-    """A C file of the package.
-
-    Parameters
-    ----------
-    name : str
-        File name in `mechsym/native/c`
-
-    Returns
-    -------
-    text : str
-        Its text
-    """
+    """A C file of the package."""
     return (resources.files("mechsym.native") / "c" / name).read_text(encoding="utf-8")
 
 
 def preamble() -> str:
-    """What every emitted file starts with.
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """What every emitted file starts with."""
     includes = "#ifdef MS_PYTHON\n#define PY_SSIZE_T_CLEAN\n#include <Python.h>\n#endif\n#include <stdlib.h>\n"
     return includes + header("elementary.h") + header("prelude.h")
 
 
 def evaluation(programs: Sequence[Program]) -> str:
-    """A file that evaluates functions at one point and in batches.
-
-    Parameters
-    ----------
-    programs : sequence of Program
-        Functions with different names
-
-    Returns
-    -------
-    text : str
-        C text
-    """
+    """A file that evaluates functions at one point and in batches."""
     parts = [preamble()]
     for p in programs:
         name = p.tape.name
@@ -149,16 +102,5 @@ def evaluation(programs: Sequence[Program]) -> str:
 
 
 def signature(tape: Tape) -> str:
-    """Inputs and outputs in one line.
-
-    Parameters
-    ----------
-    tape : Tape
-        A program
-
-    Returns
-    -------
-    text : str
-        name(inputs) -> outputs
-    """
+    """Inputs and outputs in one line."""
     return f"{tape.name}({', '.join(tape.inputs)}) -> {', '.join(tape.outputs)}"

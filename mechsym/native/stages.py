@@ -14,11 +14,6 @@ from mechsym.native.tape import CHEAP, Tape, prune
 def split(tape: Tape) -> tuple[Tape, Tape] | None:
     """The two stages of a program.
 
-    Parameters
-    ----------
-    tape : Tape
-        The program
-
     Returns
     -------
     stages : tuple of Tape, or None

@@ -6,12 +6,12 @@ dropped. Everything that writes code (`dialects`, `emit`) starts from this recor
 """
 
 import collections
-import dataclasses
 import functools
 
 import casadi
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 # opcodes whose meaning is another one's
 _SAME = {"constpow": "pow"}
@@ -27,26 +27,16 @@ _WAIT = {"input": 0, "constant": 0, "div": 14, "inv": 14, "sqrt": 18, "sin": 45,
          "pow": 120}  # fmt: skip
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Tape:
-    """Straight-line program of a function of scalars.
-
-    Parameters
-    ----------
-    name : str
-        Name of the function
-    inputs, outputs : tuple of str
-        Names of the scalar inputs and outputs, elements of a vector as `y[0]`, `y[1]`
-    nodes : tuple of (str, tuple)
-        Operator and operands. Operands are indices of earlier nodes, except for `("input", (i,))` and
-        `("constant", (value,))`
-    results : tuple of int
-        Node of each output
-    """
+    """Straight-line program of a function of scalars."""
 
     name: str
+    #: Names of the scalar inputs and outputs, elements of a vector as `y[0]`, `y[1]`
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    #: Operator and operands. Operands are indices of earlier nodes, except for `("input", (i,))` and `("constant",
+    #: (value,))`
     nodes: tuple[tuple[str, tuple], ...]
     results: tuple[int, ...]
 
@@ -89,11 +79,6 @@ def read(function: casadi.Function) -> Tape:
     -------
     tape : Tape
         Its straight-line program; elements of a sparse output that are not stored are zero
-
-    Raises
-    ------
-    BadInput
-        The function calls something that is not made of elementary operations
     """
     if not function.is_a("SXFunction"):
         function = _expanded(function)
@@ -158,20 +143,7 @@ def _rename(function: casadi.Function, inputs: list[int], outputs: list[int]) ->
 
 
 def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tuple[str, tuple]], list[int]]:
-    """Drop what no result needs.
-
-    Parameters
-    ----------
-    nodes : list of (str, tuple)
-        Instructions in order
-    results : list of int
-        Node of each output
-
-    Returns
-    -------
-    nodes, results : list
-        Renumbered, in the same order
-    """
+    """Drop what no result needs."""
     needed = set(results)
     for i in range(len(nodes) - 1, -1, -1):
         if i in needed and nodes[i][0] not in ("input", "constant"):
@@ -186,34 +158,12 @@ def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tupl
 
 
 def wait(op: str) -> int:
-    """How long a result has to be waited for.
-
-    Parameters
-    ----------
-    op : str
-        Operator
-
-    Returns
-    -------
-    cycles : int
-        Of the processor, roughly
-    """
+    """How long a result has to be waited for."""
     return _WAIT.get(op, 4)
 
 
 def operation_counts(tape: Tape) -> dict[str, int]:
-    """How often each operator occurs; a sine and a cosine of one angle count as one `sincos`.
-
-    Parameters
-    ----------
-    tape : Tape
-        The program
-
-    Returns
-    -------
-    counts : dict of str to int
-        Sorted by operator, `total` last
-    """
+    """How often each operator occurs; a sine and a cosine of one angle count as one `sincos`."""
     angles = collections.defaultdict(set)
     counts: collections.Counter[str] = collections.Counter()
     for op, args in tape.nodes:

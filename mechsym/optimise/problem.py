@@ -15,41 +15,24 @@ from mechsym import mechanisms
 from mechsym.cycle.closed.differentiable import PEAK_UNITS, SCALAR_UNITS
 from mechsym.cycle.closed.model import Engine, design_names
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, parse, quantity
+from mechsym.quantities import choice, parse, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Optimise:
-    """Section `[optimise]` of a case.
+    """Section `[optimise]` of a case."""
 
-    Parameters
-    ----------
-    objective : str
-        Figure to make large or small
-    goal : str
-        `maximise` or `minimise`
-    variables : dict
-        Dotted name of an engine's value to `{low = .., high = ..}`
-    constraints : dict
-        Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
-    against : str
-        Second figure of a Pareto front, empty for none
-    against_goal : str
-        `maximise` or `minimise`
-    points : float
-        Points of the front [-]
-    """
-
-    objective: str = "efficiency"
+    objective: str = "efficiency"  #: Figure to make large or small
     goal: str = choice("maximise", "minimise", default="maximise")
+    #: Dotted name of an engine's value to `{low = .., high = ..}`
     variables: dict[str, Any] = dataclasses.field(default_factory=dict)
+    #: Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
     constraints: dict[str, Any] = dataclasses.field(default_factory=dict)
-    against: str = ""
+    against: str = ""  #: Second figure of a Pareto front, empty for none
     against_goal: str = choice("maximise", "minimise", default="minimise")
     points: float = quantity("-", default=9, low=3, high=101, about="points of the front")
 
     def __post_init__(self) -> None:
-        check(self)
         for name in ("variables", "constraints"):
             if not isinstance(getattr(self, name), dict):
                 raise BadInput(f"{name} = {getattr(self, name)!r} is no table; write [optimise.{name}] in a case file")
@@ -58,46 +41,27 @@ class Optimise:
                            '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }')  # fmt: skip
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Limit:
-    """Bounds of a variable or a figure.
+    """Bounds of a variable or a figure."""
 
-    Parameters
-    ----------
-    name, unit : str
-        Dotted name of a variable or name of a figure, and its SI unit
-    low, high : float
-        Bounds in that unit; an infinite bound is none
-    """
-
+    #: Dotted name of a variable or name of a figure, and its SI unit
     name: str
     unit: str
+    #: Bounds, an infinite one is none [unit]
     low: float
     high: float
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Problem:
-    """A design problem with numbers.
-
-    Parameters
-    ----------
-    engine : Engine
-        The engine to start from
-    omega : float
-        Crank speed [rad/s]
-    objective : str
-        Figure to make large or small
-    sign : float
-        1 to maximise, -1 to minimise [-]
-    variables, constraints : tuple of Limit
-        What may change, and what must hold
-    """
+    """A design problem with numbers."""
 
     engine: Engine
-    omega: float
-    objective: str
-    sign: float
+    omega: float  #: Crank speed [rad/s]
+    objective: str  #: Figure to make large or small
+    sign: float  #: 1 to maximise, -1 to minimise [-]
+    #: What may change, and what must hold
     variables: tuple[Limit, ...]
     constraints: tuple[Limit, ...]
 
@@ -107,22 +71,8 @@ def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
 
     Parameters
     ----------
-    engine : Engine
-        The engine to start from
     omega : float
         Crank speed [rad/s]
-    section : Optimise
-        Variables, objective, constraints
-
-    Returns
-    -------
-    problem : Problem
-        Ready for `solve`
-
-    Raises
-    ------
-    BadInput
-        Unknown names, wrong units, empty ranges
     """
     units = design_units(engine)
     figures = figure_units(engine)
@@ -140,35 +90,13 @@ def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
 
 
 def figure_units(engine: Engine) -> dict[str, str]:
-    """Figures that may be an objective or a constraint.
-
-    Parameters
-    ----------
-    engine : Engine
-        The engine
-
-    Returns
-    -------
-    units : dict of str to str
-        Name to SI unit
-    """
+    """Figures that may be an objective or a constraint."""
     loads = engine.motion.loads.name_out() if engine.motion.loads is not None else []
     return SCALAR_UNITS | PEAK_UNITS | dict.fromkeys(loads, "N")
 
 
 def design_units(engine: Engine) -> dict[str, str]:
-    """Units of the values that a design may hold.
-
-    Parameters
-    ----------
-    engine : Engine
-        The engine
-
-    Returns
-    -------
-    units : dict of str to str
-        Dotted name to SI unit
-    """
+    """Units of the values that a design may hold."""
     records = {s: getattr(engine, s) for s in ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")}
     units = {
         f"{section}.{f.name}": f.metadata["unit"]

@@ -15,6 +15,7 @@ import numpy as np
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.model import Engine, at_design
 from mechsym.optimise.problem import Limit, Problem, figure_units
+from mechsym.quantities import record
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
 _ACTIVE = 1e-6  # a limit counts as met this closely, in units of its own size or range
@@ -25,35 +26,19 @@ _OPTIONS: dict[str, Any] = {
 _MARGIN = 0.01  # the start keeps off the bounds of the variables
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Optimum:
-    """What the solver found.
+    """What the solver found."""
 
-    Parameters
-    ----------
-    status, reason : str
-        `optimal`, `infeasible` or `not converged`, and the solver's own words
-    variables : mapping of str to float
-        The design, SI
-    objective : float
-        Figure at the design, SI
-    figures : mapping of str to float
-        All figures at the design; of peaks the largest value at the ends of the steps
-    multipliers : mapping of str to float
-        dJ/d(limit) of each variable's and each figure's bound, 0 where it is not active, SI
-    active : tuple of dict
-        Active limits: name, side, limit, unit, multiplier, meaning
-    iterations : int
-        Of the solver
-    """
-
+    #: `optimal`, `infeasible` or `not converged`, and the solver's own words
     status: str
     reason: str
     variables: Mapping[str, float]
-    objective: float
-    figures: Mapping[str, float]
+    objective: float  #: [SI]
+    figures: Mapping[str, float]  #: All figures at the design; of peaks the largest value at the ends of the steps
+    #: dJ/d(limit) of each variable's and each figure's bound, 0 where it is not active, SI
     multipliers: Mapping[str, float]
-    active: tuple[dict[str, Any], ...]
+    active: tuple[dict[str, Any], ...]  #: Active limits: name, side, limit, unit, multiplier, meaning
     iterations: int
 
 
@@ -67,11 +52,6 @@ class _Block(NamedTuple):
 
 def solve(task: Problem) -> Optimum:
     """Solve a design problem.
-
-    Parameters
-    ----------
-    task : Problem
-        Variables, objective, limits
 
     Returns
     -------
@@ -96,17 +76,6 @@ def solve(task: Problem) -> Optimum:
 
 def pareto(task: Problem, against: str, goal: str, points: int) -> list[Optimum]:
     """Best values of the objective for given values of a second figure.
-
-    Parameters
-    ----------
-    task : Problem
-        Variables, objective, limits
-    against : str
-        Second figure
-    goal : str
-        `maximise` or `minimise` it
-    points : int
-        Points of the front
 
     Returns
     -------

@@ -13,19 +13,8 @@ def panels(
 
     Parameters
     ----------
-    rows, columns : int
-        Number of panels
     size : tuple of float
         Width and height [inch]
-    **options
-        For `Figure.subplots`
-
-    Returns
-    -------
-    figure : Figure
-        Never shown, only saved
-    axes : list of Axes
-        Row by row
     """
     figure = Figure(figsize=size, layout="constrained")
     axes = list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
@@ -40,12 +29,8 @@ def turn_axis(axis: Any, degrees: float = 360.0, label: str = "crank angle [deg]
 
     Parameters
     ----------
-    axis : Axes
-        A panel
     degrees : float
         Last angle [deg]
-    label : str
-        Label of the axis
     """
     axis.set_xlim(0, degrees)
     axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))

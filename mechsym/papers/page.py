@@ -27,17 +27,10 @@ def write(
     ----------
     folder : Path
         Where to write; made when missing
-    sources : sequence of Source
-        What was reproduced
     rows : mapping of str to sequence of dict
         Rows of each source by its stem
     differences : sequence of str
         How the outcome differs from the recorded one
-
-    Returns
-    -------
-    files : list of Path
-        reproduction.html first
     """
     drawn = {source.stem: figures(source) for source in sources}
     files = [write_text(folder / "reproduction.html", html(sources, rows, drawn, differences))]
@@ -60,19 +53,12 @@ def html(
 
     Parameters
     ----------
-    sources : sequence of Source
-        What was reproduced
     rows : mapping of str to sequence of dict
         Rows of each source by its stem
     drawn : mapping of str to mapping
         Figures of each source by its stem
     differences : sequence of str
         How the outcome differs from the recorded one
-
-    Returns
-    -------
-    text : str
-        HTML without any outside reference
     """
     import jinja2
 
@@ -89,11 +75,6 @@ def html(
 
 def counts(rows: Sequence[dict[str, Any]]) -> dict[str, int]:
     """How many rows have each verdict.
-
-    Parameters
-    ----------
-    rows : sequence of dict
-        Rows of a reproduction
 
     Returns
     -------

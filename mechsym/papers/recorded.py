@@ -12,11 +12,6 @@ from mechsym.files import to_json, write_text
 def stored(package: str) -> list[dict[str, Any]]:
     """The findings recorded beside a package.
 
-    Parameters
-    ----------
-    package : str
-        Package with a file findings.json
-
     Returns
     -------
     findings : list of dict
@@ -27,22 +22,7 @@ def stored(package: str) -> list[dict[str, Any]]:
 
 
 def write(package: str, rows: Sequence[Mapping[str, Any]], keys: Sequence[str]) -> Path:
-    """Record findings.
-
-    Parameters
-    ----------
-    package : str
-        Package that keeps the file
-    rows : sequence of mapping
-        Findings
-    keys : sequence of str
-        What is recorded of each
-
-    Returns
-    -------
-    path : Path
-        The file
-    """
+    """Record findings."""
     path = Path(str(resources.files(package) / "findings.json"))
     return write_text(path, to_json([{k: row[k] for k in keys} for row in rows]) + "\n")
 
@@ -54,19 +34,10 @@ def differences(
 
     Parameters
     ----------
-    package : str
-        Package that keeps the record
-    rows : sequence of mapping
-        Findings now
     name : sequence of str
         Keys that name a finding; one of them is `source`
     compared : sequence of str
         Keys whose values must not change
-
-    Returns
-    -------
-    differences : list of str
-        One line each
     """
     sources = {row["source"] for row in rows}
     before = {_name(r, name): r for r in stored(package) if r["source"] in sources}

@@ -9,34 +9,12 @@ _MODULES = ("zotov2024", "moroianu2017", "chmielewski2015", "prymak", "nunes2017
 
 
 def sources() -> list[Source]:
-    """All sources.
-
-    Returns
-    -------
-    sources : list of Source
-        In their order
-    """
+    """All sources."""
     return [importlib.import_module(f"mechsym.papers.{name}.printed").SOURCE for name in _MODULES]
 
 
 def source(name: str) -> Source:
-    """A source by its file stem or short name.
-
-    Parameters
-    ----------
-    name : str
-        For example `zotov2024` or `000_9f2b746dc1abd296`
-
-    Returns
-    -------
-    source : Source
-        With its entries
-
-    Raises
-    ------
-    BadInput
-        No such source
-    """
+    """A source by its file stem or short name."""
     for found in sources():
         if name.removesuffix(".txt") in (found.stem, found.short, found.stem[:3]):
             return found

@@ -18,16 +18,12 @@ def row(
 
     Parameters
     ----------
-    source : str
-        The source's file stem
     item : str
         What it is, with its place in the source and the unit
     published : str or None
         As printed: a number or a statement; None when the source gives no value
     computed : float or None
         In the unit of the print; None when nothing can be computed [-]
-    verdict : str
-        One of `VERDICTS`
     note : str
         What is missing, which slip, how far off
 
@@ -35,11 +31,6 @@ def row(
     -------
     row : dict
         Keys `KEYS`; published is None for words, rel_error unless both are numbers and the published one is not 0
-
-    Raises
-    ------
-    BadInput
-        No such verdict
     """
     if verdict not in VERDICTS:
         raise BadInput(f"verdict {verdict!r} is not an option; options are {', '.join(VERDICTS)}")
@@ -70,11 +61,6 @@ def number(text: str | None) -> float | None:
 def last_digit(text: str) -> float:
     """Value of one unit in the last printed digit.
 
-    Parameters
-    ----------
-    text : str
-        A number as printed
-
     Returns
     -------
     unit : float
@@ -89,8 +75,6 @@ def by_digits(published: str, computed: float) -> str:
 
     Parameters
     ----------
-    published : str
-        A number as printed
     computed : float
         What the computation gives, in the same unit [-]
 

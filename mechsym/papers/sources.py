@@ -1,35 +1,23 @@
 """The five sources by name, with the functions that give their rows and their figures."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.papers.rows import number
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Source:
-    """A source and where its reproduction is computed.
-
-    Parameters
-    ----------
-    stem, name : str
-        File stem and short name
-    about : str
-        Authors, year, title
-    rows : tuple of str
-        Functions without arguments that give rows, as `module:function`
-    figures : str
-        Function without arguments that gives figures by name, as `module:function`
-    """
+    """A source and where its reproduction is computed."""
 
     stem: str
     name: str
     about: str
-    rows: tuple[str, ...]
-    figures: str
+    rows: tuple[str, ...]  #: Functions without arguments that give rows, as `module:function`
+    figures: str  #: Function without arguments that gives figures by name, as `module:function`
 
 
 SOURCES = (
@@ -77,20 +65,10 @@ SOURCES = (
 def chosen(name: str | None = None) -> tuple[Source, ...]:
     """One source by name, or all.
 
-    Parameters
-    ----------
-    name : str, optional
-        File stem or short name
-
     Returns
     -------
     sources : tuple of Source
         In the order of their stems
-
-    Raises
-    ------
-    BadInput
-        No such source
     """
     if name is None:
         return SOURCES
@@ -102,11 +80,6 @@ def chosen(name: str | None = None) -> tuple[Source, ...]:
 
 def rows(source: Source) -> list[dict[str, Any]]:
     """All rows of a source.
-
-    Parameters
-    ----------
-    source : Source
-        One of `SOURCES`
 
     Returns
     -------
@@ -122,18 +95,7 @@ def _with_print(row: dict[str, Any]) -> dict[str, Any]:
 
 
 def figures(source: Source) -> Mapping[str, Any]:
-    """The figures that the source prints, drawn from the computation.
-
-    Parameters
-    ----------
-    source : Source
-        One of `SOURCES`
-
-    Returns
-    -------
-    figures : mapping of str to matplotlib.figure.Figure
-        `figure_5a` and so on
-    """
+    """The figures that the source prints, drawn from the computation."""
     return _function(source.figures)()
 
 

@@ -9,7 +9,6 @@ carries Gauss points, and a turn costs less than a millisecond.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -17,60 +16,35 @@ from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
 from mechsym.machine.loads import Load
+from mechsym.quantities import record
 
 _POINTS = 10
 _WIDEST = np.pi / 18
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Machine:
-    """Inertia and torque over the angle, and the load.
+    """Inertia and torque over the angle, and the load."""
 
-    Parameters
-    ----------
-    inertia : callable
-        phi, ndarray (n,), to reduced inertia [kg*m^2]
-    torque : callable
-        phi, ndarray (n,), to the torque of all that depends on the angle only [N*m]
-    load : record of mechsym.loads
-        Load law with its numbers
-    period : float
-        Period of inertia and torque [rad]
-    kinks : tuple of float
-        Where they are not smooth, in [0, period) [rad]
-    """
-
-    inertia: Callable[[np.ndarray], np.ndarray]
+    inertia: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to reduced inertia [kg*m^2]
+    #: phi, ndarray (n,), to the torque of all that depends on the angle only [N*m]
     torque: Callable[[np.ndarray], np.ndarray]
     load: Load
-    period: float = 2 * np.pi
-    kinks: tuple[float, ...] = ()
+    period: float = 2 * np.pi  #: Period of inertia and torque [rad]
+    kinks: tuple[float, ...] = ()  #: Where they are not smooth, in [0, period) [rad]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Panels:
-    """A machine evaluated once at the Gauss points of one period.
-
-    Parameters
-    ----------
-    load : record of mechsym.loads
-        Load law
-    edges : ndarray, shape (k + 1,)
-        Ends of the panels [rad]
-    phi : ndarray, shape (k, n)
-        Gauss points [rad]
-    inertia, torque : ndarray, shape (k, n)
-        There [kg*m^2, N*m]
-    inertia_edges : ndarray, shape (k + 1,)
-        Inertia at the ends [kg*m^2]
-    """
+    """A machine evaluated once at the Gauss points of one period."""
 
     load: Load
-    edges: np.ndarray
-    phi: np.ndarray
+    edges: np.ndarray  #: shape (k + 1,): Ends of the panels [rad]
+    phi: np.ndarray  #: shape (k, n): Gauss points [rad]
+    #: shape (k, n): There [kg*m^2, N*m]
     inertia: np.ndarray
     torque: np.ndarray
-    inertia_edges: np.ndarray
+    inertia_edges: np.ndarray  #: shape (k + 1,): Inertia at the ends [kg*m^2]
 
 
 @lru_cache(maxsize=1)
@@ -93,8 +67,6 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
 
     Parameters
     ----------
-    machine : Machine
-        Functions of the angle
     phi_start : float
         Where the period begins [rad]
 
@@ -102,11 +74,6 @@ def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
     -------
     panels : Panels
         Values for `turn` and what builds on it
-
-    Raises
-    ------
-    BadInput
-        Torque or inertia is not finite, or the inertia not positive
     """
     kinks = [phi_start + (k - phi_start) % machine.period for k in machine.kinks]
     ends = np.unique([phi_start, *kinks, phi_start + machine.period])

@@ -4,33 +4,22 @@ A load that grows with speed makes the energies of a panel depend on each other 
 takes all panels of a turn at once: one step where the load is linear in the energy, as the propeller's is.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mechsym.machine.loads import ConstantLoad, Load, load_slope, load_torque
+from mechsym.quantities import record
 from mechsym.simulate.angle import Panels, gauss
 
 _SLOWEST = 1e-9  # the load's slope is asked for at this speed at least, where the shaft has stopped [rad/s]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Turn:
-    """One period of motion.
+    """One period of motion."""
 
-    Parameters
-    ----------
-    energy : ndarray, shape (k, n)
-        Kinetic energy at the Gauss points; negative beyond a stop [J]
-    energy_edges : ndarray, shape (k + 1,)
-        At the ends of the panels [J]
-    multiplier : float
-        Change of the energy at the end per change at the start [-]
-    """
-
-    energy: np.ndarray
-    energy_edges: np.ndarray
-    multiplier: float
+    energy: np.ndarray  #: shape (k, n): Kinetic energy at the Gauss points; negative beyond a stop [J]
+    energy_edges: np.ndarray  #: shape (k + 1,): At the ends of the panels [J]
+    multiplier: float  #: Change of the energy at the end per change at the start [-]
 
 
 def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
@@ -38,8 +27,6 @@ def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
 
     Parameters
     ----------
-    panels : Panels
-        Machine
     flywheel : float
         Inertia added to the shaft [kg*m^2]
     energy : float
@@ -143,12 +130,8 @@ def speeds(panels: Panels, flywheel: float, turn: Turn) -> tuple[np.ndarray, np.
 
     Parameters
     ----------
-    panels : Panels
-        Machine
     flywheel : float
         Inertia added to the shaft [kg*m^2]
-    turn : Turn
-        Positive energies
 
     Returns
     -------
@@ -168,11 +151,6 @@ def speeds(panels: Panels, flywheel: float, turn: Turn) -> tuple[np.ndarray, np.
 def lowest_energy(turn: Turn) -> float:
     """Smallest kinetic energy of a turn.
 
-    Parameters
-    ----------
-    turn : Turn
-        A turn
-
     Returns
     -------
     energy : float
@@ -183,13 +161,6 @@ def lowest_energy(turn: Turn) -> float:
 
 def stop_angle(panels: Panels, turn: Turn) -> float | None:
     """Where a turn stops.
-
-    Parameters
-    ----------
-    panels : Panels
-        Machine
-    turn : Turn
-        A turn
 
     Returns
     -------

@@ -18,8 +18,6 @@ def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.nda
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With its parameters
     q, u : ndarray, shape (n, m)
         Coordinates and velocities, one row each [rad, rad/s]
 
@@ -39,15 +37,8 @@ def energy_audit(problem: Problem, columns: Mapping[str, np.ndarray]) -> Energy:
 
     Parameters
     ----------
-    problem : Problem
-        What was run
     columns : mapping of str to ndarray
         Its columns, first entry at the start, last at the end
-
-    Returns
-    -------
-    energy : Energy
-        Audit
     """
     work = {p.name: float(columns[f"work_{p.name}"][-1]) for p in problem.parts}
     work_in = sum(work[p.name] for p in problem.parts if p.role == "drive")

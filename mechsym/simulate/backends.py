@@ -28,23 +28,7 @@ BACKENDS = (*NATIVE, *_PHASES)
 
 
 def backend(name: str) -> Callable[[Phase], Leg]:
-    """The function that integrates a phase.
-
-    Parameters
-    ----------
-    name : str
-        Name of the backend
-
-    Returns
-    -------
-    advance : callable
-        Phase to Leg
-
-    Raises
-    ------
-    BadInput
-        No such backend, or one that takes whole problems only
-    """
+    """The function that integrates a phase."""
     if name not in _PHASES:
         raise BadInput(f"backend {name!r} does not go phase by phase; there are {', '.join(_PHASES)}")
     (path, arguments) = _PHASES[name]

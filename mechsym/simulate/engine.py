@@ -8,7 +8,6 @@ This is where torques computed elsewhere come in: a hinge is one `AngleForce` on
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -16,68 +15,36 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.machine.loads import Load, TableLoad, load_torque
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 from mechsym.simulate.angle import Machine
 from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Stop
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class AngleForce:
-    """A force or torque that depends on the crank angle only.
-
-    Parameters
-    ----------
-    name : str
-        For example `gas` or `hinge`
-    input : str
-        The mechanism's input it acts on
-    role : str
-        `drive` counts as work in, `store` (a spring) does not
-    value : callable
-        phi, ndarray (n,), to values (n,) in the unit of the input
-    point : callable, optional
-        The same for one float, where there is a fast way; without it a polynomial is fitted to round-off
-    """
+    """A force or torque that depends on the crank angle only."""
 
     name: str
-    input: str
+    input: str  #: The mechanism's input it acts on
+    #: `drive` counts as work in, `store` (a spring) does not
     role: str = choice("drive", "store", default="drive", about="side of the energy balance")
-    value: Callable[[np.ndarray], np.ndarray]
+    value: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to values (n,) in the unit of the input
+    #: The same for one float, where there is a fast way; without it a polynomial is fitted to round-off
     point: Callable[[float], float] | None = None
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class Engine:
-    """Mechanism, forces and load of an engine with one coordinate.
+    """Mechanism, forces and load of an engine with one coordinate."""
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        One coordinate, no dampers; a flywheel belongs into its parameters
-    forces : tuple of AngleForce
-        Gas, hinge
-    load : record of mechsym.loads
-        Settled load law
-    load_input : str
-        Input that takes the load torque, positive against the motion
-    period : float
-        Period of the forces [rad]
-    kinks : tuple of float
-        Where a force is not smooth, in [0, period) [rad]
-    """
-
-    mechanism: Mechanism
+    mechanism: Mechanism  #: One coordinate, no dampers; a flywheel belongs into its parameters
     forces: tuple[AngleForce, ...]
     load: Load
-    load_input: str = "M_r"
+    load_input: str = "M_r"  #: Input that takes the load torque, positive against the motion
     period: float = quantity("rad", default=2 * np.pi, above=0, about="period of the forces")
-    kinks: tuple[float, ...] = ()
+    kinks: tuple[float, ...] = ()  #: Where a force is not smooth, in [0, period) [rad]
 
     def __post_init__(self) -> None:
-        check(self)
         if len(self.mechanism.coordinates) != 1:
             raise BadInput(
                 f"{self.mechanism.name} has {len(self.mechanism.coordinates)} coordinates; an engine has one"
@@ -89,23 +56,7 @@ class Engine:
 
 
 def machine(engine: Engine) -> Machine:
-    """The engine over the angle.
-
-    Parameters
-    ----------
-    engine : Engine
-        Mechanism, forces, load
-
-    Returns
-    -------
-    machine : Machine
-        Inertia, torque, load
-
-    Raises
-    ------
-    BadInput
-        The mechanism has dampers, whose torque depends on the speed
-    """
+    """The engine over the angle."""
     dynamics = engine.mechanism.functions["dynamics"]
     if _depends_on_speed(engine.mechanism):
         raise BadInput(f"{engine.mechanism.name} has dampers; its torque is no function of the angle alone")
@@ -141,8 +92,6 @@ def problem(engine: Engine, speed: float, turns: float, phi_start: float = 0.0, 
 
     Parameters
     ----------
-    engine : Engine
-        Mechanism, forces, load
     speed : float
         Speed at the start [rad/s]
     turns : float
@@ -189,8 +138,6 @@ def load_value(load: Load, index: int = 0) -> Formula | Callable[[float, list[fl
 
     Parameters
     ----------
-    load : record of mechsym.loads
-        Settled load law
     index : int
         Coordinate whose speed it follows; -1 for the last
 

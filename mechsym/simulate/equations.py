@@ -7,7 +7,6 @@ function, so that any backend can take it; scipy calls it through a buffer (0.5 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -17,35 +16,20 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import acceleration_function, velocities
+from mechsym.quantities import record
 from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class System:
-    """The equations of a problem.
-
-    Parameters
-    ----------
-    function : casadi.Function
-        (t, y, w) to dy/dt
-    columns : tuple of str
-        Names of the states y
-    units : tuple of str
-        Their units
-    values : tuple of Steps, Periodic or callable
-        What gives each entry of w
-    size : int
-        Number of coordinates
-    audited : bool
-        Whether the mechanism has energies; without them dissipation stays 0
-    """
+    """The equations of a problem."""
 
     function: ca.Function
     columns: tuple[str, ...]
     units: tuple[str, ...]
-    values: tuple[Steps | Periodic | Callable[..., float], ...]
+    values: tuple[Steps | Periodic | Callable[..., float], ...]  #: What gives each entry of w
     size: int
-    audited: bool
+    audited: bool  #: Whether the mechanism has energies; without them dissipation stays 0
 
 
 def system(problem: Problem) -> System:
@@ -53,16 +37,6 @@ def system(problem: Problem) -> System:
 
     .. math:: \dot W_j = w_j\, v_j,\quad v_j = \sum_i \frac{\partial Q_i}{\partial w_j} u_i,\qquad
               \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
-
-    Parameters
-    ----------
-    problem : Problem
-        Mechanism and parts
-
-    Returns
-    -------
-    system : System
-        Functions and names
 
     Raises
     ------
@@ -124,8 +98,6 @@ def held(system: System, t: float) -> np.ndarray:
 
     Parameters
     ----------
-    system : System
-        Equations
     t : float
         Start of a phase [s]
 
@@ -156,18 +128,7 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 
 @lru_cache(maxsize=64)
 def fitted(value: Periodic) -> Any:
-    """Periodic piecewise polynomial of a value, to round-off.
-
-    Parameters
-    ----------
-    value : Periodic
-        Over one coordinate
-
-    Returns
-    -------
-    poly : scipy.interpolate.PPoly
-        See `mechsym.periodic.fit`
-    """
+    """Periodic piecewise polynomial of a value, to round-off."""
     return periodic.fit(value.value, value.kinks, value.period)
 
 
@@ -178,8 +139,6 @@ def right_side(
 
     Parameters
     ----------
-    system : System
-        Equations
     w : ndarray, shape (k,)
         Held values of the phase [N*m or N]
     t_end : float

@@ -26,8 +26,6 @@ def fixed_step(problem: Problem, step: float, order: int) -> tuple[np.ndarray, n
         Parts that are `Steps` or `Formula`; stops, turns and kinks are not heeded
     step : float
         Step [s]
-    order : int
-        3 or 4
 
     Returns
     -------
@@ -35,11 +33,6 @@ def fixed_step(problem: Problem, step: float, order: int) -> tuple[np.ndarray, n
         Times [s]
     y : ndarray, shape (n, m)
         States as in `equations.system`; rows after an overflow are left out [SI, by column]
-
-    Raises
-    ------
-    BadInput
-        No such order, or a part that is a plain callable
     """
     if order not in _FORMULAS:
         raise BadInput(f"order = {order} is not an option; options are {', '.join(map(str, _FORMULAS))}")

@@ -28,13 +28,6 @@ from mechsym.simulate.settings import Settings
 def simulate_many(problems: Sequence[Problem], settings: Settings | None = None) -> list[Result]:
     """Integrate problems, side by side where that is possible.
 
-    Parameters
-    ----------
-    problems : sequence of Problem
-        What to run
-    settings : Settings, optional
-        As for `simulate`
-
     Returns
     -------
     results : list of Result

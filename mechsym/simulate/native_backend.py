@@ -19,18 +19,7 @@ _DONE, _MET, _TOO_MANY = 0, 1, 2
 
 
 def unsuited(problem: Problem) -> str:
-    """Why a problem cannot be run in C.
-
-    Parameters
-    ----------
-    problem : Problem
-        What is to be run
-
-    Returns
-    -------
-    reason : str
-        Empty when it can
-    """
+    """Why a problem cannot be run in C."""
     plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | Formula)]
     if plain:
         return f"part {plain[0]!r} is a plain Python callable; give it as Formula, Periodic or Steps"
@@ -46,26 +35,10 @@ def run(problem: Problem, equations: System, settings: Settings, times: np.ndarr
 
     Parameters
     ----------
-    problem : Problem
-        What is to be run
-    equations : System
-        Its equations
-    settings : Settings
-        Tolerance and limit of steps
     times : ndarray, shape (n,)
         Wanted times [s]
     ends : sequence of float
         Ends of the smooth stretches of time [s]
-
-    Returns
-    -------
-    raw : Raw
-        States at the wanted times
-
-    Raises
-    ------
-    mechsym.native.compiler.NoCompiler
-        The compiler failed
     """
     outcome = integrate(runs(problem, equations, settings, times, ends))
     return raw(problem, equations, times, outcome, 0)
@@ -78,11 +51,6 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
     ----------
     problem, equations, settings, times, ends
         See `run` [s]
-
-    Returns
-    -------
-    runs : Runs
-        One run
     """
     starts = [problem.t_start, *ends[:-1]]
     return Runs(
@@ -108,14 +76,8 @@ def raw(problem: Problem, equations: System, times: np.ndarray, outcome: Outcome
 
     Parameters
     ----------
-    problem, equations : Problem, System
-        What was run
     times : ndarray, shape (n,)
         Wanted times [s]
-    outcome : Outcome
-        What came out
-    index : int
-        Which run
 
     Returns
     -------

@@ -1,7 +1,6 @@
 """The result of a run: labelled columns with units, energy audit, convergence, event; written as CSV and netCDF."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,133 +8,62 @@ import numpy as np
 
 from mechsym.errors import MissingExtra
 from mechsym.files import write_csv
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Event:
-    """A stop that was met.
-
-    Parameters
-    ----------
-    name : str
-        Name of the stop
-    t : float
-        When [s]
-    state : mapping of str to float
-        Coordinates and velocities there [rad, rad/s]
-    """
+    """A stop that was met."""
 
     name: str
-    t: float
-    state: Mapping[str, float]
+    t: float  #: When [s]
+    state: Mapping[str, float]  #: Coordinates and velocities there [rad, rad/s]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Energy:
     r"""Energy audit of a run.
 
     .. math:: \text{residual} = (W - D - \Delta E) / W_\text{in}
-
-    Parameters
-    ----------
-    work : mapping of str to float
-        Work that each part does on the mechanism; a braking load's is negative [J]
-    work_in : float
-        Sum over the parts with the role `drive` [J]
-    dissipation : float
-        Taken by the mechanism's dampers [J]
-    change : float or None
-        Kinetic and potential energy at the end minus at the start; None for a model without energies [J]
-    reference : float
-        What the residual is relative to: work_in, or the largest energy when the drive brings in less than
-        a thousandth of that [J]
-    residual : float or None
-        (All work - dissipation - change) / reference; None for a model without energies [-]
     """
 
-    work: Mapping[str, float]
-    work_in: float
-    dissipation: float
+    work: Mapping[str, float]  #: Work that each part does on the mechanism; a braking load's is negative [J]
+    work_in: float  #: Sum over the parts with the role `drive` [J]
+    dissipation: float  #: Taken by the mechanism's dampers [J]
+    #: Kinetic and potential energy at the end minus at the start; None for a model without energies [J]
     change: float | None
+    #: What the residual is relative to: work_in, or the largest energy when the drive brings in less than a thousandth
+    #: of that [J]
     reference: float
-    residual: float | None
+    residual: float | None  #: (All work - dissipation - change) / reference; None for a model without energies [-]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Result:
-    """A finished run.
+    """A finished run."""
 
-    Parameters
-    ----------
-    status : str
-        `converged`, `not converged`, `chaotic`, `unchecked` or `failed`
-    reason : str
-        Why, in one line
-    t : ndarray, shape (n,)
-        Times [s]
-    columns : mapping of str to ndarray, shape (n,)
-        Coordinates, velocities, `work_<part>`, `dissipation` and the energies at these times
-    units : mapping of str to str
-        Unit of each column
-    end : str
-        What ended it: `t_end`, `turns`, the event's name, or `failure`
-    event : Event or None
-        The stop that was met
-    energy : Energy
-        Audit over the whole run
-    tolerance_difference : float or None
-        Largest difference of a speed to the run at the tighter tolerance, relative to its peak; None unchecked [-]
-    steps : int
-        Accepted steps
-    wall_s : float
-        Time that the run took, without the check [s]
-    """
-
-    status: str
+    status: str  #: `converged`, `not converged`, `chaotic`, `unchecked` or `failed`
     reason: str
-    t: np.ndarray
+    t: np.ndarray  #: shape (n,): Times [s]
+    #: shape (n,): Coordinates, velocities, `work_<part>`, `dissipation` and the energies at these times
     columns: Mapping[str, np.ndarray]
     units: Mapping[str, str]
-    end: str
+    end: str  #: What ended it: `t_end`, `turns`, the event's name, or `failure`
     event: Event | None
     energy: Energy
+    #: Largest difference of a speed to the run at the tighter tolerance, relative to its peak; None unchecked [-]
     tolerance_difference: float | None
     steps: int
-    wall_s: float
+    wall_s: float  #: Time that the run took, without the check [s]
 
 
 def write_series(result: Result, path: Path) -> Path:
-    """Write the time series as CSV; the first column is t, all SI.
-
-    Parameters
-    ----------
-    result : Result
-        A run
-    path : Path
-        File to write
-
-    Returns
-    -------
-    path : Path
-        The same path
-    """
+    """Write the time series as CSV; the first column is t, all SI."""
     return write_csv(path, {"t": result.t, **result.columns})
 
 
 def write_netcdf(result: Result, path: Path) -> Path:
     """Write the time series as netCDF, each variable with its unit.
-
-    Parameters
-    ----------
-    result : Result
-        A run
-    path : Path
-        File to write
-
-    Returns
-    -------
-    path : Path
-        The same path
 
     Raises
     ------
@@ -156,20 +84,10 @@ def write_netcdf(result: Result, path: Path) -> Path:
 def dataset(result: Result) -> Any:
     """The time series as an xarray data set with unit attributes.
 
-    Parameters
-    ----------
-    result : Result
-        A run
-
     Returns
     -------
     data : xarray.Dataset
         One variable a column over the coordinate `t`; the audit's numbers as attributes
-
-    Raises
-    ------
-    MissingExtra
-        xarray is not installed
     """
     try:
         import xarray as xr

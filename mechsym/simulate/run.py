@@ -26,8 +26,6 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
 
     Parameters
     ----------
-    problem : Problem
-        What to run
     settings : Settings, optional
         Tolerance 1e-10 with check unless given
 
@@ -73,17 +71,8 @@ def checked(problem: Problem, result: Result, check: Result, settings: Settings)
 
     Parameters
     ----------
-    problem : Problem
-        What was run
     result, check : Result
         The run, and the run at the tighter tolerance
-    settings : Settings
-        Of the run
-
-    Returns
-    -------
-    result : Result
-        With status, reason and difference
     """
     if check.status == "failed":
         return replace(result, status="not converged", reason=f"the run at the tighter tolerance {check.reason}")
@@ -177,11 +166,6 @@ def wanted_times(problem: Problem) -> np.ndarray:
 def ends_of(problem: Problem) -> list[float]:
     """Ends of the stretches of time in which nothing jumps.
 
-    Parameters
-    ----------
-    problem : Problem
-        With known jumps
-
     Returns
     -------
     ends : list of float
@@ -197,19 +181,8 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
 
     Parameters
     ----------
-    problem : Problem
-        What was run
-    equations : System
-        Its equations
-    raw : Raw
-        What came out
     wall_s : float
         Time it took [s]
-
-    Returns
-    -------
-    result : Result
-        Status `failed` or `unchecked`
     """
     n = equations.size
     columns = dict(zip(equations.columns, raw.y.T, strict=True))

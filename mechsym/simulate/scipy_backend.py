@@ -20,15 +20,8 @@ def advance(phase: Phase, method: str) -> Leg:
 
     Parameters
     ----------
-    phase : Phase
-        What to integrate
     method : str
         Name of the class, for example `DOP853`
-
-    Returns
-    -------
-    leg : Leg
-        Result
     """
     f = right_side(phase.system, phase.w, phase.t_end, phase.spans)
     solver = _solver(phase, method, f, (phase.t_start, phase.y), phase.t_end, phase.first_step)

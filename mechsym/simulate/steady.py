@@ -8,12 +8,13 @@ This is the machine as built, under any load law. While a guide is being designe
 known; the closed forms of `speed_from_work` give the speed then, for constant and propeller load.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from mechsym.machine.loads import ConstantLoad
+from mechsym.quantities import record
 from mechsym.simulate.angle import Panels
 from mechsym.simulate.angle_turn import Turn, lowest_energy, speeds, stop_angle, turn
 
@@ -23,55 +24,28 @@ _STANDING = 1e6  # stands for the ripple of a shaft that does not turn; one that
 _TRIES = 50  # periods after which a shaft that still turns is not followed further
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Steady:
-    """A steady motion, or why there is none.
+    """A steady motion, or why there is none."""
 
-    Parameters
-    ----------
-    status : str
-        `steady` (disturbances die out), `neutral` (they stay), `unstable` (they grow) or `none`
-    reason : str
-        In one line
-    phi, omega : ndarray, shape (m,)
-        Speed around the turn, empty when there is none [rad, rad/s]
-    speed_mean : float or None
-        Period by duration [rad/s]
-    speed_ripple : float or None
-        (max - min) / mean [-]
-    multiplier : float or None
-        What is left of a small disturbance of the energy after one period [-]
-    """
-
-    status: str
+    status: str  #: `steady` (disturbances die out), `neutral` (they stay), `unstable` (they grow) or `none`
     reason: str
+    #: shape (m,): Speed around the turn, empty when there is none [rad, rad/s]
     phi: np.ndarray
     omega: np.ndarray
-    speed_mean: float | None
-    speed_ripple: float | None
-    multiplier: float | None
+    speed_mean: float | None  #: Period by duration [rad/s]
+    speed_ripple: float | None  #: (max - min) / mean [-]
+    multiplier: float | None  #: What is left of a small disturbance of the energy after one period [-]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Flywheel:
-    """A flywheel that does what was asked, or why none does.
-
-    Parameters
-    ----------
-    status : str
-        `found`, `not needed` or `none`
-    reason : str
-        In one line
-    inertia : float or None
-        Inertia to be added to the shaft [kg*m^2]
-    speed_ripple : float or None
-        Ripple with it [-]
-    """
+    """A flywheel that does what was asked, or why none does."""
 
     status: str
     reason: str
-    inertia: float | None
-    speed_ripple: float | None
+    inertia: float | None  #: Inertia to be added to the shaft [kg*m^2]
+    speed_ripple: float | None  #: Ripple with it [-]
 
 
 def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
@@ -79,8 +53,6 @@ def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
 
     Parameters
     ----------
-    panels : Panels
-        Machine
     speed : float
         Mean speed under constant load, first guess of the speed under any other [rad/s]
     flywheel : float
@@ -166,11 +138,6 @@ def _stopped(panels: Panels, speed: float, flywheel: float) -> Steady:
 def mean_torque(panels: Panels) -> float:
     """Mean over the angle of the torque without load: the load torque that keeps a balance.
 
-    Parameters
-    ----------
-    panels : Panels
-        Machine
-
     Returns
     -------
     torque : float
@@ -189,17 +156,10 @@ def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) ->
 
     Parameters
     ----------
-    panels : Panels
-        Machine without flywheel
     speed : float
         Mean speed, see `steady_state` [rad/s]
     target : float
         Wanted (max - min) / mean [-]
-
-    Returns
-    -------
-    flywheel : Flywheel
-        Inertia and ripple
     """
 
     def excess(inertia: float) -> float:
@@ -240,8 +200,6 @@ def smallest_flywheel_that_turns(panels: Panels, speed: float, turns: int = 10) 
         Machine without flywheel; `tabulate(machine, phi_start)` sets where it starts
     speed : float
         Speed at the start [rad/s]
-    turns : int
-        Periods that it must complete
 
     Returns
     -------

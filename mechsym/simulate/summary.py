@@ -12,8 +12,6 @@ def summary(result: Result, coordinates: tuple[str, ...], window: float | None) 
 
     Parameters
     ----------
-    result : Result
-        A run
     coordinates : tuple of str
         Names of the coordinates; `speed_mean` and the others are those of the first
     window : float or None
@@ -57,10 +55,6 @@ def speed_over(result: Result, coordinate: str, since: float) -> dict[str, float
 
     Parameters
     ----------
-    result : Result
-        A run
-    coordinate : str
-        Name of the coordinate
     since : float
         From when [s]
 
@@ -80,10 +74,6 @@ def last_period(result: Result, coordinate: str, period: float = 2 * np.pi) -> f
 
     Parameters
     ----------
-    result : Result
-        A run
-    coordinate : str
-        Name of the coordinate
     period : float
         A turn, or two for a four-stroke engine [rad]
 
@@ -106,8 +96,6 @@ def speed_ripple(result: Result, coordinate: str, period: float = 2 * np.pi) -> 
     ----------
     result : Result
         A run of at least a period, in steady state for the number to mean what it says
-    coordinate : str
-        Name of the coordinate
     period : float
         Period of the torques [rad]
 

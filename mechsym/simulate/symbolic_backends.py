@@ -14,18 +14,7 @@ from mechsym.simulate.problem import Steps
 
 
 def advance_sundials(phase: Phase) -> Leg:
-    """Integrate a phase with CVODES, Adams formulas and functional iteration (the motion is not stiff).
-
-    Parameters
-    ----------
-    phase : Phase
-        What to integrate
-
-    Returns
-    -------
-    leg : Leg
-        Result
-    """
+    """Integrate a phase with CVODES, Adams formulas and functional iteration (the motion is not stiff)."""
     _refuse(phase, "sundials")
     t, y, w = (ca.SX.sym(n, s) for n, s in (("t", 1), ("y", len(phase.y)), ("w", len(phase.w))))
     dae = {"t": t, "x": y, "p": w, "ode": phase.system.function(t, y, w)}
@@ -47,23 +36,7 @@ def advance_sundials(phase: Phase) -> Leg:
 
 
 def advance_heyoka(phase: Phase) -> Leg:
-    """Integrate a phase with heyoka's adaptive Taylor method.
-
-    Parameters
-    ----------
-    phase : Phase
-        What to integrate
-
-    Returns
-    -------
-    leg : Leg
-        Result
-
-    Raises
-    ------
-    MissingExtra
-        heyoka is not installed
-    """
+    """Integrate a phase with heyoka's adaptive Taylor method."""
     _refuse(phase, "heyoka")
     try:
         import heyoka as hy

@@ -5,10 +5,9 @@
        <|                      |>           next interval, and callables are never asked beyond either kink.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from mechsym.quantities import record
 from mechsym.simulate.phase import Span, Surface
 from mechsym.simulate.problem import Kinks, Problem
 
@@ -16,23 +15,13 @@ _DIRECTION = {"falling": -1, "rising": 1, "either": 0}
 _MARGIN = 8  # digits that a callable may lose when it takes an angle modulo the period
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Watch:
-    """Surfaces around a state.
-
-    Parameters
-    ----------
-    surfaces : tuple of Surface
-        Levels that end the phase
-    ends : tuple of str
-        Name of the end that each means; empty for a kink, behind which the run goes on
-    spans : tuple of Span
-        Interval between kinks for each coordinate that has some
-    """
+    """Surfaces around a state."""
 
     surfaces: tuple[Surface, ...]
-    ends: tuple[str, ...]
-    spans: tuple[Span, ...]
+    ends: tuple[str, ...]  #: Name of the end that each means; empty for a kink, behind which the run goes on
+    spans: tuple[Span, ...]  #: Interval between kinks for each coordinate that has some
 
 
 def watch(problem: Problem, columns: tuple[str, ...], y: np.ndarray) -> Watch:
@@ -40,10 +29,6 @@ def watch(problem: Problem, columns: tuple[str, ...], y: np.ndarray) -> Watch:
 
     Parameters
     ----------
-    problem : Problem
-        Stops, turns, kinks
-    columns : tuple of str
-        Names of the states
     y : ndarray, shape (m,)
         State [SI, by column]
 

@@ -1,13 +1,12 @@
 """What every sizing rule shares: refusing input outside its validity, and the record of one check."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import allowed
+from mechsym.quantities import allowed, record
 
 
 def require(
@@ -57,38 +56,22 @@ def require(
         raise BadInput(f"{text}; {hint}" if hint else text)
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Check:
-    """One rule applied to one part.
-
-    Parameters
-    ----------
-    component, quantity : str
-        What was checked
-    value, limit : float
-        The part's value and what it is held against [unit]
-    unit : str
-        SI unit of both
-    safety_factor : float
-        How far the value is on the safe side: 1 at the limit
-    wanted : float
-        Safety factor asked for [-]
-    rule, source : str
-        Name of the rule and where it is printed
-    note : str
-        Where the worst case is, or what was assumed
-    """
+    """One rule applied to one part."""
 
     component: str
     quantity: str
+    #: The part's value and what it is held against [unit]
     value: float
     limit: float
     unit: str
-    safety_factor: float
-    wanted: float
+    safety_factor: float  #: How far the value is on the safe side: 1 at the limit [-]
+    wanted: float  #: Safety factor asked for [-]
+    #: Name of the rule and where it is printed
     rule: str
     source: str
-    note: str = ""
+    note: str = ""  #: Where the worst case is, or what was assumed
 
 
 def at_most(
@@ -98,14 +81,10 @@ def at_most(
 
     Parameters
     ----------
-    component, quantity, unit, rule : str
-        As in `Check`
     value, limit : float
         Load and what the part stands [unit]
     wanted : float
         Safety factor asked for [-]
-    **more : str
-        `source` and `note`
 
     Returns
     -------
@@ -131,14 +110,10 @@ def at_least(
 
     Parameters
     ----------
-    component, quantity, unit, rule : str
-        As in `Check`
     value, limit : float
         What the part has and what it needs [unit]
     wanted : float
         Safety factor asked for [-]
-    **more : str
-        `source` and `note`
 
     Returns
     -------
@@ -160,11 +135,6 @@ def at_least(
 def holds(check: Check) -> bool:
     """Whether a part reaches the wanted factor.
 
-    Parameters
-    ----------
-    check : Check
-        One check
-
     Returns
     -------
     holds : bool
@@ -174,16 +144,5 @@ def holds(check: Check) -> bool:
 
 
 def unsafe(checks: Iterable[Check]) -> list[Check]:
-    """The checks whose factor is below the wanted one.
-
-    Parameters
-    ----------
-    checks : iterable of Check
-        Checks of a design
-
-    Returns
-    -------
-    failing : list of Check
-        In the order given
-    """
+    """The checks whose factor is below the wanted one."""
     return [check for check in checks if not holds(check)]

@@ -23,24 +23,7 @@ Box = tuple[float, float, float, float, str]  # x from, x to, y from, y to, colo
 
 
 def section_view(path: Path, parts: Parts | SliderParts, forces: Forces | SliderForces, stock: Stock) -> Path:
-    """Draw both cranks and the cylinder at top dead centre.
-
-    Parameters
-    ----------
-    path : Path
-        SVG file to write
-    parts : Parts or SliderParts
-        Sizes
-    forces : Forces or SliderForces
-        For throw, bore and gap
-    stock : Stock
-        Bearing data
-
-    Returns
-    -------
-    path : Path
-        The same path
-    """
+    """Draw both cranks and the cylinder at top dead centre."""
     if isinstance(parts, Parts) and isinstance(forces, Forces):
         boxes, labels = hypocycloid_boxes(parts, forces, stock)
     else:
@@ -62,15 +45,6 @@ def section_view(path: Path, parts: Parts | SliderParts, forces: Forces | Slider
 
 def hypocycloid_boxes(parts: Parts, forces: Forces, stock: Stock) -> tuple[list[Box], list[tuple[float, float, str]]]:
     """Rectangles of the right half of the engine, crank at top dead centre, and labels.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        For throw, bore and gap
-    stock : Stock
-        Bearing data
 
     Returns
     -------
@@ -121,15 +95,11 @@ def slider_crank_boxes(parts: SliderParts, forces: SliderForces) -> tuple[list[B
 
     Parameters
     ----------
-    parts : SliderParts
-        Sizes
     forces : SliderForces
         For crank radius, rod, bore and gap
 
     Returns
     -------
-    boxes : list of tuple
-        As in `hypocycloid_boxes`
     labels : list of tuple
         x, y [m], text
     """
@@ -230,11 +200,6 @@ def _save(figure: Figure, path: Path) -> Path:
 
 def total_width(boxes: list[Box]) -> float:
     """Width of the drawn engine along its cylinder.
-
-    Parameters
-    ----------
-    boxes : list of tuple
-        From `hypocycloid_boxes` or `slider_crank_boxes`
 
     Returns
     -------

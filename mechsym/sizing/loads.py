@@ -13,32 +13,24 @@ Source: Nunes (2017), ch. 2.6.3 and 4.5 to 4.8. The distances are read from his 
 34 mm, webs 15 mm, shaft 77 mm, needles 16 mm, pinion 39 mm), which close to the millimetre.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import require
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Spans:
-    """Axial places of one side of the crank, from the middle of the crankpin.
+    """Axial places of one side of the crank, from the middle of the crankpin."""
 
-    Parameters
-    ----------
-    inner, gear, outer, outboard : float
-        Inner journal and main bearing, middle of the pinion, outer journal, outboard bearing [m]
-    """
-
+    #: Inner journal and main bearing, middle of the pinion, outer journal, outboard bearing [m]
     inner: float = quantity("m", above=0, about="inner journal")
     gear: float = quantity("m", above=0, about="middle of the pinion")
     outer: float = quantity("m", above=0, about="outer journal")
     outboard: float = quantity("m", above=0, about="outboard bearing")
 
     def __post_init__(self) -> None:
-        check(self)
         if not self.inner < self.gear < self.outer < self.outboard:
             raise BadInput(
                 f"spans {self.inner:g}, {self.gear:g}, {self.outer:g}, {self.outboard:g} m must grow outwards"
@@ -193,8 +185,6 @@ def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[floa
     ----------
     vectors : tuple of ndarray, shape (2, k, n)
         From `side_vectors` [N]
-    spans : Spans
-        Axial places
     shares : (float, float)
         Shares s_F, s_T of the outer journal, from `shaft_beam.outer_shares` [-]
 
@@ -236,8 +226,6 @@ def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:
 
     Parameters
     ----------
-    spans : Spans
-        Axial places
     stiffness_ratio : float
         Stiffness of a journal over that of a gear mesh [-]
 

@@ -35,13 +35,6 @@ def at_speed(omega: np.ndarray, index: int) -> str:
     ----------
     omega : ndarray, shape (k,)
         Crank speeds [rad/s]
-    index : int
-        Which of them
-
-    Returns
-    -------
-    text : str
-        For a note
 
     Examples
     --------

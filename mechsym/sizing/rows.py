@@ -14,8 +14,6 @@ def fact(component: str, quantity: str, value: float, unit: str, rule: str, sour
 
     Parameters
     ----------
-    component, quantity, unit, rule, source, note : str
-        As in `Check`
     value : float
         The figure [unit]
 
@@ -30,22 +28,7 @@ def fact(component: str, quantity: str, value: float, unit: str, rule: str, sour
 
 
 def size_rows(component: str, part: Any, rule: str) -> list[dict]:
-    """One row for each size of a part.
-
-    Parameters
-    ----------
-    component : str
-        Name of the part
-    part : record
-        One of `parts.py`
-    rule : str
-        `sized` or `as printed`
-
-    Returns
-    -------
-    rows : list of dict
-        Numbers with unit and meaning
-    """
+    """One row for each size of a part."""
     found = []
     for field in dataclasses.fields(part):
         if "unit" in field.metadata:
@@ -55,16 +38,5 @@ def size_rows(component: str, part: Any, rule: str) -> list[dict]:
 
 
 def check_rows(checks: list[Check]) -> list[dict]:
-    """One row for each check.
-
-    Parameters
-    ----------
-    checks : list of Check
-        Checks of a design
-
-    Returns
-    -------
-    rows : list of dict
-        Keys of `COLUMNS`
-    """
+    """One row for each check."""
     return [{name: getattr(check, name, None) for name in COLUMNS} | {"holds": holds(check)} for check in checks]

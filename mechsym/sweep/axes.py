@@ -6,7 +6,6 @@ spring.n=1.2..1.3            with samples: evenly distributed
 k1=6500+-200 N*m/rad         with samples: normally distributed, mean and standard deviation
 """
 
-import dataclasses
 import itertools
 import math
 import re
@@ -16,7 +15,7 @@ import numpy as np
 
 from mechsym.cases.values import Place
 from mechsym.errors import BadInput, shown
-from mechsym.quantities import parse
+from mechsym.quantities import parse, record
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _UNIT = r"([A-Za-z%][^:,]*?)?"
@@ -27,51 +26,26 @@ _FORMS = "{key}=1..5{unit}:9, {key}=1,2,5{unit} or, with --samples, {key}=1..5{u
 MOST = 1_000_000
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Axis:
-    """A value of the case and what it takes on.
-
-    Parameters
-    ----------
-    key : str
-        Key as for `--set`
-    place : Place
-        The field that it means
-    unit : str
-        Unit of the values; empty for words
-    suffix : str
-        Unit that has to follow a value for `--set`; empty when the key or SI says it
-    kind : str
-        `grid` (values), `even` or `normal` (two numbers)
-    values : tuple of float or of str
-        Values of a grid; ends of an even distribution; mean and standard deviation of a normal one [unit]
-    """
+    """A value of the case and what it takes on."""
 
     key: str
     place: Place
-    unit: str
-    suffix: str
-    kind: str
+    unit: str  #: Unit of the values; empty for words
+    suffix: str  #: Unit that has to follow a value for `--set`; empty when the key or SI says it
+    kind: str  #: `grid` (values), `even` or `normal` (two numbers)
+    #: Values of a grid; ends of an even distribution; mean and standard deviation of a normal one [unit]
     values: tuple[Any, ...]
 
 
 def split(text: str) -> tuple[str, str]:
     """Key and range of KEY=RANGE.
 
-    Parameters
-    ----------
-    text : str
-        See the module's description
-
     Returns
     -------
     key, span : str
         Left and right of the first equals sign
-
-    Raises
-    ------
-    BadInput
-        One of them is missing
     """
     key, sign, span = (part.strip() for part in text.partition("="))
     if not sign or not key or not span:
@@ -84,20 +58,8 @@ def parse_axis(text: str, place: Place) -> Axis:
 
     Parameters
     ----------
-    text : str
-        See the module's description
     place : Place
         Where the key belongs, see `mechsym.cases.locate`
-
-    Returns
-    -------
-    axis : Axis
-        What it says
-
-    Raises
-    ------
-    BadInput
-        Not of that form, a unit of another dimension, or numbers and words mixed up
     """
     key, span = split(text)
     if place.unit is None:
@@ -160,12 +122,8 @@ def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict
 
     Parameters
     ----------
-    axes : tuple of Axis
-        What to run over
     samples : int or None
         Number of samples; None runs the grid
-    seed : int
-        Of the samples
 
     Returns
     -------
@@ -173,11 +131,6 @@ def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict
         Name and length of each dimension
     points : list of tuple
         Values in the axes' order, the last axis fastest
-
-    Raises
-    ------
-    BadInput
-        No axis, a distribution without samples, values without a distribution, or too many points
     """
     if not axes:
         raise BadInput("--over must name at least one key, for example --over 'spring.p0=3..8 MPa:11'")
@@ -213,8 +166,6 @@ def override(axis: Axis, value: Any) -> str | float:
 
     Parameters
     ----------
-    axis : Axis
-        Where it belongs
     value : float or str
         One of its values [unit]
 

@@ -34,20 +34,10 @@ def mapped(case: Case) -> bool:
 def single(case: Case) -> dict[str, Any]:
     """Figures of one cycle.
 
-    Parameters
-    ----------
-    case : Case
-        With a two-stroke cycle
-
     Returns
     -------
     figures : dict
         As `mechsym.cycle.columns`, each with one value
-
-    Raises
-    ------
-    BadInput
-        A cycle of another kind, or one that cannot be made
     """
     from mechsym.cycle.figures import two_stroke_columns
 
@@ -55,18 +45,7 @@ def single(case: Case) -> dict[str, Any]:
 
 
 def families(found: Sequence[Case]) -> list[list[int]]:
-    """Cases that one map may hold: all but numbers of the engine and the speed are equal.
-
-    Parameters
-    ----------
-    found : sequence of Case
-        With spark-ignition cycles
-
-    Returns
-    -------
-    families : list of list of int
-        Indices of the cases
-    """
+    """Cases that one map may hold: all but numbers of the engine and the speed are equal."""
     families: dict[Any, list[int]] = {}
     for i, case in enumerate(found):
         families.setdefault(_form(case), []).append(i)
@@ -97,20 +76,10 @@ def _text(record: Any, numbers: bool) -> str:
 def map_of(family: Sequence[Case]) -> list[Outcome]:
     """Figures of one family, each with the steps that it would take alone.
 
-    Parameters
-    ----------
-    family : sequence of Case
-        See `families`
-
     Returns
     -------
     figures : list of dict or Gap
         As `mechsym.cycle.columns`, each with one value; a gap where there is no cycle
-
-    Raises
-    ------
-    BadInput
-        The engine itself cannot be made
     """
     from mechsym.cycle.on_pistons import one_cylinder
     from mechsym.jobs.cycle import columns, engine, over_design

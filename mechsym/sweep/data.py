@@ -27,11 +27,6 @@ MAIN = {
 def failures(result: Sweep) -> dict[int, str]:
     """Points without a result.
 
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
-
     Returns
     -------
     failures : dict of int to str
@@ -42,11 +37,6 @@ def failures(result: Sweep) -> dict[int, str]:
 
 def columns(result: Sweep) -> dict[str, np.ndarray]:
     """Results by name, one for each point.
-
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
 
     Returns
     -------
@@ -60,11 +50,6 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
 
 def main_results(result: Sweep) -> dict[str, np.ndarray]:
     """The few numbers that are looked at first: those asked for, or the main ones of the analysis.
-
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
 
     Returns
     -------
@@ -81,21 +66,11 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
 def dataset(result: Sweep) -> Any:
     """The sweep as an xarray.Dataset.
 
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
-
     Returns
     -------
     data : xarray.Dataset
         Axes as coordinates and results as variables, with their units; `failure` holds the reasons of the gaps. A
         result that has the name of an axis and other values is called `result.<name>`
-
-    Raises
-    ------
-    MissingExtra
-        xarray is not installed
     """
     try:
         import xarray as xr
@@ -134,20 +109,7 @@ def _same(values: np.ndarray, axis: np.ndarray) -> bool:
 
 
 def write_table(result: Sweep, folder: Path) -> Path:
-    """Write the sweep as CSV, one line a point; the cells of a gap are empty.
-
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
-    folder : Path
-        Where to
-
-    Returns
-    -------
-    path : Path
-        `sweep.csv`
-    """
+    """Write the sweep as CSV, one line a point; the cells of a gap are empty."""
     # the unit keeps an axis apart from a result of the same name
     table: dict[str, Any] = {
         f"{a.key} [{a.unit}]" if a.unit else f"{a.key} [word]": [p[i] for p in result.points]
@@ -162,24 +124,10 @@ def write_table(result: Sweep, folder: Path) -> Path:
 def write_netcdf(result: Sweep, folder: Path) -> Path:
     """Write the sweep as netCDF to a temporary name and move it into place.
 
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
-    folder : Path
-        Where to
-
-    Returns
-    -------
-    path : Path
-        `sweep.nc`
-
     Raises
     ------
     MissingExtra
         xarray or h5netcdf is not installed
-    BadInput
-        The file cannot be written
     """
     data, target = dataset(result), folder / "sweep.nc"
     handle, name = tempfile.mkstemp(dir=folder, prefix=".sweep.nc.")

@@ -1,6 +1,5 @@
 """What comes out at a point of a sweep: a nested result, or a gap with a reason."""
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 # results that are words worth keeping
 WORDS = ("status", "end", "guide.reason")
@@ -15,20 +15,12 @@ WORDS = ("status", "end", "guide.reason")
 _NO_RESULT = ("wall_s", "event")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Gap:
-    """Why there is no result at a point.
-
-    Parameters
-    ----------
-    reason : str
-        In one line
-    of_input : bool
-        Whether the case was refused, not its run
-    """
+    """Why there is no result at a point."""
 
     reason: str
-    of_input: bool = False
+    of_input: bool = False  #: Whether the case was refused, not its run
 
 
 Outcome = dict[str, Any] | Gap
@@ -41,11 +33,6 @@ def known(error: Exception) -> Gap:
     ----------
     error : Exception
         Bad input, or an error of arithmetic that only this point met
-
-    Returns
-    -------
-    gap : Gap
-        With the error's words
     """
     words = " ".join(str(error).split())
     if isinstance(error, BadInput):
@@ -60,8 +47,6 @@ def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
     ----------
     result : mapping
         Numbers, words, lists of one number, and mappings of these
-    prefix : str
-        Of the names
 
     Returns
     -------

@@ -19,11 +19,6 @@ _COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
 def picture(result: Sweep) -> Figure | None:
     """The main results of a sweep, see `mechsym.sweep.main_results`.
 
-    Parameters
-    ----------
-    result : Sweep
-        A sweep
-
     Returns
     -------
     figure : Figure or None

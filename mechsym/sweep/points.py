@@ -7,6 +7,7 @@ from typing import Any
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 from mechsym.sweep import cycles
 from mechsym.sweep.outcomes import Gap, Outcome, known
 
@@ -18,23 +19,13 @@ _ARITHMETIC = (ArithmeticError, ValueError, RuntimeError)
 _LANES = 16  # runs that the compiled integrator takes side by side
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Route:
-    """How points are computed.
-
-    Parameters
-    ----------
-    analysis : str
-        One of `ANALYSES`
-    run : callable
-        Cases to outcomes, in the same order
-    together : int
-        Most cases in one call; an interrupt loses one call
-    """
+    """How points are computed."""
 
     analysis: str
-    run: Callable[[Sequence[Case]], list[Outcome]]
-    together: int
+    run: Callable[[Sequence[Case]], list[Outcome]]  #: Cases to outcomes, in the same order
+    together: int  #: Most cases in one call; an interrupt loses one call
 
 
 def route(case: Case, analysis: str | None) -> Route:
@@ -42,8 +33,6 @@ def route(case: Case, analysis: str | None) -> Route:
 
     Parameters
     ----------
-    case : Case
-        One of them
     analysis : str or None
         `simulate`, `hinge` or `cycle`; None takes what the case is for
 
@@ -51,11 +40,6 @@ def route(case: Case, analysis: str | None) -> Route:
     -------
     route : Route
         Function, and the size of its calls
-
-    Raises
-    ------
-    BadInput
-        The case is for none of them
     """
     analysis = analysis or _meant(case)
     if analysis == "simulate":

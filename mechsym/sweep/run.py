@@ -9,6 +9,7 @@ from typing import Any
 
 from mechsym import cases
 from mechsym.errors import BadInput, suggest
+from mechsym.quantities import record
 from mechsym.sweep.axes import Axis, override, parse_axis, points, split
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known
 from mechsym.sweep.points import ANALYSES, Route, route
@@ -17,35 +18,17 @@ Progress = Callable[[int], Any]
 INTERRUPTED = Gap(reason="interrupted")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Plan:
-    """What is to be swept.
+    """What is to be swept."""
 
-    Parameters
-    ----------
-    case : str
-        Name of a built-in case or path of a file
-    over : tuple of str
-        What to run over, each KEY=RANGE as in `axes`
-    overrides : mapping of str to str
-        Values that hold at all points
-    analysis : str or None
-        `simulate`, `hinge` or `cycle`; None takes what the case is for
-    samples : int or None
-        Number of samples instead of a grid
-    seed : int
-        Of the samples
-    show : tuple of str
-        Results to show in place of the main ones
-    """
-
-    case: str
-    over: tuple[str, ...]
-    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    analysis: str | None = None
-    samples: int | None = None
+    case: str  #: Name of a built-in case or path of a file
+    over: tuple[str, ...]  #: What to run over, each KEY=RANGE as in `axes`
+    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)  #: Values that hold at all points
+    analysis: str | None = None  #: `simulate`, `hinge` or `cycle`; None takes what the case is for
+    samples: int | None = None  #: Number of samples instead of a grid
     seed: int = 0
-    show: tuple[str, ...] = ()
+    show: tuple[str, ...] = ()  #: Results to show in place of the main ones
 
     def __post_init__(self) -> None:
         if self.analysis not in (None, *ANALYSES):
@@ -54,69 +37,31 @@ class Plan:
             raise BadInput(f"seed = {self.seed} is out of range; it must be >= 0")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Sweep:
-    """What came out at every point.
-
-    Parameters
-    ----------
-    case, analysis : str
-        What ran
-    axes : tuple of Axis
-        What it ran over
-    dims : mapping of str to int
-        Dimensions in order
-    points : tuple of tuple
-        Values of the axes at each point, the last axis fastest
-    outcomes : tuple of dict or Gap
-        Nested results of each point, or why there are none
-    show : tuple of str
-        Results to show in place of the main ones
-    interrupted : bool
-        Whether it was stopped before its end; points not reached are gaps
-    """
+    """What came out at every point."""
 
     case: str
     analysis: str
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Any, ...], ...]
-    outcomes: tuple[Outcome, ...]
-    show: tuple[str, ...] = ()
-    interrupted: bool = False
+    points: tuple[tuple[Any, ...], ...]  #: Values of the axes at each point, the last axis fastest
+    outcomes: tuple[Outcome, ...]  #: Nested results of each point, or why there are none
+    show: tuple[str, ...] = ()  #: Results to show in place of the main ones
+    interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Layout:
-    """The points of a plan.
-
-    Parameters
-    ----------
-    axes : tuple of Axis
-        What it runs over
-    dims : mapping of str to int
-        Dimensions in order
-    points : tuple of tuple
-        Values of the axes, the last axis fastest
-    """
+    """The points of a plan."""
 
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Any, ...], ...]
+    points: tuple[tuple[Any, ...], ...]  #: Values of the axes, the last axis fastest
 
 
 def layout(plan: Plan) -> Layout:
     """The points of a plan, every key and unit checked against the case.
-
-    Parameters
-    ----------
-    plan : Plan
-        What to run
-
-    Returns
-    -------
-    layout : Layout
-        Axes and points
 
     Raises
     ------
@@ -148,15 +93,8 @@ def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
 
     Parameters
     ----------
-    plan : Plan
-        What to run
     progress : callable
         Called with the number of points that were done
-
-    Returns
-    -------
-    sweep : Sweep
-        Outcomes of all points
 
     Raises
     ------

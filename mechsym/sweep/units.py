@@ -31,11 +31,6 @@ _KNOWN = {name: unit for unit, names in _PARTS.items() for name in names}
 def unit_of(name: str) -> str:
     """Unit of a result.
 
-    Parameters
-    ----------
-    name : str
-        Dotted name
-
     Returns
     -------
     unit : str

@@ -10,18 +10,7 @@ _HIGHEST = 4  # orders above are too weak to speak of
 
 
 def findings(found: StartUp) -> tuple[str, ...]:
-    """What happens and whether the model bears it.
-
-    Parameters
-    ----------
-    found : StartUp
-        An explained start-up
-
-    Returns
-    -------
-    sentences : tuple of str
-        Each with its numbers
-    """
+    """What happens and whether the model bears it."""
     end = float(found.result.t[-1])
     return (
         f"natural frequency {found.natural_bare:.3f} rad/s bare, {found.natural:.3f} rad/s with the mean "
@@ -35,18 +24,7 @@ def findings(found: StartUp) -> tuple[str, ...]:
 
 
 def numbers(found: StartUp) -> dict[str, Any]:
-    """The numbers of a start-up, for files and scripts.
-
-    Parameters
-    ----------
-    found : StartUp
-        An explained start-up
-
-    Returns
-    -------
-    numbers : dict
-        Plain values, SI
-    """
+    """The numbers of a start-up, for files and scripts."""
     pairs = zip(found.criticals, found.holding_damping, strict=True)
     return {
         "c1": found.c1,

@@ -10,100 +10,56 @@ M is the mean mass matrix over a turn. A speed is critical where an order meets 
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
+from mechsym.quantities import record
 
 _POINTS = 512
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Matrices:
-    """Linear model of the twist about uniform turning.
-
-    Parameters
-    ----------
-    coordinates : tuple of str
-        Names, n of them
-    mass : ndarray, shape (n, n)
-        Mean mass matrix over a turn [kg*m^2]
-    stiffness : ndarray, shape (n, n)
-        Second derivative of the potential energy, mean over a turn [N*m/rad]
-    damping : ndarray, shape (n, n)
-        Torque per speed [N*m*s/rad]
-    """
+    """Linear model of the twist about uniform turning."""
 
     coordinates: tuple[str, ...]
-    mass: np.ndarray
-    stiffness: np.ndarray
-    damping: np.ndarray
+    mass: np.ndarray  #: shape (n, n): Mean mass matrix over a turn [kg*m^2]
+    stiffness: np.ndarray  #: shape (n, n): Second derivative of the potential energy, mean over a turn [N*m/rad]
+    damping: np.ndarray  #: shape (n, n): Torque per speed [N*m*s/rad]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Modes:
-    """Natural frequencies and shapes.
+    """Natural frequencies and shapes."""
 
-    Parameters
-    ----------
-    frequencies : ndarray, shape (n,)
-        Ascending; 0 for turning as a whole [rad/s]
-    shapes : ndarray, shape (n, n)
-        One column a mode, shape^T M shape = 1 [1/sqrt(kg*m^2)]
-    """
-
-    frequencies: np.ndarray
-    shapes: np.ndarray
+    frequencies: np.ndarray  #: shape (n,): Ascending; 0 for turning as a whole [rad/s]
+    shapes: np.ndarray  #: shape (n, n): One column a mode, shape^T M shape = 1 [1/sqrt(kg*m^2)]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Orders:
-    """Torques on the coordinates by order, at uniform speed.
+    """Torques on the coordinates by order, at uniform speed."""
 
-    Parameters
-    ----------
-    order : ndarray, shape (k,)
-        Oscillations per turn, halves included when the gas repeats every two turns [-]
-    inertia : ndarray, shape (k, n)
-        Complex amplitudes from the reciprocating masses, per square of the speed [N*m*s^2/rad^2]
-    gas : ndarray, shape (k, n)
-        Complex amplitudes from the gas forces [N*m]
-    """
-
-    order: np.ndarray
+    order: np.ndarray  #: shape (k,): Oscillations per turn, halves included when the gas repeats every two turns [-]
+    #: shape (k, n): Complex amplitudes from the reciprocating masses, per square of the speed [N*m*s^2/rad^2]
     inertia: np.ndarray
-    gas: np.ndarray
+    gas: np.ndarray  #: shape (k, n): Complex amplitudes from the gas forces [N*m]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Critical:
-    """A speed at which an order excites a mode.
-
-    Parameters
-    ----------
-    mode : int
-        Index of the mode
-    order : float
-        Order [-]
-    speed : float
-        Natural frequency / order [rad/s]
-    force : float
-        Amplitude of the modal force there [N*m/sqrt(kg*m^2)]
-    damping : float
-        Modal damping, shape^T C shape [1/s]
-    holding_torque : float or None
-        Mean torque that the resonance takes at this speed; a weaker drive is held there. None without damping,
-        when the amplitude grows until something else limits it [N*m]
-    """
+    """A speed at which an order excites a mode."""
 
     mode: int
-    order: float
-    speed: float
-    force: float
-    damping: float
+    order: float  #: Order [-]
+    speed: float  #: Natural frequency / order [rad/s]
+    force: float  #: Amplitude of the modal force there [N*m/sqrt(kg*m^2)]
+    damping: float  #: Modal damping, shape^T C shape [1/s]
+    #: Mean torque that the resonance takes at this speed; a weaker drive is held there. None without damping, when the
+    #: amplitude grows until something else limits it [N*m]
     holding_torque: float | None
 
 
@@ -114,16 +70,6 @@ def matrices(mechanism: Mechanism) -> Matrices:
     ----------
     mechanism : Mechanism
         All coordinates are angles that advance alike
-
-    Returns
-    -------
-    matrices : Matrices
-        Means over a turn
-
-    Raises
-    ------
-    BadInput
-        The mechanism is given only by its equations
     """
     if "energy" not in mechanism.functions:
         raise BadInput(f"{mechanism.name} has no energies; use the derived mechanism for torsional analysis")
@@ -176,8 +122,6 @@ def orders(
     ----------
     mechanism : Mechanism
         All coordinates are angles that advance alike
-    count : int
-        Highest order
     gas : mapping of str to callable, optional
         Input to its value over the angle, ndarray (m,) to (m,)
     period : float
@@ -220,10 +164,6 @@ def critical_speeds(found: Modes, excitation: Orders, damping: np.ndarray) -> tu
 
     Parameters
     ----------
-    found : Modes
-        Natural frequencies and shapes
-    excitation : Orders
-        Torques by order
     damping : ndarray, shape (n, n)
         Damping matrix [N*m*s/rad]
 
@@ -260,8 +200,6 @@ def holding_damping(critical: Critical, drive: float, unit_damping: float) -> fl
 
     Parameters
     ----------
-    critical : Critical
-        A critical speed
     drive : float
         Driving torque [N*m]
     unit_damping : float

@@ -17,18 +17,7 @@ _SERIES = (RED, BLUE, GREEN, ORANGE, _INK)
 
 
 def campbell(found: StartUp) -> Figure:
-    """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft.
-
-    Parameters
-    ----------
-    found : StartUp
-        An explained start-up
-
-    Returns
-    -------
-    figure : matplotlib.figure.Figure
-        Frequency over speed
-    """
+    """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft."""
     figure = Figure(figsize=(7.5, 4.5), layout="constrained")
     axes = figure.add_subplot()
     top = 1.1 * max(c.speed for c in found.criticals)
@@ -57,15 +46,8 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
 
     Parameters
     ----------
-    runs : sequence of StartUp
-        One for each damping
     claim_speed : float, optional
         Speed that the source reports [rad/s]
-
-    Returns
-    -------
-    figure : matplotlib.figure.Figure
-        Two panels over time
     """
     figure = Figure(figsize=(7.5, 6.5), layout="constrained")
     speed, twist = figure.subplots(2, 1, sharex=True)
@@ -98,13 +80,6 @@ def twist(result: Result, shafts: int) -> Figure:
     ----------
     result : Result
         A run of an elastic shaft
-    shafts : int
-        Number of sections
-
-    Returns
-    -------
-    figure : matplotlib.figure.Figure
-        Two panels over time
     """
     figure = Figure(figsize=(7.5, 6.0), layout="constrained")
     speed, twisted = figure.subplots(2, 1, sharex=True)

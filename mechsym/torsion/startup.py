@@ -8,7 +8,7 @@ speed |            . rigid            The mean speed follows the rigid shaft unt
       +---------------------------- t
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.run import StepTorque, problem_of, settings_of
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 from mechsym.simulate import Result, simulate, simulate_many
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
@@ -27,97 +27,50 @@ _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
 AVERAGE = 1.0  # the mean speed is taken over this time [s]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class StartUpClaim:
-    """Section `[startup]`: what the source says of a start-up, and what the model can bear.
-
-    Parameters
-    ----------
-    claim_speed : float or None
-        Speed that the source reports [rad/s]
-    claim_time : float or None
-        Time from which it is said to hold [s]
-    twist_limit : float
-        Twist beyond which a linear spring is no model of the shaft [rad]
-    """
+    """Section `[startup]`: what the source says of a start-up, and what the model can bear."""
 
     claim_speed: float | None = quantity("rad/s", default=None, above=0, about="speed that the source reports")
     claim_time: float | None = quantity("s", default=None, above=0, about="time from which it is said to hold")
+    #: Twist beyond which a linear spring is no model of the shaft [rad]
     twist_limit: float = quantity("rad", default=0.1, above=0, about="largest twist of the linear shaft")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class Capture:
-    """A stay at a critical speed.
-
-    Parameters
-    ----------
-    critical : Critical
-        Order and speed
-    t_start, t_end : float
-        From when until when the mean speed is at it [s]
-    released : bool
-        Whether the shaft left it within the run
-    """
+    """A stay at a critical speed."""
 
     critical: Critical
+    #: From when until when the mean speed is at it [s]
     t_start: float
     t_end: float
-    released: bool
+    released: bool  #: Whether the shaft left it within the run
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class StartUp:
-    """A start-up, explained.
+    """A start-up, explained."""
 
-    Parameters
-    ----------
-    c1 : float
-        Torsional damping of the run [N*m*s/rad]
-    drive : StepTorque
-        What drives it
-    claim : StartUpClaim
-        What the source says, and the limit of the model
-    result : Result
-        The run
-    t, speed_mean : ndarray, shape (m,)
-        Times and mean speed of the crank over a second [s, rad/s]
-    twist_amplitude : ndarray, shape (m,)
-        Largest twist within that second [rad]
-    natural_bare, natural : float
-        Natural frequency without and with the mean reciprocating inertia [rad/s]
-    criticals : tuple of Critical
-        Where the orders meet the latter
-    holding_damping : tuple of float
-        For each of them: with a weaker damper the drive is held there [N*m*s/rad]
-    rigid_rate : float
-        Acceleration of a rigid shaft [rad/s^2]
-    captures : tuple of Capture
-        Critical speeds that held the shaft
-    twist_peak, torque_peak : float
-        Largest twist and torque of the shaft [rad, N*m]
-    speed_min, speed_max : float
-        Extreme speeds of the crank [rad/s]
-    """
-
-    c1: float
+    c1: float  #: Torsional damping of the run [N*m*s/rad]
     drive: StepTorque
-    claim: StartUpClaim
+    claim: StartUpClaim  #: What the source says, and the limit of the model
     result: Result
+    #: shape (m,): Times and mean speed of the crank over a second [s, rad/s]
     t: np.ndarray
     speed_mean: np.ndarray
-    twist_amplitude: np.ndarray
+    twist_amplitude: np.ndarray  #: shape (m,): Largest twist within that second [rad]
+    #: Natural frequency without and with the mean reciprocating inertia [rad/s]
     natural_bare: float
     natural: float
-    criticals: tuple[Critical, ...]
-    holding_damping: tuple[float, ...]
-    rigid_rate: float
-    captures: tuple[Capture, ...]
+    criticals: tuple[Critical, ...]  #: Where the orders meet the latter
+    holding_damping: tuple[float, ...]  #: For each of them: with a weaker damper the drive is held there [N*m*s/rad]
+    rigid_rate: float  #: Acceleration of a rigid shaft [rad/s^2]
+    captures: tuple[Capture, ...]  #: Critical speeds that held the shaft
+    #: Largest twist and torque of the shaft [rad, N*m]
     twist_peak: float
     torque_peak: float
+    #: Extreme speeds of the crank [rad/s]
     speed_min: float
     speed_max: float
 
@@ -131,16 +84,6 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
         Mechanism `crankshaft_flywheel` with `[drive]` and `[simulation]`
     result : Result, optional
         Its run, when there is one already
-
-    Returns
-    -------
-    start_up : StartUp
-        Natural frequencies, critical speeds, captures
-
-    Raises
-    ------
-    BadInput
-        Another mechanism
     """
     if case.mechanism != "crankshaft_flywheel":
         raise BadInput(
@@ -190,15 +133,8 @@ def start_up_map(case: Case, dampings: tuple[float, ...]) -> tuple[StartUp, ...]
 
     Parameters
     ----------
-    case : Case
-        As for `start_up`
     dampings : tuple of float
         Values of c1 [N*m*s/rad]
-
-    Returns
-    -------
-    start_ups : tuple of StartUp
-        One for each
     """
     damped = [replace(case.need("parameters"), c1=c1) for c1 in dampings]
     cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]
@@ -239,15 +175,8 @@ def find_captures(
     ----------
     t, speed : ndarray, shape (m,)
         Times and mean speed [s, rad/s]
-    criticals : tuple of Critical
-        Critical speeds
     rate : float
         Acceleration of the rigid shaft [rad/s^2]
-
-    Returns
-    -------
-    captures : tuple of Capture
-        In the order of time
     """
     found = []
     for critical in criticals:

@@ -7,40 +7,29 @@ r"""Twist of a shaft in a run, section by section.
 The window is the stretch at the end over which speeds are summed up; the peaks are those of the whole run.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.integrate import trapezoid
 
 from mechsym.cases import Case
 from mechsym.mechanisms import shaft
+from mechsym.quantities import record
 from mechsym.simulate import Result
 from mechsym.torsion import modes as torsion
 
 MECHANISMS = ("crank_train", "crankshaft_flywheel")
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Section:
-    """Twist of one section of a shaft.
+    """Twist of one section of a shaft."""
 
-    Parameters
-    ----------
-    section : str
-        The two coordinates at its ends
-    twist_mean, twist_amplitude : float
-        Mean and half the swing of the twist over the window [rad]
-    torque_mean, torque_amplitude : float
-        The same of its torque [N*m]
-    twist_peak, torque_peak : float
-        Largest absolute values of the whole run [rad, N*m]
-    """
-
-    section: str
+    section: str  #: The two coordinates at its ends
+    #: Mean and half the swing of the twist over the window [rad]
     twist_mean: float
     twist_amplitude: float
-    torque_mean: float
-    torque_amplitude: float
+    torque_mean: float  #: The same of its torque [N*m]
+    torque_amplitude: float  #: The same of its torque [N*m]
+    #: Largest absolute values of the whole run [rad, N*m]
     twist_peak: float
     torque_peak: float
 
@@ -50,10 +39,6 @@ def sections(case: Case, result: Result, since: float) -> tuple[Section, ...]:
 
     Parameters
     ----------
-    case : Case
-        What was run
-    result : Result
-        Its series
     since : float
         Where the window begins [s]
 
@@ -78,8 +63,6 @@ def pairs(result: Result, count: int) -> list[tuple[str, str]]:
     ----------
     result : Result
         A run, whose first columns are the coordinates
-    count : int
-        Number of sections
 
     Returns
     -------
@@ -111,11 +94,6 @@ def _mean(t: np.ndarray, values: np.ndarray) -> float:
 
 def natural_frequencies(case: Case) -> tuple[float, ...]:
     """Natural frequencies of the shaft of a case, with the mean reciprocating inertia.
-
-    Parameters
-    ----------
-    case : Case
-        Any
 
     Returns
     -------

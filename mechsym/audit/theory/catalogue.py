@@ -32,13 +32,7 @@ _THEORIES: dict[str, tuple[Build, str]] = {
 
 
 def names() -> list[str]:
-    """Names of all theories: those above, and every other derived mechanism.
-
-    Returns
-    -------
-    names : list of str
-        Sorted
-    """
+    """Names of all theories: those above, and every other derived mechanism."""
     return sorted({*_THEORIES, *scripts()})
 
 
@@ -48,20 +42,8 @@ def theory(name: str, case: str = "") -> Theory:
 
     Parameters
     ----------
-    name : str
-        Name of the theory
     case : str
         Name of a built-in case or a path; empty for the source's data
-
-    Returns
-    -------
-    theory : Theory
-        Letters, tape, data
-
-    Raises
-    ------
-    BadInput
-        No such theory, or a case of another mechanism
     """
     if name not in names():
         raise BadInput(f"there is no theory {name!r}; there are {', '.join(names())}")

@@ -20,16 +20,6 @@ _FUNCTIONS = {
 def tree_of(expression: Any) -> Node:
     """A sympy expression as a tree.
 
-    Parameters
-    ----------
-    expression : sympy.Expr or number
-        Sums, products, powers, elementary functions
-
-    Returns
-    -------
-    tree : Node
-        The same value
-
     Raises
     ------
     TypeError
@@ -68,16 +58,5 @@ def _power(base: Expr, exponent: Expr) -> Node:
 
 
 def tape_of(expressions: Mapping[str, Any]) -> dict[str, Node | tuple[Node, ...]]:
-    """Named sympy expressions as trees.
-
-    Parameters
-    ----------
-    expressions : mapping of str to Expr or tuple of Expr
-        In the order of definition
-
-    Returns
-    -------
-    tape : dict
-        The same names
-    """
+    """Named sympy expressions as trees."""
     return {n: tuple(map(tree_of, e)) if isinstance(e, tuple) else tree_of(e) for n, e in expressions.items()}

@@ -20,12 +20,8 @@ def mechanism(name: str, values: Mapping[str, float], data: str) -> Theory:
 
     Parameters
     ----------
-    name : str
-        Name of the derivation
     values : mapping of str to float
         Parameters of a case and its speed
-    data : str
-        Name of the case
 
     Returns
     -------
@@ -46,8 +42,6 @@ def crosshead(values: Mapping[str, float], data: str) -> Theory:
     ----------
     values : mapping of str to float
         Parameters of a case and its speed
-    data : str
-        Name of the case
 
     Returns
     -------
@@ -71,13 +65,6 @@ def crosshead(values: Mapping[str, float], data: str) -> Theory:
 def crankshaft_flywheel(values: Mapping[str, float], data: str) -> Theory:
     """Crankshaft and flywheel on a torsional spring, exact.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Parameters of a case
-    data : str
-        Name of the case
-
     Returns
     -------
     theory : Theory
@@ -88,13 +75,6 @@ def crankshaft_flywheel(values: Mapping[str, float], data: str) -> Theory:
 
 def crankshaft_flywheel_truncated(values: Mapping[str, float], data: str) -> Theory:
     """The Lagrange equation of the truncated travel (9) of source 002.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        Parameters of a case
-    data : str
-        Name of the case
 
     Returns
     -------

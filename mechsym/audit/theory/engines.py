@@ -39,13 +39,6 @@ _CLEARANCE = {"clearance_volume": ("V_displacement/(CR - 1)", "m^3")}  # CR = (V
 def opposed_slider_crank(values: Mapping[str, float], data: str) -> Theory:
     """One of the two slider cranks of the opposed-piston engine, and the chamber between both pistons.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Not needed: table 3.2
-    data : str
-        Name of the case
-
     Returns
     -------
     theory : Theory
@@ -67,13 +60,6 @@ def opposed_slider_crank(values: Mapping[str, float], data: str) -> Theory:
 def opposed_hypocycloid(values: Mapping[str, float], data: str) -> Theory:
     """One of the two geared hypocycloids of the opposed-piston engine, and the chamber between both pistons.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Not needed: table 3.2
-    data : str
-        Name of the case
-
     Returns
     -------
     theory : Theory
@@ -94,13 +80,6 @@ def opposed_hypocycloid(values: Mapping[str, float], data: str) -> Theory:
 
 def otto(values: Mapping[str, float], data: str) -> Theory:
     """The ideal Otto cycle 1-2-3-4 of a perfect gas with heat Q at constant volume.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        Not needed
-    data : str
-        Name of the case
 
     Returns
     -------
@@ -139,13 +118,6 @@ def otto(values: Mapping[str, float], data: str) -> Theory:
 
 def cylinder(values: Mapping[str, float], data: str) -> Theory:
     """One step of the closed cycle, and the figures of performance.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        Not needed
-    data : str
-        Name of the case
 
     Returns
     -------

@@ -25,8 +25,6 @@ def guide(values: Mapping[str, float], data: str) -> Theory:
     ----------
     values : mapping of str to float
         Not needed: the spring's data stand in the caption of Fig. 5
-    data : str
-        Name of the case
 
     Returns
     -------
@@ -64,11 +62,6 @@ def generic(expression: sympy.Expr) -> sympy.Expr:
     ----------
     expression : sympy.Expr
         Perhaps with a case n = 1 of its own
-
-    Returns
-    -------
-    expression : sympy.Expr
-        The first branch
     """
     return expression.replace(sympy.Piecewise, lambda *branches: branches[0][0])
 

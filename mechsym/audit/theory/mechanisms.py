@@ -20,14 +20,10 @@ def mechanism_theory(
 
     Parameters
     ----------
-    equations : Equations
-        Derived equations
     values : mapping of str to float
         Values of parameters, coordinates, velocities, accelerations and inputs; 1 where none is given
     rods : tuple of str
         Lengths that grow without limit when lambda goes to zero
-    data : str
-        Where the values come from
     more : mapping of str to (Expr, str)
         Further results in the names of the tape, with their units
 
@@ -80,11 +76,6 @@ def _results(equations: Equations) -> dict[str, Expr]:
 def solved_accelerations(equations: Equations) -> list[Expr]:
     r"""Accelerations :math:`\ddot q = M^{-1}(Q - h)`.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-
     Returns
     -------
     accelerations : list of Expr
@@ -95,18 +86,7 @@ def solved_accelerations(equations: Equations) -> list[Expr]:
 
 
 def residuals(equations: Equations) -> dict[str, Expr]:
-    r"""The equations of motion as sums that vanish, :math:`Q - M \ddot q - h`.
-
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-
-    Returns
-    -------
-    residuals : dict of str to Expr
-        `residual_phi` for the coordinate phi
-    """
+    r"""The equations of motion as sums that vanish, :math:`Q - M \ddot q - h`."""
     m = equations.mechanism
     qdd = accelerations(m)
     rows = zip(m.q, equations.mass_matrix, equations.bias, equations.generalized_force, strict=True)
@@ -117,18 +97,5 @@ def residuals(equations: Equations) -> dict[str, Expr]:
 
 
 def without(expression: Expr, *letters: str) -> Expr:
-    """An expression with some letters left out.
-
-    Parameters
-    ----------
-    expression : Expr
-        Any expression
-    *letters : str
-        Letters that become zero
-
-    Returns
-    -------
-    expression : Expr
-        The rest
-    """
+    """An expression with some letters left out."""
     return expression.xreplace({Symbol(n, real=True): Integer(0) for n in letters})

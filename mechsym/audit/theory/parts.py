@@ -36,13 +36,6 @@ Letters = Mapping[str, Symbol]
 def engine_parts(values: Mapping[str, float], data: str) -> Theory:
     """Sizes of the parts of the opposed-piston engine, each solved from its balance.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Not needed: chapter 4
-    data : str
-        Name of the case
-
     Returns
     -------
     theory : Theory

@@ -2,7 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
 import numpy as np
@@ -11,55 +11,29 @@ from mechsym.audit.algebra import Algebra, evaluate
 from mechsym.audit.reader import CONSTANTS, read_expression
 from mechsym.audit.tree import Node, children, function_of, letters, walk
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Letter:
-    """A letter with its unit and the value that its source gives it.
+    """A letter with its unit and the value that its source gives it."""
 
-    Parameters
-    ----------
-    unit : str
-        SI unit, `"-"` for a pure number
-    value : float
-        Value in the source's data, or a plausible one where it prints none
-    """
-
-    unit: str
-    value: float
+    unit: str  #: SI unit, `"-"` for a pure number
+    value: float  #: Value in the source's data, or a plausible one where it prints none [unit]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Theory:
-    """Letters and a tape of derived expressions in them.
+    """Letters and a tape of derived expressions in them."""
 
-    Parameters
-    ----------
-    name : str
-        Name before the dot in `crosshead.inertia`
-    letters : mapping of str to Letter
-        What may be chosen freely
-    tape : mapping of str to Node or tuple of Node
-        Named expressions in letters and earlier names; a tuple has one value per part (per journal)
-    results : tuple of str
-        Names on the tape that formulas may claim to be
-    units : mapping of str to str
-        Units of names on the tape, where known
-    angle : str
-        Letter that runs over a turn, empty when nothing turns
-    rods : tuple of str
-        Lengths that grow without limit when lambda goes to zero
-    data : str
-        Where the values come from
-    """
-
-    name: str
+    name: str  #: Name before the dot in `crosshead.inertia`
     letters: Mapping[str, Letter]
+    #: Named expressions in letters and earlier names; a tuple has one value per part (per journal)
     tape: Mapping[str, Node | tuple[Node, ...]]
-    results: tuple[str, ...]
-    units: Mapping[str, str] = field(default_factory=dict)
-    angle: str = ""
-    rods: tuple[str, ...] = ()
+    results: tuple[str, ...]  #: Names on the tape that formulas may claim to be
+    units: Mapping[str, str] = field(default_factory=dict)  #: Units of names on the tape, where known
+    angle: str = ""  #: Letter that runs over a turn, empty when nothing turns
+    rods: tuple[str, ...] = ()  #: Lengths that grow without limit when lambda goes to zero
     data: str = ""
 
 
@@ -68,14 +42,8 @@ def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algeb
 
     Parameters
     ----------
-    theory : Theory
-        Letters and tape
     names : dict of str to value
         Values of the letters; names are added
-    wanted : iterable of str
-        Names that formulas use
-    algebra : Algebra
-        Number system
     """
     for wish in wanted:
         entry = theory.tape.get(wish, ())
@@ -89,20 +57,7 @@ def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algeb
 
 
 def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:
-    """Letters and names that the wanted ones are made of, themselves included.
-
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-    wanted : iterable of str
-        Names
-
-    Returns
-    -------
-    names : set of str
-        Down to the free letters
-    """
+    """Letters and names that the wanted ones are made of, themselves included."""
     found, waiting = set(), list(wanted)
     while waiting:
         wish = waiting.pop()
@@ -118,13 +73,6 @@ def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:
 def parts(theory: Theory, tree: Node) -> bool:
     """Whether an expression has one value per part because a letter was not summed.
 
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-    tree : Node
-        Expression
-
     Returns
     -------
     answer : bool
@@ -136,20 +84,7 @@ def parts(theory: Theory, tree: Node) -> bool:
 
 
 def check_sums(theory: Theory, tree: Node) -> None:
-    """Refuse a letter with parts outside sum(), and a sum() without one.
-
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-    tree : Node
-        Expression
-
-    Raises
-    ------
-    BadInput
-        Says which letters have parts
-    """
+    """Refuse a letter with parts outside sum(), and a sum() without one."""
     letters_with_parts = [k for k, entry in theory.tape.items() if isinstance(entry, tuple)]
     hint = f"letters of {theory.name} with one value per part: {', '.join(letters_with_parts) or 'none'}"
     if parts(theory, tree):
@@ -160,37 +95,13 @@ def check_sums(theory: Theory, tree: Node) -> None:
 
 
 def known(theory: Theory) -> list[str]:
-    """Letters that a formula may use: free letters, results, and names that have a unit.
-
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-
-    Returns
-    -------
-    names : list of str
-        In order
-    """
+    """Letters that a formula may use: free letters, results, and names that have a unit."""
     named = [k for k in theory.tape if k in theory.units]
     return list(dict.fromkeys([*theory.letters, *theory.results, *named]))
 
 
 def need_result(theory: Theory, quantity: str) -> None:
-    """Refuse a quantity that the theory does not derive.
-
-    Parameters
-    ----------
-    theory : Theory
-        Letters and tape
-    quantity : str
-        Name after the dot
-
-    Raises
-    ------
-    BadInput
-        Lists what there is
-    """
+    """Refuse a quantity that the theory does not derive."""
     if quantity not in theory.tape:
         raise BadInput(f"{theory.name} has no quantity {quantity!r}; it has {', '.join(theory.results)}")
 
@@ -202,19 +113,8 @@ def extended(
 
     Parameters
     ----------
-    theory : Theory
-        What there is
-    new_name : str
-        Name of the result
-    more_letters : mapping of str to Letter
-        Letters to add
     expressions : mapping of str to (str, str)
         Name to expression in letters and names, and its unit; in the order of definition
-
-    Returns
-    -------
-    theory : Theory
-        Both together
     """
     letters_now = {**theory.letters, **more_letters}
     tape = dict(theory.tape)

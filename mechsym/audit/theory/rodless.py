@@ -13,13 +13,6 @@ from mechsym.derive.build import declared
 def rodless(values: Mapping[str, float], data: str) -> Theory:
     """Inertia forces of the reciprocating masses and the load of one journal.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Parameters of a case
-    data : str
-        Name of the case
-
     Returns
     -------
     theory : Theory

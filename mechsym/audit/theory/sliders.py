@@ -19,8 +19,6 @@ def slider_crank(values: Mapping[str, float], data: str) -> Theory:
     ----------
     values : mapping of str to float
         Parameters of a crosshead engine: its lengths and reciprocating masses set the scale
-    data : str
-        Name of the case
 
     Returns
     -------
@@ -63,13 +61,6 @@ def slider_crank(values: Mapping[str, float], data: str) -> Theory:
 
 def two_mass_rod(values: Mapping[str, float], data: str) -> Theory:
     """A rod replaced by two masses at its ends, with the same mass and centre of mass.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        Parameters of a crosshead engine
-    data : str
-        Name of the case
 
     Returns
     -------

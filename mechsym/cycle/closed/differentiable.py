@@ -33,8 +33,6 @@ def design_function(engine: Engine, names: Sequence[str], steps: int = STEPS) ->
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     names : sequence of str
         Design variables, see `model.design_names`; must hold `omega`
     steps : int

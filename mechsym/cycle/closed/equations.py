@@ -9,7 +9,6 @@ and after combustion; `phases` integrates them.
 Every attribute of `Closed` may be a number or a CasADi expression of the design.
 """
 
-import dataclasses
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -18,6 +17,7 @@ from mechsym.cycle.chamber import Chamber, volume, wall_area
 from mechsym.cycle.heat import GasState, Law, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
+from mechsym.quantities import record
 
 PHASES = ("before", "during", "after")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
@@ -26,51 +26,34 @@ SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_s
            "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Closed:
-    """Everything that the closed period needs; attributes are numbers or CasADi expressions.
+    """Everything that the closed period needs; attributes are numbers or CasADi expressions."""
 
-    Parameters
-    ----------
-    chamber, gas, law : Chamber, ConstantGamma or NasaMixture, Annand or Woschni or Hohenberg or Adiabatic
-        Volume, gas properties and heat transfer
-    omega : float
-        Crank speed [rad/s]
-    closes, starts, duration, opens : float
-        Inlet closing, start and duration of combustion, exhaust opening [rad]
-    pressure, temperature, mass : float
-        State when the inlet closes [Pa], [K], [kg]
-    fuel : float
-        Mass of fuel [kg]
-    heat, fuel_heat, latent_heat : float
-        Heat that combustion releases when the Wiebe function has reached 1, heating value of the fuel, and latent heat
-        charged to the gas [J]
-    fuel_energy : float
-        Internal energy that fuel brings along when it turns into gas [J/kg]
-    fuel_entry : str
-        `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
-    wiebe : tuple of float
-        a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
-    """
-
+    #: Volume, gas properties and heat transfer
     chamber: Chamber
     gas: ConstantGamma | NasaMixture
     law: Law
-    omega: Any
+    omega: Any  #: Crank speed [rad/s]
+    #: Inlet closing, start and duration of combustion, exhaust opening [rad]
     closes: Any
     starts: Any
     duration: Any
     opens: Any
+    #: State when the inlet closes [Pa], [K], [kg]
     pressure: Any
     temperature: Any
     mass: Any
-    fuel: Any
+    fuel: Any  #: Mass of fuel [kg]
+    #: Heat that combustion releases when the Wiebe function has reached 1, heating value of the fuel, and latent heat
+    #: charged to the gas [J]
     heat: Any
     fuel_heat: Any
     latent_heat: Any
-    fuel_energy: Any
+    fuel_energy: Any  #: Internal energy that fuel brings along when it turns into gas [J/kg]
+    #: `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
     fuel_entry: str
-    wiebe: tuple[Any, ...]
+    wiebe: tuple[Any, ...]  #: a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
 
 
 class Contents(NamedTuple):
@@ -87,10 +70,6 @@ def contents(closed: Closed, phase: str, phi: Any) -> Contents:
 
     Parameters
     ----------
-    closed : Closed
-        The closed period
-    phase : str
-        `before`, `during` or `after` combustion
     phi : CasADi scalar
         Crank angle from firing top dead centre [rad]
 
@@ -118,10 +97,6 @@ def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
 
     Parameters
     ----------
-    closed : Closed
-        The closed period
-    phase : str
-        `before`, `during` or `after` combustion
     phi : CasADi scalar
         Crank angle from firing top dead centre [rad]
     t : CasADi scalar
@@ -141,10 +116,6 @@ def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
 
     Parameters
     ----------
-    closed : Closed
-        The closed period
-    phase : str
-        `before`, `during` or `after` combustion
     phi : CasADi scalar
         Crank angle from firing top dead centre [rad]
     t : CasADi scalar
@@ -175,8 +146,6 @@ def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
 
     Parameters
     ----------
-    closed : Closed
-        The closed period
     t_end : CasADi scalar
         Temperature when the exhaust opens [K]
 

@@ -18,32 +18,17 @@ from mechsym.cycle.heat import Law
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _SECTIONS = ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Engine:
-    """A four-stroke engine: sections of a case, and the motion of its pistons.
-
-    Parameters
-    ----------
-    chamber : ChamberParameters
-        Bore, compression ratio, pistons
-    motion : Motion
-        Travel of one piston; its parameters are the names `parameters.*` of a design
-    cycle : SparkIgnition
-        Charge, fuel, timing
-    gas : ConstantGamma or NasaMixture
-        Gas properties
-    heat_transfer : Annand, Woschni, Hohenberg or Adiabatic
-        Heat transfer to the walls
-    friction_pressure : NoFriction, ChenFlynn or Heywood
-        Friction for brake figures
-    """
+    """A four-stroke engine: sections of a case, and the motion of its pistons."""
 
     chamber: ChamberParameters
-    motion: Motion
+    motion: Motion  #: Travel of one piston; its parameters are the names `parameters.*` of a design
     cycle: SparkIgnition
     gas: ConstantGamma | NasaMixture
     heat_transfer: Law
@@ -55,8 +40,6 @@ def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     design : mapping of str to value
         Dotted names; `omega` belongs to no section and is passed over
 
@@ -64,11 +47,6 @@ def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
     -------
     engine : Engine
         A copy; values that are CasADi symbols are not checked
-
-    Raises
-    ------
-    BadInput
-        A name that the engine does not have
     """
     parts = {f.name: getattr(engine, f.name) for f in dataclasses.fields(engine)}
     for name, value in design.items():
@@ -90,15 +68,8 @@ def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     design : mapping of str to float or ndarray
         Dotted names to numbers; each is tried at its smallest and its largest value
-
-    Raises
-    ------
-    BadInput
-        Name, value and what is allowed
     """
     for name, values in design.items():
         section, _, key = name.partition(".")
@@ -112,18 +83,7 @@ def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
 
 
 def design_names(engine: Engine) -> list[str]:
-    """Names that a design may hold.
-
-    Parameters
-    ----------
-    engine : Engine
-        The engine
-
-    Returns
-    -------
-    names : list of str
-        `omega` and the dotted names
-    """
+    """Names that a design may hold."""
     names = ["omega", *(f"parameters.{key}" for key in engine.motion.parameters)]
     for section in _SECTIONS:
         record = getattr(engine, section)
@@ -136,15 +96,8 @@ def closed_period(engine: Engine, design: Mapping[str, Any]) -> Closed:
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     design : mapping of str to value
         Must hold `omega` [rad/s]; the other names replace values of the engine
-
-    Returns
-    -------
-    closed : Closed
-        What the integration needs
     """
     engine, omega = at_design(engine, design), design["omega"]
     cycle, room = engine.cycle, chamber(engine.chamber, engine.motion)

@@ -4,7 +4,6 @@ Work of a cycle is the integral of p dV over the closed period; the ideal gas ex
 of the volumes at its ends. Powers count one power stroke in two revolutions.
 """
 
-import dataclasses
 import functools
 from collections.abc import Mapping
 from typing import Any
@@ -17,63 +16,38 @@ from mechsym.cycle.closed.model import Engine, at_design, check_design, closed_p
 from mechsym.cycle.closed.run import MANY, dense, run
 from mechsym.cycle.friction import Friction, friction_pressure
 from mechsym.native import compiled
+from mechsym.quantities import record
 
 _CYCLE_ANGLE = 4 * np.pi
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Performance:
-    """Figures of n operating points; every entry an array of shape (n,).
+    """Figures of n operating points; every entry an array of shape (n,)."""
 
-    Parameters
-    ----------
-    omega : ndarray
-        Crank speed [rad/s]
-    torque_avg, brake_torque : ndarray
-        Mean torque of the gas on all pistons, and less friction [N*m]
-    torque_max : ndarray
-        Largest torque of one piston on its crank, from absolute pressure and inertia [N*m]
-    power, brake_power : ndarray
-        Mean power [W]
-    mep, friction_mep : ndarray
-        Mean indicated pressure and friction mean pressure [Pa]
-    sfc, brake_sfc : ndarray
-        Fuel by work [kg/J]
-    efficiency, brake_efficiency : ndarray
-        Work by heating value of the fuel [-]
-    p_max, p_max_angle : ndarray
-        Peak pressure [Pa] and its angle from firing top dead centre [rad]
-    force_max : ndarray
-        Largest force of one piston, from absolute pressure and inertia [N]
-    heat, work, exhaust, unburnt : ndarray
-        Shares of the heating value [-]
-    energy_residual : ndarray
-        What the first law leaves over the closed period, by the fuel's heating value [-]
-    loads : mapping of str to ndarray
-        Largest magnitude of each load of the mechanism over a revolution
-    """
-
-    omega: np.ndarray
-    torque_avg: np.ndarray
-    torque_max: np.ndarray
-    power: np.ndarray
-    mep: np.ndarray
-    sfc: np.ndarray
-    efficiency: np.ndarray
-    brake_torque: np.ndarray
-    brake_power: np.ndarray
-    friction_mep: np.ndarray
-    brake_sfc: np.ndarray
-    brake_efficiency: np.ndarray
+    omega: np.ndarray  #: Crank speed [rad/s]
+    torque_avg: np.ndarray  #: Mean torque of the gas on all pistons, and less friction [N*m]
+    torque_max: np.ndarray  #: Largest torque of one piston on its crank, from absolute pressure and inertia [N*m]
+    power: np.ndarray  #: Mean power [W]
+    mep: np.ndarray  #: Mean indicated pressure and friction mean pressure [Pa]
+    sfc: np.ndarray  #: Fuel by work [kg/J]
+    efficiency: np.ndarray  #: Work by heating value of the fuel [-]
+    brake_torque: np.ndarray  #: Mean torque of the gas on all pistons, and less friction [N*m]
+    brake_power: np.ndarray  #: Mean power [W]
+    friction_mep: np.ndarray  #: Mean indicated pressure and friction mean pressure [Pa]
+    brake_sfc: np.ndarray  #: Fuel by work [kg/J]
+    brake_efficiency: np.ndarray  #: Work by heating value of the fuel [-]
+    #: Peak pressure [Pa] and its angle from firing top dead centre [rad]
     p_max: np.ndarray
     p_max_angle: np.ndarray
-    force_max: np.ndarray
+    force_max: np.ndarray  #: Largest force of one piston, from absolute pressure and inertia [N]
+    #: Shares of the heating value [-]
     heat: np.ndarray
     work: np.ndarray
     exhaust: np.ndarray
     unburnt: np.ndarray
-    energy_residual: np.ndarray
-    loads: Mapping[str, np.ndarray]
+    energy_residual: np.ndarray  #: What the first law leaves over the closed period, by the fuel's heating value [-]
+    loads: Mapping[str, np.ndarray]  #: Largest magnitude of each load of the mechanism over a revolution
 
 
 def performance(engine: Engine, design: Mapping[str, Any]) -> Performance:
@@ -83,15 +57,8 @@ def performance(engine: Engine, design: Mapping[str, Any]) -> Performance:
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     design : mapping of str to ndarray, shape (n,)
         Operating points; must hold `omega` [rad/s]
-
-    Returns
-    -------
-    performance : Performance
-        Figures at the n points
 
     Raises
     ------
@@ -120,8 +87,6 @@ def figures(friction: Friction, scalars: Mapping[str, Any], p_max: np.ndarray) -
 
     Parameters
     ----------
-    friction : NoFriction, ChenFlynn or Heywood
-        Friction correlation
     scalars : mapping of str to ndarray, shape (n,)
         `omega` [rad/s], `work`, `fuel_heat` [J], `fuel` [kg], `displacement` [m^3], `stroke` [m]
     p_max : ndarray, shape (n,)
@@ -203,13 +168,6 @@ def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.nda
 
 def force_function(engine: Engine, names: tuple[str, ...]) -> ca.Function:
     """Force and torque of one piston, and the mechanism's loads, at a point of a cycle as a function of the design.
-
-    Parameters
-    ----------
-    engine : Engine
-        The engine
-    names : tuple of str
-        Design variables; must hold `omega`
 
     Returns
     -------

@@ -6,7 +6,6 @@ CasADi function, which also feeds the optimiser; `closed_map` takes the same ope
 pays for many designs.
 """
 
-import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -18,6 +17,7 @@ from mechsym.cycle.closed.equations import PHASES, SCALARS, Closed, pressure, ra
 from mechsym.cycle.closed.runge_kutta import METHOD, fold
 from mechsym.native import compiled_all
 from mechsym.native.fold import folder
+from mechsym.quantities import record
 
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
 _GRADING = {"before": 1, "during": 4, "after": 1}
@@ -26,7 +26,7 @@ NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
 Map = Callable[[np.ndarray, int], Mapping[str, np.ndarray]]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Parts:
     """The functions of a phase of the design z: slope of the state over s, and the node at a state."""
 
@@ -41,8 +41,6 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
     ----------
     build : callable
         Mapping of the design's names to CasADi symbols -> Closed
-    names : sequence of str
-        Names of the design variables
     steps : int
         Steps of the integration in all; a multiple of 10
 
@@ -69,11 +67,6 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
 
 def closed_map(build: Callable[[Any], Closed], names: Sequence[str]) -> Map:
     """The closed period at many designs, compiled where there is a compiler.
-
-    Parameters
-    ----------
-    build, names
-        As for `closed_function`
 
     Returns
     -------

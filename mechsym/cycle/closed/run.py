@@ -4,7 +4,6 @@ Every point goes through the same operations, so a whole performance map costs o
 period is then checked for each point by itself; where the residual is not below the tolerance the steps are doubled.
 """
 
-import dataclasses
 import functools
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -14,6 +13,7 @@ import numpy as np
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.phases import NODES, Map, closed_function, closed_map
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _STEPS, _MOST_STEPS = 120, 7680
 MANY = 100  # points for which it pays to compile, or to read what is compiled
@@ -21,30 +21,18 @@ _SAME = 1e-12  # angles closer than this are one [rad]
 TOLERANCE = 1e-10  # first-law residual of a cycle over the fuel's energy
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Run:
-    """The closed period at n operating points.
+    """The closed period at n operating points."""
 
-    Parameters
-    ----------
-    phi, t, p : ndarray, shape (n, k)
-        Crank angle from firing top dead centre [rad], temperature [K], pressure [Pa]; angles where the equations
-        change stand twice
-    dt_dphi, dp_dphi : ndarray, shape (n, k)
-        Slopes [K/rad], [Pa/rad]
-    scalars : mapping of str to ndarray, shape (n,)
-        `work`, `wall_heat` and the entries of `closed.SCALARS`
-    residual : ndarray, shape (n,)
-        First law: (change of energy - heat + losses + work)/heat released [-]
-    """
-
+    #: shape (n, k): crank angle from firing top dead centre [rad]; angles where the equations change stand twice
     phi: np.ndarray
-    t: np.ndarray
-    p: np.ndarray
-    dt_dphi: np.ndarray
-    dp_dphi: np.ndarray
-    scalars: Mapping[str, np.ndarray]
-    residual: np.ndarray
+    t: np.ndarray  #: shape (n, k): temperature [K]
+    p: np.ndarray  #: shape (n, k): pressure [Pa]
+    dt_dphi: np.ndarray  #: shape (n, k) [K/rad]
+    dp_dphi: np.ndarray  #: shape (n, k) [Pa/rad]
+    scalars: Mapping[str, np.ndarray]  #: shape (n,): `work`, `wall_heat` and the entries of `closed.SCALARS`
+    residual: np.ndarray  #: shape (n,): First law: (change of energy - heat + losses + work)/heat released [-]
 
 
 def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = _STEPS) -> Run:
@@ -63,11 +51,6 @@ def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = 
     -------
     run : Run
         All points with one number of steps, the smallest that closes the first law everywhere
-
-    Raises
-    ------
-    BadInput
-        Combustion does not fit into the closed period, or steps do not help
     """
     names = list(design)
     values = np.array(np.broadcast_arrays(*(np.atleast_1d(np.asarray(design[n], float)) for n in names)))
@@ -88,8 +71,6 @@ def steps_needed(build: Callable[[Any], Closed], design: Mapping[str, Any]) -> t
 
     Parameters
     ----------
-    build : callable
-        As for `run`
     design : mapping of str to ndarray, shape (n,)
         Values of the design at the n points; numbers are repeated
 
@@ -126,11 +107,6 @@ def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
     ----------
     scalars : mapping of str to ndarray, shape (n,)
         `omega` [rad/s], `closes`, `starts`, `ends`, `opens` [rad]
-
-    Raises
-    ------
-    BadInput
-        Names the first point, the angle and the bound it passes
     """
     for reason in _phase_faults(scalars).values():
         raise BadInput(reason)
@@ -188,8 +164,6 @@ def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndar
 
     Parameters
     ----------
-    result : Run
-        The closed period
     step : float
         Distance of the angles [rad]
 

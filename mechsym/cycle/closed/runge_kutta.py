@@ -42,8 +42,6 @@ def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
 
     Parameters
     ----------
-    rate : callable
-        (s, y) -> dy/ds
     s : float or CasADi scalar
         Independent variable at the start [-]
     y : CasADi column, shape (n,)
@@ -65,13 +63,6 @@ def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
 
 def fold(rate: ca.Function, steps: int) -> ca.Function:
     """Integrate over s from 0 to 1 in equal steps.
-
-    Parameters
-    ----------
-    rate : casadi.Function
-        (s, y, z) -> dy/ds
-    steps : int
-        Number of steps
 
     Returns
     -------

@@ -38,13 +38,6 @@ def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cy
     kinematics : casadi.Function
         One input, the crank angle; outputs `x` and `dx_dphi`
 
-    Returns
-    -------
-    pressure : Pressure
-        Absolute pressure over the period
-    cylinder : Cylinder
-        Its geometry
-
     Raises
     ------
     BadInput
@@ -84,13 +77,6 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
     ----------
     cycle : record
         `[cycle]` of a case; of a `diagram` all methods are kept, of another kind what it knows of the engine
-    file : str
-        CSV file
-
-    Returns
-    -------
-    diagram : Diagram
-        For `cylinder_pressure`
 
     Raises
     ------

@@ -8,33 +8,25 @@ p |  2'--3          Seiliger (dual): heat at constant volume 2-2', then at const
   +----------- V
 """
 
-import dataclasses
 import math
 from typing import Any
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class IdealCycle:
-    """States and energies of an ideal cycle, per mass of gas.
+    """States and energies of an ideal cycle, per mass of gas."""
 
-    Parameters
-    ----------
-    pressure, temperature, volume : tuple of float
-        At the points 1, 2, 2', 3, 4, each over the value at point 1 [-]
-    heat, work : float
-        Heat taken in and work done, over c_v T_1 [-]
-    efficiency : float
-        Work over heat [-]
-    """
-
+    #: At the points 1, 2, 2', 3, 4, each over the value at point 1 [-]
     pressure: tuple[float, ...]
     temperature: tuple[float, ...]
     volume: tuple[float, ...]
+    #: Heat taken in and work done, over c_v T_1 [-]
     heat: float
     work: float
-    efficiency: float
+    efficiency: float  #: Work over heat [-]
 
 
 def otto_efficiency(compression_ratio: Any, gamma: Any) -> Any:

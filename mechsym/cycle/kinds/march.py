@@ -13,7 +13,6 @@ burn of the last broken degree is lost; the mean torque sums the 721 points of 0
 Source: Nunes (2017), sections 2.3 and 3.4.1.
 """
 
-import dataclasses
 from typing import Any
 
 import casadi as ca
@@ -24,38 +23,26 @@ from mechsym.cycle.heat import GasState, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.native.march import marcher
+from mechsym.quantities import record
 
 _CLOSES, _FIRING, _OPENS = 180, 360, 540
 _POINTS = 721
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class March:
-    """States of the closed period at whole degrees, one column for each speed.
+    """States of the closed period at whole degrees, one column for each speed."""
 
-    Parameters
-    ----------
-    theta_deg : ndarray, shape (361,)
-        180, 181, .., 540, from intake top dead centre [deg]
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-    p, t : ndarray, shape (361, n)
-        Pressure [Pa] and temperature [K]
-    v : ndarray, shape (361,)
-        Volume [m^3]
-    mass, fuel : ndarray, shape (n,) and float
-        Gas when the inlet closes with all of the fuel, and the fuel [kg]
-    heat_released, wall_heat, latent_heat : ndarray, shape (360, n)
-        Heats of the steps [J]
-    """
-
-    theta_deg: np.ndarray
-    omega: np.ndarray
+    theta_deg: np.ndarray  #: shape (361,): 180, 181, .., 540, from intake top dead centre [deg]
+    omega: np.ndarray  #: shape (n,): Crank speeds [rad/s]
+    #: shape (361, n): Pressure [Pa] and temperature [K]
     p: np.ndarray
     t: np.ndarray
-    v: np.ndarray
+    v: np.ndarray  #: shape (361,): Volume [m^3]
+    #: shape (n,) and float: Gas when the inlet closes with all of the fuel, and the fuel [kg]
     mass: Any
     fuel: Any
+    #: shape (360, n): Heats of the steps [J]
     heat_released: np.ndarray
     wall_heat: np.ndarray
     latent_heat: np.ndarray
@@ -68,15 +55,8 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
 
     Parameters
     ----------
-    chamber, cycle, gas, law : Chamber, SparkIgnition, ConstantGamma, Annand or another law
-        The engine, with numbers
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
-
-    Returns
-    -------
-    march : March
-        States and heats
 
     Notes
     -----
@@ -122,13 +102,6 @@ def crank_torque(chamber: Chamber, result: March) -> np.ndarray:
 
     .. math:: T = (p A + m a)\,dx/d\theta, \quad a = -x''\omega^2
 
-    Parameters
-    ----------
-    chamber : Chamber
-        The engine
-    result : March
-        States
-
     Returns
     -------
     torque : ndarray, shape (361, n)
@@ -146,13 +119,6 @@ def mean_torque(chamber: Chamber, result: March) -> np.ndarray:
     r"""Average torque as the thesis took it.
 
     .. math:: \bar T = n \sum_i T_i/721
-
-    Parameters
-    ----------
-    chamber : Chamber
-        The engine
-    result : March
-        States
 
     Returns
     -------

@@ -22,20 +22,8 @@ def marched(engine: Engine, omega: np.ndarray) -> March:
 
     Parameters
     ----------
-    engine : Engine
-        The engine
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
-
-    Returns
-    -------
-    march : March
-        States at whole degrees
-
-    Raises
-    ------
-    BadInput
-        The march is only defined for a constant gamma and a closed period from -180 to 180 degrees
     """
     cycle = engine.cycle
     if abs(cycle.inlet_closes + np.pi) > 1e-12 or abs(cycle.exhaust_opens - np.pi) > 1e-12:

@@ -7,7 +7,6 @@ r"""Isothermal cycle of Schmidt (1871) for two cylinders that share one gas: the
 C follows from the wanted mean pressure over a turn. Losses of real machines are left out: the work is an upper bound.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 
@@ -16,30 +15,14 @@ import numpy as np
 from mechsym.cycle.cylinder import piston_area
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 _POINTS = 1440
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Schmidt:
-    """Section `[cycle]`, `kind = "schmidt"`.
-
-    Parameters
-    ----------
-    bore : float
-        Bore of both cylinders [m]
-    dead_hot, dead_cold : float
-        Volume of each cylinder with its piston at top dead centre [m^3]
-    dead_regenerator : float
-        Volume of the regenerator [m^3]
-    T_e, T_c : float
-        Temperature of the hot and of the cold gas [K]
-    mean_pressure : float
-        Absolute pressure, mean over a turn [Pa]
-    p_back : float
-        Absolute pressure on the other side of the pistons [Pa]
-    """
+    """Section `[cycle]`, `kind = "schmidt"`."""
 
     bore: float = quantity("m", above=0, about="bore of both cylinders")
     dead_hot: float = quantity("m^3", low=0, about="dead volume of the hot cylinder")
@@ -47,11 +30,12 @@ class Schmidt:
     dead_regenerator: float = quantity("m^3", above=0, about="volume of the regenerator")
     T_e: float = quantity("K", above=0, about="temperature of the hot gas")
     T_c: float = quantity("K", above=0, about="temperature of the cold gas")
+    #: Absolute pressure, mean over a turn [Pa]
     mean_pressure: float = quantity("Pa", above=0, about="absolute mean pressure")
+    #: Absolute pressure on the other side of the pistons [Pa]
     p_back: float = quantity("Pa", low=0, about="absolute pressure behind the pistons")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.T_e <= self.T_c:
             raise BadInput(f"T_e = {self.T_e:g} K must be above T_c = {self.T_c:g} K; else the machine is a heat pump")
 
@@ -61,8 +45,6 @@ def schmidt_pressure(cycle: Schmidt, x_hot: Callable, x_cold: Callable) -> Press
 
     Parameters
     ----------
-    cycle : Schmidt
-        Volumes and temperatures
     x_hot, x_cold : callable
         Shaft angle, ndarray [rad], to the travel of each piston from top dead centre [m]
 

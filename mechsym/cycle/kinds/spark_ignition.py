@@ -4,7 +4,6 @@ Crank angles count from firing top dead centre, so that the thesis's 180, 360 an
 Start and duration of combustion are straight lines over the speed (Nunes 2017, eqs. (3.1) and (3.2)).
 """
 
-import dataclasses
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,61 +11,40 @@ import numpy as np
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class SparkIgnition:
-    """Section `[cycle]`, `model = "spark_ignition"`.
+    """Section `[cycle]`, `model = "spark_ignition"`."""
 
-    Parameters
-    ----------
-    method : str
-        `converged`: the differential equation in crank angle; `nunes2017_printed`: the thesis's one-degree march
-    intake_pressure, intake_temperature : float
-        State of the charge when the inlet closes [Pa], [K]
-    inlet_closes, exhaust_opens : float
-        Ends of the closed period, from firing top dead centre [rad]
-    ignition, ignition_slope : float
-        Start of combustion at standstill [rad] and its change with speed [s]
-    duration, duration_slope : float
-        Duration of combustion at standstill [rad] and its change with speed [s]
-    wiebe_a, wiebe_m : float
-        X = 1 - exp(-a y^(m + 1)) [-]
-    air_fuel_ratio, stoichiometric_ratio : float
-        Air over fuel by mass, as run and stoichiometric [-]
-    heating_value : float
-        Lower heating value of the fuel [J/kg]
-    combustion_efficiency_max : float
-        Factor of the fit over the relative air-fuel ratio [-]
-    vaporisation : str
-        `latent_heat`: each kilogram of vapour costs its latent heat and arrives without internal energy (the thesis);
-        `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge
-        is vapour from the start
-    latent_heat : float
-        Latent heat of vaporisation [J/kg]
-    """
-
+    #: `converged`: the differential equation in crank angle; `nunes2017_printed`: the thesis's one-degree march
     method: str = choice("converged", "nunes2017_printed", default="converged")
     intake_pressure: float = quantity("Pa", above=0, about="absolute pressure when the inlet closes")
     intake_temperature: float = quantity("K", above=0, about="temperature when the inlet closes")
+    #: Ends of the closed period, from firing top dead centre [rad]
     inlet_closes: float = quantity("rad", default=-np.pi, low=-np.pi, below=0, about="from firing TDC")
     exhaust_opens: float = quantity("rad", default=np.pi, above=0, high=np.pi, about="from firing TDC")
     ignition: float = quantity("rad", about="start of combustion at standstill, from firing TDC")
     ignition_slope: float = quantity("s", default=0.0, about="change of the start with speed")
     duration: float = quantity("rad", above=0, about="duration of combustion at standstill")
     duration_slope: float = quantity("s", default=0.0, about="change of the duration with speed")
+    #: X = 1 - exp(-a y^(m + 1)) [-]
     wiebe_a: float = quantity("-", default=5.0, above=0, about="completeness factor")
     wiebe_m: float = quantity("-", default=2.0, above=-1, about="form factor")
     air_fuel_ratio: float = quantity("-", above=0, about="air over fuel by mass")
     stoichiometric_ratio: float = quantity("-", above=0, about="stoichiometric air over fuel by mass")
+    #: Lower heating value of the fuel [J/kg]
     heating_value: float = quantity("J/kg", above=0, about="lower heating value")
+    #: Factor of the fit over the relative air-fuel ratio [-]
     combustion_efficiency_max: float = quantity("-", default=0.9, above=0, high=1, about="factor of the fit")
+    #: `latent_heat`: each kilogram of vapour costs its latent heat and arrives without internal energy (the thesis);
+    #: `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge is
+    #: vapour from the start
     vaporisation: str = choice("latent_heat", "liquid_energy", "none", default="liquid_energy")
     latent_heat: float = quantity("J/kg", default=0.0, low=0, about="latent heat of vaporisation")
 
     def __post_init__(self) -> None:
-        check(self)
         relative = self.air_fuel_ratio / self.stoichiometric_ratio
         if not 0.75 <= relative <= 1.2:
             raise BadInput(f"air_fuel_ratio = {self.air_fuel_ratio:g} is {relative:.3f} of stoichiometric_ratio; the "
@@ -116,8 +94,6 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
 
     Parameters
     ----------
-    chamber : Chamber
-        The chamber
     cycle : SparkIgnition
         The cycle's data; numbers or CasADi expressions
     gas_constant : float
@@ -140,11 +116,6 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
 
 def latent_heat(cycle: Any) -> Any:
     """Latent heat that the cycle charges for a kilogram of fuel.
-
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data
 
     Returns
     -------

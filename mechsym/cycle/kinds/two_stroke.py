@@ -21,7 +21,6 @@ Read into it: f is not cut off at the nominal end of combustion (there it is abo
 there; the ports close at the mirror angle of their opening and, the exhaust being open, the pressure stays at p_evc.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
@@ -32,50 +31,23 @@ from mechsym.cycle.cylinder import Cylinder, clearance_volume, volume
 from mechsym.cycle.pressure import ATMOSPHERE, periodic, wrapped
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class TwoStrokeMarine:
-    """Inputs of the cycle: `[cycle]` with `kind = "two-stroke-marine"`.
-
-    Parameters
-    ----------
-    bore : float
-        Diameter of the piston [m]
-    compression_ratio : float
-        Geometric: (V_d + V_c) / V_c [-]
-    mean_indicated_pressure : float
-        Wanted mean indicated pressure [Pa]
-    p_s : float
-        Absolute scavenge pressure [Pa]
-    T_evc : float
-        Gas temperature when the exhaust closes [K]
-    evc, soc, evo, spo : float
-        Exhaust closes (negative), combustion starts, exhaust opens, scavenge ports open; from TDC [rad]
-    duration : float
-        Duration of combustion, the scale of the Wiebe function [rad]
-    n_c, n_e : float
-        Polytropic exponents of compression and expansion [-]
-    a_p, m_p, a_d, m_d, b : float
-        Double Wiebe function [-]
-    R : float
-        Gas constant [J/kg/K]
-    c_v, lhv : float
-        Mean specific heat of the gas [J/kg/K] and lower heating value of the fuel [J/kg]; for facts only
-    crank_side : str
-        What is under the piston: `atmosphere` (p_back) or `scavenge` (p_s)
-    p_back : float
-        Absolute pressure under the piston for `crank_side = "atmosphere"` [Pa]
-    """
+    """Inputs of the cycle: `[cycle]` with `kind = "two-stroke-marine"`."""
 
     bore: float = quantity("m", low=1e-3, high=10, about="diameter of the piston")
+    #: Geometric: (V_d + V_c) / V_c [-]
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
     mean_indicated_pressure: float = quantity("Pa", above=0, high=1e8, about="wanted mean indicated pressure")
     p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
     T_evc: float = quantity("K", above=200, below=800, about="temperature when the exhaust closes")
+    #: Exhaust closes (negative), combustion starts, exhaust opens, scavenge ports open; from TDC [rad]
     evc: float = quantity("rad", above=-math.pi, below=0, about="exhaust closes")
     soc: float = quantity("rad", default=0.0, above=-math.pi / 3, below=math.pi / 3, about="combustion starts")
+    #: Duration of combustion, the scale of the Wiebe function [rad]
     duration: float = quantity("rad", above=0, below=math.pi, about="duration of combustion")
     evo: float = quantity("rad", above=math.pi / 6, below=math.pi, about="exhaust opens")
     spo: float = quantity("rad", above=0, below=math.pi, about="scavenge ports open")
@@ -87,13 +59,15 @@ class TwoStrokeMarine:
     m_d: float = quantity("-", low=0, high=20, about="Wiebe form of the share b")
     b: float = quantity("-", low=0, high=1, about="share of the second Wiebe function")
     R: float = quantity("J/kg/K", default=287.0, above=0, about="gas constant")
+    #: Mean specific heat of the gas [J/kg/K] and lower heating value of the fuel [J/kg]; for facts only
     c_v: float = quantity("J/kg/K", default=900.0, above=0, about="mean specific heat between 1000 and 2500 K")
     lhv: float = quantity("J/kg", default=42.7e6, above=0, about="lower heating value of the fuel")
+    #: What is under the piston: `atmosphere` (p_back) or `scavenge` (p_s)
     crank_side: str = choice("atmosphere", "scavenge", default="atmosphere", about="what is under the piston")
+    #: Absolute pressure under the piston for `crank_side = "atmosphere"` [Pa]
     p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
-        check(self)
         order = (("evc", self.evc), ("soc", self.soc), ("evo", self.evo), ("spo", self.spo))
         for (name, angle), (later, limit) in zip(order, order[1:], strict=False):
             if not angle < limit:
@@ -128,11 +102,6 @@ def scavenging_pressure(p_s: float) -> float:
 def back_pressure(cycle: TwoStrokeMarine) -> float:
     """Absolute pressure under the piston.
 
-    Parameters
-    ----------
-    cycle : TwoStrokeMarine
-        Inputs
-
     Returns
     -------
     p_back : float
@@ -143,11 +112,6 @@ def back_pressure(cycle: TwoStrokeMarine) -> float:
 
 def events(cycle: TwoStrokeMarine) -> dict[str, float]:
     """Names and angles of the cycle's events.
-
-    Parameters
-    ----------
-    cycle : TwoStrokeMarine
-        Inputs
 
     Returns
     -------
@@ -166,11 +130,6 @@ def events(cycle: TwoStrokeMarine) -> dict[str, float]:
 
 def kinks(cycle: TwoStrokeMarine) -> tuple[float, ...]:
     """Crank angles where the pressure is not smooth.
-
-    Parameters
-    ----------
-    cycle : TwoStrokeMarine
-        Inputs
 
     Returns
     -------
@@ -194,10 +153,6 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) 
 
     Parameters
     ----------
-    cycle : TwoStrokeMarine
-        Inputs
-    cylinder : Cylinder
-        Geometry
     ratio : float
         T_ref / T_comp at top dead centre, 1 without fuel [-]
 

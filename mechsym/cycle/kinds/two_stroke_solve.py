@@ -5,7 +5,6 @@
 The phases and their formulas stand in `two_stroke`.
 """
 
-import dataclasses
 import math
 
 from mechsym.cycle.cylinder import Cylinder, clearance_volume, swept_volume, volume
@@ -20,37 +19,26 @@ from mechsym.cycle.kinds.two_stroke import (
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _AIR_BY_FUEL = 14.6  # stoichiometric, marine fuel oil
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class TwoStrokeState:
-    """The cycle closed for the wanted mean pressure.
+    """The cycle closed for the wanted mean pressure."""
 
-    Parameters
-    ----------
-    p_evc, p_comp, p_ref, p_evo : float
-        Scavenging; compression and expansion reference at TDC; exhaust opening [Pa]
-    T_comp, dT : float
-        Compression temperature at TDC and the rise to the expansion's reference [K]
-    mass : float
-        Trapped gas [kg]
-    excess_air : float
-        Air-fuel ratio over the stoichiometric one that the rise would need [-]
-    efficiency : float
-        Indicated work by the heat of that fuel [-]
-    """
-
+    #: Scavenging; compression and expansion reference at TDC; exhaust opening [Pa]
     p_evc: float
     p_comp: float
     p_ref: float
     p_evo: float
+    #: Compression temperature at TDC and the rise to the expansion's reference [K]
     T_comp: float
     dT: float
-    mass: float
-    excess_air: float
-    efficiency: float
+    mass: float  #: Trapped gas [kg]
+    excess_air: float  #: Air-fuel ratio over the stoichiometric one that the rise would need [-]
+    efficiency: float  #: Indicated work by the heat of that fuel [-]
 
 
 def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
@@ -60,8 +48,6 @@ def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
 
     Parameters
     ----------
-    cycle : TwoStrokeMarine
-        Inputs
     cylinder : Cylinder
         Geometry, with the same bore and compression ratio
 
@@ -118,22 +104,10 @@ def _state(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) -> TwoStrok
 def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder) -> Pressure:
     """Pressure of the two-stroke marine cycle.
 
-    Parameters
-    ----------
-    cycle : TwoStrokeMarine
-        Inputs
-    cylinder : Cylinder
-        Geometry
-
     Returns
     -------
     pressure : Pressure
         Evaluated by formulas in every phase, so to round-off
-
-    Raises
-    ------
-    BadInput
-        The wanted mean pressure cannot be met
     """
     state = solve(cycle, cylinder)
     absolute, corners = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp), kinks(cycle)

@@ -9,7 +9,6 @@ a law for the heat that goes into the walls. The fuel is found for the wanted me
 function stops at its nominal end; what it leaves unburnt there (1 to 3 % for the sets of Shen et al.) stays unburnt.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable
 from functools import partial
@@ -29,7 +28,7 @@ from mechsym.cycle.kinds.two_stroke import scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 _TURN = 2 * math.pi
 _STOICHIOMETRIC = 14.6  # air over fuel, marine fuel oil
@@ -42,47 +41,16 @@ _LAWS: dict[str, Callable[[float], Law]] = {
 }
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class TwoStrokeZone:
-    """Inputs: `[cycle]` with `kind = "two-stroke-zone"`.
-
-    Parameters
-    ----------
-    bore : float
-        Diameter of the piston [m]
-    compression_ratio : float
-        Geometric [-]
-    mean_indicated_pressure : float
-        Wanted mean indicated pressure [Pa]
-    p_s : float
-        Absolute scavenge pressure [Pa]
-    T_evc : float
-        Gas temperature when the exhaust closes [K]
-    evc, soc, evo, spo : float
-        Exhaust closes (negative), combustion starts, exhaust opens, scavenge ports open; from TDC [rad]
-    duration : float
-        Duration of combustion [rad]
-    a_p, m_p, a_d, m_d, b : float
-        Double Wiebe function [-]
-    lhv : float
-        Lower heating value of the fuel [J/kg]
-    speed : float
-        Crank speed, for the heat transfer [rad/s]
-    heat_transfer : str
-        `woschni`, `hohenberg`, `annand` or `none`
-    wall_temperature : float
-        Mean temperature of the walls [K]
-    properties : str
-        `nasa` (temperature dependent) or `constant_gamma` (1.35)
-    p_back : float
-        Absolute pressure under the piston [Pa]
-    """
+    """Inputs: `[cycle]` with `kind = "two-stroke-zone"`."""
 
     bore: float = quantity("m", above=0, about="diameter of the piston")
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
     mean_indicated_pressure: float = quantity("Pa", above=0, about="wanted mean indicated pressure")
     p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
     T_evc: float = quantity("K", above=200, below=800, about="temperature when the exhaust closes")
+    #: Exhaust closes (negative), combustion starts, exhaust opens, scavenge ports open; from TDC [rad]
     evc: float = quantity("rad", above=-math.pi, below=0, about="exhaust closes")
     soc: float = quantity("rad", default=0.0, above=-math.pi / 3, below=math.pi / 3, about="combustion starts")
     duration: float = quantity("rad", above=0, below=math.pi, about="duration of combustion")
@@ -97,11 +65,11 @@ class TwoStrokeZone:
     speed: float = quantity("rad/s", above=0, about="crank speed, for the heat transfer")
     heat_transfer: str = choice(*_LAWS, default="woschni", about="law of heat transfer")
     wall_temperature: float = quantity("K", default=550.0, above=0, about="mean wall temperature")
+    #: `nasa` (temperature dependent) or `constant_gamma` (1.35)
     properties: str = choice("nasa", "constant_gamma", default="nasa", about="gas properties")
     p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
-        check(self)
         order = (self.evc, self.soc, self.soc + self.duration, self.evo, self.spo)
         if not all(a < b for a, b in zip(order, order[1:], strict=False)):
             raise BadInput(
@@ -111,31 +79,15 @@ class TwoStrokeZone:
             )
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Zone:
-    """The integrated cycle with the fuel that gives the wanted mean pressure.
-
-    Parameters
-    ----------
-    result : Run
-        Its closed period, one point
-    fuel : float
-        Fuel of a cycle [kg]
-    absolute : callable
-        Crank angle [rad] to absolute pressure over the whole turn [Pa]
-    kinks : tuple of float
-        Where it is not smooth, in [0, 2 pi) [rad]
-    mean_indicated : float
-        Mean indicated pressure [Pa]
-    cylinder : Cylinder
-        Geometry
-    """
+    """The integrated cycle with the fuel that gives the wanted mean pressure."""
 
     result: Run
-    fuel: float
-    absolute: Callable[[Any], Any]
-    kinks: tuple[float, ...]
-    mean_indicated: float
+    fuel: float  #: Fuel of a cycle [kg]
+    absolute: Callable[[Any], Any]  #: Crank angle [rad] to absolute pressure over the whole turn [Pa]
+    kinks: tuple[float, ...]  #: Where it is not smooth, in [0, 2 pi) [rad]
+    mean_indicated: float  #: Mean indicated pressure [Pa]
     cylinder: Cylinder
 
 
@@ -144,20 +96,8 @@ def two_stroke_zone(cycle: TwoStrokeZone, kinematics: ca.Function) -> Zone:
 
     Parameters
     ----------
-    cycle : TwoStrokeZone
-        Inputs
     kinematics : casadi.Function
         One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
-
-    Returns
-    -------
-    zone : Zone
-        States, fuel, pressure
-
-    Raises
-    ------
-    BadInput
-        No fuel gives the wanted mean pressure
     """
     motion, cylinder = _motion(kinematics), cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
     events = (cycle.evc, cycle.soc, cycle.soc + cycle.duration, cycle.evo, cycle.spo)
@@ -180,8 +120,6 @@ def two_stroke_zone_pressure(cycle: TwoStrokeZone, kinematics: ca.Function) -> P
 
     Parameters
     ----------
-    cycle : TwoStrokeZone
-        Inputs
     kinematics : casadi.Function
         One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
 
@@ -205,17 +143,8 @@ def closed_period(cycle: TwoStrokeZone, motion: Motion, design: Any) -> Closed:
 
     Parameters
     ----------
-    cycle : TwoStrokeZone
-        Inputs
-    motion : Motion
-        Of the piston
     design : mapping
         `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols
-
-    Returns
-    -------
-    closed : Closed
-        What the integration needs
     """
     gas = NasaMixture() if cycle.properties == "nasa" else ConstantGamma(gamma=1.35)
     room = chamber(ChamberParameters(bore=cycle.bore, compression_ratio=cycle.compression_ratio), motion)
@@ -267,13 +196,6 @@ def _absolute(cycle: TwoStrokeZone, result: Run) -> Callable[[Any], Any]:
 
 def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, float]:
     """Where the fuel's energy goes.
-
-    Parameters
-    ----------
-    cycle : TwoStrokeZone
-        Inputs
-    zone : Zone
-        Its result
 
     Returns
     -------

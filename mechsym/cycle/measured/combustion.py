@@ -4,7 +4,6 @@ measured cycles --> heat release, burn points, exponents of each --> weak cycles
                \--> mean cycle: Wiebe functions, compression line, trapped mass, what a degree of dead centre costs
 """
 
-import dataclasses
 import math
 from typing import Any
 
@@ -15,88 +14,46 @@ from mechsym.cycle.measured.facts import weak_cycles
 from mechsym.cycle.measured.fits import Fit, compression_line, fit_double_wiebe, fit_wiebe, trapped_mass
 from mechsym.cycle.measured.heat_release import Combustion, burnt_fraction, combustion, heat_release
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 _DEGREE = math.radians(1.0)
 _EARLIEST = math.radians(-45.0)
 _BEFORE_COMBUSTION = math.radians(-30.0)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Analysis:
-    """Section `[combustion]`: what the analysis of a measured diagram assumes.
+    """Section `[combustion]`: what the analysis of a measured diagram assumes."""
 
-    Parameters
-    ----------
-    gamma : float
-        Ratio of heat capacities of the hot charge [-]
-    gas_constant : float
-        Specific gas constant [J/(kg*K)]
-    inlet_closes, exhaust_opens : float
-        Ends of the closed part, from firing TDC [rad]
-    charge_temperature : float
-        When the inlet closes, for the trapped mass [K]
-    """
-
+    #: Ratio of heat capacities of the hot charge [-]
     gamma: float = quantity("-", default=1.32, above=1, high=5 / 3, about="ratio of heat capacities")
     gas_constant: float = quantity("J/kg/K", default=287.0, above=0, about="specific gas constant")
     inlet_closes: float = quantity("rad", default=math.radians(-130.0), low=-math.pi, below=0, about="from firing TDC")
     exhaust_opens: float = quantity("rad", default=math.radians(120.0), above=0, high=math.pi, about="from firing TDC")
+    #: When the inlet closes, for the trapped mass [K]
     charge_temperature: float = quantity("K", default=330.0, above=0, about="when the inlet closes")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class DiagramCombustion:
-    """What a measured diagram says of combustion.
-
-    Parameters
-    ----------
-    cycles : tuple of Combustion
-        Every cycle
-    mean : Combustion
-        The mean cycle
-    weak : tuple of int
-        Cycles with less than 0.7 of the median work, from 0
-    wiebe, double_wiebe : Fit
-        Through the burnt fraction of the mean cycle
-    line : Fit
-        Compression line of the mean cycle from the closing of the inlet, exponent and dead centre free
-    mass : float
-        Trapped mass from that line [kg]
-    tdc_uncertainty : float or None
-        Of the alignment [rad]
-    per_degree : mapping of str to float
-        Change by one degree of later dead centre: `work`, `heat` relative [-], `burn_50` [rad]
-    uncertainty : mapping of str to float or None
-        The same for the uncertainty of the dead centre
-    """
+    """What a measured diagram says of combustion."""
 
     cycles: tuple[Combustion, ...]
     mean: Combustion
-    weak: tuple[int, ...]
+    weak: tuple[int, ...]  #: Cycles with less than 0.7 of the median work, from 0
+    #: Through the burnt fraction of the mean cycle
     wiebe: Fit
     double_wiebe: Fit
-    line: Fit
-    mass: float
-    tdc_uncertainty: float | None
+    line: Fit  #: Compression line of the mean cycle from the closing of the inlet, exponent and dead centre free
+    mass: float  #: Trapped mass from that line [kg]
+    tdc_uncertainty: float | None  #: Of the alignment [rad]
+    #: Change by one degree of later dead centre: `work`, `heat` relative [-], `burn_50` [rad]
     per_degree: dict[str, float]
-    uncertainty: dict[str, float | None]
+    uncertainty: dict[str, float | None]  #: The same for the uncertainty of the dead centre
 
 
 def diagram_combustion(measured: MeasuredCycles, cylinder: Cylinder, analysis: Analysis) -> DiagramCombustion:
     """Take the measured cycles apart.
-
-    Parameters
-    ----------
-    measured : MeasuredCycles
-        Aligned, pegged cycles
-    cylinder : Cylinder
-        Geometry
-    analysis : Analysis
-        Assumptions
 
     Returns
     -------
@@ -138,10 +95,6 @@ def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, analysis: An
         Crank angles of one period [rad]
     p : ndarray, shape (n,)
         Absolute pressure [Pa]
-    cylinder : Cylinder
-        Geometry
-    analysis : Analysis
-        Assumptions
 
     Returns
     -------
@@ -161,11 +114,6 @@ def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, analysis: An
 
 def rows(found: DiagramCombustion) -> list[dict[str, Any]]:
     """One row for each cycle, in the units of the command line.
-
-    Parameters
-    ----------
-    found : DiagramCombustion
-        Result of `diagram_combustion`
 
     Returns
     -------

@@ -19,6 +19,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from mechsym.cycle.cylinder import Cylinder, clearance_volume, volume
+from mechsym.quantities import record
 
 # How far each assumption is moved to see what the dead centre owes to it
 _EXPONENT_SPREAD = 0.05
@@ -28,40 +29,23 @@ _RAMP = math.radians(5.0)
 _REACH = math.radians(15.0)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Window:
-    """Where the charge is compressed without burning, and its exponent.
+    """Where the charge is compressed without burning, and its exponent."""
 
-    Parameters
-    ----------
-    fit_from, fit_to : float
-        Crank angles, both before TDC [rad]
-    n : float
-        Polytropic exponent [-]
-    """
-
+    #: Crank angles, both before TDC [rad]
     fit_from: float
     fit_to: float
-    n: float
+    n: float  #: Polytropic exponent [-]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Line:
-    """A fitted compression line.
+    """A fitted compression line."""
 
-    Parameters
-    ----------
-    p_off : float
-        What the sensor adds to the absolute pressure [Pa]
-    p_bdc : float
-        C: the line extrapolated to bottom dead centre [Pa]
-    rms : float
-        Root mean square of what the fit leaves [Pa]
-    """
-
-    p_off: float
-    p_bdc: float
-    rms: float
+    p_off: float  #: What the sensor adds to the absolute pressure [Pa]
+    p_bdc: float  #: C: the line extrapolated to bottom dead centre [Pa]
+    rms: float  #: Root mean square of what the fit leaves [Pa]
 
 
 def fit_line(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> Line:
@@ -75,15 +59,8 @@ def fit_line(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: 
         Crank angle from firing TDC [rad]
     pressure : ndarray, shape (n,)
         Measured pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     window : Window
         Angles and exponent; the weights fall off over 5 degrees at both ends
-
-    Returns
-    -------
-    line : Line
-        The fit
     """
     return _fit(phi, pressure, cylinder, window, shift=0.0)
 
@@ -97,8 +74,6 @@ def find_dead_centre(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, 
         Crank angle from a guess of the dead centre, at most about 30 degrees off [rad]
     pressure : ndarray, shape (n,)
         Measured pressure, any offset [Pa]
-    cylinder : Cylinder
-        Geometry
     window : Window
         Angles and exponent; moves along with the dead centre
 
@@ -132,8 +107,6 @@ def dead_centre_uncertainty(phi: np.ndarray, pressure: np.ndarray, cylinder: Cyl
         Crank angle from the dead centre found [rad]
     pressure : ndarray, shape (n,)
         Measured pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     window : Window
         Angles and exponent it was found with
 
@@ -167,8 +140,6 @@ def polytropic_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinde
         Crank angle from firing TDC [rad]
     pressure : ndarray, shape (n,)
         Absolute pressure, positive [Pa]
-    cylinder : Cylinder
-        Geometry
     window : Window
         Angles; its exponent is not used
 
@@ -190,8 +161,6 @@ def free_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, win
         Crank angle from firing TDC [rad]
     pressure : ndarray, shape (n,)
         Measured pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     window : Window
         Angles; its exponent is not used
 

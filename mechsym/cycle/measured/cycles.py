@@ -25,8 +25,6 @@ def cut_cycles(recording: Recording, period: float) -> tuple[np.ndarray, np.ndar
 
     Parameters
     ----------
-    recording : Recording
-        At least one period
     period : float
         2 pi or 4 pi [rad]
 

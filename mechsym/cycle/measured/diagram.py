@@ -5,77 +5,50 @@
 The steps stand in `diagram_file`, `diagram_cycles`, `diagram_measure` and `diagram_pressure`.
 """
 
-import dataclasses
 import math
 
 from mechsym.cycle.measured.compression_line import Window
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Diagram:
-    """Inputs: `[cycle]` with `kind = "diagram"`.
-
-    Parameters
-    ----------
-    bore : float
-        Diameter of the piston [m]
-    compression_ratio : float
-        Geometric [-]
-    working_cycle : str
-        `two-stroke` (period 2 pi) or `four-stroke` (4 pi)
-    file : str
-        CSV file, see `diagram_file`
-    angle_column, pressure_column : str
-        Headers to take where several columns carry such a unit
-    alignment : str
-        Dead centre: `given` (tdc_offset), `motored_peak` (peak of a motored diagram plus loss_angle) or
-        `compression_line` (where that line is straightest, for the exponent n_c)
-    tdc_offset : float
-        Angle of the file at firing TDC, for `given` [rad]
-    loss_angle : float
-        From the pressure peak of a motored engine to TDC, for `motored_peak` [rad]
-    pegging : str
-        Offset: `none` (the file is absolute), `gauge` (it is above p_back), `inlet` (inlet_pressure at the bottom dead
-        centre before compression) or `polytropic` (the compression line follows the exponent n_c)
-    scale : str
-        `as_given`, `trapped` (the compression line starts from inlet_pressure at bottom dead centre) or `exhaust` (the
-        mean over the middle of the exhaust stroke is exhaust_pressure); the last two need `polytropic` pegging
-    inlet_pressure, exhaust_pressure : float
-        Absolute pressure at the bottom dead centre before compression, and while the exhaust is pushed out [Pa]
-    fit_from, fit_to : float
-        Where the compression line is read: after the inlet closes, before combustion starts [rad]
-    n_c : float
-        Its exponent [-]
-    smoothing : str
-        `spline` (down to the noise of the mean cycle) or `interpolate` (through every point)
-    p_back : float
-        Absolute pressure under the piston [Pa]
-    """
+    """Inputs: `[cycle]` with `kind = "diagram"`."""
 
     bore: float = quantity("m", low=1e-3, high=10, about="diameter of the piston")
     compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
+    #: `two-stroke` (period 2 pi) or `four-stroke` (4 pi)
     working_cycle: str = choice("two-stroke", "four-stroke", about="period of the diagram")
     file: str = ""
+    #: Headers to take where several columns carry such a unit
     angle_column: str = ""
     pressure_column: str = ""
+    #: Dead centre: `given` (tdc_offset), `motored_peak` (peak of a motored diagram plus loss_angle) or
+    #: `compression_line` (where that line is straightest, for the exponent n_c)
     alignment: str = choice("given", "motored_peak", "compression_line", default="compression_line")
     tdc_offset: float = quantity("rad", default=0.0, about="angle of the file at firing TDC")
+    #: From the pressure peak of a motored engine to TDC, for `motored_peak` [rad]
     loss_angle: float = quantity("rad", default=math.radians(0.7), low=0, high=0.1, about="motored peak to TDC")
+    #: Offset: `none` (the file is absolute), `gauge` (it is above p_back), `inlet` (inlet_pressure at the bottom dead
+    #: centre before compression) or `polytropic` (the compression line follows the exponent n_c)
     pegging: str = choice("none", "gauge", "inlet", "polytropic", default="polytropic")
+    #: `as_given`, `trapped` (the compression line starts from inlet_pressure at bottom dead centre) or `exhaust` (the
+    #: mean over the middle of the exhaust stroke is exhaust_pressure); the last two need `polytropic` pegging
     scale: str = choice("as_given", "trapped", "exhaust", default="as_given")
+    #: Absolute pressure at the bottom dead centre before compression, and while the exhaust is pushed out [Pa]
     inlet_pressure: float = quantity("Pa", default=1e5, above=0, below=20e5, about="absolute, at BDC")
     exhaust_pressure: float = quantity("Pa", default=1.05e5, above=0, below=20e5, about="absolute, exhaust stroke")
+    #: Where the compression line is read: after the inlet closes, before combustion starts [rad]
     fit_from: float = quantity("rad", default=math.radians(-90.0), low=-2.8, below=0, about="start of the line")
     fit_to: float = quantity("rad", default=math.radians(-15.0), low=-2.8, below=0, about="end of the line")
     n_c: float = quantity("-", default=1.30, low=1.1, high=1.5, about="exponent of compression")
+    #: `spline` (down to the noise of the mean cycle) or `interpolate` (through every point)
     smoothing: str = choice("spline", "interpolate", default="spline")
     p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.fit_to - self.fit_from < math.radians(30.0):
             raise BadInput(
                 f"fit_to = {math.degrees(self.fit_to):g} deg must lie at least 30 deg behind "
@@ -88,28 +61,12 @@ class Diagram:
 
 
 def window(diagram: Diagram) -> Window:
-    """Where the compression line is read, and its exponent.
-
-    Parameters
-    ----------
-    diagram : Diagram
-        Inputs
-
-    Returns
-    -------
-    window : Window
-        Angles and exponent
-    """
+    """Where the compression line is read, and its exponent."""
     return Window(fit_from=diagram.fit_from, fit_to=diagram.fit_to, n=diagram.n_c)
 
 
 def period_of(diagram: Diagram) -> float:
     """Period of the diagram.
-
-    Parameters
-    ----------
-    diagram : Diagram
-        Inputs
 
     Returns
     -------

@@ -18,13 +18,6 @@ def cycle_work(measured: MeasuredCycles, cylinder: Cylinder) -> np.ndarray:
 
     .. math:: p_{mi,k} = \frac{1}{s} \sum_i p_{k,i}\,x'(\varphi_i)\,\Delta\varphi
 
-    Parameters
-    ----------
-    measured : MeasuredCycles
-        Cycles
-    cylinder : Cylinder
-        Geometry
-
     Returns
     -------
     p_mi : ndarray, shape (k,)
@@ -38,13 +31,6 @@ def work_per_angle(measured: MeasuredCycles, cylinder: Cylinder) -> float:
     r"""How much the mean cycle's work changes when the dead centre moves.
 
     .. math:: \frac{1}{p_{mi}} \frac{d p_{mi}}{d \varphi_{tdc}}
-
-    Parameters
-    ----------
-    measured : MeasuredCycles
-        Cycles
-    cylinder : Cylinder
-        Geometry
 
     Returns
     -------
@@ -64,11 +50,6 @@ def weak_cycles(p_mi: np.ndarray) -> tuple[int, ...]:
     ----------
     p_mi : ndarray, shape (k,)
         Mean indicated pressure of every cycle [Pa]
-
-    Returns
-    -------
-    indices : tuple of int
-        From 0
     """
     return tuple(int(k) for k in np.flatnonzero(p_mi < _WEAK * np.median(p_mi)))
 
@@ -78,19 +59,8 @@ def diagram_facts(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycles
 
     Parameters
     ----------
-    diagram : Diagram
-        Inputs
-    cylinder : Cylinder
-        Geometry
-    measured : MeasuredCycles
-        Cycles
     residual : float
         Root mean square of what the smoothing left out [Pa]
-
-    Returns
-    -------
-    facts : tuple of str
-        One sentence each
     """
     p_mi = cycle_work(measured, cylinder) / 1e5
     scatter = float(measured.cycles.std(axis=0).max())
@@ -176,12 +146,6 @@ def diagram_doubts(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycle
 
     Parameters
     ----------
-    diagram : Diagram
-        Inputs
-    cylinder : Cylinder
-        Geometry
-    measured : MeasuredCycles
-        Cycles
     phi_p_max : float
         Crank angle of the highest pressure, from firing TDC [rad]
 

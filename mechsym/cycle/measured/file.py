@@ -10,7 +10,6 @@ trusted is refused with its line, the reason and the way out; nothing is repaire
 """
 
 import csv
-import dataclasses
 import math
 import re
 from pathlib import Path
@@ -18,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import parse
+from mechsym.quantities import parse, record
 
 # Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
 _UNITS = {
@@ -30,32 +29,16 @@ _DELIMITERS = (";", "\t", ",")
 _COARSEST = math.radians(15.0)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Recording:
-    """What stands in a diagram file, in SI, the angle made continuous.
-
-    Parameters
-    ----------
-    file : str
-        Where it was read
-    angle : ndarray, shape (n,)
-        Ascending angle, its zero as in the file [rad]
-    pressure : ndarray, shape (n,)
-        Pressure as measured, offset unknown [Pa]
-    lines : ndarray of int, shape (n,)
-        Line of each sample in the file
-    comments : tuple of str
-        Comment lines without their mark
-    columns : tuple of str
-        Headers of the angle and the pressure column
-    """
+    """What stands in a diagram file, in SI, the angle made continuous."""
 
     file: str
-    angle: np.ndarray
-    pressure: np.ndarray
-    lines: np.ndarray
+    angle: np.ndarray  #: shape (n,): Ascending angle, its zero as in the file [rad]
+    pressure: np.ndarray  #: shape (n,): Pressure as measured, offset unknown [Pa]
+    lines: np.ndarray  #: shape (n,): Line of each sample in the file [-]
     comments: tuple[str, ...]
-    columns: tuple[str, str]
+    columns: tuple[str, str]  #: Headers of the angle and the pressure column
 
 
 def read_diagram(path: str | Path, period: float, angle_column: str = "", pressure_column: str = "") -> Recording:
@@ -69,16 +52,6 @@ def read_diagram(path: str | Path, period: float, angle_column: str = "", pressu
         2 pi or 4 pi: how far at least the angle must go [rad]
     angle_column, pressure_column : str
         Header of the column to take when several carry such a unit
-
-    Returns
-    -------
-    recording : Recording
-        At least one whole period
-
-    Raises
-    ------
-    BadInput
-        Names file, line, reason and way out
     """
     comments, header, rows = _split(str(path), _text(path))
     angle_at, angle_unit = _column(str(path), header, "rad", angle_column)

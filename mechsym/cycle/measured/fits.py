@@ -21,29 +21,21 @@ from scipy.optimize import least_squares
 from mechsym.cycle.cylinder import Cylinder, volume
 from mechsym.cycle.wiebe import wiebe
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _Z = 1.959963984540054  # 95 % of a normal distribution
 _DOUBLE_STARTS = ((0.3, 1.0, 0.5), (0.6, 2.0, 0.7), (0.7, 1.0, 1.5))  # b, m_p, m_d to begin with
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Fit:
-    """A least-squares fit.
-
-    Parameters
-    ----------
-    names : tuple of str
-        Parameters
-    values, confidence : tuple of float
-        Their values and the half width of their 95 % confidence intervals, in the units of the function that made it
-    rms : float
-        Root mean square of the residuals
-    """
+    """A least-squares fit."""
 
     names: tuple[str, ...]
+    #: Their values and the half width of their 95 % confidence intervals, [units of the function that made it]
     values: tuple[float, ...]
     confidence: tuple[float, ...]
-    rms: float
+    rms: float  #: Root mean square of the residuals [unit of the data]
 
 
 def least_squares_fit(
@@ -54,14 +46,8 @@ def least_squares_fit(
 
     Parameters
     ----------
-    residuals : callable
-        Parameters (k,) -> residuals (n,)
-    names : sequence of str
-        Names of the k parameters
     start : ndarray, shape (k,)
         Where to begin, in the parameters' own units [-]
-    bounds : tuple of ndarray
-        Lower and upper bounds
     jacobian : callable or str
         Derivative of the residuals, or the name of a difference scheme
 
@@ -93,8 +79,6 @@ def compression_line(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: 
         Crank angles from the assumed firing TDC [rad]
     p : ndarray, shape (n,)
         Absolute pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     first, last : float
         Ends of the piece of compression that is used [rad]
 

@@ -7,7 +7,6 @@ The integral form needs no derivative of the noisy pressure. The burnt fraction 
 and its highest value after top dead centre. All of it stands on the dead centre: `sensitivity` says how much.
 """
 
-import dataclasses
 import math
 from collections.abc import Sequence
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from mechsym.cycle.cylinder import Cylinder, dvolume_dphi, piston_area, swept_volume, volume
 from mechsym.cycle.heat import GasState, Law, heat_flux
+from mechsym.quantities import record
 
 LEVELS = (0.1, 0.5, 0.9)
 _EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
@@ -22,56 +22,31 @@ _COMPRESSION = (math.radians(-90.0), math.radians(-30.0))
 _EXPANSION = (math.radians(60.0), math.radians(110.0))
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Combustion:
-    """What one cycle's pressure says of its combustion.
+    """What one cycle's pressure says of its combustion."""
 
-    Parameters
-    ----------
-    work : float
-        Net work over the period [J]
-    mean_indicated : float
-        Work over swept volume [Pa]
-    p_max, phi_p_max : float
-        Peak pressure [Pa] and its crank angle [rad]
-    heat : float
-        Heat released, apparent or gross [J]
-    burn_angles : tuple of float
-        Crank angles at the burnt fractions `LEVELS`; nan where combustion does not get there [rad]
-    n_compression, n_expansion : float
-        Polytropic exponents, -90 to -30 and 60 to 110 degrees [-]
-    """
-
-    work: float
-    mean_indicated: float
+    work: float  #: Net work over the period [J]
+    mean_indicated: float  #: Work over swept volume [Pa]
+    #: Peak pressure [Pa] and its crank angle [rad]
     p_max: float
     phi_p_max: float
-    heat: float
+    heat: float  #: Heat released, apparent or gross [J]
+    #: Crank angles at the burnt fractions `LEVELS`; nan where combustion does not get there [rad]
     burn_angles: tuple[float, ...]
+    #: Polytropic exponents, -90 to -30 and 60 to 110 degrees [-]
     n_compression: float
     n_expansion: float
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Walls:
-    """What a gross heat release needs to know.
+    """What a gross heat release needs to know."""
 
-    Parameters
-    ----------
-    law : Annand, Woschni, Hohenberg or Adiabatic
-        Heat transfer; Woschni's combustion term is left out
-    mass : float
-        Mass of gas [kg]
-    gas_constant : float
-        Specific gas constant [J/(kg*K)]
-    omega : float
-        Crank speed [rad/s]
-    """
-
-    law: Law
-    mass: float
-    gas_constant: float
-    omega: float
+    law: Law  #: Heat transfer; Woschni's combustion term is left out
+    mass: float  #: Mass of gas [kg]
+    gas_constant: float  #: Specific gas constant [J/(kg*K)]
+    omega: float  #: Crank speed [rad/s]
 
 
 def heat_release(
@@ -88,8 +63,6 @@ def heat_release(
         Ascending crank angles of the closed period, from firing TDC [rad]
     p : ndarray, shape (n,)
         Absolute pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     gamma : float
         Ratio of heat capacities [-]
     walls : Walls, optional
@@ -166,8 +139,6 @@ def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: fl
         Crank angles [rad]
     p : ndarray, shape (n,)
         Absolute pressure; samples that are not positive are left out [Pa]
-    cylinder : Cylinder
-        Geometry
     first, last : float
         Ends of the piece [rad]
 
@@ -192,19 +163,10 @@ def combustion(
         Evenly spaced, ascending crank angles of one period, the closed part in one piece [rad]
     p : ndarray, shape (n,)
         Absolute pressure [Pa]
-    cylinder : Cylinder
-        Geometry
     gamma : float
         Ratio of heat capacities [-]
     closed : tuple of float
         Ends of the closed part [rad]
-    walls : Walls, optional
-        For a gross heat release
-
-    Returns
-    -------
-    combustion : Combustion
-        What the pressure says
     """
     work = float(np.sum(p * dvolume_dphi(cylinder, phi)) * (phi[1] - phi[0]))
     inside = (phi >= closed[0]) & (phi <= closed[1])

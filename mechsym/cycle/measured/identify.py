@@ -49,11 +49,6 @@ def identify(
     -------
     fit : Fit
         In the order of `start`; SI units, rms [Pa]
-
-    Raises
-    ------
-    BadInput
-        Angles outside the closed period by more than the dead centre may move
     """
     names = tuple(start)
     margin = 20 * scale.get("tdc", 0.0)

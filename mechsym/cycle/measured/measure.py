@@ -4,7 +4,6 @@ Every cycle is pegged by itself (sensors drift) and kept by itself, for whoever 
 step assumed is in the inputs, what it found in the result.
 """
 
-import dataclasses
 import math
 
 import numpy as np
@@ -15,75 +14,34 @@ from mechsym.cycle.measured.cycles import cut_cycles
 from mechsym.cycle.measured.diagram import Diagram, period_of, window
 from mechsym.cycle.measured.file import read_diagram
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _AT_BDC = math.radians(10.0)
 _EXHAUST_MIDDLE, _EXHAUST_REACH = math.radians(270.0), math.radians(30.0)
 _MOTORED_UNCERTAINTY = math.radians(0.5)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class MeasuredCycles:
-    """The measured cycles in absolute pressure over the crank angle.
-
-    Parameters
-    ----------
-    file : str
-        Where they were read
-    period : float
-        2 pi or 4 pi [rad]
-    phi : ndarray, shape (n,)
-        Evenly spaced crank angles from firing TDC, one period that holds phi = 0 inside [rad]
-    cycles : ndarray, shape (k, n)
-        Absolute pressure of each cycle [Pa]
-    raw_mean : ndarray, shape (n,)
-        Mean of the cycles as measured, neither pegged nor scaled [Pa]
-    tdc : float
-        Angle of the file at firing TDC [rad]
-    tdc_uncertainty : float or None
-        How far it may be off; None for a given dead centre, inf if the search's assumptions upset it [rad]
-    offsets : ndarray, shape (k,)
-        What was taken off each cycle [Pa]
-    scale : float
-        Factor on what remained [-]
-    line : Line
-        Compression line fitted to `raw_mean`, before scaling
-    comments : tuple of str
-        Comment lines of the file
-    """
+    """The measured cycles in absolute pressure over the crank angle."""
 
     file: str
-    period: float
+    period: float  #: 2 pi or 4 pi [rad]
+    #: shape (n,): Evenly spaced crank angles from firing TDC, one period that holds phi = 0 inside [rad]
     phi: np.ndarray
-    cycles: np.ndarray
-    raw_mean: np.ndarray
-    tdc: float
+    cycles: np.ndarray  #: shape (k, n): Absolute pressure of each cycle [Pa]
+    raw_mean: np.ndarray  #: shape (n,): Mean of the cycles as measured, neither pegged nor scaled [Pa]
+    tdc: float  #: Angle of the file at firing TDC [rad]
+    #: How far it may be off; None for a given dead centre, inf if the search's assumptions upset it [rad]
     tdc_uncertainty: float | None
-    offsets: np.ndarray
-    scale: float
-    line: Line
+    offsets: np.ndarray  #: shape (k,): What was taken off each cycle [Pa]
+    scale: float  #: Factor on what remained [-]
+    line: Line  #: Compression line fitted to `raw_mean`, before scaling
     comments: tuple[str, ...]
 
 
 def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
-    """Read a diagram file and make absolute pressure over the crank angle of it.
-
-    Parameters
-    ----------
-    diagram : Diagram
-        File and methods
-    cylinder : Cylinder
-        Geometry
-
-    Returns
-    -------
-    measured : MeasuredCycles
-        One row a cycle
-
-    Raises
-    ------
-    BadInput
-        The file is refused, the dead centre is not found, or a pressure comes out negative
-    """
+    """Read a diagram file and make absolute pressure over the crank angle of it."""
     if not diagram.file:
         raise BadInput(
             "the diagram has no file; name it with --set cycle.file=FILE (or --diagram FILE of hinge, forces, cycle)"

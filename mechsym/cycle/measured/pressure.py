@@ -18,22 +18,10 @@ from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, peri
 def diagram_pressure(diagram: Diagram, cylinder: Cylinder) -> Pressure:
     """Pressure of a measured diagram.
 
-    Parameters
-    ----------
-    diagram : Diagram
-        File and methods
-    cylinder : Cylinder
-        Geometry
-
     Returns
     -------
     pressure : Pressure
         Mean cycle, smooth and periodic: no kinks
-
-    Raises
-    ------
-    BadInput
-        The file is refused, or alignment or pegging fail
     """
     measured = measured_cycles(diagram, cylinder)
     mean = measured.cycles.mean(axis=0)

@@ -59,18 +59,7 @@ def crank_phases(firing: Sequence[float], bank: Sequence[float]) -> tuple[float,
 
 
 def refuse_wrong_firing(parameters: CrankTrainParameters) -> None:
-    """Refuse a cylinder that fires far from its top dead centre.
-
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Crank train with firing angles
-
-    Raises
-    ------
-    BadInput
-        No firing angles, or one more than 30 degrees off the dead centre of its cylinder
-    """
+    """Refuse a cylinder that fires far from its top dead centre."""
     if not parameters.firing:
         raise BadInput("firing is missing: gas forces need the shaft angle at which each cylinder fires")
     rows = zip(each(parameters, "firing"), local_shift(parameters), dead_centre(parameters), strict=True)
@@ -91,8 +80,6 @@ def gas_forces(
 
     Parameters
     ----------
-    parameters : CrankTrainParameters
-        Crank train with firing angles
     net_pressure : callable
         p - p_back by the angle after the firing dead centre, ndarray to ndarray [Pa]
     area : float
@@ -114,8 +101,6 @@ def firing_gaps(parameters: CrankTrainParameters, period: float) -> tuple[float,
 
     Parameters
     ----------
-    parameters : CrankTrainParameters
-        Crank train with firing angles
     period : float
         2 pi (two-stroke) or 4 pi (four-stroke) [rad]
 

@@ -26,8 +26,6 @@ def kinematics(all_parts: list[Part], call: Call, names: tuple[str, ...]) -> Out
 
     Parameters
     ----------
-    all_parts : list of Part
-        Cranks and cylinders
     call : callable
         Part to the outputs of the derived throw
     names : tuple of str
@@ -54,8 +52,6 @@ def reactions(all_parts: list[Part], call: Call) -> Outputs:
 
     Parameters
     ----------
-    all_parts : list of Part
-        Cranks and cylinders
     call : callable
         Part to the outputs of the derived throw
 
@@ -86,8 +82,6 @@ def momentum(all_parts: list[Part], call: Call) -> Outputs:
 
     Parameters
     ----------
-    all_parts : list of Part
-        Cranks and cylinders
     call : callable
         Part to the outputs of the derived throw
 

@@ -20,52 +20,21 @@ from typing import Any
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import refuse_short_rod
 from mechsym.mechanisms.record import Mechanism
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 Numbers = float | tuple[float, ...]
 _PER_CYLINDER = ("phase", "bank", "firing", "r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "z_rod")
 _PER_THROW = ("I0", "m0", "u0", "u_phase", "sense", "axis_x", "axis_y", "z", "k", "c")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CrankTrainParameters:
-    """A crank train. Lists have one value a cylinder or one a throw; a single number holds for all.
+    """A crank train. Lists have one value a cylinder or one a throw; a single number holds for all."""
 
-    Parameters
-    ----------
-    throw : tuple of int
-        Throw of each cylinder, 1 to N from the free end
-    phase, bank : float or tuple of float
-        Per cylinder: angle of its crank pin at phi = 0, angle of its axis [rad]
-    firing : tuple of float
-        Per cylinder: shaft angle at which it fires, within its cycle; empty where no gas acts [rad]
-    r, l1, l2, offset : float or tuple of float
-        Per cylinder: crank radius, crank pin to the rod's centre of mass, from there to the piston pin, offset [m]
-    m_rod, m_piston : float or tuple of float
-        Per cylinder: mass of rod and piston [kg]
-    I_rod : float or tuple of float
-        Per cylinder: inertia of the rod about its centre of mass [kg*m^2]
-    z_rod : float or tuple of float
-        Per cylinder: position along the shaft from the middle of its throw [m]
-    I0, m0, u0, u_phase : float or tuple of float
-        Per throw: inertia about the axis [kg*m^2], mass [kg], unbalance [kg*m] and its angle at phi = 0 [rad]
-    sense : float or tuple of float
-        Per throw: 1, or -1 for a crank that turns the other way round
-    axis_x, axis_y, z : float or tuple of float
-        Per throw: place of its axis, and position along the shaft [m]
-    I_f : float
-        Inertia of the flywheel with what turns with it [kg*m^2]
-    k, c : float or tuple of float
-        Per throw: stiffness [N*m/rad] and damping [N*m*s/rad] of the shaft from it to the next throw or the flywheel
-    g : float
-        Acceleration of free fall [m/s^2]
-    axis_tilt : float
-        Angle of the reference axis against the horizontal [rad]
-    """
-
-    throw: tuple[int, ...]
+    throw: tuple[int, ...]  #: Throw of each cylinder, 1 to N from the free end
     phase: Numbers = quantity("rad", about="angle of the crank pin at phi = 0")
     bank: Numbers = quantity("rad", default=0.0, about="angle of the cylinder axis")
+    #: Per cylinder: shaft angle at which it fires, within its cycle; empty where no gas acts [rad]
     firing: Numbers = quantity("rad", default=(), about="shaft angle at which the cylinder fires")
     r: Numbers = quantity("m", above=0, about="crank radius")
     l1: Numbers = quantity("m", low=0, about="crank pin to the rod's centre of mass")
@@ -79,18 +48,21 @@ class CrankTrainParameters:
     m0: Numbers = quantity("kg", default=0.0, low=0, about="mass of the throw")
     u0: Numbers = quantity("kg*m", default=0.0, about="unbalance of the throw")
     u_phase: Numbers = quantity("rad", default=0.0, about="angle of the unbalance at phi = 0")
+    #: Per throw: 1, or -1 for a crank that turns the other way round
     sense: Numbers = quantity("-", default=1.0, low=-1, high=1, about="1, or -1 for a counter-rotating crank")
     axis_x: Numbers = quantity("m", default=0.0, about="place of the throw's axis along X")
     axis_y: Numbers = quantity("m", default=0.0, about="place of the throw's axis along Y")
     z: Numbers = quantity("m", default=0.0, about="position of the throw along the shaft")
+    #: Inertia of the flywheel with what turns with it [kg*m^2]
     I_f: float = quantity("kg*m^2", above=0, about="inertia of the flywheel")
+    #: Per throw: stiffness [N*m/rad] and damping [N*m*s/rad] of the shaft from it to the next throw or the flywheel
     k: Numbers = quantity("N*m/rad", above=0, about="stiffness of the shaft towards the flywheel")
     c: Numbers = quantity("N*m*s/rad", default=0.0, low=0, about="damping of the shaft towards the flywheel")
     g: float = quantity("m/s^2", default=0.0, low=0, about="acceleration of free fall")
+    #: Angle of the reference axis against the horizontal [rad]
     axis_tilt: float = quantity("rad", default=0.0, about="reference axis against the horizontal")
 
     def __post_init__(self) -> None:
-        check(self)
         _check_lists(self)
         for i in range(len(self.throw)):
             r, l1, l2, offset = (each(self, name)[i] for name in ("r", "l1", "l2", "offset"))
@@ -115,8 +87,6 @@ def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
 
     Parameters
     ----------
-    parameters : CrankTrainParameters
-        Crank train
     name : str
         A letter that is given per cylinder or per throw
 
@@ -133,11 +103,6 @@ def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
 def local_shift(parameters: CrankTrainParameters) -> tuple[float, ...]:
     """What turns a shaft angle into each cylinder's own crank angle (0 where its crank points to its head).
 
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Crank train
-
     Returns
     -------
     shifts : tuple of float
@@ -150,11 +115,6 @@ def local_shift(parameters: CrankTrainParameters) -> tuple[float, ...]:
 def dead_centre(parameters: CrankTrainParameters) -> tuple[float, ...]:
     """Each cylinder's own crank angle at top dead centre, 0 without offset.
 
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Crank train
-
     Returns
     -------
     angles : tuple of float
@@ -166,11 +126,6 @@ def dead_centre(parameters: CrankTrainParameters) -> tuple[float, ...]:
 
 def build(parameters: CrankTrainParameters) -> Mechanism:
     """The crank train on its elastic shaft.
-
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Data
 
     Returns
     -------
@@ -185,11 +140,6 @@ def build(parameters: CrankTrainParameters) -> Mechanism:
 def build_rigid(parameters: CrankTrainParameters) -> Mechanism:
     """The crank train on a rigid shaft.
 
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Data
-
     Returns
     -------
     mechanism : Mechanism
@@ -202,11 +152,6 @@ def build_rigid(parameters: CrankTrainParameters) -> Mechanism:
 
 def build_driven(parameters: CrankTrainParameters) -> Mechanism:
     """The crank train on its elastic shaft, turned by a torque at the free end.
-
-    Parameters
-    ----------
-    parameters : CrankTrainParameters
-        Data
 
     Returns
     -------

@@ -8,50 +8,29 @@ import casadi as ca
 
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, local_shift
 from mechsym.mechanisms.record import Mechanism, bind, generated
+from mechsym.quantities import record
 
 _CRANK = ("I0", "m0", "u0")
 _CYLINDER = ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Part:
-    """One instance of the derived throw: the crank of a throw alone, or a cylinder on it.
+    """One instance of the derived throw: the crank of a throw alone, or a cylinder on it."""
 
-    Parameters
-    ----------
-    cylinder : int
-        Number of the cylinder, 0 for a crank alone
-    throw : int
-        Index of its throw from 0
-    shift : float
-        Its own crank angle at shaft angle 0 [rad]
-    bank, sense : float
-        Angle of its x axis [rad], and its sense of rotation
-    axis : tuple of float
-        Place of the shaft axis [m]
-    z : float
-        Position along the shaft [m]
-    letters : mapping of str to float
-        Parameters of the derived throw
-    """
-
-    cylinder: int
-    throw: int
-    shift: float
+    cylinder: int  #: Number of the cylinder, 0 for a crank alone
+    throw: int  #: Index of its throw from 0
+    shift: float  #: Its own crank angle at shaft angle 0 [rad]
+    #: Angle of its x axis [rad], and its sense of rotation
     bank: float
     sense: float
-    axis: tuple[float, float]
-    z: float
+    axis: tuple[float, float]  #: Place of the shaft axis [m]
+    z: float  #: Position along the shaft [m]
     letters: Mapping[str, float]
 
 
 def parts(p: CrankTrainParameters) -> list[Part]:
     """The instances that a crank train consists of, cranks first.
-
-    Parameters
-    ----------
-    p : CrankTrainParameters
-        Crank train
 
     Returns
     -------
@@ -84,7 +63,7 @@ def _part(p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: fl
     )
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class _Symbols:
     # q, u, a: one symbol a throw and one of the flywheel; in the rigid train all are the same
     names: tuple[str, ...]
@@ -96,18 +75,7 @@ class _Symbols:
 
 
 def elastic(p: CrankTrainParameters) -> Mechanism:
-    """The mechanism with one coordinate a throw and one of the flywheel.
-
-    Parameters
-    ----------
-    p : CrankTrainParameters
-        Crank train
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Named CasADi functions
-    """
+    """The mechanism with one coordinate a throw and one of the flywheel."""
     names = (*(f"phi{k + 1}" for k in range(max(p.throw))), "phi_f")
     s = _symbols(names, names, len(p.throw))
     pieces = _dynamics(p, s)
@@ -129,11 +97,6 @@ def elastic(p: CrankTrainParameters) -> Mechanism:
 def driven(p: CrankTrainParameters) -> Mechanism:
     """The elastic train with a torque on its first throw as a further input.
 
-    Parameters
-    ----------
-    p : CrankTrainParameters
-        Crank train
-
     Returns
     -------
     mechanism : Mechanism
@@ -154,18 +117,7 @@ def driven(p: CrankTrainParameters) -> Mechanism:
 
 
 def rigid(p: CrankTrainParameters) -> Mechanism:
-    """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before.
-
-    Parameters
-    ----------
-    p : CrankTrainParameters
-        Crank train
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Named CasADi functions
-    """
+    """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before."""
     s = _symbols(("phi",), ("phi",) * (max(p.throw) + 1), len(p.throw))
     pieces = _dynamics(p, s)
     torques, sum_before = [], ca.SX(0)

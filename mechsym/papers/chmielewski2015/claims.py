@@ -30,18 +30,7 @@ def steady() -> Turn:
 
 
 def mixed_model_effect(verdict: Verdict) -> str:
-    """Peak torque mismatch against the exact equation at 194 rad/s, and the energy that the start-up gains or loses.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of the mixed model
-
-    Returns
-    -------
-    effect : str
-        One sentence
-    """
+    """Peak torque mismatch against the exact equation at 194 rad/s, and the energy that the start-up gains or loses."""
     energy = studies.mixed_model_energy()
     worst = float(energy[np.argmax(np.abs(energy))])
     return (
@@ -51,18 +40,7 @@ def mixed_model_effect(verdict: Verdict) -> str:
 
 
 def mixed_model_truncated_effect(verdict: Verdict) -> str:
-    """Peak torque mismatch against the Lagrange equation of the truncated travel at 194 rad/s.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of the mixed model
-
-    Returns
-    -------
-    effect : str
-        One sentence
-    """
+    """Peak torque mismatch against the Lagrange equation of the truncated travel at 194 rad/s."""
     return _mismatch("crankshaft_flywheel_truncated")
 
 
@@ -80,13 +58,7 @@ def _mismatch(name: str) -> str:
 
 
 def settles() -> Decided:
-    """The mean speed after 90 s from two integrators, and from a rigid drive.
-
-    Returns
-    -------
-    decided : Decided
-        Against 194 rad/s
-    """
+    """The mean speed after 90 s from two integrators, and from a rigid drive."""
     means = []
     for backend in ("scipy-dop853", "sundials"):
         result = computed.run("crankshaft_flywheel_printed", 1e-10, backend)
@@ -106,13 +78,7 @@ def settles() -> Decided:
 
 
 def constant_speed() -> Decided:
-    """The rate of the mean speed of a rigid drive without losses.
-
-    Returns
-    -------
-    decided : Decided
-        It never vanishes
-    """
+    """The rate of the mean speed of a rigid drive without losses."""
     rate = computed.rigid_speed(2.0)
     return Decided(
         supported=False,
@@ -122,12 +88,6 @@ def constant_speed() -> Decided:
 
 
 def unit_of_stiffness() -> Decided:
-    """The unit that makes k1 (phi0 - phi2) a torque.
-
-    Returns
-    -------
-    decided : Decided
-        By dimensions
-    """
+    """The unit that makes k1 (phi0 - phi2) a torque."""
     fits = dimension("N/m") == dimension("N*m")
     return Decided(supported=fits, note="k1 times an angle is a torque in (1): N m/rad, as table 1 has it")

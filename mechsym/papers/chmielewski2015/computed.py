@@ -27,13 +27,7 @@ _CONSTANT = 0.01  # what the eye takes for constant in a figure [-]
 
 
 def rows() -> list[dict[str, Any]]:
-    """Every number and claim of section 2.2.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `rows.row`
-    """
+    """Every number and claim of section 2.2."""
     found = run(EXACT, FINEST[1], FINEST[0])
     return [_torque(found), *_speed(found), *_shape(found), *_amplitudes(found), *_steps()]
 

@@ -13,6 +13,7 @@ import numpy as np
 from mechsym import cases, mechanisms
 from mechsym.jobs.run import problem_of
 from mechsym.mechanisms.record import acceleration_function
+from mechsym.quantities import record
 from mechsym.simulate import Problem, Result, Settings, simulate
 from mechsym.simulate.fixed_step import fixed_step
 from mechsym.torsion import modes as torsion
@@ -25,37 +26,22 @@ SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
 FINEST = SWEEP[-1]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Speeds:
-    """Crank speed of a run after the time that the paper names.
+    """Crank speed of a run after the time that the paper names."""
 
-    Parameters
-    ----------
-    name : str
-        Model, integrator and tolerance or step
-    mean, lowest, highest : float
-        Over the last two seconds [rad/s]
-    peak_at_claim : float
-        Largest speed in the two seconds from 90 s on [rad/s]
-    energy_residual : float or None
-        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
-    """
-
-    name: str
+    name: str  #: Model, integrator and tolerance or step
+    #: Over the last two seconds [rad/s]
     mean: float
     lowest: float
     highest: float
-    peak_at_claim: float
+    peak_at_claim: float  #: Largest speed in the two seconds from 90 s on [rad/s]
+    #: Share of the drive's work that is not in the energy at the end; None where it is not known [-]
     energy_residual: float | None
 
 
 def problem(model: str) -> Problem:
     """The start-up of the case with one of its two models.
-
-    Parameters
-    ----------
-    model : str
-        `crankshaft_flywheel` or `crankshaft_flywheel_printed`
 
     Returns
     -------
@@ -72,17 +58,8 @@ def run(model: str, tolerance: float = 1e-10, backend: str = "scipy-dop853") -> 
 
     Parameters
     ----------
-    model : str
-        Name of the mechanism
     tolerance : float
         Of a step [-]
-    backend : str
-        Integrator
-
-    Returns
-    -------
-    result : Result
-        Made once
     """
     return simulate(problem(model), Settings(tolerance=tolerance, backend=backend, check="none"))
 
@@ -152,19 +129,12 @@ def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) 
 
     Parameters
     ----------
-    name : str
-        Name of the run
     t : ndarray, shape (n,)
         Times [s]
     speed : ndarray, shape (n,)
         Crank speed [rad/s]
     residual : float or None
         Energy residual [-]
-
-    Returns
-    -------
-    speeds : Speeds
-        Mean and extremes
     """
     end, claim = speed[t >= t[-1] - 2], speed[(t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)]
     return Speeds(
@@ -183,12 +153,8 @@ def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
 
     Parameters
     ----------
-    model : str
-        Name of the mechanism
     step : float
         Step [s]
-    order : int
-        3 or 4
 
     Returns
     -------

@@ -4,13 +4,13 @@ The paper warns that its curves depend on the step. Both models are run to conve
 fixed step are shown because those end where the paper's do; the mixed model is held against the exact energy.
 """
 
-import dataclasses
 from functools import cache
 
 import numpy as np
 
 from mechsym import cases, mechanisms
 from mechsym.papers.chmielewski2015.runs import CASE, CLAIMED_TIME, EXACT, PRINTED, SWEEP, fixed, mean_speed, run
+from mechsym.quantities import record
 from mechsym.simulate.audit import energies
 
 # steps with which classical Runge-Kutta and the third-order formula of Bogacki and Shampine hold the shaft at resonance
@@ -18,25 +18,14 @@ from mechsym.simulate.audit import energies
 TELLING_STEP, TELLING_STEP_3 = 2.57e-3, 0.88e-3
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Reached:
-    """What a run reaches from 90 s on.
+    """What a run reaches from 90 s on."""
 
-    Parameters
-    ----------
-    name : str
-        Integrator with its tolerance or step
-    mean : float
-        Angle over time until the end [rad/s]
-    peak : float
-        Largest momentary speed within two seconds [rad/s]
-    energy_residual : float or None
-        Share of the drive's work that is not in the energy at the end; None where it is not known [-]
-    """
-
-    name: str
-    mean: float
-    peak: float
+    name: str  #: Integrator with its tolerance or step
+    mean: float  #: Angle over time until the end [rad/s]
+    peak: float  #: Largest momentary speed within two seconds [rad/s]
+    #: Share of the drive's work that is not in the energy at the end; None where it is not known [-]
     energy_residual: float | None
 
 
@@ -51,8 +40,6 @@ def energy_gained(model: str, t: np.ndarray, q: np.ndarray, u: np.ndarray) -> np
 
     Parameters
     ----------
-    model : str
-        Mechanism that has energies
     t : ndarray, shape (n,)
         Times [s]
     q, u : ndarray, shape (2, n)
@@ -104,13 +91,7 @@ def _adaptive(model: str, tolerance: float, backend: str) -> Reached:
 
 @cache
 def step_study() -> tuple[Reached, ...]:
-    """The printed model with fixed steps; the energy residual is what the formula loses of the work.
-
-    Returns
-    -------
-    study : tuple of Reached
-        One per order and step
-    """
+    """The printed model with fixed steps; the energy residual is what the formula loses of the work."""
     found = []
     for order, step in ((4, 5e-3), (4, TELLING_STEP), (3, TELLING_STEP_3)):
         t, y = fixed(PRINTED, step, order)

@@ -41,13 +41,7 @@ def curves() -> tuple[Turn, Chain]:
 
 
 def rows() -> list[dict[str, Any]]:
-    """Every figure with curves, and the rule of Terskih.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `rows.row`
-    """
+    """Every figure with curves, and the rule of Terskih."""
     found = curves()[1]
     drawn = [
         _row(f"Fig. {number}: {name} [{unit}]", float(np.abs(getattr(found, field)).max()), _MISSING)

@@ -9,13 +9,7 @@ from mechsym.papers.moroianu2017.computed import FIGURES, curves
 
 
 def figures() -> dict[str, Figure]:
-    """All figures with curves.
-
-    Returns
-    -------
-    figures : dict of str to Figure
-        `figure_1` to `figure_12`
-    """
+    """All figures with curves."""
     one, found = curves()
     drawn = {}
     for number, (field, name, unit) in FIGURES.items():

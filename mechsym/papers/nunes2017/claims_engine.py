@@ -16,13 +16,7 @@ _START = (32, 41, 39, 44, 44, 51, 56)
 
 
 def displacement() -> Decided:
-    """Bore and stroke against the displacement of the text.
-
-    Returns
-    -------
-    decided : Decided
-        The exponent
-    """
+    """Bore and stroke against the displacement of the text."""
     volume = math.pi * 0.060**2 / 4 * 0.104
     return against(2.9405e-5, volume, (
         f"{volume:.4e} m^3, the 294.05 cc beside it; the 2.86e-5 m^3 (286 cc) of section 3.1 have the same slip"
@@ -49,24 +43,12 @@ def combustion_columns() -> Decided:
 
 
 def heat_capacity_ratio() -> Decided:
-    """The unit of a ratio of two heat capacities.
-
-    Returns
-    -------
-    decided : Decided
-        By dimensions
-    """
+    """The unit of a ratio of two heat capacities."""
     return Decided(supported=dimension("-") == dimension("J/kg/K"), note="a ratio has no unit, by (2.2)")
 
 
 def peak_torque() -> Decided:
-    """Both cranks' torque.
-
-    Returns
-    -------
-    decided : Decided
-        Twice the printed peak
-    """
+    """Both cranks' torque."""
     found = errata.engine_torque()
     crank, hypo = found["torque_max slider-crank"], found["torque_max hypocycloid"]
     return against(276.255, crank, (
@@ -76,13 +58,7 @@ def peak_torque() -> Decided:
 
 
 def unburnt() -> Decided:
-    """The remainder of the shares against the fuel that is not released.
-
-    Returns
-    -------
-    decided : Decided
-        By the first law
-    """
+    """The remainder of the shares against the fuel that is not released."""
     found = errata.unburnt_share()
     closes = "closes" if found["first_law_residual"] < 1e-12 else "does not close"
     return against(found["remainder_max"], found["unburnt_max"], (
@@ -94,13 +70,7 @@ def unburnt() -> Decided:
 
 
 def vapour_charge() -> Decided:
-    """The march with vapour that brings its internal energy.
-
-    Returns
-    -------
-    decided : Decided
-        In pressure and torque
-    """
+    """The march with vapour that brings its internal energy."""
     found = errata.vapour_energy()
     crank, hypo = found["p_max_mpa slider-crank"], found["p_max_mpa hypocycloid"]
     return against(9.604, hypo, (
@@ -111,13 +81,7 @@ def vapour_charge() -> Decided:
 
 
 def best_speeds() -> Decided:
-    """Where the burn of the march ends at the published maxima.
-
-    Returns
-    -------
-    decided : Decided
-        Just above a whole degree
-    """
+    """Where the burn of the march ends at the published maxima."""
     found = errata.lost_burn()
     return Decided(
         supported=False,
@@ -129,13 +93,7 @@ def best_speeds() -> Decided:
 
 
 def crossover() -> Decided:
-    """The crossover speed with the rod of table 3.2.
-
-    Returns
-    -------
-    decided : Decided
-        Another rod was used
-    """
+    """The crossover speed with the rod of table 3.2."""
     found = errata.rod_length()
     return against(6436.0, found["crossover_rpm 90 mm"], (
         f"{found['crossover_rpm 90 mm']:.0f} rpm with the 90 mm of table 3.2; 6436 rpm, and all curves of section "

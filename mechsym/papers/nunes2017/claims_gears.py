@@ -16,13 +16,7 @@ _FEET = 60 / 0.3048  # feet per minute of 1 m/s
 
 
 def modules() -> Decided:
-    """The modules of the tooth numbers of table 4.8.
-
-    Returns
-    -------
-    decided : Decided
-        1 and 0.5
-    """
+    """The modules of the tooth numbers of table 4.8."""
     found = [printed.D_PINION * 1e3 / z for z in _TEETH]
     return Decided(
         supported=False,
@@ -33,25 +27,13 @@ def modules() -> Decided:
 
 
 def centre_distance() -> Decided:
-    """Half the difference of the pitch diameters of an internal pair.
-
-    Returns
-    -------
-    decided : Decided
-        The crank throw
-    """
+    """Half the difference of the pitch diameters of an internal pair."""
     correct = (printed.D_RING - printed.D_PINION) / 2 * 1e3
     return against(26.0, correct, f"{correct:.0f} mm, (52 - 26)/2 of an internal pair, the throw of the crank")
 
 
 def dedenda() -> Decided:
-    """Whole depth less addendum.
-
-    Returns
-    -------
-    decided : Decided
-        0.85 and 1.85 mm
-    """
+    """Whole depth less addendum."""
     pinion, ring = (right(f"dedendum of the {name}, table 4.13 [mm]") for name in ("pinion", "gear"))
     return against(0.5, pinion, (
         f"{pinion:.2f} and {ring:.2f} mm: with the addenda of 1.5 and 0.5 mm the printed ones add to the working depth "
@@ -60,13 +42,7 @@ def dedenda() -> Decided:
 
 
 def load_distribution() -> Decided:
-    """K_m of the mesh.
-
-    Returns
-    -------
-    decided : Decided
-        One value for both members
-    """
+    """K_m of the mesh."""
     mesh = printed.load_distribution_printed(1)
     return against(1.1349, mesh, (
         f"both are the AGMA formula, but it belongs to the mesh and has the pinion's diameter: {mesh:.4f} for both; "
@@ -75,13 +51,7 @@ def load_distribution() -> Decided:
 
 
 def dynamic_constant() -> Decided:
-    """K_v with 200 and with 196.85.
-
-    Returns
-    -------
-    decided : Decided
-        Two constants
-    """
+    """K_v with 200 and with 196.85."""
     exact, round_ = (float(printed.dynamic_printed(2, 8000, c)) for c in (_FEET, 200.0))
     return Decided(
         supported=False,
@@ -92,18 +62,7 @@ def dynamic_constant() -> Decided:
 
 
 def mesh_speed_effect(verdict: Verdict) -> str:
-    """What the pinion's half speed costs in K_v and in the width of the pinion.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of (4.26)
-
-    Returns
-    -------
-    effect : str
-        One sentence
-    """
+    """What the pinion's half speed costs in K_v and in the width of the pinion."""
     half, true = (float(printed.dynamic_printed(member, 8000, _FEET)) for member in (1, 2))
     speed = float(agma.mesh_speed(printed.D_PINION, 8000 * np.pi / 30))
     return (
@@ -113,13 +72,7 @@ def mesh_speed_effect(verdict: Verdict) -> str:
 
 
 def dynamic_members() -> Decided:
-    """K_v of the mesh.
-
-    Returns
-    -------
-    decided : Decided
-        One value for both members
-    """
+    """K_v of the mesh."""
     mesh = right("K_v, pinion, 8000 rpm")
     return against(1.1073, mesh, (
         f"both mesh with the same speed, that of the planet against its carrier: {mesh:.4f} for both"
@@ -127,13 +80,7 @@ def dynamic_members() -> Decided:
 
 
 def elastic_coefficient() -> Decided:
-    """Z_E of steel on steel.
-
-    Returns
-    -------
-    decided : Decided
-        In the unit Pa^0.5
-    """
+    """Z_E of steel on steel."""
     pascal = float(gear_factors.elastic_coefficient(200e9, 0.3, 200e9, 0.3))
     return against(1.8703e5, pascal / 1e3, (
         f"{pascal:.5g} Pa^0.5, {pascal / 1e3:.2f} (N/mm^2)^0.5: the unit is wrong; the face widths use the right one"
@@ -141,13 +88,7 @@ def elastic_coefficient() -> Decided:
 
 
 def ring_contact() -> Decided:
-    """The ring's face width with the pinion's diameter in (2.78), all else as printed.
-
-    Returns
-    -------
-    decided : Decided
-        Half of what both share
-    """
+    """The ring's face width with the pinion's diameter in (2.78), all else as printed."""
     item = f"table 4.11: face width, contact, gear, x = {_SHIFT:g}, 26/52 teeth [mm]"
     width = float(items()[item]["computed"])
     shared = width * printed.D_RING / printed.D_PINION
@@ -158,13 +99,7 @@ def ring_contact() -> Decided:
 
 
 def face_width() -> Decided:
-    """The widths of the chosen pair with one mesh, and with the geometry of the internal pair.
-
-    Returns
-    -------
-    decided : Decided
-        Bending of the ring governs
-    """
+    """The widths of the chosen pair with one mesh, and with the geometry of the internal pair."""
     own = peaks()
     pinion, ring, contact = (1e3 * b for b in printed.widths_corrected(_SHIFT, 26, own["rpm"], own["tooth"]))
     fits = max(pinion, ring, contact) <= _CHOSEN

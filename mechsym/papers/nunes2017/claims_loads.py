@@ -18,13 +18,7 @@ _PRESSURE_ANGLE = np.radians(25)
 
 
 def moving_mass() -> Decided:
-    """The mass of the thesis's own parts on the cylinder axis, and what it changes at 8000 rpm.
-
-    Returns
-    -------
-    decided : Decided
-        More than twice the model's
-    """
+    """The mass of the thesis's own parts on the cylinder axis, and what it changes at 8000 rpm."""
     found = nunes2017_errata.reciprocating_mass()
     mass = found["mass_kg"]
 
@@ -40,13 +34,7 @@ def moving_mass() -> Decided:
 
 
 def unbalance_unit() -> Decided:
-    """The unit of mass times distance.
-
-    Returns
-    -------
-    decided : Decided
-        By dimensions
-    """
+    """The unit of mass times distance."""
     fits = dimension("g*mm") == dimension("g*mm/s^2")
     return Decided(
         supported=fits,
@@ -114,13 +102,7 @@ def journal_load() -> Decided:
 
 
 def journal_speed() -> Decided:
-    """Speed of the planet against its carrier, with the limit of table 4.16.
-
-    Returns
-    -------
-    decided : Decided
-        Twice the crank's
-    """
+    """Speed of the planet against its carrier, with the limit of table 4.16."""
     speed, limit = 2 * 8000, bearing_data.catalogue()["HN 1516"].limiting * 30 / np.pi
     return Decided(
         supported=speed <= limit,

@@ -36,13 +36,7 @@ def piston_area() -> Decided:
 
 
 def disc_constant() -> Decided:
-    """The constant of (4.3) from the conduction in a disc.
-
-    Returns
-    -------
-    decided : Decided
-        4 pi, cut
-    """
+    """The constant of (4.3) from the conduction in a disc."""
     found = theory("engine_parts")
     names = {k: letter.value for k, letter in found.letters.items()} | {"pi": math.pi}
     complete(found, names, ["head_heat"], FLOATS)
@@ -51,13 +45,7 @@ def disc_constant() -> Decided:
 
 
 def head_for_heat() -> Decided:
-    """The thickness by (4.3) and (4.4) with all the fuel.
-
-    Returns
-    -------
-    decided : Decided
-        Half the flow was taken
-    """
+    """The thickness by (4.3) and (4.4) with all the fuel."""
     half = items()["thickness of the head, heat [mm]"]["computed"]
     return Decided(
         supported=False,
@@ -68,13 +56,7 @@ def head_for_heat() -> Decided:
 
 
 def rod_diameter() -> Decided:
-    """The diameter by (4.5) with the stress of the text.
-
-    Returns
-    -------
-    decided : Decided
-        50 MPa was taken
-    """
+    """The diameter by (4.5) with the stress of the text."""
     force = float(peaks()["F"])
     text, used = (rod.rod_diameter(force, stress) * 1e3 for stress in (60e6, 75e6 / 1.5))
     return against(26.29, text, (
@@ -84,13 +66,7 @@ def rod_diameter() -> Decided:
 
 
 def rod_length() -> Decided:
-    """The length by (4.12) with the right gap.
-
-    Returns
-    -------
-    decided : Decided
-        5 mm too long
-    """
+    """The length by (4.12) with the right gap."""
     length = right("length of the rod [mm]")
     gap = right("distance of the heads at TDC [mm]")
     return against(88.6, length, (
@@ -100,25 +76,13 @@ def rod_length() -> Decided:
 
 
 def gap() -> Decided:
-    """The gap by (4.15) with the right area.
-
-    Returns
-    -------
-    decided : Decided
-        A tenth was printed
-    """
+    """The gap by (4.15) with the right area."""
     correct = right("distance of the heads at TDC [mm]")
     return against(1.2, correct, f"{correct:.2f} mm: the area of table 3.2 is ten times too large")
 
 
 def cylinder_length() -> Decided:
-    """The length by (4.17) with the right gap.
-
-    Returns
-    -------
-    decided : Decided
-        10 mm too short
-    """
+    """The length by (4.17) with the right gap."""
     correct = right("length of the cylinder [mm]")
     return against(169.4, correct, (
         f"{correct:.1f} mm: 169.4 mm follow from the area of table 3.2; the cylinder is {correct - 169.4:.1f} mm too "
@@ -149,13 +113,7 @@ def bolts() -> Decided:
 
 
 def crankpin_force() -> Decided:
-    """The force of section 4.5 against the largest of chapter 3.
-
-    Returns
-    -------
-    decided : Decided
-        Two digits exchanged
-    """
+    """The force of section 4.5 against the largest of chapter 3."""
     force = float(peaks()["F"])
     bearing, pin = right("load of a main bearing [N]"), right("diameter of the crankpin [mm]")
     return against(_F_PRINTED, force, (
@@ -182,13 +140,7 @@ def web_stress() -> Decided:
 
 
 def output_shaft() -> Decided:
-    """The diameter by (4.35), and the stress of the shaft as chosen.
-
-    Returns
-    -------
-    decided : Decided
-        Above the ultimate strength
-    """
+    """The diameter by (4.35), and the stress of the shaft as chosen."""
     torque = float(peaks()["T"])
     one, both = (crankshaft.shaft_diameter(t, _ULTIMATE / 1.5) * 1e3 for t in (torque, 2 * torque))
     stress = crankshaft.torsion_stress(torque, 0.008) / 1e6

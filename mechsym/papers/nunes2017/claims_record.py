@@ -35,11 +35,6 @@ def items() -> dict[str, dict[str, Any]]:
 def right(item: str) -> float:
     """A corrected value.
 
-    Parameters
-    ----------
-    item : str
-        Item of the reproduction
-
     Returns
     -------
     value : float
@@ -56,15 +51,8 @@ def against(claimed: float, correct: float, note: str, within: float = 5e-3) -> 
     ----------
     claimed, correct : float
         Both values, in the same unit [unit of the claim]
-    note : str
-        The numbers and their consequence
     within : float
         Relative difference up to which the claim stands [-]
-
-    Returns
-    -------
-    decided : Decided
-        With the relative difference
     """
     error = claimed / correct - 1
     return Decided(supported=abs(error) <= within, note=note, rel_error=error)

@@ -50,13 +50,7 @@ def rows() -> list[dict[str, Any]]:
 
 
 def engine_rows() -> list[dict[str, Any]]:
-    """The published numbers of chapters 2, 3 and 5.
-
-    Returns
-    -------
-    rows : list of dict
-        As `rows`
-    """
+    """The published numbers of chapters 2, 3 and 5."""
     models = {name: _curves(changes) for name, changes in _MODELS.items()}
     found = [_row(item, {name: value(item, curves) for name, curves in models.items()}) for item in OVER_SPEEDS]
     for items, evaluate in ((CROSSOVER, _at_crossover), (DIFFERENCES, _difference)):
@@ -128,13 +122,7 @@ def verdict(item: Item, computed: float) -> tuple[str, str]:
 
 
 def facts() -> list[dict[str, Any]]:
-    """Published numbers that no cycle is needed for.
-
-    Returns
-    -------
-    rows : list of dict
-        Same keys as `rows`
-    """
+    """Published numbers that no cycle is needed for."""
     cases = {name: load(case, changes) for name, (case, changes) in _ENGINES.items()}
     return [_row(item, {"printed": fact(cases)}) for item, fact in FACTS]
 

@@ -31,13 +31,7 @@ _SHARES = ("heat", "work", "exhaust", "unburnt")
 
 
 def figures() -> dict[str, Figure]:
-    """All figures of chapter 3 from 3.1 on, and of chapter 5.
-
-    Returns
-    -------
-    figures : dict of str to Figure
-        `figure_3_1` to `figure_5_19`
-    """
+    """All figures of chapter 3 from 3.1 on, and of chapter 5."""
     machines = {name: engine(load(case, {"cycle.method": "nunes2017_printed"})) for name, case in _ENGINES.items()}
     return {
         f"figure_{n.replace('.', '_')}": f for n, f in (_kinematics(machines) | _cycles(machines) | _maps()).items()

@@ -24,11 +24,6 @@ _ANGLE = np.radians(25)
 def load_distribution_printed(member: int) -> float:
     """K_m of table 4.10.
 
-    Parameters
-    ----------
-    member : int
-        1 pinion, 2 ring
-
     Returns
     -------
     K_m : float
@@ -78,8 +73,6 @@ def widths_printed(shift: float, teeth: int, rpm: np.ndarray, tooth: np.ndarray,
     ----------
     shift : float
         Addendum modification [-]
-    teeth : int
-        Teeth of the pinion
     rpm, tooth : ndarray, shape (k,)
         Speeds [rpm] and largest tooth load at each [N]
     twin : bool
@@ -114,8 +107,6 @@ def widths_corrected(
     ----------
     shift : float
         Addendum modification [-]
-    teeth : int
-        Teeth of the pinion
     rpm, tooth : ndarray, shape (k,)
         Speeds [rpm] and largest tooth load at each [N]
     limits : mapping, optional

@@ -30,13 +30,7 @@ _BEGINNINGS = [
 
 
 def rows() -> list[dict[str, Any]]:
-    """Statements about the curves.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `rows.row`
-    """
+    """Statements about the curves."""
     curves = over_printed_speeds()
     found = []
     for item in _BEGINNINGS:

@@ -10,18 +10,7 @@ _TURN = np.linspace(0, 2 * np.pi, 361)
 
 
 def root_effect(verdict: Verdict) -> str:
-    """What the printed root gives for equal masses.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of (4)
-
-    Returns
-    -------
-    effect : str
-        One sentence
-    """
+    """What the printed root gives for equal masses."""
     # two journals on each axis carry half the sum each
     along, across = computed.inertia_resultant(_TURN)
     printed, right = np.sqrt(2 * ((along / 2) ** 2 + (across / 2) ** 2)), np.hypot(along, across)
@@ -29,13 +18,7 @@ def root_effect(verdict: Verdict) -> str:
 
 
 def constant_size() -> Decided:
-    """The size of the resultant over a turn.
-
-    Returns
-    -------
-    decided : Decided
-        Constant to rounding
-    """
+    """The size of the resultant over a turn."""
     size = np.hypot(*computed.inertia_resultant(_TURN))
     change = float(np.ptp(size) / np.mean(size))
     supported = change < 1e-12

@@ -37,13 +37,7 @@ def inertia_resultant(alpha: np.ndarray) -> np.ndarray:
 
 
 def rows() -> list[dict[str, Any]]:
-    """Every number and claim of the source.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `rows.row`
-    """
+    """Every number and claim of the source."""
     alpha = np.linspace(0, 2 * np.pi, 721)
     return [*_resultant_rows(alpha), *_reaction_rows(), *_claims_without_data()]
 

@@ -9,13 +9,7 @@ from mechsym.papers.prymak.computed import MASS, RADIUS, SPEED, inertia_resultan
 
 
 def figures() -> dict[str, Figure]:
-    """The only figure with forces that no data are needed for.
-
-    Returns
-    -------
-    figures : dict of str to Figure
-        `figure_3`
-    """
+    """The only figure with forces that no data are needed for."""
     alpha = np.linspace(0, 2 * np.pi, 721)
     x, y = inertia_resultant(alpha) / (MASS * RADIUS * SPEED**2)
     figure, (left, right) = panels(1, 2, (9.5, 4.2))

@@ -16,13 +16,7 @@ _CYCLE = "with the cycle of the built-in cases"
 
 
 def gas_force() -> Turn:
-    """The piston force over a turn, at 89 rpm.
-
-    Returns
-    -------
-    turn : mapping of str to callable
-        F of the crank angle
-    """
+    """The piston force over a turn, at 89 rpm."""
     return {"F": computed.engines().assemblies[0].force}
 
 
@@ -40,18 +34,7 @@ def loads() -> Turn:
 
 
 def hinge_torque_effect(verdict: Verdict) -> str:
-    """What the sign in (2) costs in the peak of the hinge torque at 89 and at 142 rpm.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of (2)
-
-    Returns
-    -------
-    effect : str
-        One sentence
-    """
+    """What the sign in (2) costs in the peak of the hinge torque at 89 and at 142 rpm."""
     statement = (
         "phid**2*r**2*m2*(2*(cos(phi) - lam*l1/l*cos(2*phi))*(sin(phi) - lam*l1/(2*l)*sin(2*phi))"
         " - 2*(cos(phi) + lam*l1/l*cos(2*phi))*(sin(phi) + lam*l1/(2*l)*sin(2*phi)))/2"
@@ -75,13 +58,7 @@ def _inertia_peak(omega: float) -> float:
 
 
 def integral_vanishes() -> Decided:
-    """The mean of M_h over a turn.
-
-    Returns
-    -------
-    decided : Decided
-        For both speeds
-    """
+    """The mean of M_h over a turn."""
     shares = [abs(h.mean_torque) / computed.peak(h) for h in computed.engines().hinges]
     return Decided(
         supported=max(shares) < 1e-9,
@@ -113,13 +90,7 @@ def about_twice() -> Decided:
 
 
 def proportional_to_square() -> Decided:
-    """The share of the torque that grows with the square of the speed.
-
-    Returns
-    -------
-    decided : Decided
-        Only the inertia part does
-    """
+    """The share of the torque that grows with the square of the speed."""
     slow = computed.engines().hinges[0]
     share = _inertia_peak(slow.omega) / computed.peak(slow)
     return Decided(
@@ -198,13 +169,7 @@ def almost_constant() -> Decided:
 
 
 def spring_compressed() -> Decided:
-    """Whether the springs of Fig. 5 are ever longer than their free height.
-
-    Returns
-    -------
-    decided : Decided
-        Over all twelve guides
-    """
+    """Whether the springs of Fig. 5 are ever longer than their free height."""
     stretches = [computed.longest_stretch(m.guide) for m in computed.guides() if m.start == "as_printed"]
     return Decided(
         supported=max(stretches) <= 0,

@@ -21,6 +21,7 @@ from mechsym.jobs.machine import Assembly, assemble
 from mechsym.papers.zotov2024.family import Member, family
 from mechsym.papers.zotov2024.hinge_printed import hinge_torque_printed, load_torque_printed
 from mechsym.periodic import even_angles
+from mechsym.quantities import record
 
 CASES = ("zotov-89", "zotov-142")
 PRESSURES = (5e6, 9.5e6)  # Fig. 6 [Pa]
@@ -32,42 +33,20 @@ VARIANTS: dict[str, dict[str, str]] = {
 }
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Engines:
-    """Both speeds of the paper.
+    """Both speeds of the paper."""
 
-    Parameters
-    ----------
-    assemblies : tuple of two Assembly
-        Engine at 89 and at 142 rpm
-    hinges : tuple of two Hinge
-        Torque that keeps each speed constant
-    cut : Guide
-        Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
-    placed : Guide
-        The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
-    """
-
-    assemblies: tuple[Assembly, Assembly]
-    hinges: tuple[Hinge, Hinge]
-    cut: Guide
+    assemblies: tuple[Assembly, Assembly]  #: Engine at 89 and at 142 rpm
+    hinges: tuple[Hinge, Hinge]  #: Torque that keeps each speed constant
+    cut: Guide  #: Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
+    #: The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
     placed: Guide
 
 
 @cache
 def engines(variant: str = "atmosphere under the piston") -> Engines:
-    """Both engines with their hinges and the paper's guide.
-
-    Parameters
-    ----------
-    variant : str
-        One of `VARIANTS`
-
-    Returns
-    -------
-    engines : Engines
-        Made once
-    """
+    """Both engines with their hinges and the paper's guide."""
     slow, fast = (assemble(cases.load(name, VARIANTS[variant])) for name in CASES)
     hinges = (hinge.build(slow.torques, slow.omega), hinge.build(fast.torques, fast.omega))
     part = balance.build(hinges[0], "whole_cycle")
@@ -90,11 +69,6 @@ def _choices(engine: Assembly) -> GuideParameters:
 def peak(wanted: Hinge) -> float:
     """Largest size of a hinge torque.
 
-    Parameters
-    ----------
-    wanted : Hinge
-        Hinge
-
     Returns
     -------
     peak : float
@@ -110,11 +84,6 @@ def retuned(pressure: float) -> Retuning:
     ----------
     pressure : float
         Excess pressure p0 [Pa]
-
-    Returns
-    -------
-    retuned : Retuning
-        What remains
     """
     found = engines()
     return at_setting(found.cut, found.hinges[1], pressure)
@@ -155,13 +124,7 @@ def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
 
 @cache
 def guides() -> tuple[Member, ...]:
-    """The twelve guides of Fig. 5, as printed and placed.
-
-    Returns
-    -------
-    guides : tuple of Member
-        24 members
-    """
+    """The twelve guides of Fig. 5, as printed and placed."""
     found = engines()
     case = found.assemblies[0].case
     slow, fast = (balance.build(h, "whole_cycle") for h in found.hinges)
@@ -171,11 +134,6 @@ def guides() -> tuple[Member, ...]:
 
 def longest_stretch(cut: Guide) -> float:
     """By how much the spring in a guide is longer than its free height.
-
-    Parameters
-    ----------
-    cut : Guide
-        Guide
 
     Returns
     -------

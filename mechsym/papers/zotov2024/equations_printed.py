@@ -24,8 +24,6 @@ def inertia_printed(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -46,8 +44,6 @@ def inertia_sign_turned(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -76,8 +72,6 @@ def dinertia_dphi_printed(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -107,8 +101,6 @@ def dx_dphi_printed(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -132,8 +124,6 @@ def cos_psi_printed(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 
@@ -157,8 +147,6 @@ def gravity_torque_printed(p: CrossheadParameters, phi: Array) -> Array:
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     phi : ndarray, shape (n,)
         Crank angle [rad]
 

@@ -17,32 +17,21 @@ from mechsym.hinge.guide import Guide, Spring
 from mechsym.hinge.limits import Limits, Verdict
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
+from mechsym.quantities import record
 
 # letter: (speed index, H [m], rho0 [m])
 _CURVES = {"a": (0, 1.0, 0.8), "b": (1, 1.0, 0.8), "c": (0, 0.4, 0.3), "d": (1, 0.4, 0.3)}
 _PRESSURES = {"1": 3e6, "2": 5e6, "3": 8e6}  # [Pa]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Member:
-    """One guide of the family.
+    """One guide of the family."""
 
-    Parameters
-    ----------
-    label : str
-        Letter and number in Fig. 5, `a1` to `d3`
-    start : str
-        `as_printed` with the paper's law, or `placed` with the case's law
-    guide : Guide
-        The guide
-    verdict : Verdict
-        Spring pressure, pressure angle, roller reaction, and whether it can be built
-    """
-
-    label: str
-    start: str
+    label: str  #: Letter and number in Fig. 5, `a1` to `d3`
+    start: str  #: `as_printed` with the paper's law, or `placed` with the case's law
     guide: Guide
-    verdict: Verdict
+    verdict: Verdict  #: Spring pressure, pressure angle, roller reaction, and whether it can be built
 
 
 def family(
@@ -62,20 +51,11 @@ def family(
         Area, polytropic index and law of the placed guides
     parameters : GuideParameters
         Arrangement and z_margin of the placed guides
-    rollers : RollerParameters
-        Rollers and tracks
-    limits : Limits
-        What is allowed
 
     Returns
     -------
     members : tuple of Member
         24 members, by label, as printed before placed
-
-    Raises
-    ------
-    BadInput
-        The spring holds no gas
     """
     if not isinstance(spring, (AirGauge, AirAbsolute)):
         raise BadInput("spring.law = coil has no p0; the guides of Fig. 5 need air_absolute or air_gauge")

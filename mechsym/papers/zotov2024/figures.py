@@ -23,13 +23,7 @@ _LINES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))
 
 
 def figures() -> dict[str, Figure]:
-    """All figures with curves.
-
-    Returns
-    -------
-    figures : dict of str to Figure
-        `figure_3`, `figure_4`, `figure_5`, `figure_6`
-    """
+    """All figures with curves."""
     found = engines()
     return {
         "figure_3": _forces(found),

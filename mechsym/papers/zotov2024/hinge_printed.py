@@ -13,8 +13,6 @@ def load_torque_printed(p: CrossheadParameters, force: np.ndarray, phi: np.ndarr
 
     Parameters
     ----------
-    p : CrossheadParameters
-        Engine
     force : ndarray, shape (n,)
         Net force on the piston at even crank angles over a turn, without its end [N]
     phi : ndarray, shape (n,)

@@ -39,13 +39,7 @@ _STEADY = 1e-6  # a ripple below this is what the simulation's tolerance leaves
 
 
 def rows() -> list[dict[str, Any]]:
-    """Every number, claim and figure of the source.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys as in `rows.row`
-    """
+    """Every number, claim and figure of the source."""
     found = engines()
     return [*_torque_rows(found), *_guide_rows(found), *_retuning_rows(found), _flywheel_row()]
 

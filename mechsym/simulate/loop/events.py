@@ -10,61 +10,37 @@ from mechsym.cycle.closed.equations import SCALARS, scalars
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.kinds.spark_ignition import timing
+from mechsym.quantities import record
 from mechsym.simulate.loop.system import OPEN, PER_CYLINDER, Loop
 
 CYCLE = 4 * np.pi
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CylinderCycle:
-    """One closed period of one cylinder.
-
-    Parameters
-    ----------
-    cylinder : int
-        From 0
-    time : float
-        When the exhaust opened [s]
-    speed : float
-        Crank speed when the inlet closed [rad/s]
-    work, wall_heat : float
-        Of the gas over the closed period, and lost to the walls [J]
-    residual : float
-        First law over the closed period, by the heat released [-]
-    """
+    """One closed period of one cylinder."""
 
     cylinder: int
-    time: float
-    speed: float
+    time: float  #: When the exhaust opened [s]
+    speed: float  #: Crank speed when the inlet closed [rad/s]
+    #: Of the gas over the closed period, and lost to the walls [J]
     work: float
     wall_heat: float
-    residual: float
+    residual: float  #: First law over the closed period, by the heat released [-]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Gas:
-    """Where one cylinder is in its cycle.
+    """Where one cylinder is in its cycle."""
 
-    Parameters
-    ----------
-    phase : int
-        0 before, 1 during, 2 after combustion, 3 open
-    start, duration : float
-        Of combustion, decided when the inlet closed [rad]
-    dead_centre : float
-        Angle of its crank at the firing dead centre that its angles count from; of an open cylinder the next one [rad]
-    speed : float
-        Of its crank when the inlet closed [rad/s]
-    whole : bool
-        Whether the run has seen the inlet close
-    """
-
-    phase: int
+    phase: int  #: 0 before, 1 during, 2 after combustion, 3 open
+    #: Of combustion, decided when the inlet closed [rad]
     start: float
     duration: float
+    #: Angle of its crank at the firing dead centre that its angles count from; of an open cylinder the next one [rad]
     dead_centre: float
-    speed: float
-    whole: bool
+    speed: float  #: Of its crank when the inlet closed [rad/s]
+    whole: bool  #: Whether the run has seen the inlet close
 
 
 def first_state(loop: Loop, omega: float) -> tuple[list[Gas], np.ndarray]:
@@ -72,15 +48,11 @@ def first_state(loop: Loop, omega: float) -> tuple[list[Gas], np.ndarray]:
 
     Parameters
     ----------
-    loop : Loop
-        Engine, mechanism, cylinders
     omega : float
         Speed of every coordinate [rad/s]
 
     Returns
     -------
-    gases : list of Gas
-        One a cylinder
     y : ndarray, shape (n,)
         State, see `right_side`, in its mixed units [-]
     """
@@ -112,10 +84,6 @@ def gap(loop: Loop, gas: Gas, k: int, y: np.ndarray) -> float:
 
     Parameters
     ----------
-    loop : Loop
-        Engine, mechanism, cylinders
-    gas : Gas
-        Where the cylinder is
     k : int
         Number of the cylinder, from 0
     y : ndarray, shape (n,)
@@ -133,11 +101,6 @@ def gap(loop: Loop, gas: Gas, k: int, y: np.ndarray) -> float:
 
 def ledger(loop: Loop) -> ca.Function:
     """Energies of a closed period, for its audit.
-
-    Parameters
-    ----------
-    loop : Loop
-        Engine
 
     Returns
     -------
@@ -157,12 +120,6 @@ def pass_event(
 
     Parameters
     ----------
-    loop : Loop
-        Engine, mechanism, cylinders
-    books : casadi.Function
-        Of `ledger`
-    gas : Gas
-        Where the cylinder is
     k : int
         Number of the cylinder, from 0
     now : tuple
@@ -170,8 +127,6 @@ def pass_event(
 
     Returns
     -------
-    gas : Gas
-        Where it is then
     y : ndarray, shape (n,)
         State; a cylinder whose inlet closes starts afresh, in its mixed units [-]
     cycle : CylinderCycle or None

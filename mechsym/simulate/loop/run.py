@@ -1,12 +1,12 @@
 """Running a loop: one smooth piece after another, from valve or combustion event to event, with its audits."""
 
-import dataclasses
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from mechsym.quantities import record
 from mechsym.simulate.loop.events import CYCLE, CylinderCycle, first_state, gap, ledger, pass_event
 from mechsym.simulate.loop.system import Loop, right_side
 
@@ -14,34 +14,20 @@ _PASSED = 1e-9  # events closer than this are one [rad]
 _STALL = 0.05  # of the first speed: a shaft as slow as that has stopped
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class LoopResult:
-    """What the loop did.
+    """What the loop did."""
 
-    Parameters
-    ----------
-    status, reason : str
-        `done`, `stalled` or `failed`, and why
-    t : ndarray, shape (n,)
-        Time [s]
-    q, u : ndarray, shape (n, coordinates)
-        Coordinates [rad] and velocities [rad/s]
-    p : ndarray, shape (n, cylinders)
-        Pressures [Pa]
-    cycles : tuple of CylinderCycle
-        Every whole closed period
-    energy_residual : float
-        (work of all forces - change of kinetic energy)/work of the pistons [-]
-    """
-
+    #: `done`, `stalled` or `failed`, and why
     status: str
     reason: str
-    t: np.ndarray
+    t: np.ndarray  #: shape (n,): Time [s]
+    #: shape (n, coordinates): Coordinates [rad] and velocities [rad/s]
     q: np.ndarray
     u: np.ndarray
-    p: np.ndarray
+    p: np.ndarray  #: shape (n, cylinders): Pressures [Pa]
     cycles: tuple[CylinderCycle, ...]
-    energy_residual: float
+    energy_residual: float  #: (work of all forces - change of kinetic energy)/work of the pistons [-]
 
 
 def run_loop(loop: Loop, omega: float, cycles: float, points: int = 360, tolerance: float = 1e-9) -> LoopResult:
@@ -49,14 +35,10 @@ def run_loop(loop: Loop, omega: float, cycles: float, points: int = 360, toleran
 
     Parameters
     ----------
-    loop : Loop
-        Engine, mechanism, cylinders, load
     omega : float
         Speed of every coordinate at the start, all angles 0 [rad/s]
     cycles : float
         Engine cycles of two turns to run [-]
-    points : int
-        Results in a turn
     tolerance : float
         Relative tolerance of the integration [-]
 

@@ -13,13 +13,6 @@ _RPM = np.pi / 30
 def summary(loop: Loop, result: LoopResult) -> dict[str, Any]:
     """What a loop did, in numbers.
 
-    Parameters
-    ----------
-    loop : Loop
-        What ran
-    result : LoopResult
-        How it ran
-
     Returns
     -------
     summary : dict
@@ -46,13 +39,6 @@ def summary(loop: Loop, result: LoopResult) -> dict[str, Any]:
 
 def series(loop: Loop, result: LoopResult) -> dict[str, np.ndarray]:
     """Time series of a loop.
-
-    Parameters
-    ----------
-    loop : Loop
-        What ran
-    result : LoopResult
-        How it ran
 
     Returns
     -------

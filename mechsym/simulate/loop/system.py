@@ -19,63 +19,36 @@ from mechsym.cycle.closed.equations import PHASES, pressure, rates
 from mechsym.cycle.closed.model import Engine, closed_period
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.mechanisms.record import Mechanism, acceleration_function
+from mechsym.quantities import record
 
 OPEN = len(PHASES)  # number of the fourth phase
 PER_CYLINDER = ("t", "work", "wall_heat")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Cylinder:
-    """Where a cylinder sits on the mechanism.
+    """Where a cylinder sits on the mechanism."""
 
-    Parameters
-    ----------
-    input : str
-        The mechanism's input that its piston force acts on
-    coordinate : str
-        Coordinate that is the angle of its crank
-    firing : float
-        Value of that coordinate at the cylinder's firing top dead centre, within 4 pi [rad]
-    """
-
-    input: str
-    coordinate: str
-    firing: float
+    input: str  #: The mechanism's input that its piston force acts on
+    coordinate: str  #: Coordinate that is the angle of its crank
+    firing: float  #: Value of that coordinate at the cylinder's firing top dead centre, within 4 pi [rad]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Loop:
-    """An engine whose cylinders act on a mechanism against a load.
-
-    Parameters
-    ----------
-    engine : Engine
-        What every cylinder is
-    mechanism : Mechanism
-        With its parameters bound
-    cylinders : tuple of Cylinder
-        In any order
-    load : ConstantLoad or PropellerLoad
-        Settled law
-    load_input, load_coordinate : str
-        Input that takes the load torque, and the coordinate whose speed decides it
-    """
+    """An engine whose cylinders act on a mechanism against a load."""
 
     engine: Engine
     mechanism: Mechanism
     cylinders: tuple[Cylinder, ...]
     load: ConstantLoad | PropellerLoad
+    #: Input that takes the load torque, and the coordinate whose speed decides it
     load_input: str
     load_coordinate: str
 
 
 def right_side(loop: Loop) -> ca.Function:
     """The differential equation of a loop.
-
-    Parameters
-    ----------
-    loop : Loop
-        Engine, mechanism, cylinders, load
 
     Returns
     -------

@@ -22,17 +22,6 @@ from mechsym.sizing.wants import Wants
 def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of the engine.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     checks : list of Check
@@ -66,17 +55,6 @@ def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choic
 def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
     """Shaft under the pinion: bending between two journals, and the tooth's torque.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     checks : list of Check
@@ -100,17 +78,6 @@ def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock)
 def holding(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> np.ndarray:
     """Speeds at which every check holds by itself.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     held : ndarray, shape (k,)
@@ -131,11 +98,6 @@ def fastest_run(held: np.ndarray) -> tuple[int, int]:
     ----------
     held : ndarray, shape (k,)
         True at least once [-]
-
-    Returns
-    -------
-    first, last : int
-        Indices, both included
 
     Examples
     --------

@@ -1,11 +1,12 @@
 """Sizing of the hypocycloid engine: loads size the parts, the parts' masses change the loads, until nothing changes."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.hypocycloid.checks import check_all, check_pinion_shaft
 from mechsym.sizing.hypocycloid.engine import crank_loads, cylinder_loads, seats, shaft_length, tooth_loads
@@ -24,28 +25,12 @@ _ROUNDS = 40
 _BOSS = 2e-3  # material of a web around pin and shaft, assumed [m]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Design:
-    """A sized engine.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    moving : Moving
-        Masses that the loads were computed with: those of the parts when `converged`
-    forces : Forces
-        Forces over the speeds
-    checks : list of Check
-        All checks
-    rounds : int
-        Rounds of loads and sizes
-    converged : bool
-        Whether the sizes repeat themselves
-    """
+    """A sized engine."""
 
     parts: Parts
-    moving: Moving
+    moving: Moving  #: Masses that the loads were computed with: those of the parts when `converged`
     forces: Forces
     checks: list[Check]
     rounds: int
@@ -63,10 +48,6 @@ def design(
         Moving masses -> forces over the speeds
     printed : Printed
         The source's parts: start and reference of the masses
-    start : Moving
-        Masses to begin with
-    wants : Wants
-        Wanted factors, materials
     stock : Stock
         Materials and bearings to choose from
 
@@ -92,26 +73,7 @@ def design(
 
 
 def size(parts: Parts, forces: Forces, printed: Printed, wants: Wants, stock: Stock) -> Parts:
-    """One round: every part sized for the forces, in the order in which they lean on each other.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes of the round before
-    forces : Forces
-        Forces over the speeds
-    printed : Printed
-        Reference
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
-    Returns
-    -------
-    parts : Parts
-        New sizes
-    """
+    """One round: every part sized for the forces, in the order in which they lean on each other."""
     material = {
         key: get(dict(stock.materials), getattr(wants, key)) for key in ("piston", "cylinder", "gears", "shaft")
     }
@@ -217,16 +179,5 @@ def _longest(options: list[Choice], seat: Seat, wants: Wants) -> Choice | None:
 
 
 def failing(found: Design) -> list[Check]:
-    """The checks that a design does not pass.
-
-    Parameters
-    ----------
-    found : Design
-        A design
-
-    Returns
-    -------
-    failing : list of Check
-        Empty when it holds
-    """
+    """The checks that a design does not pass."""
     return unsafe(found.checks)

@@ -23,13 +23,6 @@ _END_WALL = 5e-3  # carrier between shaft end and outboard bearing, assumed [m]
 def spans(parts: Parts, stock: Stock) -> Spans:
     """Axial places of one side; with the source's sizes they give its 43 mm and its 77 mm of shaft.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    stock : Stock
-        Bearing data
-
     Returns
     -------
     spans : Spans
@@ -48,13 +41,6 @@ def spans(parts: Parts, stock: Stock) -> Spans:
 def shaft_length(parts: Parts, stock: Stock) -> float:
     """Length of the shaft from web to end.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    stock : Stock
-        Bearing data
-
     Returns
     -------
     length : float
@@ -67,13 +53,6 @@ def shaft_length(parts: Parts, stock: Stock) -> float:
 
 def shaft(parts: Parts, stock: Stock) -> Shaft:
     """Half the crankshaft as a beam.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    stock : Stock
-        Bearing data
 
     Returns
     -------
@@ -90,11 +69,6 @@ def shaft(parts: Parts, stock: Stock) -> Shaft:
 def vectors(forces: Forces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Forces on one side of the planet.
 
-    Parameters
-    ----------
-    forces : Forces
-        Forces over the speeds
-
     Returns
     -------
     vectors : tuple of ndarray, shape (2, k, n)
@@ -105,15 +79,6 @@ def vectors(forces: Forces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def bending_moment(parts: Parts, forces: Forces, stock: Stock) -> Callable[[float], np.ndarray]:
     """Bending moment along the crankshaft.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    stock : Stock
-        Bearing data
 
     Returns
     -------
@@ -128,17 +93,6 @@ def bending_moment(parts: Parts, forces: Forces, stock: Stock) -> Callable[[floa
 def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> ToothLoads:
     """Tooth loads of the harder loaded pair.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Where the torque leaves
-    stock : Stock
-        Bearing data
-
     Returns
     -------
     loads : ToothLoads
@@ -150,22 +104,7 @@ def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Too
 
 
 def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
-    """Loads and speeds of the bearings.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    stock : Stock
-        Bearing data
-
-    Returns
-    -------
-    seats : dict of str to Seat
-        `rod`, `inner`, `outer`, `main`, `outboard`
-    """
+    """Loads and speeds of the bearings."""
     loads = side_loads(vectors(forces), spans(parts, stock), outer_shares(shaft(parts, stock)))
     w = forces.omega
     # the planet turns backwards at the crank's speed: once against the rod, twice against the carrier
@@ -182,17 +121,6 @@ def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
 def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> CrankLoads:
     """Loads of crankpin, web and shafts.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    forces : Forces
-        Forces over the speeds
-    wants : Wants
-        Where the torque leaves
-    stock : Stock
-        Bearing data
-
     Returns
     -------
     loads : CrankLoads
@@ -207,17 +135,6 @@ def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Cra
 
 
 def cylinder_loads(forces: Forces) -> CylinderLoads:
-    """Loads of piston and cylinder.
-
-    Parameters
-    ----------
-    forces : Forces
-        Forces over the speeds
-
-    Returns
-    -------
-    loads : CylinderLoads
-        For `piston_design`
-    """
+    """Loads of piston and cylinder."""
     return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
                          bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip

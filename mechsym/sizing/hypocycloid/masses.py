@@ -5,10 +5,9 @@ source drew and does not print) and change by the volume that the sizes change. 
 crankpin on the cylinder axis and the shaft at the planet's centre, so that its centre stays where it is.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from mechsym.quantities import record
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
 from mechsym.sizing.hypocycloid.parts import Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import mass as bearing_mass
@@ -20,57 +19,29 @@ from mechsym.sizing.wants import Wants
 _SUPPORT_SHAFT = 0.020  # free length of the support shaft, assumed: the source prints none [m]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Printed:
-    """The source's parts and their masses, the reference of the mass model.
-
-    Parameters
-    ----------
-    parts : Parts
-        Printed sizes
-    masses : MassPart
-        Printed masses
-    bore, e : float
-        Bore, throw [m]
-    """
+    """The source's parts and their masses, the reference of the mass model."""
 
     parts: Parts
     masses: MassPart
-    bore: float
-    e: float
+    bore: float  #: Bore, throw [m]
+    e: float  #: Bore, throw [m]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Moving:
-    """Masses of one crank as the dynamics know them.
+    """Masses of one crank as the dynamics know them."""
 
-    Parameters
-    ----------
-    rod : float
-        On the rod's side of the crankpin: piston with rod, its bearings [kg]
-    axis : float
-        All that moves on the cylinder axis: rod side, crankpin, the webs' share [kg]
-    planet : float
-        At the planet's centre, both sides: shafts, pinions, the webs' share [kg]
-    unbalance : float
-        What each shaft set must balance: mass times throw of one side, journal bearings included [kg*m]
-    """
-
-    rod: float
-    axis: float
-    planet: float
+    rod: float  #: On the rod's side of the crankpin: piston with rod, its bearings [kg]
+    axis: float  #: All that moves on the cylinder axis: rod side, crankpin, the webs' share [kg]
+    planet: float  #: At the planet's centre, both sides: shafts, pinions, the webs' share [kg]
+    #: What each shaft set must balance: mass times throw of one side, journal bearings included [kg*m]
     unbalance: float
 
 
 def moving_printed(printed: Printed, stock: Stock) -> Moving:
     """Moving masses from the printed masses (errata E20).
-
-    Parameters
-    ----------
-    printed : Printed
-        The source's parts
-    stock : Stock
-        Bearing data
 
     Returns
     -------
@@ -91,17 +62,6 @@ def moving_printed(printed: Printed, stock: Stock) -> Moving:
 def moving(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> Moving:
     """Moving masses of sized parts.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    printed : Printed
-        Reference
-    wants : Wants
-        Materials
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     moving : Moving
@@ -121,17 +81,6 @@ def moving(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> Moving
 
 def part_masses(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
     """Mass and number of every part of the engine.
-
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    printed : Printed
-        Reference
-    wants : Wants
-        Materials
-    stock : Stock
-        Materials and bearings
 
     Returns
     -------
@@ -163,17 +112,6 @@ def part_masses(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> d
 def total_mass(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> float:
     """Mass of the engine without belt drive.
 
-    Parameters
-    ----------
-    parts : Parts
-        Sizes
-    printed : Printed
-        Reference
-    wants : Wants
-        Materials
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     m : float
@@ -184,13 +122,6 @@ def total_mass(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> fl
 
 def total_mass_printed(printed: Printed, stock: Stock) -> float:
     """Mass of the engine from the printed masses.
-
-    Parameters
-    ----------
-    printed : Printed
-        The source's parts
-    stock : Stock
-        Bearing data
 
     Returns
     -------

@@ -1,10 +1,10 @@
 """Choosing and checking rolling bearings for a load history over the speeds."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
+from mechsym.quantities import record
 from mechsym.sizing.checks import Check, at_least, at_most, unsafe
 from mechsym.sizing.rounding import at_speed
 from mechsym.sizing.rules import bearings
@@ -14,54 +14,27 @@ from mechsym.sizing.wants import Wants
 _STEEL = 7800.0  # for the inner ring that is left out [kg/m^3]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Seat:
-    """A place for bearings.
+    """A place for bearings."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the place, for the checks
-    omega : ndarray, shape (k,)
-        Crank speeds, for the notes [rad/s]
-    load : ndarray, shape (k, n)
-        Radial load of the place over the period [N]
-    turning : ndarray, shape (k,)
-        Speed of one ring relative to the other [rad/s]
-    """
-
-    name: str
-    omega: np.ndarray
-    load: np.ndarray
-    turning: np.ndarray
+    name: str  #: Name of the place, for the checks
+    omega: np.ndarray  #: shape (k,): Crank speeds, for the notes [rad/s]
+    load: np.ndarray  #: shape (k, n): Radial load of the place over the period [N]
+    turning: np.ndarray  #: shape (k,): Speed of one ring relative to the other [rad/s]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Choice:
-    """Bearings for a place.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Which
-    count : int
-        How many side by side
-    ring_off : bool
-        Whether the shaft replaces the inner ring
-    """
+    """Bearings for a place."""
 
     bearing: Bearing
     count: int = 1
-    ring_off: bool = False
+    ring_off: bool = False  #: Whether the shaft replaces the inner ring
 
 
 def seat_diameter(choice: Choice) -> float:
     """Diameter of the shaft under a bearing.
-
-    Parameters
-    ----------
-    choice : Choice
-        Bearings
 
     Returns
     -------
@@ -73,11 +46,6 @@ def seat_diameter(choice: Choice) -> float:
 
 def mass(choice: Choice) -> float:
     """Mass of the bearings of one place.
-
-    Parameters
-    ----------
-    choice : Choice
-        Bearings
 
     Returns
     -------
@@ -91,22 +59,7 @@ def mass(choice: Choice) -> float:
 
 
 def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
-    """Static load, life and speed of the bearings of one place, each at its worst crank speed.
-
-    Parameters
-    ----------
-    choice : Choice
-        Bearings
-    seat : Seat
-        Loads and speeds
-    wants : Wants
-        Static factors, life and reliability
-
-    Returns
-    -------
-    checks : list of Check
-        Three
-    """
+    """Static load, life and speed of the bearings of one place, each at its worst crank speed."""
     bearing, name = choice.bearing, f"{seat.name}, {choice.count} x {choice.bearing.designation}"
     peak = np.abs(seat.load).max(axis=1)
     k = int(np.argmax(peak))
@@ -135,19 +88,10 @@ def choices(catalogue: Iterable[Bearing], shaft: tuple[float, float], outside: f
 
     Parameters
     ----------
-    catalogue : iterable of Bearing
-        Bearings to choose from
     shaft : (float, float)
         Smallest and largest shaft diameter [m]
     outside : float
         Largest outside diameter [m]
-    most : int
-        Most bearings side by side
-
-    Returns
-    -------
-    choices : list of Choice
-        With and without inner ring
     """
     found = []
     for bearing in catalogue:
@@ -160,20 +104,5 @@ def choices(catalogue: Iterable[Bearing], shaft: tuple[float, float], outside: f
 
 
 def choose(options: Iterable[Choice], seat: Seat, wants: Wants) -> Choice | None:
-    """The first of the bearings offered that passes every check.
-
-    Parameters
-    ----------
-    options : iterable of Choice
-        Bearings in order of preference
-    seat : Seat
-        Loads and speeds
-    wants : Wants
-        Wanted factors
-
-    Returns
-    -------
-    choice : Choice or None
-        None when no bearing passes
-    """
+    """The first of the bearings offered that passes every check."""
     return next((option for option in options if not unsafe(check_bearing(option, seat, wants))), None)

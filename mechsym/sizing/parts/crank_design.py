@@ -1,10 +1,10 @@
 """Crankpin, webs, shaft and output shaft: sizes and checks with the load history of every speed."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
+from mechsym.quantities import record
 from mechsym.sizing.checks import Check, at_most
 from mechsym.sizing.parts.records import CrankPart
 from mechsym.sizing.rounding import at_speed, round_up
@@ -25,35 +25,18 @@ _SHOULDER = 1.2  # the output shaft's largest shoulder over its diameter
 _SHOULDER_FILLET = 0.1  # and its fillet over the diameter
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class CrankLoads:
-    """What acts on the crank of one piston.
+    """What acts on the crank of one piston."""
 
-    Parameters
-    ----------
-    omega : ndarray, shape (k,)
-        Crank speeds [rad/s]
-    moment : callable
-        Distance from the middle of the crankpin [m] -> bending moment (2, k, n) in a frame that stands still [N*m]
-    turn : ndarray, shape (n,)
-        Angle of the crankshaft (the planet turns backwards) in that frame [rad]
-    along_web : ndarray, shape (k, n)
-        Component of the force along the web, from pin to shaft [N]
-    shaft_torque : ndarray, shape (k, n)
-        Torque in one shaft between web and gear, or web and coupling [N*m]
-    output_torque : ndarray, shape (k, n)
-        Torque in the output shaft [N*m]
-    arm : float
-        From the middle of the crankpin to the middle of the bearing beside the web [m]
-    """
-
-    omega: np.ndarray
+    omega: np.ndarray  #: shape (k,): Crank speeds [rad/s]
+    #: Distance from the middle of the crankpin [m] -> bending moment (2, k, n) in a frame that stands still [N*m]
     moment: Callable[[float], np.ndarray]
-    turn: np.ndarray
-    along_web: np.ndarray
-    shaft_torque: np.ndarray
-    output_torque: np.ndarray
-    arm: float
+    turn: np.ndarray  #: shape (n,): Angle of the crankshaft (the planet turns backwards) in that frame [rad]
+    along_web: np.ndarray  #: shape (k, n): Component of the force along the web, from pin to shaft [N]
+    shaft_torque: np.ndarray  #: shape (k, n): Torque in one shaft between web and gear, or web and coupling [N*m]
+    output_torque: np.ndarray  #: shape (k, n): Torque in the output shaft [N*m]
+    arm: float  #: From the middle of the crankpin to the middle of the bearing beside the web [m]
 
 
 def size_output(loads: CrankLoads, wants: Wants, material: Material, least: float) -> float:
@@ -61,12 +44,6 @@ def size_output(loads: CrankLoads, wants: Wants, material: Material, least: floa
 
     Parameters
     ----------
-    loads : CrankLoads
-        Loads over the speeds
-    wants : Wants
-        Factors, surface
-    material : Material
-        Material of the shaft
     least : float
         Smallest diameter to begin with [m]
 
@@ -93,17 +70,6 @@ def size_output(loads: CrankLoads, wants: Wants, material: Material, least: floa
 
 def check_crank(part: CrankPart, loads: CrankLoads, wants: Wants, material: Material) -> list[Check]:
     """The checks of crankpin, web and shaft.
-
-    Parameters
-    ----------
-    part : CrankPart
-        Sizes
-    loads : CrankLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors, fillet, surface
-    material : Material
-        Material of the crankshaft
 
     Returns
     -------
@@ -136,17 +102,6 @@ def check_output(d: float, loads: CrankLoads, wants: Wants, material: Material) 
     ----------
     d : float
         Diameter [m]
-    loads : CrankLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors, surface
-    material : Material
-        Material of the shaft
-
-    Returns
-    -------
-    checks : list of Check
-        Static and fatigue
     """
     tau = crankshaft.torsion_stress(np.abs(loads.output_torque).max(axis=1), d)
     k = int(np.argmax(tau))

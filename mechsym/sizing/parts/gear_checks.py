@@ -20,14 +20,6 @@ def check_gears(
 
     Parameters
     ----------
-    part : GearPart
-        Sizes
-    loads : ToothLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors
-    material : Material
-        Material of both gears
     kind : str
         Basis of I: `internal`, or `external` as in the source
 

@@ -5,13 +5,14 @@ by the stroke. Named bases for the factor I: `internal` (AGMA 908 for the pair t
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 from mechsym.sizing.loads import reversed_tooth_load
 from mechsym.sizing.parts.records import GearPart
 from mechsym.sizing.rules import gear_factors, gear_life, gears
@@ -26,32 +27,19 @@ SHIFTS = (0.0, 0.25, 0.5)  # the source's three
 _LEAST_CONTACT_RATIO, _LEAST_TOP_LAND, _LEAST_TEETH = 1.2, 0.3, 12
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class ToothLoads:
-    """Tooth loads of one gear pair.
+    """Tooth loads of one gear pair."""
 
-    Parameters
-    ----------
-    omega : ndarray, shape (k,)
-        Crank speeds [rad/s]
-    tooth : ndarray, shape (k, n)
-        Tangential load of one pair over a period of 4 pi [N]
-    """
-
-    omega: np.ndarray
-    tooth: np.ndarray
+    omega: np.ndarray  #: shape (k,): Crank speeds [rad/s]
+    tooth: np.ndarray  #: shape (k, n): Tangential load of one pair over a period of 4 pi [N]
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Rating:
-    """What a pair needs at each speed; face widths in m, shape (k,).
+    """What a pair needs at each speed; face widths in m, shape (k,)."""
 
-    Parameters
-    ----------
-    pinion_bending, ring_bending, contact : ndarray, shape (k,)
-        Face width that each limit asks for at safety factor 1 [m]
-    """
-
+    #: shape (k,): Face width that each limit asks for at safety factor 1 [m]
     pinion_bending: np.ndarray
     ring_bending: np.ndarray
     contact: np.ndarray
@@ -62,8 +50,6 @@ def pair_of(part: GearPart, kind: str = "internal") -> Pair:
 
     Parameters
     ----------
-    part : GearPart
-        Sizes
     kind : str
         `internal`, or `external` for the source's stand-in
 
@@ -83,19 +69,8 @@ def rating(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, 
     ----------
     part : GearPart
         Sizes; its face width enters the load distribution factor
-    loads : ToothLoads
-        Loads over the speeds
-    wants : Wants
-        Grade, enclosure, life, reliability
-    material : Material
-        Material of both gears
     kind : str
         Basis of I: `internal` or `external`
-
-    Returns
-    -------
-    rating : Rating
-        Widths at safety factor 1
     """
     pair, d = pair_of(part, kind), part.module * part.teeth_pinion
     K_v = gear_factors.dynamic_factor(gears.mesh_speed(d, loads.omega), wants.accuracy)
@@ -125,24 +100,11 @@ def face_width(part: GearPart, loads: ToothLoads, wants: Wants, material: Materi
     ----------
     part : GearPart
         Sizes; its own face width does not matter
-    loads : ToothLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors
-    material : Material
-        Material of both gears
-    kind : str
-        Basis of I
 
     Returns
     -------
     b : float
         Face width [m]
-
-    Raises
-    ------
-    BadInput
-        More than twice the pinion's pitch diameter would be needed
     """
     most = 2 * part.module * part.teeth_pinion
 
@@ -166,8 +128,6 @@ def candidates(d: float, pressure_angle: float, base: GearPart) -> Iterator[Gear
         Pitch diameter of the planet [m]
     pressure_angle : float
         Pressure angle [rad]
-    base : GearPart
-        Sizes that are kept
 
     Yields
     ------
@@ -186,18 +146,7 @@ def candidates(d: float, pressure_angle: float, base: GearPart) -> Iterator[Gear
 
 
 def faults(part: GearPart) -> list[str]:
-    """What keeps a pair from running, in words.
-
-    Parameters
-    ----------
-    part : GearPart
-        Sizes
-
-    Returns
-    -------
-    faults : list of str
-        Empty when nothing is wrong
-    """
+    """What keeps a pair from running, in words."""
     pair, found = pair_of(part), []
     if undercut_shift(pair) > part.shift:
         found.append("pinion undercut")

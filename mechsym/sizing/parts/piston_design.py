@@ -1,9 +1,8 @@
 """Piston, rod, cylinder and bolts: sizes for given loads, and the checks of given sizes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from mechsym.quantities import record
 from mechsym.sizing.checks import Check, at_least, at_most
 from mechsym.sizing.parts.records import CylinderPart, PistonPart
 from mechsym.sizing.rounding import at_speed, round_up
@@ -13,28 +12,15 @@ from mechsym.sizing.rules.materials import Material, need
 from mechsym.sizing.wants import Wants
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class CylinderLoads:
-    """What acts on piston and cylinder.
+    """What acts on piston and cylinder."""
 
-    Parameters
-    ----------
-    omega : ndarray, shape (k,)
-        Crank speeds [rad/s]
-    dp_max : ndarray, shape (k,)
-        Largest pressure above the surroundings [Pa]
-    rod : ndarray, shape (k, n)
-        Force in the rod, compression positive [N]
-    head_heat : float
-        Heat through a piston head at the fastest speed [W]
-    bore, stroke, gap : float
-        Bore, stroke of one piston, distance of the heads at top dead centre (0 under a fixed head) [m]
-    """
-
-    omega: np.ndarray
-    dp_max: np.ndarray
-    rod: np.ndarray
-    head_heat: float
+    omega: np.ndarray  #: shape (k,): Crank speeds [rad/s]
+    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
+    rod: np.ndarray  #: shape (k, n): Force in the rod, compression positive [N]
+    head_heat: float  #: Heat through a piston head at the fastest speed [W]
+    #: Bore, stroke of one piston, distance of the heads at top dead centre (0 under a fixed head) [m]
     bore: float
     stroke: float
     gap: float
@@ -45,12 +31,6 @@ def size_piston(loads: CylinderLoads, wants: Wants, material: Material, rod_leng
 
     Parameters
     ----------
-    loads : CylinderLoads
-        Loads over the speeds
-    wants : Wants
-        Safety factors and rings
-    material : Material
-        Material of piston and rod
     rod_length : float
         Distance from the crank's side of the rod to the middle of the engine, less half the gap [m]
 
@@ -74,24 +54,7 @@ def size_piston(loads: CylinderLoads, wants: Wants, material: Material, rod_leng
 
 
 def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material: Material) -> list[Check]:
-    """The checks of a piston and its rod.
-
-    Parameters
-    ----------
-    part : PistonPart
-        Sizes
-    loads : CylinderLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors
-    material : Material
-        Material of piston and rod
-
-    Returns
-    -------
-    checks : list of Check
-        One for each rule
-    """
+    """The checks of a piston and its rod."""
     hottest = int(np.argmax(loads.dp_max))
     stress = piston.head_stress(loads.dp_max[hottest], loads.bore, part.head)
     cool = piston.head_thickness_heat(loads.head_heat, need(material, "conductivity"), wants.head_dT)
@@ -112,12 +75,6 @@ def size_cylinder(loads: CylinderLoads, wants: Wants, material: Material, height
 
     Parameters
     ----------
-    loads : CylinderLoads
-        Loads over the speeds
-    wants : Wants
-        Safety factor, allowance, bolts
-    material : Material
-        Material of the cylinder
     height : float
         Height of a piston head [m]
 
@@ -142,21 +99,8 @@ def check_cylinder(
 
     Parameters
     ----------
-    part : CylinderPart
-        Sizes
-    loads : CylinderLoads
-        Loads over the speeds
-    wants : Wants
-        Wanted factors
-    material : Material
-        Material of the cylinder
     height : float
         Height of a piston head [m]
-
-    Returns
-    -------
-    checks : list of Check
-        One for each rule
     """
     k = int(np.argmax(loads.dp_max))
     p, note = loads.dp_max[k], at_speed(loads.omega, k)

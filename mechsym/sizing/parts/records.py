@@ -1,27 +1,11 @@
 """The parts of an engine as records: what a drawing needs and every check reads. Sections `[part_*]` of a case."""
 
-from dataclasses import dataclass
-
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class PistonPart:
-    """Piston and rod in one piece.
-
-    Parameters
-    ----------
-    head, barrel : float
-        Thickness of head and barrel [m]
-    ring_radial, ring_axial, land_top, land : float
-        Rings and lands [m]
-    height : float
-        Height of the piston head [m]
-    rod : float
-        Diameter of the rod [m]
-    rod_length : float
-        Length of the rod from the head to the bearing's outside [m]
-    """
+    """Piston and rod in one piece."""
 
     head: float = quantity("m", above=0, about="thickness of the head")
     barrel: float = quantity("m", above=0, about="thickness of the barrel")
@@ -31,25 +15,13 @@ class PistonPart:
     land: float = quantity("m", above=0, about="other lands")
     height: float = quantity("m", above=0, about="height of the head")
     rod: float = quantity("m", above=0, about="diameter of the rod")
+    #: Length of the rod from the head to the bearing's outside [m]
     rod_length: float = quantity("m", above=0, about="length of the rod")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class CylinderPart:
-    """Cylinder and its bolts.
-
-    Parameters
-    ----------
-    wall, flange, length : float
-        Thickness of wall and flange, length [m]
-    bolts : float
-        Number of bolts [-]
-    thread_mm : float
-        Nominal diameter of the thread [mm]
-    """
+    """Cylinder and its bolts."""
 
     wall: float = quantity("m", above=0, about="thickness of the wall")
     flange: float = quantity("m", above=0, about="thickness of the flange")
@@ -57,23 +29,10 @@ class CylinderPart:
     bolts: float = quantity("-", low=2, about="number of bolts")
     thread_mm: float = quantity("-", above=0, about="nominal diameter of the thread in mm")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class GearPart:
-    """One of the two gear pairs of a crank.
-
-    Parameters
-    ----------
-    module, teeth_pinion, teeth_ring, pressure_angle, shift : float
-        Tooth system: module [m], teeth [-], pressure angle [rad], addendum modification of the pinion [-]
-    face : float
-        Face width [m]
-    ring_outside, pinion_bore : float
-        Outside diameter of the ring, bore of the pinion [m]
-    """
+    """One of the two gear pairs of a crank."""
 
     module: float = quantity("m", above=0, about="module")
     teeth_pinion: float = quantity("-", low=6, about="teeth of the pinion")
@@ -84,55 +43,29 @@ class GearPart:
     ring_outside: float = quantity("m", above=0, about="outside diameter of the ring")
     pinion_bore: float = quantity("m", low=0, about="bore of the pinion")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class CrankPart:
-    """Crankshaft: the hypocycloid's planet, or a slider crank's shaft, and the output shaft.
-
-    Parameters
-    ----------
-    pin, pin_length, pin_bore : float
-        Diameter, length and bore of the crankpin [m]
-    web, web_width : float
-        Thickness of a web and its smallest width [m]
-    shaft : float
-        Diameter of the shaft at the inner journal [m]
-    shaft_length : float
-        Length of the shaft from the web [m]
-    output : float
-        Diameter of the output shaft [m]
-    """
+    """Crankshaft: the hypocycloid's planet, or a slider crank's shaft, and the output shaft."""
 
     pin: float = quantity("m", above=0, about="diameter of the crankpin")
     pin_length: float = quantity("m", above=0, about="length of the crankpin")
     web: float = quantity("m", above=0, about="thickness of a web")
     web_width: float = quantity("m", above=0, about="smallest width of a web")
+    #: Diameter of the shaft at the inner journal [m]
     shaft: float = quantity("m", above=0, about="shaft at the inner journal")
+    #: Length of the shaft from the web [m]
     shaft_length: float = quantity("m", above=0, about="length of the shaft")
+    #: Diameter of the output shaft [m]
     output: float = quantity("m", above=0, about="output shaft")
     pin_bore: float = quantity("m", default=0.0, low=0, about="bore of the crankpin")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclass(frozen=True, kw_only=True)
+@record
 class BearingPart:
-    """Bearings of one crank, by designation; counts are for one place.
+    """Bearings of one crank, by designation; counts are for one place."""
 
-    Parameters
-    ----------
-    rod, inner, outer, main, outboard : str
-        On the crankpin, at the inner and outer journal of each side, around the carrier, at the shaft's end
-    rod_count, inner_count, outer_count : float
-        Bearings side by side [-]
-    ring_off : str
-        `yes` when the inner journal's bearing runs on the shaft without its inner ring
-    """
-
+    #: On the crankpin, at the inner and outer journal of each side, around the carrier, at the shaft's end
     rod: str
     inner: str
     outer: str
@@ -141,23 +74,12 @@ class BearingPart:
     rod_count: float = quantity("-", default=2.0, low=1, high=4, about="bearings on the crankpin")
     inner_count: float = quantity("-", default=1.0, low=1, high=4, about="bearings at an inner journal")
     outer_count: float = quantity("-", default=1.0, low=1, high=4, about="bearings at an outer journal")
-    ring_off: str = "no"
-
-    def __post_init__(self) -> None:
-        check(self)
+    ring_off: str = "no"  #: `yes` when the inner journal's bearing runs on the shaft without its inner ring
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class MassPart:
-    """Masses of the printed parts, from which those of other sizes are reckoned.
-
-    Parameters
-    ----------
-    piston, cylinder, pinion, ring, crankshaft, output_set, support_set : float
-        Mass of one part; the cylinder with its fins [kg]
-    crankcases : float
-        The three crankcases of one crank together [kg]
-    """
+    """Masses of the printed parts, from which those of other sizes are reckoned."""
 
     piston: float = quantity("kg", above=0, about="piston with rod")
     cylinder: float = quantity("kg", above=0, about="cylinder with fins")
@@ -166,7 +88,5 @@ class MassPart:
     crankshaft: float = quantity("kg", above=0, about="crankshaft")
     output_set: float = quantity("kg", above=0, about="output shaft set")
     support_set: float = quantity("kg", above=0, about="support shaft set")
+    #: The three crankcases of one crank together [kg]
     crankcases: float = quantity("kg", above=0, about="crankcases of one crank")
-
-    def __post_init__(self) -> None:
-        check(self)

@@ -49,8 +49,6 @@ def interpolated(quantity: str, shift: float, teeth_1: float, teeth_2: float) ->
 
     Parameters
     ----------
-    quantity : str
-        `I`, `J_pinion` or `J_gear`
     shift : float
         Addendum modification of the pinion: 0, 0.25 or 0.5 [-]
     teeth_1, teeth_2 : float

@@ -5,39 +5,24 @@ without its inner ring runs on a shaft of diameter `raceway`.
 """
 
 import csv
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, parse, quantity
+from mechsym.quantities import choice, parse, quantity, record
 
 _UNITS = {"_mm": ("m", 1e-3), "_N": ("N", 1.0), "_rpm": ("rad/s", 2 * np.pi / 60), "_kg": ("kg", 1.0)}
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Bearing:
-    """A rolling bearing.
+    """A rolling bearing."""
 
-    Parameters
-    ----------
-    designation, kind, source : str
-        Maker's name; `ball`, `roller` or `drawn-cup` (needles); where the data come from
-    bore, outside, width : float
-        Boundary dimensions [m]
-    raceway : float
-        Diameter of the shaft that replaces the inner ring; None when there is none [m]
-    C, C0 : float
-        Basic dynamic and static load rating [N]
-    reference, limiting : float
-        Reference and limiting speed [rad/s]
-    mass : float
-        Mass [kg]
-    """
-
-    designation: str
+    designation: str  #: Maker's name; `ball`, `roller` or `drawn-cup` (needles); where the data come from
+    #: Maker's name; `ball`, `roller` or `drawn-cup` (needles); where the data come from
     kind: str = choice("ball", "roller", "drawn-cup", about="rolling elements")
     bore: float = quantity("m", above=0, about="bore")
     outside: float = quantity("m", above=0, about="outside diameter")
@@ -46,12 +31,12 @@ class Bearing:
     C0: float = quantity("N", above=0, about="static load rating")
     limiting: float = quantity("rad/s", above=0, about="limiting speed")
     mass: float = quantity("kg", above=0, about="mass")
+    #: Diameter of the shaft that replaces the inner ring; None when there is none [m]
     raceway: float | None = quantity("m", default=None, above=0, about="shaft without inner ring")
     reference: float | None = quantity("rad/s", default=None, above=0, about="reference speed")
-    source: str = ""
+    source: str = ""  #: Maker's name; `ball`, `roller` or `drawn-cup` (needles); where the data come from
 
     def __post_init__(self) -> None:
-        check(self)
         if self.outside <= self.bore:
             raise BadInput(f"bearing {self.designation}: outside {self.outside:g} m must be larger than bore")
 
@@ -63,11 +48,6 @@ def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     ----------
     extra : str or Path, optional
         File with more bearings; a designation that exists already is replaced
-
-    Returns
-    -------
-    bearings : dict of str to Bearing
-        By designation
 
     Raises
     ------

@@ -16,11 +16,6 @@ _RELIABILITY = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99:
 def life_exponent(kind: str) -> float:
     """Exponent of the life equation.
 
-    Parameters
-    ----------
-    kind : str
-        `ball`, `roller` or `drawn-cup`
-
     Returns
     -------
     p : float
@@ -47,8 +42,6 @@ def equivalent_load(F: np.ndarray, kind: str, turns: np.ndarray | None = None) -
     ----------
     F : ndarray, shape (..., n)
         Radial load at equal steps over a period [N]
-    kind : str
-        `ball`, `roller` or `drawn-cup`
     turns : ndarray, shape (n,), optional
         Turning of the bearing in each step, equal when not given [rad]
 
@@ -85,8 +78,6 @@ def set_rating(C: float, count: int, kind: str) -> float:
         Rating of one bearing [N]
     count : int
         Number of bearings i [-]
-    kind : str
-        `ball`, `roller` or `drawn-cup`
 
     Returns
     -------
@@ -117,8 +108,6 @@ def life_revolutions(C: float, P: Any, kind: str, reliability: float = 0.9) -> A
         Dynamic rating [N]
     P : float or ndarray
         Equivalent load, at most C / 2 for the life to be meant literally [N]
-    kind : str
-        `ball`, `roller` or `drawn-cup`
     reliability : float
         0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 [-]
 
@@ -155,8 +144,6 @@ def required_rating(P: float, revolutions: float, kind: str) -> float:
         Equivalent load [N]
     revolutions : float
         Wanted life L [-]
-    kind : str
-        `ball`, `roller` or `drawn-cup`
 
     Returns
     -------

@@ -31,8 +31,6 @@ def endurance_limit(S_ut: float, d: float, surface: str) -> float:
         Ultimate strength, up to 2400 MPa [Pa]
     d : float
         Diameter, up to 254 mm [m]
-    surface : str
-        `ground`, `machined` or `as-forged`
 
     Returns
     -------

@@ -31,8 +31,6 @@ def bending_geometry_factor(pair: Pair, member: int) -> float:
     ----------
     pair : Pair
         The pair; a ring gear counts as an external gear of the same teeth, which is on the safe side
-    member : int
-        1 pinion, 2 gear
 
     Returns
     -------
@@ -70,13 +68,6 @@ def load_height(pair: Pair, member: int) -> tuple[float, float]:
     .. math:: \varphi_L = \frac{\rho_{start} + p_b}{R_b} - \mathrm{inv}\,\varphi - \frac{s}{z}, \qquad
               r_L = R_b/\cos\varphi_L
 
-    Parameters
-    ----------
-    pair : Pair
-        The pair
-    member : int
-        1 pinion, 2 gear
-
     Returns
     -------
     phi_L : float
@@ -107,13 +98,6 @@ def critical_section(pair: Pair, member: int) -> tuple[float, float]:
     r"""Height and thickness of the section where the Lewis parabola touches the fillet.
 
     .. math:: \frac{\mathrm{d}\eta}{\mathrm{d}\xi}\,\xi + 2 (r_L - \eta) = 0
-
-    Parameters
-    ----------
-    pair : Pair
-        The pair
-    member : int
-        1 pinion, 2 gear
 
     Returns
     -------
@@ -160,10 +144,6 @@ def fillet(pair: Pair, member: int, t: float) -> tuple[float, float]:
 
     Parameters
     ----------
-    pair : Pair
-        The pair
-    member : int
-        1 pinion, 2 gear
     t : float
         Angle of the contact normal against the tooth's height, 0 at the root to pi/2 - phi at the flank [rad]
 
@@ -199,13 +179,6 @@ def stress_correction_factor(pair: Pair, member: int) -> float:
               \rho_F = \rho_a + \frac{(h - \rho_a)^2}{R + h - \rho_a}
 
     with H = 0.331 - 0.436 phi, L = 0.324 - 0.492 phi, M = 0.261 + 0.545 phi.
-
-    Parameters
-    ----------
-    pair : Pair
-        The pair
-    member : int
-        1 pinion, 2 gear
 
     Returns
     -------

@@ -133,8 +133,6 @@ def mesh_alignment_factor(b: float, enclosure: str) -> float:
     ----------
     b : float
         Face width FW [m]
-    enclosure : str
-        `open`, `commercial`, `precision` or `extra-precision`
 
     Returns
     -------
@@ -170,8 +168,6 @@ def load_distribution_factor(b: float, d: float, C_pm: float, enclosure: str, C_
         Pitch diameter of the pinion [m]
     C_pm : float
         1 when the pinion stands within 0.175 of the bearing span of its middle, else 1.1 [-]
-    enclosure : str
-        `open`, `commercial`, `precision` or `extra-precision`
     C_e : float
         0.8 when adjusted at assembly or lapped, else 1 [-]
 

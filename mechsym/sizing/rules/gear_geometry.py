@@ -9,47 +9,29 @@
 All lengths inside are in modules. Source: AGMA 908-B89, sections 4 and 5.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 from mechsym.sizing.checks import require
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Pair:
-    """A spur pair with long addendum pinion and short addendum gear.
-
-    Parameters
-    ----------
-    kind : str
-        `external` or `internal`
-    module : float
-        Module [m]
-    teeth_1, teeth_2 : float
-        Teeth of pinion and gear, whole numbers [-]
-    pressure_angle : float
-        Pressure angle [rad]
-    shift : float
-        Addendum modification of the pinion, the gear has the opposite [-]
-    whole_depth, tip_radius, thinning : float
-        Tool form in modules: whole depth, tool tip radius, thinning of each tooth for backlash [-]
-    """
+    """A spur pair with long addendum pinion and short addendum gear."""
 
     kind: str = choice("external", "internal", about="gear with outer or inner teeth")
     module: float = quantity("m", above=0, about="module")
     teeth_1: float = quantity("-", low=6, about="teeth of the pinion")
     teeth_2: float = quantity("-", low=6, about="teeth of the gear")
     pressure_angle: float = quantity("rad", low=0.24, high=0.53, about="pressure angle, 14 to 30 degrees")
+    #: Addendum modification of the pinion, the gear has the opposite [-]
     shift: float = quantity("-", default=0.0, low=-0.6, high=0.6, about="addendum modification of the pinion")
     whole_depth: float = quantity("-", default=2.35, low=2.0, high=2.6, about="whole depth in modules")
     tip_radius: float = quantity("-", default=0.27, low=0, high=0.4, about="tool tip radius in modules")
     thinning: float = quantity("-", default=0.024, low=0, high=0.1, about="tooth thinning in modules")
 
     def __post_init__(self) -> None:
-        check(self)
         if self.teeth_1 % 1 or self.teeth_2 % 1:
             raise BadInput(f"teeth = {self.teeth_1:g}/{self.teeth_2:g} must be whole numbers")
         if self.kind == "internal" and self.teeth_2 <= self.teeth_1:
@@ -96,11 +78,6 @@ def contact_ratio(pair: Pair) -> float:
     r"""Transverse contact ratio.
 
     .. math:: m_p = (\rho_{end} - \rho_{start}) / p_b
-
-    Parameters
-    ----------
-    pair : Pair
-        The pair
 
     Returns
     -------
@@ -167,13 +144,6 @@ def tooth_thickness(pair: Pair, member: int) -> float:
     r"""Tooth thickness on the pitch circle, in modules.
 
     .. math:: s = \pi/2 \pm 2 x \tan\varphi - \Delta s
-
-    Parameters
-    ----------
-    pair : Pair
-        The pair
-    member : int
-        1 pinion, 2 gear
 
     Returns
     -------

@@ -15,11 +15,6 @@ def top_land(pair: Pair) -> float:
 
     .. math:: s_a = 2 R_a\left(\frac{s}{2R} + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_a\right)
 
-    Parameters
-    ----------
-    pair : Pair
-        The pair
-
     Returns
     -------
     s_a : float
@@ -78,11 +73,6 @@ def interference_margins(pair: Pair) -> dict[str, float]:
         \text{involute} &= \rho_{start}, \qquad
         \text{tip} = \tfrac{z_1}{z_2}\theta_1 + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_{a2} - \theta_2 \\
         \text{base} &= R_{a2} - R_{b2}
-
-    Parameters
-    ----------
-    pair : Pair
-        Internal pair
 
     Returns
     -------

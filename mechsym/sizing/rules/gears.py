@@ -7,24 +7,17 @@ Source: Nunes (2017), eqs. 2.76 to 2.79 and 4.26 (AGMA 2101-C95, 2001-D04). Exte
 I (`gear_geometry.py`) and J. AGMA gives no J for internal teeth; an external tooth of the same thickness is safe.
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import require
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class LoadFactors:
-    """Factors that multiply the tangential load.
-
-    Parameters
-    ----------
-    K_o, K_v, K_s, K_m, K_B, C_f : float
-        Overload, dynamic, size, load distribution, rim thickness and surface condition factor [-]
-    """
+    """Factors that multiply the tangential load."""
 
     K_o: float = quantity("-", default=1.0, low=1, about="overload")
     K_v: float = quantity("-", default=1.0, low=1, about="dynamic")
@@ -32,9 +25,6 @@ class LoadFactors:
     K_m: float = quantity("-", default=1.0, low=1, about="load distribution")
     K_B: float = quantity("-", default=1.0, low=1, about="rim thickness, bending only")
     C_f: float = quantity("-", default=1.0, low=1, about="surface condition, pitting only")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def mesh_speed(d: float, omega: Any) -> Any:
@@ -82,8 +72,6 @@ def bending_stress(F_t: float, b: float, m: float, J: float, factors: LoadFactor
         Module [m]
     J : float
         Geometry factor of the member [-]
-    factors : LoadFactors
-        Factors of the load
 
     Returns
     -------
@@ -119,8 +107,6 @@ def contact_stress(F_t: float, b: float, d: float, I: float, Z_E: float, factors
         Geometry factor of the pair [-]
     Z_E : float
         Elastic coefficient [Pa^0.5]
-    factors : LoadFactors
-        Factors of the load
 
     Returns
     -------
@@ -222,8 +208,6 @@ def face_width_bending(F_t: float, m: float, J: float, limit: float, factors: Lo
         Geometry factor of the member [-]
     limit : float
         From `bending_limit` [Pa]
-    factors : LoadFactors
-        Factors of the load
 
     Returns
     -------
@@ -263,8 +247,6 @@ def face_width_contact(F_t: float, d: float, I: float, Z_E: float, limit: float,
         Elastic coefficient [Pa^0.5]
     limit : float
         From `contact_limit` [Pa]
-    factors : LoadFactors
-        Factors of the load
 
     Returns
     -------

@@ -55,8 +55,6 @@ def web_outline(d_1: float, d_2: float, e: float, points: int = 256) -> tuple[np
         Diameters of the circles around crankpin and shaft [m]
     e : float
         Distance of their centres [m]
-    points : int
-        Points of the polygon
 
     Returns
     -------

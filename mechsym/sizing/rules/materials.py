@@ -11,35 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.quantities import check, parse, quantity
+from mechsym.quantities import parse, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Material:
-    """Strengths and physical properties; what is not known is None.
+    """Strengths and physical properties; what is not known is None."""
 
-    Parameters
-    ----------
-    key, name : str
-        Short name in the file and the full one
-    ultimate, yield_strength, ultimate_shear : float
-        Static strengths [Pa]
-    fatigue : float
-        Endurance strength in rotating bending, unnotched [Pa]
-    hot_ultimate, hot_temperature : float
-        Ultimate strength at a raised temperature [Pa], [K]
-    gear_bending, gear_contact : float
-        Allowable stress numbers of AGMA 2101 [Pa]
-    youngs_modulus : float
-        Modulus of elasticity [Pa]
-    poisson : float
-        Poisson's ratio [-]
-    conductivity : float
-        Thermal conductivity [W/(m*K)]
-    density : float
-        Density [kg/m^3]
-    """
-
+    #: Short name in the file and the full one
     key: str
     name: str
     ultimate: float = quantity("Pa", above=0, about="ultimate tensile strength")
@@ -48,15 +27,13 @@ class Material:
     density: float = quantity("kg/m^3", above=0, about="density")
     yield_strength: float | None = quantity("Pa", default=None, above=0, about="yield strength")
     ultimate_shear: float | None = quantity("Pa", default=None, above=0, about="ultimate shear strength")
+    #: Endurance strength in rotating bending, unnotched [Pa]
     fatigue: float | None = quantity("Pa", default=None, above=0, about="endurance strength")
     hot_ultimate: float | None = quantity("Pa", default=None, above=0, about="ultimate strength when hot")
     hot_temperature: float | None = quantity("K", default=None, above=0, about="temperature of hot_ultimate")
     gear_bending: float | None = quantity("Pa", default=None, above=0, about="allowable bending stress number")
     gear_contact: float | None = quantity("Pa", default=None, above=0, about="allowable contact stress number")
     conductivity: float | None = quantity("W/m/K", default=None, above=0, about="thermal conductivity")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def load(extra: str | Path | None = None) -> dict[str, Material]:
@@ -66,11 +43,6 @@ def load(extra: str | Path | None = None) -> dict[str, Material]:
     ----------
     extra : str or Path, optional
         File with more materials; a key that exists already is replaced
-
-    Returns
-    -------
-    materials : dict of str to Material
-        By key
 
     Raises
     ------
@@ -95,25 +67,7 @@ def load(extra: str | Path | None = None) -> dict[str, Material]:
 
 
 def get(materials: dict[str, Material], key: str) -> Material:
-    """One material by its key.
-
-    Parameters
-    ----------
-    materials : dict of str to Material
-        From `load`
-    key : str
-        Key of the material
-
-    Returns
-    -------
-    material : Material
-        Its record
-
-    Raises
-    ------
-    BadInput
-        No such material; the message suggests the nearest key
-    """
+    """One material by its key."""
     if key not in materials:
         near = difflib.get_close_matches(key, materials, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
@@ -123,13 +77,6 @@ def get(materials: dict[str, Material], key: str) -> Material:
 
 def need(material: Material, field: str) -> float:
     """A property that a rule cannot do without.
-
-    Parameters
-    ----------
-    material : Material
-        The material
-    field : str
-        Name of the property
 
     Returns
     -------

@@ -9,44 +9,30 @@ Journals are rigid, webs stiff. Source: beam theory (unit load method); one redu
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import require
 from mechsym.sizing.loads import Spans
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Shaft:
-    """Diameters and lengths of half a crankshaft, from the middle outwards.
-
-    Parameters
-    ----------
-    spans : Spans
-        Axial places
-    pin, pin_bore, pin_half : float
-        Crankpin: diameter, bore, half its length [m]
-    web : float
-        Thickness of the web [m]
-    seat, seat_end : float
-        Shaft from the web through the inner journal: diameter and where it ends [m]
-    thin : float
-        Diameter beyond [m]
-    """
+    """Diameters and lengths of half a crankshaft, from the middle outwards."""
 
     spans: Spans
     pin: float = quantity("m", above=0, about="crankpin")
     pin_bore: float = quantity("m", low=0, about="its bore")
     pin_half: float = quantity("m", above=0, about="half its length")
+    #: Thickness of the web [m]
     web: float = quantity("m", above=0, about="web")
+    #: Shaft from the web through the inner journal: diameter and where it ends [m]
     seat: float = quantity("m", above=0, about="shaft at the inner journal")
     seat_end: float = quantity("m", above=0, about="end of the seat")
     thin: float = quantity("m", above=0, about="shaft beyond")
 
     def __post_init__(self) -> None:
-        check(self)
         face = self.pin_half + self.web
         require("inner journal", self.spans.inner, "m", above=face, hint="it must stand outside the web")
         require("end of the seat", self.seat_end, "m", low=self.spans.inner, high=self.spans.gear)
@@ -61,11 +47,6 @@ def outer_shares(shaft: Shaft) -> tuple[float, float]:
         \delta_T &= \int_0^{z_i}\frac{(z_g - z_i) L}{EI}\,\mathrm{d}z
                     + \int_{z_i}^{z_g}\frac{(z_g - z)(z_o - z)}{EI}\,\mathrm{d}z, \quad
         \delta_F = \int_0^{z_i}\frac{(z_i - z) L}{EI}\,\mathrm{d}z
-
-    Parameters
-    ----------
-    shaft : Shaft
-        Half the crankshaft
 
     Returns
     -------
@@ -106,8 +87,6 @@ def moment(z: float, spans: Spans, shares: tuple[float, float], force: np.ndarra
     ----------
     z : float
         Place, up to the inner journal, or the gear itself [m]
-    spans : Spans
-        Axial places
     shares : (float, float)
         From `outer_shares` [-]
     force, pull : ndarray, shape (2, k, n)
@@ -150,8 +129,6 @@ def inner_slope(shaft: Shaft, E: float, moment_at: Callable[[float], np.ndarray]
 
     Parameters
     ----------
-    shaft : Shaft
-        Half the crankshaft
     E : float
         Modulus of elasticity [Pa]
     moment_at : callable

@@ -3,11 +3,9 @@
 Source: DE-Goodman as in `fatigue.py`; the fibre at angle a of a shaft turned by beta feels M cos(beta + a - direction).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from mechsym.quantities import check, quantity
+from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import require
 from mechsym.sizing.rules.crankshaft import bending_stress, torsion_stress
 from mechsym.sizing.rules.fatigue import stress_cycle
@@ -15,21 +13,12 @@ from mechsym.sizing.rules.fatigue import stress_cycle
 _FIBRES = 24
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Section:
-    """A round section and what its material bears.
-
-    Parameters
-    ----------
-    d, bore : float
-        Diameter and bore [m]
-    S_e, S_ut : float
-        Endurance limit of the part and ultimate strength [Pa]
-    K_f, K_fs : float
-        Notch factors in bending and torsion [-]
-    """
+    """A round section and what its material bears."""
 
     d: float = quantity("m", above=0, about="diameter")
+    #: Endurance limit of the part and ultimate strength [Pa]
     S_e: float = quantity("Pa", above=0, about="endurance limit")
     S_ut: float = quantity("Pa", above=0, about="ultimate strength")
     K_f: float = quantity("-", default=1.0, low=1, about="notch factor in bending")
@@ -37,7 +26,6 @@ class Section:
     bore: float = quantity("m", default=0.0, low=0, about="bore")
 
     def __post_init__(self) -> None:
-        check(self)
         require("bore", self.bore, "m", below=self.d, hint="the bore must leave a wall")
 
 
@@ -51,8 +39,6 @@ def fatigue_factor(section: Section, M_x: np.ndarray, M_y: np.ndarray, turn: np.
 
     Parameters
     ----------
-    section : Section
-        The section
     M_x, M_y : ndarray, shape (k, n)
         Bending moment by the direction of the force that makes it, in a frame that does not turn [N*m]
     turn : ndarray, shape (n,)
@@ -98,8 +84,6 @@ def static_factor(section: Section, M_x: np.ndarray, M_y: np.ndarray, T: np.ndar
 
     Parameters
     ----------
-    section : Section
-        The section
     M_x, M_y, T : ndarray, shape (k, n)
         Bending moment and torque [N*m]
     strength : float

@@ -39,10 +39,6 @@ def design(forces_of: Callable[[float], SliderForces], start: float, wants: Want
         Reciprocating mass [kg] -> forces
     start : float
         Mass to begin with [kg]
-    wants : Wants
-        Wanted factors, materials
-    stock : Stock
-        Materials and bearings
 
     Returns
     -------
@@ -65,15 +61,6 @@ def design(forces_of: Callable[[float], SliderForces], start: float, wants: Want
 
 def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
     """One round: every part for the forces.
-
-    Parameters
-    ----------
-    forces : SliderForces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
 
     Returns
     -------
@@ -106,17 +93,6 @@ def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
 def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of a slider crank.
 
-    Parameters
-    ----------
-    parts : SliderParts
-        Sizes
-    forces : SliderForces
-        Forces over the speeds
-    wants : Wants
-        Wanted factors
-    stock : Stock
-        Materials and bearings
-
     Returns
     -------
     checks : list of Check
@@ -139,17 +115,6 @@ def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Sto
 
 def reciprocating_mass(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> float:
     """Mass that goes up and down with the piston.
-
-    Parameters
-    ----------
-    parts : SliderParts
-        Sizes
-    forces : SliderForces
-        For bore and rod length
-    wants : Wants
-        Materials
-    stock : Stock
-        Materials
 
     Returns
     -------
