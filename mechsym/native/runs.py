@@ -49,8 +49,8 @@ class Kinks:
     """Values of one state at which the equations are not smooth."""
 
     state: int
-    angles: np.ndarray  #: shape (k,) or (runs, k): Within one period
-    period: float
+    angles: np.ndarray  #: shape (k,) or (runs, k): Within one period [rad]
+    period: float  #: [rad]
 
 
 @record
@@ -59,11 +59,11 @@ class Runs:
 
     #: (t, y, p) -> dy/dt; functions of a sequence may differ in their constants
     rhs: casadi.Function | Sequence[casadi.Function]
-    start: np.ndarray  #: shape (n,) or (runs, n): States at the start
+    start: np.ndarray  #: shape (n,) or (runs, n): States at the start [SI]
     #: shape (segments,) or (runs, segments): Ends of the segments, ascending; the last is the end of the run [s]
     until: np.ndarray
     t: float = 0.0  #: Time at the start [s]
-    #: shape (segments, p) or (runs, segments, p): Held values in each segment; empty when there are none
+    #: shape (segments, p) or (runs, segments, p): Held values in each segment; empty when there are none [SI]
     held: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((1, 0)))
     #: shape (m,) or (runs, m): Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
     times: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
@@ -82,12 +82,12 @@ class Outcome:
     """What came out of runs."""
 
     t: np.ndarray  #: shape (runs,): Where each ended [s]
-    y: np.ndarray  #: shape (runs, n): State there
-    #: shape (runs, m, n): States at the wanted times; those after the end of a run are not a number
+    y: np.ndarray  #: shape (runs, n): State there [SI]
+    #: shape (runs, m, n): States at the wanted times; those after the end of a run are not a number [SI]
     samples: np.ndarray
-    #: shape (runs,): Steps accepted and thrown away
+    #: shape (runs,): Steps accepted and thrown away [-]
     steps: np.ndarray
     rejected: np.ndarray
-    met: np.ndarray  #: shape (runs,): Index of the surface that ended the run, or -1
+    met: np.ndarray  #: shape (runs,): Index of the surface that ended the run, or -1 [-]
     last_step: np.ndarray  #: shape (runs,): Last step that was not cut short [s]
-    status: np.ndarray  #: shape (runs,): Index into `STATUS`: 0 and 1 are success
+    status: np.ndarray  #: shape (runs,): Index into `STATUS`: 0 and 1 are success [-]

@@ -33,8 +33,8 @@ class Phase:
     #: Where it begins, and ends at the latest [s]
     t_start: float
     t_end: float
-    y: np.ndarray  #: shape (m,): State at its start
-    w: np.ndarray  #: shape (k,): Held values
+    y: np.ndarray  #: shape (m,): State at its start [SI]
+    w: np.ndarray  #: shape (k,): Held values [SI]
     surfaces: tuple[Surface, ...] = ()  #: The first that is met ends the phase
     spans: tuple[Span, ...] = ()
     times: np.ndarray  #: shape (n,): Wanted times in (t_start, t_end] [s]
@@ -48,8 +48,8 @@ class Leg:
     """What came out of a phase."""
 
     t: float  #: Where it ended [s]
-    y: np.ndarray  #: shape (m,): State there
-    samples: np.ndarray  #: shape (n, m): States at the wanted times up to t
+    y: np.ndarray  #: shape (m,): State there [SI]
+    samples: np.ndarray  #: shape (n, m): States at the wanted times up to t [SI]
     steps: int
     met: int | None = None  #: Index of the surface that ended it
     step: float | None = None  #: Last step, a hint for the next phase [s]
@@ -61,7 +61,7 @@ class Raw:
     """A whole run before it is audited."""
 
     t: np.ndarray  #: shape (n,): Start, wanted times up to the end, and the end [s]
-    y: np.ndarray  #: shape (n, m): States there
+    y: np.ndarray  #: shape (n, m): States there [SI]
     steps: int
     end: str  #: `t_end`, `turns`, the name of a stop, or `failure`
     failure: str  #: Empty, or why it could not go on
