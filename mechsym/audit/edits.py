@@ -34,7 +34,7 @@ class Edit:
 
 
 @record
-class Place:
+class Spot:
     """A node with what surrounds it."""
 
     path: Path
@@ -42,13 +42,13 @@ class Place:
     parent: Node | None
 
 
-def places(tree: Node) -> Iterator[Place]:
+def places(tree: Node) -> Iterator[Spot]:
     """Every node with its parent, a node before its operands."""
-    waiting = [Place(path=(), node=tree, parent=None)]
+    waiting = [Spot(path=(), node=tree, parent=None)]
     while waiting:
         place = waiting.pop()
         yield place
-        below = [Place(path=(*place.path, s), node=c, parent=place.node) for s, c in children(place.node)]
+        below = [Spot(path=(*place.path, s), node=c, parent=place.node) for s, c in children(place.node)]
         waiting += reversed(below)
 
 
@@ -80,7 +80,7 @@ def _without_leading_sign(node: Node) -> Node | None:
     return None
 
 
-def is_term(place: Place) -> bool:
+def is_term(place: Spot) -> bool:
     """Whether something can be added here that could not be added further up the same sum.
 
     Returns
@@ -91,7 +91,7 @@ def is_term(place: Place) -> bool:
     return place.parent is None or not is_operation(place.parent, ast.Add, ast.Sub)
 
 
-def is_product(place: Place) -> bool:
+def is_product(place: Spot) -> bool:
     """Whether a factor here could not be put further up the same product.
 
     Returns
@@ -107,7 +107,7 @@ def is_product(place: Place) -> bool:
     return not (is_operation(parent, ast.Div) and step == ("left",))
 
 
-def is_exponent(place: Place) -> bool:
+def is_exponent(place: Spot) -> bool:
     """Whether a node is an exponent."""
     return place.parent is not None and is_operation(place.parent, ast.Pow) and place.path[-1] == "right"
 

@@ -5,7 +5,7 @@ from dataclasses import field
 
 import numpy as np
 
-from mechsym.audit.verdict import Verdict
+from mechsym.audit.verdict import Decision
 from mechsym.quantities import record
 
 Turn = Mapping[str, Callable[[np.ndarray], np.ndarray]]
@@ -25,7 +25,7 @@ class Printed:
     note: str = ""  #: What else there is to say
     turn: Callable[[], Turn] | None = None  #: Makes the letters that change over a turn in the source's data
     #: Takes the verdict and says how large the error is in a number that matters
-    effect: Callable[[Verdict], str] | None = None
+    effect: Callable[[Decision], str] | None = None
 
 
 @record

@@ -11,7 +11,7 @@ from mechsym.audit.reader import read, write
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.tree import Node, at
-from mechsym.audit.verdict import Verdict, decide
+from mechsym.audit.verdict import Decision, decide
 
 Row = dict[str, Any]
 NAME = ("source", "equation", "claim")
@@ -77,7 +77,7 @@ def row(source: str, entry: Entry) -> Row:
     return head | _plain(verdict, error, decided.note, "")
 
 
-def formula_row(question: Question, verdict: Verdict, printed: str, note: str, effect: str) -> Row:
+def formula_row(question: Question, verdict: Decision, printed: str, note: str, effect: str) -> Row:
     """The keys of a formula that was compared.
 
     Parameters
@@ -103,7 +103,7 @@ def formula_row(question: Question, verdict: Verdict, printed: str, note: str, e
     }
 
 
-def _edits(question: Question, verdict: Verdict) -> str:
+def _edits(question: Question, verdict: Decision) -> str:
     if not verdict.repairs:
         return ""
     found, tree = [], question.formula.tree
@@ -119,7 +119,7 @@ def _told(node: Node) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
 
 
-def _evidence(question: Question, verdict: Verdict) -> Row:
+def _evidence(question: Question, verdict: Decision) -> Row:
     return {
         "quantity": f"{question.theory.name}.{question.quantity}",
         "data": question.theory.data,

@@ -32,7 +32,7 @@ _SHIFT = 2  # powers of eps below zero that a quantity may start with
 
 
 @record
-class Group:
+class LetterGroup:
     """One mass, inertia or force with all others left out."""
 
     name: str  #: The letter, `"all"` when the quantity is no such sum
@@ -40,12 +40,12 @@ class Group:
     fine: Bench
 
 
-def groups(question: Question) -> list[Group]:
+def groups(question: Question) -> list[LetterGroup]:
     """The groups of a quantity; none without rods, when there is no small parameter.
 
     Returns
     -------
-    groups : list of Group
+    groups : list of LetterGroup
         At least one when the theory has rods
     """
     if not question.theory.rods:
@@ -62,11 +62,11 @@ def _loads(question: Question) -> list[str]:
     return [k for k, r in letters.items() if dimension(r.unit)[0] == 1 and k not in question.hold]
 
 
-def _group(question: Question, name: str, loads: list[str]) -> Group:
+def _group(question: Question, name: str, loads: list[str]) -> LetterGroup:
     values = random_fractions(question, _POINTS, seed=3)
     values |= {other: [Fraction(0)] * _POINTS for other in loads if other != name}
     coarse, fine = (at_small_rods(question, values, eps) for eps in (COARSE, FINE))
-    return Group(name=name, coarse=coarse, fine=fine)
+    return LetterGroup(name=name, coarse=coarse, fine=fine)
 
 
 def at_small_rods(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
@@ -80,13 +80,13 @@ def _size(asked: Bench) -> Any:
     return max(abs(e) for e in asked.expected)
 
 
-def _adds_up(found: list[Group], whole: Group) -> bool:
+def _adds_up(found: list[LetterGroup], whole: LetterGroup) -> bool:
     with mpmath.workdps(ORDER_DIGITS):
         rest = whole.coarse.expected - sum(g.coarse.expected for g in found)
         return bool(all(abs(r) <= mpmath.mpf(10) ** -_ZERO_DIGITS * _size(whole.coarse) for r in rest))
 
 
-def orders(found: list[Group], tree: Node) -> dict[str, float]:
+def orders(found: list[LetterGroup], tree: Node) -> dict[str, float]:
     """Order of every group's error.
 
     Returns
@@ -135,7 +135,7 @@ def lowest(found: Mapping[str, float]) -> int | None:
     return int(min(finite)) if finite else None
 
 
-def is_truncation(question: Question, found: list[Group], tree: Node) -> bool:
+def is_truncation(question: Question, found: list[LetterGroup], tree: Node) -> bool:
     """Whether every group is at least as good as leaving out one power of lambda, and everything above it.
 
     Returns

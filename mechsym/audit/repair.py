@@ -12,7 +12,7 @@ from mechsym.audit.algebra import DIGITS, FLOATS
 from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.edits import RANKS, Edit, apply
-from mechsym.audit.orders import EXACT, FINE, Group, groups, orders, residual
+from mechsym.audit.orders import EXACT, FINE, LetterGroup, groups, orders, residual
 from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
 from mechsym.audit.question import Question, digit_values, float_values, random_fractions, small_rods
@@ -30,7 +30,7 @@ class Examination:
 
     question: Question
     judged: Judges
-    groups: list[Group]
+    groups: list[LetterGroup]
     turn: Bench
     search: dict[str, Bench] = field(default_factory=dict)  #: States of the search by group, made when needed
 
@@ -119,9 +119,9 @@ def _raised(exam: Examination, start: Repair, listed: list[Edit], insert: bool) 
     return []
 
 
-def _worst_first(exam: Examination, start: Repair) -> list[Group]:
+def _worst_first(exam: Examination, start: Repair) -> list[LetterGroup]:
     # groups with the same error at both lambdas need not be searched twice
-    found: dict[Any, Group] = {}
+    found: dict[Any, LetterGroup] = {}
     for group in sorted(exam.groups, key=lambda g: start.orders[g.name]):
         if start.orders[group.name] != EXACT:
             found.setdefault((residual(group.coarse, start.tree), residual(group.fine, start.tree)), group)

@@ -4,7 +4,7 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
-from mechsym.audit.edits import Edit, Place, is_exponent, is_product, places, scaled
+from mechsym.audit.edits import Edit, Spot, is_exponent, is_product, places, scaled
 from mechsym.audit.tree import Node, binary, call, function_of, is_operation, name, negative, number, value_of
 
 FACTORS = tuple(Fraction(*f) for f in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4), (3, 2), (2, 3)))
@@ -28,7 +28,7 @@ def single_edits(tree: Node, siblings: Callable[[str], Sequence[str]]) -> Iterat
             yield Edit(kind=kind, path=place.path, new=new)
 
 
-def _node_edits(place: Place, siblings: Callable[[str], Sequence[str]]) -> Iterator[tuple[str, Node]]:
+def _node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterator[tuple[str, Node]]:
     node = place.node
     yield from _signs(place)
     yield from _factors(place)
@@ -46,7 +46,7 @@ def _node_edits(place: Place, siblings: Callable[[str], Sequence[str]]) -> Itera
     yield from _inversions(node)
 
 
-def _signs(place: Place) -> Iterator[tuple[str, Node]]:
+def _signs(place: Spot) -> Iterator[tuple[str, Node]]:
     node = place.node
     if is_operation(node, ast.Add, ast.Sub):
         other = ast.Sub if is_operation(node, ast.Add) else ast.Add
@@ -56,7 +56,7 @@ def _signs(place: Place) -> Iterator[tuple[str, Node]]:
         yield "sign", negative(node)
 
 
-def _factors(place: Place) -> Iterator[tuple[str, Node]]:
+def _factors(place: Spot) -> Iterator[tuple[str, Node]]:
     if not is_product(place) or isinstance(place.node, ast.UnaryOp):
         return
     in_function = place.parent is not None and function_of(place.parent) in ("sin", "cos", "tan")
@@ -64,7 +64,7 @@ def _factors(place: Place) -> Iterator[tuple[str, Node]]:
         yield "argument" if in_function else "factor", scaled(place.node, factor)
 
 
-def _powers(place: Place) -> Iterator[tuple[str, Node]]:
+def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
     node = place.node
     if is_operation(node, ast.Pow):
         base, exponent = node.left, value_of(node.right)  # type: ignore[attr-defined]
@@ -156,7 +156,7 @@ def _inversions(node: Node) -> Iterator[tuple[str, Node]]:
         yield "inverted", binary(ast.Div, node.left, node.right)
 
 
-def _is_factor(place: Place) -> bool:
+def _is_factor(place: Spot) -> bool:
     # what may carry a power or a root of its own
     if isinstance(place.node, (ast.Constant, ast.UnaryOp)) or is_operation(place.node, ast.Mult, ast.Div, ast.Pow):
         return False

@@ -23,7 +23,7 @@ _BEAM = 6
 
 
 @record
-class Verdict:
+class Decision:
     """What the audit says of one formula, with its evidence."""
 
     verdict: str
@@ -38,7 +38,7 @@ class Verdict:
     note: str = ""  #: Remarks of the reader and of the decision
 
 
-def decide(question: Question) -> Verdict:
+def decide(question: Question) -> Decision:
     """Compare a printed formula with the derived quantity."""
     exam = examine(question)
     start = standing(exam, question.formula.tree)
@@ -102,9 +102,9 @@ def _promising(exam: Examination, start: Repair) -> list[Repair]:
     return [*sorted(parts, key=lambda r: r.max_rel_error)[:_BEAM], *least]
 
 
-def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Verdict:
+def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Decision:
     notes = [exam.question.formula.note, more.pop("note", "")]
-    return Verdict(
+    return Decision(
         verdict=verdict,
         max_rel_error=start.max_rel_error,
         order=None if start.exact else lowest(start.orders),

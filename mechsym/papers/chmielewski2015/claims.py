@@ -8,7 +8,7 @@ from mechsym.audit.question import Question
 from mechsym.audit.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
-from mechsym.audit.verdict import Verdict
+from mechsym.audit.verdict import Decision
 from mechsym.papers.chmielewski2015 import runs as computed
 from mechsym.papers.chmielewski2015 import studies
 from mechsym.quantities import dimension
@@ -29,7 +29,7 @@ def steady() -> Turn:
     return {"phi2": np.copy, "phi0dd": np.zeros_like}
 
 
-def mixed_model_effect(verdict: Verdict) -> str:
+def mixed_model_effect(verdict: Decision) -> str:
     """Peak torque mismatch against the exact equation at 194 rad/s, and the energy that the start-up gains or loses."""
     energy = studies.mixed_model_energy()
     worst = float(energy[np.argmax(np.abs(energy))])
@@ -39,7 +39,7 @@ def mixed_model_effect(verdict: Verdict) -> str:
     )
 
 
-def mixed_model_truncated_effect(verdict: Verdict) -> str:
+def mixed_model_truncated_effect(verdict: Decision) -> str:
     """Peak torque mismatch against the Lagrange equation of the truncated travel at 194 rad/s."""
     return _mismatch("crankshaft_flywheel_truncated")
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mechsym.audit.entries import Decided
-from mechsym.audit.verdict import Verdict
+from mechsym.audit.verdict import Decision
 from mechsym.papers.nunes2017 import gears as printed
 from mechsym.papers.nunes2017.claims_record import against, items, peaks, right
 from mechsym.papers.nunes2017.sizing_numbers import GEOMETRY
@@ -61,7 +61,7 @@ def dynamic_constant() -> Decided:
     )
 
 
-def mesh_speed_effect(verdict: Verdict) -> str:
+def mesh_speed_effect(verdict: Decision) -> str:
     """What the pinion's half speed costs in K_v and in the width of the pinion."""
     half, true = (float(printed.dynamic_printed(member, 8000, _FEET)) for member in (1, 2))
     speed = float(agma.mesh_speed(printed.D_PINION, 8000 * np.pi / 30))

@@ -3,13 +3,13 @@
 import numpy as np
 
 from mechsym.audit.entries import Decided
-from mechsym.audit.verdict import Verdict
+from mechsym.audit.verdict import Decision
 from mechsym.papers.prymak import computed
 
 _TURN = np.linspace(0, 2 * np.pi, 361)
 
 
-def root_effect(verdict: Verdict) -> str:
+def root_effect(verdict: Decision) -> str:
     """What the printed root gives for equal masses."""
     # two journals on each axis carry half the sum each
     along, across = computed.inertia_resultant(_TURN)

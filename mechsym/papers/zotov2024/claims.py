@@ -8,7 +8,7 @@ from mechsym.audit.question import Question
 from mechsym.audit.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
-from mechsym.audit.verdict import Verdict
+from mechsym.audit.verdict import Decision
 from mechsym.papers.zotov2024 import computed
 
 _TURN = np.linspace(0, 2 * np.pi, 721)
@@ -33,7 +33,7 @@ def loads() -> Turn:
     return {"F": engines.assemblies[0].force, "M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}
 
 
-def hinge_torque_effect(verdict: Verdict) -> str:
+def hinge_torque_effect(verdict: Decision) -> str:
     """What the sign in (2) costs in the peak of the hinge torque at 89 and at 142 rpm."""
     statement = (
         "phid**2*r**2*m2*(2*(cos(phi) - lam*l1/l*cos(2*phi))*(sin(phi) - lam*l1/(2*l)*sin(2*phi))"
