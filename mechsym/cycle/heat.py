@@ -12,7 +12,7 @@ from mechsym.cycle.mixture import conductivity, viscosity
 from mechsym.quantities import quantity, record
 
 
-class GasState(NamedTuple):
+class GasAtWall(NamedTuple):
     """The gas as a heat-transfer law sees it.
 
     p [Pa], t [K], v [m^3], gas_constant [J/(kg K)], bore [m], piston_speed (mean) [m/s], and swirl, Woschni's
@@ -67,7 +67,7 @@ class Adiabatic:
 Law = Annand | Woschni | Hohenberg | Adiabatic
 
 
-def heat_flux(law: Law, state: GasState) -> Any:
+def heat_flux(law: Law, state: GasAtWall) -> Any:
     r"""Heat flux from the gas to the walls.
 
     .. math::
@@ -116,12 +116,12 @@ def motored_swirl(law: Law, p: Any, p_motored: Any, scale: Any) -> Any:
     Returns
     -------
     swirl : float or CasADi expression
-        Entry of `GasState` [K]
+        Entry of `GasAtWall` [K]
     """
     return scale * ca.fmax(p - p_motored, 0.0) if isinstance(law, Woschni) else 0.0
 
 
-def _annand(law: Annand, state: GasState) -> Any:
+def _annand(law: Annand, state: GasAtWall) -> Any:
     density = state.p / (state.gas_constant * state.t)
     reynolds = density * state.piston_speed * state.bore / viscosity(state.t)
     convection = conductivity(state.t) / state.bore * law.a * reynolds**law.exponent

@@ -13,7 +13,7 @@ from mechsym.quantities import record
 
 
 @record
-class Orders:
+class Harmonics:
     """Harmonics of one quantity, arrays of shape (m,)."""
 
     order: np.ndarray  #: Oscillations per turn, 0 first [-]
@@ -21,7 +21,7 @@ class Orders:
     phase: np.ndarray  #: delta_k, where the oscillation has its crest [rad]
 
 
-def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Orders:
+def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Harmonics:
     """Harmonics of a quantity given at evenly spaced angles.
 
     Parameters
@@ -39,10 +39,10 @@ def orders(values: np.ndarray, period: float, highest: float = 12.0) -> Orders:
     wanted = order <= highest + 1e-9
     amplitude = 2 * np.abs(spectrum)
     amplitude[0] = spectrum[0].real
-    return Orders(order=order[wanted], amplitude=amplitude[wanted], phase=-np.angle(spectrum[wanted]))
+    return Harmonics(order=order[wanted], amplitude=amplitude[wanted], phase=-np.angle(spectrum[wanted]))
 
 
-def whole(found: Orders, order: int) -> complex:
+def whole(found: Harmonics, order: int) -> complex:
     """One whole order as a complex amplitude.
 
     Returns

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from mechsym.forces.harmonics import Orders, orders, whole
+from mechsym.forces.harmonics import Harmonics, orders, whole
 from mechsym.forces.loads import roll_sense
 from mechsym.forces.turn import Turn
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
@@ -66,7 +66,7 @@ class Shaking:
 
     #: shape (n,): `force_x`, `force_y` [N], `roll` [N*m], and of a crank train `rocking_x`, `rocking_y` [N*m]
     curves: dict[str, np.ndarray]
-    orders: dict[str, Orders]
+    orders: dict[str, Harmonics]
     counterweight: Counterweight
     #: Best pair at the ends of a shaft whose throws all turn one way; empty for a single throw
     planes: tuple[PlaneWeight, ...]

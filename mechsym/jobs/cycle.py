@@ -10,7 +10,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
 from mechsym.cycle.chamber import chamber, piston_force, travel, volume
-from mechsym.cycle.closed.model import Engine, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
@@ -26,7 +26,7 @@ _BLOCK = 1000
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
 
-def engine(case: Case) -> Engine:
+def engine(case: Case) -> ClosedEngine:
     """The engine that a case describes.
 
     Parameters
@@ -43,7 +43,7 @@ def engine(case: Case) -> Engine:
     cycle = case.need("cycle")
     if not isinstance(cycle, SparkIgnition):
         raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
-    return Engine(
+    return ClosedEngine(
         chamber=case.need("chamber"),
         motion=motion(case.mechanism, asdict(case.need("parameters"))),
         cycle=cycle,
@@ -64,7 +64,7 @@ def _friction(case: Case) -> Friction:
     return fitted_law(plain, case.need("operation").speed * np.array(_FRICTION_SPEEDS)).law
 
 
-def over_speeds(engine: Engine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:
+def over_speeds(engine: ClosedEngine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:
     """Figures over the speeds, by the method that the cycle names.
 
     Parameters
@@ -77,7 +77,9 @@ def over_speeds(engine: Engine, omega: np.ndarray, progress: Progress = lambda c
     return over_design(engine, {"omega": omega}, progress)
 
 
-def over_design(engine: Engine, design: Mapping[str, Any], progress: Progress = lambda count: None) -> Performance:
+def over_design(
+    engine: ClosedEngine, design: Mapping[str, Any], progress: Progress = lambda count: None
+) -> Performance:
     """Figures over any of the engine's values, by the method that the cycle names.
 
     Parameters
@@ -143,7 +145,7 @@ def columns(found: Performance) -> dict[str, Any]:
     }
 
 
-def curves(engine: Engine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
+def curves(engine: ClosedEngine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
     """The closed period at one speed, curve by curve.
 
     Parameters

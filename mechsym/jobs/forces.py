@@ -11,7 +11,7 @@ from mechsym.cases import Case
 from mechsym.forces import claims, textbook
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Losses, losses
-from mechsym.forces.harmonics import Orders, orders
+from mechsym.forces.harmonics import Harmonics, orders
 from mechsym.forces.loads import Loads, loads, power_residual
 from mechsym.forces.rings import NoRings
 from mechsym.forces.shaking import Shaking, shaking, verdict
@@ -31,7 +31,7 @@ class Forces:
     turn: Turn
     loads: Loads
     columns: dict[str, np.ndarray]  #: shape (n,): The table `forces.csv`
-    torque_orders: Orders
+    torque_orders: Harmonics
     shaking: Shaking  #: Forces and moments on the frame
     losses: Losses | None  #: Friction, where the case has coefficients
     chains: dict[str, textbook.Chain]  #: For a slider crank: rod as two masses, and Terskih's rule
@@ -125,7 +125,7 @@ def quantities(numbers: dict[str, Any]) -> list[str]:
     return [name for name in numbers["max"] if not name.startswith(_RAW)]
 
 
-def _order_table(found: Orders) -> dict[str, list[float]]:
+def _order_table(found: Harmonics) -> dict[str, list[float]]:
     return {"order": found.order.tolist(), "amplitude": found.amplitude.tolist(), "phase": found.phase.tolist()}
 
 

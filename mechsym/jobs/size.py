@@ -23,7 +23,7 @@ from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import design as hypocycloid_design
 from mechsym.sizing.hypocycloid import engine as hypocycloid_engine
 from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock
 from mechsym.sizing.rows import check_rows, fact, size_rows
 from mechsym.sizing.rules.masses import power_to_weight
 from mechsym.sizing.rules.materials import get
@@ -135,7 +135,7 @@ def _part_rows(parts: Parts, rule: str) -> list[dict[str, Any]]:
 
 
 def _engine_rows(
-    found: Job, mass: float, moving: hypocycloid_masses.Moving, parts: Parts, forces: Forces
+    found: Job, mass: float, moving: hypocycloid_masses.Moving, parts: Parts, forces: PartForces
 ) -> list[dict[str, Any]]:
     top = performance(found, np.array([forces.omega.max()]))
     power = float(top.power[0])
@@ -167,7 +167,7 @@ def _speed_rows(found: Job) -> list[dict[str, Any]]:
                  f"{value / RPM:.0f} rpm, against {rival.case.name}") for value in crossing]  # fmt: skip
 
 
-def _nearest(found: Job, parts: Parts, forces: Forces) -> list[dict[str, Any]]:
+def _nearest(found: Job, parts: Parts, forces: PartForces) -> list[dict[str, Any]]:
     """Speeds at which these parts may run at full load, when they may not at all."""
     held = hypocycloid_checks.holding(parts, forces, found.wants, found.stock)
     if not held.any():

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsym.cases import Case, load
 from mechsym.cycle.chamber import chamber
-from mechsym.cycle.closed.model import Engine, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.performance import Performance
 from mechsym.cycle.closed.run import dense, run
 from mechsym.errors import BadInput
@@ -21,8 +21,8 @@ from mechsym.jobs.cycle import engine, over_speeds, speed_range
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
 from mechsym.mechanisms.record import bind, curves
 from mechsym.quantities import record
-from mechsym.sizing.hypocycloid.masses import Moving, Printed
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock
+from mechsym.sizing.hypocycloid.masses import Moving, PrintedMasses
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock
 from mechsym.sizing.loads import over_period
 from mechsym.sizing.rules import bearing_data, materials
 from mechsym.sizing.rules.cylinder import tdc_gap
@@ -38,7 +38,7 @@ class Job:
     """A case ready for sizing."""
 
     case: Case  #: The case, with the cycle settings that its section `[sizing]` asks for
-    machine: Engine
+    machine: ClosedEngine
     wants: Wants  #: Section `[sizing]`
     stock: Stock
 
@@ -111,7 +111,7 @@ def pressures(found: Job, omega: np.ndarray) -> Pressures:
                      back=found.machine.chamber.back_pressure)  # fmt: skip
 
 
-def hypocycloid_forces(found: Job, gas: Pressures) -> Callable[[Moving], Forces]:
+def hypocycloid_forces(found: Job, gas: Pressures) -> Callable[[Moving], PartForces]:
     """Forces of the derived hypocycloid mechanism for given moving masses.
 
     Returns
@@ -125,11 +125,11 @@ def hypocycloid_forces(found: Job, gas: Pressures) -> Callable[[Moving], Forces]
     heat = head_heat(fuel_flow(found, gas.omega.max()) / 2, found.machine.cycle.heating_value, found.wants.heat_share)
     around = found.machine.cycle.intake_pressure
 
-    def forces_of(moving: Moving) -> Forces:
+    def forces_of(moving: Moving) -> PartForces:
         masses = dataclasses.replace(parameters, m2=moving.planet, m3=moving.axis, u1=-moving.planet * parameters.e)
         out = _reactions(masses, gas, net)
         share = moving.rod / moving.axis
-        return Forces(
+        return PartForces(
             omega=gas.omega, theta=gas.theta, dp_max=gas.p.max(axis=1) - around, net=out["pin_force"],
             rod=net - share * (net - out["pin_force"]), tooth=out["tooth_force"], radial=out["tooth_force_radial"],
             torque=out["piston_torque"], spin=moving.planet * parameters.e * gas.omega**2, e=parameters.e,
@@ -157,7 +157,7 @@ def fuel_flow(found: Job, omega: float) -> float:
     return float(figures.sfc[0] * figures.power[0])
 
 
-def printed(case: Case) -> Printed:
+def printed(case: Case) -> PrintedMasses:
     """The parts that a case prints, with their masses.
 
     Parameters
@@ -168,7 +168,7 @@ def printed(case: Case) -> Printed:
 
     Returns
     -------
-    printed : Printed
+    printed : PrintedMasses
         Reference of the mass model, and what `--as-printed` checks
 
     Raises
@@ -178,7 +178,7 @@ def printed(case: Case) -> Printed:
     """
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
-    return Printed(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
+    return PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
                    e=case.need("parameters").e)  # fmt: skip
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cycle.closed.differentiable import PEAK_UNITS, SCALAR_UNITS
-from mechsym.cycle.closed.model import Engine, design_names
+from mechsym.cycle.closed.model import ClosedEngine, design_names
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, parse, quantity, record
 
@@ -54,10 +54,10 @@ class Limit:
 
 
 @record
-class Problem:
+class Programme:
     """A design problem with numbers."""
 
-    engine: Engine
+    engine: ClosedEngine
     omega: float  #: Crank speed [rad/s]
     objective: str  #: Figure to make large or small
     sign: float  #: 1 to maximise, -1 to minimise [-]
@@ -66,7 +66,7 @@ class Problem:
     constraints: tuple[Limit, ...]
 
 
-def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
+def problem(engine: ClosedEngine, omega: float, section: Optimise) -> Programme:
     """Check a section against the engine and turn its texts into numbers.
 
     Parameters
@@ -79,7 +79,7 @@ def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
     for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
         if name not in figures:
             raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
-    return Problem(
+    return Programme(
         engine=engine,
         omega=omega,
         objective=section.objective,
@@ -89,13 +89,13 @@ def problem(engine: Engine, omega: float, section: Optimise) -> Problem:
     )
 
 
-def figure_units(engine: Engine) -> dict[str, str]:
+def figure_units(engine: ClosedEngine) -> dict[str, str]:
     """Figures that may be an objective or a constraint."""
     loads = engine.motion.loads.name_out() if engine.motion.loads is not None else []
     return SCALAR_UNITS | PEAK_UNITS | dict.fromkeys(loads, "N")
 
 
-def design_units(engine: Engine) -> dict[str, str]:
+def design_units(engine: ClosedEngine) -> dict[str, str]:
     """Units of the values that a design may hold."""
     records = {s: getattr(engine, s) for s in ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")}
     units = {

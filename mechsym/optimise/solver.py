@@ -13,8 +13,8 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
-from mechsym.cycle.closed.model import Engine, at_design
-from mechsym.optimise.problem import Limit, Problem, figure_units
+from mechsym.cycle.closed.model import ClosedEngine, at_design
+from mechsym.optimise.problem import Limit, Programme, figure_units
 from mechsym.quantities import record
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
@@ -50,7 +50,7 @@ class _Block(NamedTuple):
     expression: Any
 
 
-def solve(task: Problem) -> Optimum:
+def solve(task: Programme) -> Optimum:
     """Solve a design problem.
 
     Returns
@@ -74,7 +74,7 @@ def solve(task: Problem) -> Optimum:
     return _optimum(task, figures, solver.stats(), found, blocks, size)
 
 
-def pareto(task: Problem, against: str, goal: str, points: int) -> list[Optimum]:
+def pareto(task: Programme, against: str, goal: str, points: int) -> list[Optimum]:
     """Best values of the objective for given values of a second figure.
 
     Returns
@@ -99,7 +99,7 @@ def _bounds(limits: Sequence[Limit]) -> tuple[np.ndarray, np.ndarray]:
     return np.array([v.low for v in limits]), np.array([v.high for v in limits])
 
 
-def _function(task: Problem) -> ca.Function:
+def _function(task: Programme) -> ca.Function:
     names = [v.name for v in task.variables]
     z = ca.MX.sym("z", len(names))
     if "omega" in names:
@@ -114,23 +114,23 @@ def _block(limit: Limit, expression: Any) -> _Block:
     return _Block(limit, scale, expression / scale)
 
 
-def _start(task: Problem, count: int) -> np.ndarray:
+def _start(task: Programme, count: int) -> np.ndarray:
     low, high = _bounds(task.variables)
     inside = np.clip((_nominal(task) - low) / (high - low), _MARGIN, 1 - _MARGIN)
     return np.concatenate([inside, np.ones(count - inside.size)])
 
 
-def _nominal(task: Problem) -> np.ndarray:
+def _nominal(task: Programme) -> np.ndarray:
     return np.array([task.omega if v.name == "omega" else _value(task.engine, v.name) for v in task.variables])
 
 
-def _value(engine: Engine, name: str) -> float:
+def _value(engine: ClosedEngine, name: str) -> float:
     section, _, key = name.partition(".")
     here = at_design(engine, {})
     return here.motion.parameters[key] if section == "parameters" else getattr(getattr(here, section), key)
 
 
-def _size(task: Problem, figures: ca.Function) -> float:
+def _size(task: Programme, figures: ca.Function) -> float:
     return abs(_largest(figures, _nominal(task))[task.objective]) or 1.0
 
 
@@ -150,7 +150,7 @@ def _programme_bounds(blocks: Sequence[_Block], rows: Sequence[Any], variables: 
 
 
 def _optimum(
-    task: Problem, figures: ca.Function, stats: Any, found: Any, blocks: Sequence[_Block], size: float
+    task: Programme, figures: ca.Function, stats: Any, found: Any, blocks: Sequence[_Block], size: float
 ) -> Optimum:
     low, high = _bounds(task.variables)
     share = np.asarray(found["x"]).ravel()[: low.size]
@@ -177,7 +177,7 @@ def _optimum(
     )  # fmt: skip
 
 
-def _active(task: Problem, limit: Limit, value: float, scale: float, costs: Mapping[str, float]) -> dict[str, Any]:
+def _active(task: Programme, limit: Limit, value: float, scale: float, costs: Mapping[str, float]) -> dict[str, Any]:
     for side, bound in (("low", limit.low), ("high", limit.high)):
         if abs(value - bound) < _ACTIVE * scale:
             cost, step = costs[limit.name], abs(bound) / 100 or scale / 100

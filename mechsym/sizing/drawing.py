@@ -11,7 +11,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from mechsym.files import write_text
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock, chosen
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import Choice
 from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
 
@@ -22,9 +22,9 @@ _CAP_WALL = 4e-3  # of the rod's cap, for the picture [m]
 Box = tuple[float, float, float, float, str]  # x from, x to, y from, y to, colour key
 
 
-def section_view(path: Path, parts: Parts | SliderParts, forces: Forces | SliderForces, stock: Stock) -> Path:
+def section_view(path: Path, parts: Parts | SliderParts, forces: PartForces | SliderForces, stock: Stock) -> Path:
     """Draw both cranks and the cylinder at top dead centre."""
-    if isinstance(parts, Parts) and isinstance(forces, Forces):
+    if isinstance(parts, Parts) and isinstance(forces, PartForces):
         boxes, labels = hypocycloid_boxes(parts, forces, stock)
     else:
         boxes, labels = slider_crank_boxes(parts, forces)  # type: ignore[arg-type]
@@ -43,7 +43,9 @@ def section_view(path: Path, parts: Parts | SliderParts, forces: Forces | Slider
     return _save(figure, path)
 
 
-def hypocycloid_boxes(parts: Parts, forces: Forces, stock: Stock) -> tuple[list[Box], list[tuple[float, float, str]]]:
+def hypocycloid_boxes(
+    parts: Parts, forces: PartForces, stock: Stock
+) -> tuple[list[Box], list[tuple[float, float, str]]]:
     """Rectangles of the right half of the engine, crank at top dead centre, and labels.
 
     Returns

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mechsym.cycle.friction import ChenFlynn, Heywood, NoFriction, friction_pressure
-from mechsym.cycle.heat import Adiabatic, Annand, GasState, Hohenberg, Woschni, heat_flux, motored_swirl
+from mechsym.cycle.heat import Adiabatic, Annand, GasAtWall, Hohenberg, Woschni, heat_flux, motored_swirl
 from mechsym.cycle.kinds.ideal import diesel_efficiency, otto_efficiency, seiliger
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, conductivity, properties, viscosity
 from mechsym.errors import BadInput
@@ -64,7 +64,7 @@ def test_transport_properties_of_air():
     assert conductivity(300.0) == pytest.approx(0.0263, rel=0.05)
 
 
-STATE = GasState(5e6, 2000.0, 5e-5, 287.0, 0.06, 12.0, 0.0)
+STATE = GasAtWall(5e6, 2000.0, 5e-5, 287.0, 0.06, 12.0, 0.0)
 
 
 def test_annand_by_hand():

@@ -12,7 +12,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.closed.model import Engine, at_design, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, at_design, closed_period
 from mechsym.cycle.closed.performance import force_function
 from mechsym.cycle.closed.phases import closed_function
 from mechsym.cycle.friction import friction_pressure
@@ -28,7 +28,7 @@ SCALAR_UNITS = {
 PEAK_UNITS = {"p_max": "Pa", "force_max": "N", "torque_max": "N*m"}
 
 
-def design_function(engine: Engine, names: Sequence[str], steps: int = STEPS) -> ca.Function:
+def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STEPS) -> ca.Function:
     """Figures of the engine as a function of some of its values.
 
     Parameters

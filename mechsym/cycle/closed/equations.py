@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from mechsym.cycle.chamber import Chamber, volume, wall_area
-from mechsym.cycle.heat import GasState, Law, heat_flux, motored_swirl
+from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
@@ -186,5 +186,5 @@ def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant:
         scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
         swirl = motored_swirl(closed.law, p, motored, scale)
     speed = chamber.stroke * closed.omega / ca.pi
-    state = GasState(p, t, v, gas_constant, chamber.bore, speed, swirl)
+    state = GasAtWall(p, t, v, gas_constant, chamber.bore, speed, swirl)
     return heat_flux(closed.law, state) * wall_area(chamber, v) / closed.omega

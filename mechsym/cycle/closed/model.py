@@ -24,7 +24,7 @@ _SECTIONS = ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
 
 
 @record
-class Engine:
+class ClosedEngine:
     """A four-stroke engine: sections of a case, and the motion of its pistons."""
 
     chamber: ChamberParameters
@@ -35,7 +35,7 @@ class Engine:
     friction_pressure: Friction
 
 
-def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
+def at_design(engine: ClosedEngine, design: Mapping[str, Any]) -> ClosedEngine:
     """The engine with some of its values replaced.
 
     Parameters
@@ -45,7 +45,7 @@ def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
 
     Returns
     -------
-    engine : Engine
+    engine : ClosedEngine
         A copy; values that are CasADi symbols are not checked
     """
     parts = {f.name: getattr(engine, f.name) for f in dataclasses.fields(engine)}
@@ -60,10 +60,10 @@ def at_design(engine: Engine, design: Mapping[str, Any]) -> Engine:
             parts[section] = _replaced(parts[section], key, value)
         else:
             raise BadInput(f"{name!r} is not a number of the engine; names are {', '.join(design_names(engine))}")
-    return Engine(**parts)
+    return ClosedEngine(**parts)
 
 
-def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
+def check_design(engine: ClosedEngine, design: Mapping[str, Any]) -> None:
     """Refuse a design with numbers that the engine's own records would refuse.
 
     Parameters
@@ -82,7 +82,7 @@ def check_design(engine: Engine, design: Mapping[str, Any]) -> None:
                 dataclasses.replace(record, **{key: float(value)})
 
 
-def design_names(engine: Engine) -> list[str]:
+def design_names(engine: ClosedEngine) -> list[str]:
     """Names that a design may hold."""
     names = ["omega", *(f"parameters.{key}" for key in engine.motion.parameters)]
     for section in _SECTIONS:
@@ -91,7 +91,7 @@ def design_names(engine: Engine) -> list[str]:
     return names
 
 
-def closed_period(engine: Engine, design: Mapping[str, Any]) -> Closed:
+def closed_period(engine: ClosedEngine, design: Mapping[str, Any]) -> Closed:
     """The closed period of the engine at a design.
 
     Parameters

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel
-from mechsym.cycle.closed.model import Engine, at_design, check_design, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, at_design, check_design, closed_period
 from mechsym.cycle.closed.run import MANY, dense, run
 from mechsym.cycle.friction import Friction, friction_pressure
 from mechsym.native import compiled
@@ -50,7 +50,7 @@ class Performance:
     loads: Mapping[str, np.ndarray]  #: Largest magnitude of each load of the mechanism over a revolution
 
 
-def performance(engine: Engine, design: Mapping[str, Any]) -> Performance:
+def performance(engine: ClosedEngine, design: Mapping[str, Any]) -> Performance:
     r"""Figures of the converged cycle.
 
     .. math:: \bar T = W/(4\pi), \quad p_{mi} = W/V_d, \quad \eta = W/(m_f Q_{HV})
@@ -151,11 +151,11 @@ def _shares(scalars: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _friction(engine: Engine, design: Mapping[str, Any]) -> Friction:
+def _friction(engine: ClosedEngine, design: Mapping[str, Any]) -> Friction:
     return at_design(engine, {k: np.asarray(v, float) for k, v in design.items()}).friction_pressure
 
 
-def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
+def _along(engine: ClosedEngine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
     columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
     function = force_function(engine, tuple(design))
     points = [*columns, phi.ravel(), p.ravel()]
@@ -166,7 +166,7 @@ def _along(engine: Engine, design: Mapping[str, Any], phi: np.ndarray, p: np.nda
     return {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
 
 
-def force_function(engine: Engine, names: tuple[str, ...]) -> ca.Function:
+def force_function(engine: ClosedEngine, names: tuple[str, ...]) -> ca.Function:
     """Force and torque of one piston, and the mechanism's loads, at a point of a cycle as a function of the design.
 
     Returns
@@ -181,7 +181,7 @@ def force_function(engine: Engine, names: tuple[str, ...]) -> ca.Function:
     return ca.Function("forces", [z, phi, p], list(forces.values()), ["design", "phi", "p"], list(forces))
 
 
-def _forces(engine: Engine, room: Chamber, omega: Any, phi: Any, p: Any) -> dict[str, Any]:
+def _forces(engine: ClosedEngine, room: Chamber, omega: Any, phi: Any, p: Any) -> dict[str, Any]:
     force = piston_force(room, phi, omega, p)
     outputs = {"torque": force * travel(engine.motion, phi)[1], "force": force}
     loads = engine.motion.loads

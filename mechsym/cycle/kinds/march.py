@@ -19,7 +19,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, piston_force, travel, volume, wall_area
-from mechsym.cycle.heat import GasState, Law, heat_flux
+from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.native.march import marcher
@@ -135,5 +135,5 @@ def mean_torque(chamber: Chamber, result: March) -> np.ndarray:
 def _loss(chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Any, Any, Any], omega: Any) -> Any:
     p, t, v_end = state
     speed = chamber.stroke * omega / np.pi
-    flux = heat_flux(law, GasState(p, t, v_end, gas.gas_constant, chamber.bore, speed))
+    flux = heat_flux(law, GasAtWall(p, t, v_end, gas.gas_constant, chamber.bore, speed))
     return flux * wall_area(chamber, v_end) * np.radians(1.0) / omega

@@ -6,7 +6,7 @@ Kept apart from `performance`: where the two differ, the thesis slipped (`docs/e
 import numpy as np
 
 from mechsym.cycle.chamber import chamber, piston_force
-from mechsym.cycle.closed.model import Engine
+from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance, figures
 from mechsym.cycle.kinds.march import March, crank_torque, march, mean_torque
 from mechsym.cycle.mixture import ConstantGamma
@@ -17,7 +17,7 @@ _CV = 718.0  # table 3.2 [J/(kg K)]; R/(gamma - 1) is 717.5
 _LAST = -1  # the energy shares end at 539 degrees, one step before the exhaust opens
 
 
-def marched(engine: Engine, omega: np.ndarray) -> March:
+def marched(engine: ClosedEngine, omega: np.ndarray) -> March:
     """The thesis's march of an engine.
 
     Parameters
@@ -34,7 +34,7 @@ def marched(engine: Engine, omega: np.ndarray) -> March:
     return march(chamber(engine.chamber, engine.motion), cycle, _gas(engine), engine.heat_transfer, omega)
 
 
-def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
+def performance_printed(engine: ClosedEngine, omega: np.ndarray) -> Performance:
     r"""Figures of the thesis at its one-degree march.
 
     .. math:: p_{mi} = 6.28\cdot 2\,\bar T/V_d, \quad \eta = 4\pi\bar T/(m_f Q_{HV}),
@@ -42,7 +42,7 @@ def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
 
     Parameters
     ----------
-    engine : Engine
+    engine : ClosedEngine
         The engine; its gas must be `ConstantGamma`, its closed period two whole strokes
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
@@ -82,7 +82,7 @@ def performance_printed(engine: Engine, omega: np.ndarray) -> Performance:
     )  # fmt: skip
 
 
-def _gas(engine: Engine) -> ConstantGamma:
+def _gas(engine: ClosedEngine) -> ConstantGamma:
     if not isinstance(engine.gas, ConstantGamma):
         raise BadInput("method = 'nunes2017_printed' marches with a constant gamma; set gas.model = 'constant_gamma'")
     return engine.gas
@@ -94,7 +94,7 @@ def _residual(result: March, gas: ConstantGamma, work: np.ndarray) -> np.ndarray
     return energy + work - heat.sum(axis=0)
 
 
-def _loads(engine: Engine, angle: np.ndarray, omega: np.ndarray, result: March) -> dict[str, np.ndarray]:
+def _loads(engine: ClosedEngine, angle: np.ndarray, omega: np.ndarray, result: March) -> dict[str, np.ndarray]:
     loads = engine.motion.loads
     if loads is None:
         return {}

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mechsym.cycle.cylinder import Cylinder, dvolume_dphi, piston_area, swept_volume, volume
-from mechsym.cycle.heat import GasState, Law, heat_flux
+from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.quantities import record
 
 LEVELS = (0.1, 0.5, 0.9)
@@ -208,5 +208,5 @@ def _wall_rate(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, walls: Walls)
     v = volume(cylinder, phi)
     t = p * v / (walls.mass * walls.gas_constant)
     speed = cylinder.stroke * walls.omega / math.pi
-    flux = heat_flux(walls.law, GasState(p, t, v, walls.gas_constant, cylinder.bore, speed))
+    flux = heat_flux(walls.law, GasAtWall(p, t, v, walls.gas_constant, cylinder.bore, speed))
     return flux * (2 * piston_area(cylinder.bore) + 4 * v / cylinder.bore) / walls.omega

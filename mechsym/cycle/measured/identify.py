@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.closed.model import Engine, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.run import run
 from mechsym.cycle.measured.fits import Fit, least_squares_fit
 from mechsym.errors import BadInput
@@ -25,14 +25,14 @@ _STEP = 1e-5
 
 
 def identify(
-    engine: Engine, omega: float, phi: np.ndarray, p: np.ndarray, start: Mapping[str, float],
+    engine: ClosedEngine, omega: float, phi: np.ndarray, p: np.ndarray, start: Mapping[str, float],
     scale: Mapping[str, float],
 ) -> Fit:  # fmt: skip
     """Values of the engine, and faults of the measurement, that explain a diagram best.
 
     Parameters
     ----------
-    engine : Engine
+    engine : ClosedEngine
         The engine; what is not named stays as it is
     omega : float
         Crank speed [rad/s]

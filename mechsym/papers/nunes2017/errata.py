@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, piston_force
-from mechsym.cycle.closed.model import Engine
+from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance
 from mechsym.cycle.kinds.march import March
 from mechsym.cycle.kinds.printed import marched
@@ -196,11 +196,11 @@ def back_pressure() -> dict[str, float]:
     return figures
 
 
-def _engine(case: str, changes: dict[str, str] | None = None) -> Engine:
+def _engine(case: str, changes: dict[str, str] | None = None) -> ClosedEngine:
     return engine(load(case, {**_PRINTED, **(changes or {})}))
 
 
-def _marched(case: str, changes: dict[str, str] | None = None) -> tuple[Engine, March, Performance]:
+def _marched(case: str, changes: dict[str, str] | None = None) -> tuple[ClosedEngine, March, Performance]:
     machine = _engine(case, changes)
     omega = speed_range(load(case).need("speeds"))
     return machine, marched(machine, omega), over_speeds(machine, omega)

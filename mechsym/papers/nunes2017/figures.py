@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from mechsym.cases import load
 from mechsym.cycle.chamber import chamber as make_chamber
 from mechsym.cycle.chamber import travel, volume
-from mechsym.cycle.closed.model import Engine
+from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.kinds.march import crank_torque
 from mechsym.cycle.kinds.printed import marched
 from mechsym.hinge.plots import BLUE, GREEN, ORANGE, RED
@@ -38,7 +38,7 @@ def figures() -> dict[str, Figure]:
     }
 
 
-def _kinematics(machines: Mapping[str, Engine]) -> dict[str, Figure]:
+def _kinematics(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     theta = np.linspace(0, 2 * np.pi, 721)
     rooms = {name: make_chamber(m.chamber, m.motion) for name, m in machines.items()}
     moved = {name: travel(room.motion, theta) for name, room in rooms.items()}
@@ -62,7 +62,7 @@ def _over_turn(number: str, curves: Mapping[str, np.ndarray], label: str) -> Fig
     return figure
 
 
-def _cycles(machines: Mapping[str, Engine]) -> dict[str, Figure]:
+def _cycles(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     found: dict[str, Figure] = {}
     for first, (name, machine) in zip((7, 10), machines.items(), strict=True):
         room = make_chamber(machine.chamber, machine.motion)
@@ -82,7 +82,7 @@ def _cycles(machines: Mapping[str, Engine]) -> dict[str, Figure]:
     return found
 
 
-def _piston_forces(number: str, name: str, machine: Engine, room: Any, result: Any) -> Figure:
+def _piston_forces(number: str, name: str, machine: ClosedEngine, room: Any, result: Any) -> Figure:
     figure, axes = panels(2, 1, (6.4, 6), sharex=True)
     phi, degrees = np.radians(result.theta_deg - 360.0), result.theta_deg - 180.0
     mass = sum(machine.motion.parameters[m] for m in machine.motion.masses)

@@ -16,7 +16,7 @@ import casadi as ca
 
 from mechsym.cycle.chamber import travel
 from mechsym.cycle.closed.equations import PHASES, pressure, rates
-from mechsym.cycle.closed.model import Engine, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.quantities import record
@@ -38,7 +38,7 @@ class Cylinder:
 class Loop:
     """An engine whose cylinders act on a mechanism against a load."""
 
-    engine: Engine
+    engine: ClosedEngine
     mechanism: Mechanism
     cylinders: tuple[Cylinder, ...]
     load: ConstantLoad | PropellerLoad
@@ -81,7 +81,7 @@ def right_side(loop: Loop) -> ca.Function:
     return ca.Function("loop", [y, held], [rate, ca.vertcat(*pressures)])
 
 
-def _gas(engine: Engine, omega: Any, phi: Any, t: Any, held: Any) -> tuple[Any, tuple[Any, ...]]:
+def _gas(engine: ClosedEngine, omega: Any, phi: Any, t: Any, held: Any) -> tuple[Any, tuple[Any, ...]]:
     closed = closed_period(engine, {"omega": omega})
     closed = dataclasses.replace(closed, starts=held[1], duration=held[2])
     p, slopes = engine.cycle.intake_pressure, (0.0, 0.0, 0.0)

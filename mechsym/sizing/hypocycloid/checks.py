@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsym.sizing.checks import Check, at_least, unsafe
 from mechsym.sizing.hypocycloid.engine import bending_moment, crank_loads, cylinder_loads, seats, spans, tooth_loads
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock, chosen
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import Choice, check_bearing
 from mechsym.sizing.parts.crank_design import check_crank, check_output
 from mechsym.sizing.parts.gear_checks import check_gears
@@ -19,7 +19,7 @@ from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor
 from mechsym.sizing.wants import Wants
 
 
-def check_all(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
+def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of the engine.
 
     Returns
@@ -52,7 +52,7 @@ def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choic
                     rule="room in the main bearing's bore", source="geometry")  # fmt: skip
 
 
-def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> list[Check]:
+def check_pinion_shaft(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
     """Shaft under the pinion: bending between two journals, and the tooth's torque.
 
     Returns
@@ -75,7 +75,7 @@ def check_pinion_shaft(parts: Parts, forces: Forces, wants: Wants, stock: Stock)
     ]  # fmt: skip
 
 
-def holding(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> np.ndarray:
+def holding(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> np.ndarray:
     """Speeds at which every check holds by itself.
 
     Returns

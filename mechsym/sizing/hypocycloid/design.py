@@ -10,8 +10,8 @@ from mechsym.quantities import record
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.hypocycloid.checks import check_all, check_pinion_shaft
 from mechsym.sizing.hypocycloid.engine import crank_loads, cylinder_loads, seats, shaft_length, tooth_loads
-from mechsym.sizing.hypocycloid.masses import Moving, Printed, moving
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock, bearing, chosen
+from mechsym.sizing.hypocycloid.masses import Moving, PrintedMasses, moving
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, bearing, chosen
 from mechsym.sizing.parts.bearing_design import Choice, Seat, check_bearing, choices, choose, seat_diameter
 from mechsym.sizing.parts.crank_design import check_crank, size_output
 from mechsym.sizing.parts.gear_design import candidates, face_width
@@ -26,34 +26,34 @@ _BOSS = 2e-3  # material of a web around pin and shaft, assumed [m]
 
 
 @record
-class Design:
+class HypocycloidDesign:
     """A sized engine."""
 
     parts: Parts
     moving: Moving  #: Masses that the loads were computed with: those of the parts when `converged`
-    forces: Forces
+    forces: PartForces
     checks: list[Check]
     rounds: int
     converged: bool
 
 
 def design(
-    forces_of: Callable[[Moving], Forces], printed: Printed, start: Moving, wants: Wants, stock: Stock
-) -> Design:
+    forces_of: Callable[[Moving], PartForces], printed: PrintedMasses, start: Moving, wants: Wants, stock: Stock
+) -> HypocycloidDesign:
     """Iterate loads and sizes to a fixed point.
 
     Parameters
     ----------
     forces_of : callable
         Moving masses -> forces over the speeds
-    printed : Printed
+    printed : PrintedMasses
         The source's parts: start and reference of the masses
     stock : Stock
         Materials and bearings to choose from
 
     Returns
     -------
-    design : Design
+    design : HypocycloidDesign
         Its checks tell whether it holds; nothing is refused here
     """
     parts, masses, seen = printed.parts, start, []
@@ -61,18 +61,18 @@ def design(
         forces = forces_of(masses)
         sized = size(parts, forces, printed, wants, stock)
         if sized == parts and number > 1:
-            return Design(parts=parts, moving=masses, forces=forces, rounds=number, converged=True,
+            return HypocycloidDesign(parts=parts, moving=masses, forces=forces, rounds=number, converged=True,
                           checks=check_all(parts, forces, wants, stock))  # fmt: skip
         # two designs that call for each other: keep the heavier one
         parts = max(sized, parts, key=lambda p: moving(p, printed, wants, stock).axis) if sized in seen else sized
         seen.append(sized)
         masses = moving(parts, printed, wants, stock)
     forces = forces_of(masses)
-    return Design(parts=parts, moving=masses, forces=forces, rounds=_ROUNDS, converged=False,
+    return HypocycloidDesign(parts=parts, moving=masses, forces=forces, rounds=_ROUNDS, converged=False,
                   checks=check_all(parts, forces, wants, stock))  # fmt: skip
 
 
-def size(parts: Parts, forces: Forces, printed: Printed, wants: Wants, stock: Stock) -> Parts:
+def size(parts: Parts, forces: PartForces, printed: PrintedMasses, wants: Wants, stock: Stock) -> Parts:
     """One round: every part sized for the forces, in the order in which they lean on each other."""
     material = {
         key: get(dict(stock.materials), getattr(wants, key)) for key in ("piston", "cylinder", "gears", "shaft")
@@ -91,7 +91,7 @@ def size(parts: Parts, forces: Forces, printed: Printed, wants: Wants, stock: St
     return replace(parts, crank=replace(parts.crank, shaft_length=round(shaft_length(parts, stock), 9)))
 
 
-def _gears(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> GearPart:
+def _gears(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> GearPart:
     """The narrowest pair that holds; the ring's rim is 1.2 whole depths."""
     material = get(dict(stock.materials), wants.gears)
     loads, old, best = tooth_loads(parts, forces, wants, stock), parts.gears, None
@@ -107,7 +107,7 @@ def _gears(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> GearPart
     return best if best is not None else replace(old, face=2 * old.module * old.teeth_pinion)
 
 
-def _journals(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Parts:
+def _journals(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> Parts:
     """Inner and outer journals: the lightest bearings that hold and leave the shaft strong enough."""
     main = bearing(stock, parts.bearings.main)
     room = main.bore - 2 * forces.e - 2 * wants.carrier_wall
@@ -127,7 +127,7 @@ def _journals(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Parts
     return best
 
 
-def _weakest(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> tuple[float, float]:
+def _weakest(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> tuple[float, float]:
     """Smallest factor over wanted factor of the inner bearings, at most 1, and then of the crankshaft."""
     inner = chosen(parts.bearings, stock)["inner"]
     crankshaft = get(dict(stock.materials), wants.crankshaft)
@@ -149,7 +149,7 @@ def _with_inner(parts: Parts, choice: Choice, pin: float, stack: float, wants: W
     return replace(parts, crank=crank, bearings=bearings)
 
 
-def _with_outer(parts: Parts, options: list[Choice], forces: Forces, wants: Wants, stock: Stock) -> Parts:
+def _with_outer(parts: Parts, options: list[Choice], forces: PartForces, wants: Wants, stock: Stock) -> Parts:
     seat = seats(parts, forces, stock)["outer"]
     found = choose(options, seat, wants) or (options[-1] if options else None)
     if found is None:
@@ -158,7 +158,7 @@ def _with_outer(parts: Parts, options: list[Choice], forces: Forces, wants: Want
     return replace(parts, bearings=bearings)
 
 
-def _outboard(parts: Parts, forces: Forces, wants: Wants, stock: Stock, output: float) -> Parts:
+def _outboard(parts: Parts, forces: PartForces, wants: Wants, stock: Stock, output: float) -> Parts:
     """The outboard bearing sits on the output shaft, which takes the bearing's bore."""
     seat = seats(parts, forces, stock)["outboard"]
     balls = [b for b in stock.bearings.values() if b.kind == "ball" and b.bore <= 0.04]
@@ -178,6 +178,6 @@ def _longest(options: list[Choice], seat: Seat, wants: Wants) -> Choice | None:
     return max(options, key=weakest, default=None)
 
 
-def failing(found: Design) -> list[Check]:
+def failing(found: HypocycloidDesign) -> list[Check]:
     """The checks that a design does not pass."""
     return unsafe(found.checks)

@@ -1,13 +1,13 @@
 """The hypocycloid engine as a whole: axial places and loads on every part.
 
-Forces come from outside as arrays over speed and angle (`hypocycloid_parts.Forces`).
+Forces come from outside as arrays over speed and angle (`parts.PartForces`).
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
-from mechsym.sizing.hypocycloid.parts import Forces, Parts, Stock, chosen
+from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
 from mechsym.sizing.parts.bearing_design import Seat
 from mechsym.sizing.parts.crank_design import CrankLoads
@@ -66,7 +66,7 @@ def shaft(parts: Parts, stock: Stock) -> Shaft:
                  seat=crank.shaft, seat_end=min(seat_end, z.gear), thin=thin)  # fmt: skip
 
 
-def vectors(forces: Forces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def vectors(forces: PartForces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Forces on one side of the planet.
 
     Returns
@@ -77,7 +77,7 @@ def vectors(forces: Forces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return side_vectors(forces.net, forces.tooth, forces.radial, forces.spin, forces.theta)
 
 
-def bending_moment(parts: Parts, forces: Forces, stock: Stock) -> Callable[[float], np.ndarray]:
+def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[float], np.ndarray]:
     """Bending moment along the crankshaft.
 
     Returns
@@ -90,7 +90,7 @@ def bending_moment(parts: Parts, forces: Forces, stock: Stock) -> Callable[[floa
     return lambda place: moment(place, z, shares, force, teeth + centrifugal)
 
 
-def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> ToothLoads:
+def tooth_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> ToothLoads:
     """Tooth loads of the harder loaded pair.
 
     Returns
@@ -103,7 +103,7 @@ def tooth_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Too
     return ToothLoads(omega=forces.omega, tooth=share * forces.tooth)
 
 
-def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
+def seats(parts: Parts, forces: PartForces, stock: Stock) -> dict[str, Seat]:
     """Loads and speeds of the bearings."""
     loads = side_loads(vectors(forces), spans(parts, stock), outer_shares(shaft(parts, stock)))
     w = forces.omega
@@ -118,7 +118,7 @@ def seats(parts: Parts, forces: Forces, stock: Stock) -> dict[str, Seat]:
     return {key: Seat(name=name, omega=w, load=load, turning=turning) for key, (name, load, turning) in places.items()}
 
 
-def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> CrankLoads:
+def crank_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> CrankLoads:
     """Loads of crankpin, web and shafts.
 
     Returns
@@ -134,7 +134,7 @@ def crank_loads(parts: Parts, forces: Forces, wants: Wants, stock: Stock) -> Cra
     )  # fmt: skip
 
 
-def cylinder_loads(forces: Forces) -> CylinderLoads:
+def cylinder_loads(forces: PartForces) -> CylinderLoads:
     """Loads of piston and cylinder."""
     return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
                          bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip

@@ -20,7 +20,7 @@ _SUPPORT_SHAFT = 0.020  # free length of the support shaft, assumed: the source 
 
 
 @record
-class Printed:
+class PrintedMasses:
     """The source's parts and their masses, the reference of the mass model."""
 
     parts: Parts
@@ -40,7 +40,7 @@ class Moving:
     unbalance: float
 
 
-def moving_printed(printed: Printed, stock: Stock) -> Moving:
+def moving_printed(printed: PrintedMasses, stock: Stock) -> Moving:
     """Moving masses from the printed masses (errata E20).
 
     Returns
@@ -59,7 +59,7 @@ def moving_printed(printed: Printed, stock: Stock) -> Moving:
     )  # fmt: skip
 
 
-def moving(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> Moving:
+def moving(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> Moving:
     """Moving masses of sized parts.
 
     Returns
@@ -79,7 +79,7 @@ def moving(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> Moving
     )  # fmt: skip
 
 
-def part_masses(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
+def part_masses(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
     """Mass and number of every part of the engine.
 
     Returns
@@ -109,7 +109,7 @@ def part_masses(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> d
     }
 
 
-def total_mass(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> float:
+def total_mass(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> float:
     """Mass of the engine without belt drive.
 
     Returns
@@ -120,7 +120,7 @@ def total_mass(parts: Parts, printed: Printed, wants: Wants, stock: Stock) -> fl
     return roll_up(part_masses(parts, printed, wants, stock))
 
 
-def total_mass_printed(printed: Printed, stock: Stock) -> float:
+def total_mass_printed(printed: PrintedMasses, stock: Stock) -> float:
     """Mass of the engine from the printed masses.
 
     Returns
@@ -147,7 +147,7 @@ def _crankshaft(parts: Parts, e: float, wants: Wants, stock: Stock) -> tuple[flo
     return pin, density * area * crank.web, shaft, centre / e
 
 
-def _shaft_set(parts: Parts, printed: Printed, density: float, balance: float, output: bool) -> float:
+def _shaft_set(parts: Parts, printed: PrintedMasses, density: float, balance: float, output: bool) -> float:
     """A shaft set: its counterweight grows with what it balances, its shaft with the diameter."""
     ref, base = printed.masses, printed.parts.crank.output
     longer = (ref.output_set - ref.support_set) / cylinder_mass(density, base, 1.0)  # the two differ by their shafts
@@ -156,7 +156,7 @@ def _shaft_set(parts: Parts, printed: Printed, density: float, balance: float, o
     return disc * balance + cylinder_mass(density, parts.crank.output, length)
 
 
-def _cylinder(parts: Parts, printed: Printed, density: float) -> float:
+def _cylinder(parts: Parts, printed: PrintedMasses, density: float) -> float:
     ref, now, bore = printed.parts.cylinder, parts.cylinder, printed.bore
     wall = cylinder_mass(density, bore + 2 * now.wall, now.length, bore)
     reference = cylinder_mass(density, bore + 2 * ref.wall, now.length, bore)

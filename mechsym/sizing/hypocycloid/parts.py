@@ -24,7 +24,7 @@ class Parts:
 
 
 @record
-class Forces:
+class PartForces:
     """Forces of one crank over the speeds; arrays of shape (k, n) over a period of 4 pi."""
 
     #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
