@@ -1,9 +1,9 @@
 """Which record each section of a case becomes. A section with a selector key has one record per named variant."""
 
-import importlib
 from typing import Any
 
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.quantities import load
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 _SECTIONS: dict[str, Any] = {
@@ -143,5 +143,4 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
             found = f"{key} = {shown(name)} is not known" if key in table else f"key {key} is missing"
             raise BadInput(f"{found}; {suggest(str(name), variants)}")
         entry = variants[name]
-    module, _, name = entry.partition(":")
-    return getattr(importlib.import_module(module), name)
+    return load(entry)

@@ -1,11 +1,11 @@
 """The command line: argument parsing and one call per command. Each command's module is imported only when it runs."""
 
-import importlib
 import sys
 
 import click
 
 from mechsym.errors import BadInput
+from mechsym.quantities import load
 
 # command: "module:function"
 COMMANDS = {
@@ -42,10 +42,7 @@ class LazyGroup(click.Group):
         command : click.Command or None
             None when there is no such command
         """
-        if cmd_name not in COMMANDS:
-            return None
-        module, _, function = COMMANDS[cmd_name].partition(":")
-        return getattr(importlib.import_module(module), function)
+        return load(COMMANDS[cmd_name]) if cmd_name in COMMANDS else None
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

@@ -35,7 +35,7 @@ RPM = np.pi / 30
 
 
 @record
-class Outcome:
+class Sizing:
     """What sizing an engine gave."""
 
     rows: list[dict[str, Any]]
@@ -47,7 +47,7 @@ class Outcome:
     stock: Stock
 
 
-def sized(name: str, overrides: dict[str, Any], as_printed: bool) -> Outcome:
+def sized(name: str, overrides: dict[str, Any], as_printed: bool) -> Sizing:
     """Size the engine of a case, or check the parts that it prints.
 
     Parameters
@@ -71,7 +71,7 @@ def sized(name: str, overrides: dict[str, Any], as_printed: bool) -> Outcome:
     return _slider_crank(found)
 
 
-def _hypocycloid(found: Job) -> Outcome:
+def _hypocycloid(found: Job) -> Sizing:
     reference = printed(found.case)
     forces_of = hypocycloid_forces(found, pressures(found, speeds(found)))
     start = hypocycloid_masses.moving_printed(reference, found.stock)
@@ -86,11 +86,11 @@ def _hypocycloid(found: Job) -> Outcome:
     failing = unsafe(design.checks)
     if failing:
         rows += _nearest(found, design.parts, design.forces)
-    return Outcome(rows=rows, failing=failing, converged=design.converged, rounds=design.rounds, parts=design.parts,
+    return Sizing(rows=rows, failing=failing, converged=design.converged, rounds=design.rounds, parts=design.parts,
                    forces=design.forces, stock=found.stock)  # fmt: skip
 
 
-def _printed_hypocycloid(found: Job) -> Outcome:
+def _printed_hypocycloid(found: Job) -> Sizing:
     reference = printed(found.case)
     # the printed engine takes its torque off at the output shaft set only
     wants = dataclasses.replace(found.wants, take_off="one_end")
@@ -100,7 +100,7 @@ def _printed_hypocycloid(found: Job) -> Outcome:
     mass = hypocycloid_masses.total_mass_printed(reference, found.stock)
     rows = _part_rows(reference.parts, "as printed") + check_rows(checks)
     rows += _engine_rows(found, mass, moving, reference.parts, forces)
-    return Outcome(
+    return Sizing(
         rows=rows,
         failing=unsafe(checks),
         converged=True,
@@ -111,7 +111,7 @@ def _printed_hypocycloid(found: Job) -> Outcome:
     )
 
 
-def _slider_crank(found: Job) -> Outcome:
+def _slider_crank(found: Job) -> Sizing:
     forces_of = slider_crank_forces(found, pressures(found, speeds(found)))
     parameters = found.case.need("parameters")
     start = parameters.m3 + parameters.m4 + parameters.m5
@@ -123,7 +123,7 @@ def _slider_crank(found: Job) -> Outcome:
     rows.append(fact("engine", "moving mass of one piston", design.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
     rows += _speed_rows(found)
-    return Outcome(rows=rows, failing=unsafe(design.checks), converged=design.converged, rounds=design.rounds,
+    return Sizing(rows=rows, failing=unsafe(design.checks), converged=design.converged, rounds=design.rounds,
                    parts=design.parts, forces=design.forces, stock=found.stock)  # fmt: skip
 
 

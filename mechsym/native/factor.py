@@ -14,7 +14,7 @@ _PRODUCTS, _SUMS = ("mul", "sq"), ("add", "sub")
 
 
 @record
-class _Work:
+class _Factoring:
     # nodes written so far and when they are known, the node of each key, where old nodes went, and products that are
     # not written yet
     nodes: list[tuple[str, tuple]] = dataclasses.field(default_factory=list)
@@ -38,7 +38,7 @@ def factored(tape: Tape) -> Tape:
             users[a].append(i)
     for r in tape.results:
         users[r].append(-1)
-    work = _Work()
+    work = _Factoring()
     for i, (op, args) in enumerate(tape.nodes):
         once = len(users[i]) == 1 and users[i][0] >= 0 and tape.nodes[users[i][0]][0] in (*_PRODUCTS, *_SUMS)
         once = once and tape.nodes[users[i][0]][0] != "sq"
@@ -55,7 +55,7 @@ def factored(tape: Tape) -> Tape:
     return dataclasses.replace(tape, nodes=tuple(nodes), results=tuple(results))
 
 
-def _factors(work: _Work, op: str, args: tuple) -> list[int]:
+def _factors(work: _Factoring, op: str, args: tuple) -> list[int]:
     """The node as a product, empty when it is none."""
     if op == "mul":
         return _parts(work, args[0]) + _parts(work, args[1])
@@ -84,15 +84,15 @@ def _taken(rest: collections.Counter, factor: int) -> bool:
     return False
 
 
-def _parts(work: _Work, node: int) -> list[int]:
+def _parts(work: _Factoring, node: int) -> list[int]:
     return list(work.waiting.get(node) or [work.place[node]])
 
 
-def _value(work: _Work, node: int) -> int:
+def _value(work: _Factoring, node: int) -> int:
     return work.place[node] if node in work.place else _written(work, work.waiting[node])
 
 
-def _written(work: _Work, factors: list[int]) -> int:
+def _written(work: _Factoring, factors: list[int]) -> int:
     """Multiply factors; constants among them become one."""
     constants = [f for f in factors if work.nodes[f][0] == "constant"]
     others = [f for f in factors if work.nodes[f][0] != "constant"]
@@ -109,7 +109,7 @@ def _written(work: _Work, factors: list[int]) -> int:
     return product
 
 
-def _put(work: _Work, op: str, args: tuple) -> int:
+def _put(work: _Factoring, op: str, args: tuple) -> int:
     if (op, args) not in work.known:
         work.known[op, args] = len(work.nodes)
         work.nodes.append((op, args))

@@ -12,7 +12,7 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.native import integrators, library
 from mechsym.native.kernels import constant_table
-from mechsym.native.runs import Outcome, Runs, Surface, Table
+from mechsym.native.runs import Level, Outcome, Runs, Table
 from mechsym.native.source import Program, program
 from mechsym.native.tape import ANALYTIC
 from mechsym.quantities import record
@@ -271,7 +271,7 @@ def _table(table: Table, run: int, alive: list[Any]) -> _Table:
     )  # fmt: skip
 
 
-def _surface(surface: Surface, chosen: np.ndarray, alive: list[Any]) -> _Surface:
+def _surface(surface: Level, chosen: np.ndarray, alive: list[Any]) -> _Surface:
     level = np.array(np.take(np.atleast_1d(surface.level), chosen, mode="clip"), dtype=float)
     alive.append(level)
     return _Surface(state=surface.state, direction=surface.direction, level=level.ctypes.data)

@@ -36,7 +36,7 @@ class Table:
 
 
 @record
-class Surface:
+class Level:
     """A level of a state at which a run ends."""
 
     state: int
@@ -45,7 +45,7 @@ class Surface:
 
 
 @record
-class Kinks:
+class Breaks:
     """Values of one state at which the equations are not smooth."""
 
     state: int
@@ -68,8 +68,8 @@ class Runs:
     #: shape (m,) or (runs, m): Wanted times after the start, ascending; fill up with infinity where a run has fewer [s]
     times: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
     tables: tuple[Table, ...] = ()
-    surfaces: tuple[Surface, ...] = ()
-    kinks: tuple[Kinks, ...] = ()  #: Where no step may reach across
+    surfaces: tuple[Level, ...] = ()
+    kinks: tuple[Breaks, ...] = ()  #: Where no step may reach across
     #: Relative and absolute tolerance of a step [-]
     rtol: float = 1e-10
     atol: float = 1e-10

@@ -5,9 +5,9 @@ Python callables, otherwise scipy. Each of the others takes a `Phase` and return
 """
 
 from collections.abc import Callable
-from importlib import import_module
 
 from mechsym.errors import BadInput
+from mechsym.quantities import load
 from mechsym.simulate.phase import Leg, Phase
 
 DEFAULT, FALLBACK = "auto", "scipy-dop853"
@@ -32,6 +32,5 @@ def backend(name: str) -> Callable[[Phase], Leg]:
     if name not in _PHASES:
         raise BadInput(f"backend {name!r} does not go phase by phase; there are {', '.join(_PHASES)}")
     (path, arguments) = _PHASES[name]
-    module, _, function = path.partition(":")
-    found = getattr(import_module(module), function)
+    found = load(path)
     return lambda phase: found(phase, *arguments)

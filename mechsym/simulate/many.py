@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import integrate
-from mechsym.native.runs import Kinks, Runs, Surface, Table
+from mechsym.native.runs import Breaks, Level, Runs, Table
 from mechsym.simulate import native_backend
 from mechsym.simulate.backends import NATIVE
 from mechsym.simulate.equations import System, system
@@ -102,11 +102,11 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
             for i, t in enumerate(first.tables)
         ),
         surfaces=tuple(
-            Surface(state=s.state, level=np.array([r.surfaces[i].level for r in single]), direction=s.direction)
+            Level(state=s.state, level=np.array([r.surfaces[i].level for r in single]), direction=s.direction)
             for i, s in enumerate(first.surfaces)
         ),
         kinks=tuple(
-            Kinks(state=k.state, angles=np.array([r.kinks[i].angles for r in single]), period=k.period)
+            Breaks(state=k.state, angles=np.array([r.kinks[i].angles for r in single]), period=k.period)
             for i, k in enumerate(first.kinks)
         ),
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym.native.compiler import NoCompiler, find
 from mechsym.native.integrate import integrate
-from mechsym.native.runs import STATUS, Kinks, Outcome, Runs, Surface, Table
+from mechsym.native.runs import STATUS, Breaks, Level, Outcome, Runs, Table
 from mechsym.simulate.equations import System, fitted, held
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
@@ -62,7 +62,7 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
         times=times,
         tables=tuple(_table(equations, i, v) for i, v in enumerate(equations.values) if isinstance(v, Periodic)),
         surfaces=tuple(
-            Surface(state=s.state, level=s.level, direction=s.direction) for s in _ends(problem, equations).surfaces
+            Level(state=s.state, level=s.level, direction=s.direction) for s in _ends(problem, equations).surfaces
         ),
         kinks=_kinks(problem, equations),
         rtol=settings.tolerance,
@@ -110,9 +110,9 @@ def _table(equations: System, index: int, value: Periodic) -> Table:
     return Table(held=index, state=state, polynomials=((poly.x, poly.c),))
 
 
-def _kinks(problem: Problem, equations: System) -> tuple[Kinks, ...]:
+def _kinks(problem: Problem, equations: System) -> tuple[Breaks, ...]:
     return tuple(
-        Kinks(state=equations.columns.index(k.coordinate), angles=np.array(k.angles), period=k.period)
+        Breaks(state=equations.columns.index(k.coordinate), angles=np.array(k.angles), period=k.period)
         for k in problem.kinks
         if k.angles
     )

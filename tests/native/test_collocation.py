@@ -10,7 +10,7 @@ from native.models import PENDULUM, rhs
 from mechsym.errors import BadInput
 from mechsym.native.integrate import integrate
 from mechsym.native.integrators import STAGES, gauss_tableau, legendre_coefficients
-from mechsym.native.runs import STATUS, Kinks, Runs, Surface
+from mechsym.native.runs import STATUS, Breaks, Level, Runs
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 
@@ -45,7 +45,7 @@ def test_strong_damping_goes_to_explicit_steps():
 
 
 def test_collocation_needs_smooth_equations():
-    kinks = (Kinks(state=0, angles=np.array([0.0]), period=1.0),)
+    kinks = (Breaks(state=0, angles=np.array([0.0]), period=1.0),)
     with pytest.raises(BadInput, match="knows no kinks and tables; use dop853"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0]), kinks=kinks), "collocation")
 
@@ -85,7 +85,7 @@ def test_speeds_that_are_states_with_speeds(name, formula, start, wanted):
 @pytest.mark.parametrize("direction", [-1, 0, 1])
 def test_surface_of_a_state_that_nothing_depends_on(direction):
     work = rhs("work", 3, 0, lambda t, y, p: (y[1], -ca.sin(y[0]), y[1] ** 2))
-    surface = Surface(state=2, level=1.0, direction=direction)
+    surface = Level(state=2, level=1.0, direction=direction)
     run = Runs(rhs=work, start=np.array([1.0, 0.0, 0.0]), until=np.array([9.0]), surfaces=(surface,))
     found, wanted = integrate(run, "collocation"), integrate(run, "dop853")
     assert found.status[0] == wanted.status[0] == (direction >= 0)
@@ -94,7 +94,7 @@ def test_surface_of_a_state_that_nothing_depends_on(direction):
 
 def test_step_into_what_is_not_finite_is_shortened():
     falls = rhs("falls", 2, 0, lambda t, y, p: (y[1], -ca.sqrt(y[0])))
-    run = Runs(rhs=falls, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=(Surface(state=0, level=1e-4),))
+    run = Runs(rhs=falls, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=(Level(state=0, level=1e-4),))
     found = integrate(run, "collocation")
     # v^2/2 + 2/3 y^(3/2) stays
     assert found.met[0] == 0

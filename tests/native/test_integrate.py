@@ -14,7 +14,7 @@ from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
 from mechsym.native.integrate import LANES, integrate
 from mechsym.native.integrators import gauss_tableau
-from mechsym.native.runs import STATUS, Kinks, Runs, Surface, Table
+from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 
@@ -116,7 +116,7 @@ def test_segments_are_split_exactly(method):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("direction", [-1, 0, 1])
 def test_run_ends_on_a_surface(method, direction):
-    surface = Surface(state=0, level=0.0, direction=direction)
+    surface = Level(state=0, level=0.0, direction=direction)
     times = np.linspace(0.1, 30, 300)
     found = integrate(
         Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([30.0]), surfaces=(surface,), times=times),
@@ -132,7 +132,7 @@ def test_run_ends_on_a_surface(method, direction):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_first_of_two_surfaces_wins(method):
-    surfaces = (Surface(state=1, level=-0.5), Surface(state=0, level=0.9))
+    surfaces = (Level(state=1, level=-0.5), Level(state=0, level=0.9))
     found = integrate(
         Runs(rhs=PENDULUM, start=np.array([1.0, 0.0]), until=np.array([9.0]), surfaces=surfaces, rtol=1e-6),
         method,
@@ -145,7 +145,7 @@ def test_table_of_a_periodic_value_with_a_jump_at_a_kink():
     # torque 1 in the first half turn and -0.5 in the second; the angle runs through 5 turns
     period = 2 * np.pi
     steps = Table(held=0, state=0, polynomials=((np.array([0, np.pi, period]), np.array([[1.0, -0.5]])),))
-    kinks = Kinks(state=0, angles=np.array([0.0, np.pi]), period=period)
+    kinks = Breaks(state=0, angles=np.array([0.0, np.pi]), period=period)
     system = rhs("jumps", 3, 1, lambda t, y, p: (y[1], p[0], p[0] * y[1]))
     common = dict(rhs=system, start=np.array([0.3, 2.0, 0.0]), until=np.array([12.0]), held=np.zeros((1, 1)))
     found = integrate(Runs(**common, tables=(steps,), kinks=(kinks,), rtol=1e-9, atol=1e-9))
@@ -166,7 +166,7 @@ def test_kinks_of_several_angles():
     system = rhs("shafts", 9, 3, lambda t, y, p: (*y[3:6], *p, *(p[i] * y[3 + i] for i in range(3))))
     start = np.array([0.0, 0.0, 1.0, 2.0, 2.0, 2.5, 0, 0, 0])
     tables = tuple(Table(held=i, state=i, polynomials=((edges, torques[i : i + 1]),)) for i in range(3))
-    kinks = tuple(Kinks(state=i, angles=edges[:-1], period=period) for i in range(3))
+    kinks = tuple(Breaks(state=i, angles=edges[:-1], period=period) for i in range(3))
     common = dict(rhs=system, until=np.array([9.0]), held=np.zeros((1, 3)), tables=tables, kinks=kinks, rtol=1e-9)
     found = integrate(Runs(start=start, **common))
 
@@ -192,7 +192,7 @@ def test_motion_that_turns_back_over_a_kink():
     force = Table(held=0, state=0, polynomials=((np.array([-5.0, 0.0, 5.0]), np.array([[40.0, -10.0]])),))
     found = integrate(
         Runs(rhs=system, start=np.array([1.0, 0.0]), until=np.array([5.0]), held=np.zeros((1, 1)), tables=(force,),
-             kinks=(Kinks(state=0, angles=np.array([0.0]), period=10.0),), times=np.linspace(0.01, 5, 500))
+             kinks=(Breaks(state=0, angles=np.array([0.0]), period=10.0),), times=np.linspace(0.01, 5, 500))
     )  # fmt: skip
     y, v = found.samples[0].T
     total = v**2 / 2 + np.where(y > 0, 10 * y, -40 * y)
@@ -224,14 +224,14 @@ def test_lanes_give_what_single_runs_give():
     start = np.stack([np.linspace(0.1, 2.5, count), np.zeros(count)], axis=1)
     until = np.stack([np.full(count, 3.0), np.linspace(4.0, 9.0, count)], axis=1)
     held = np.stack([np.zeros(count), np.linspace(-1, 1, count)], axis=1)[:, :, None]
-    surfaces = (Surface(state=0, level=np.linspace(-1, -2, count)),)
+    surfaces = (Level(state=0, level=np.linspace(-1, -2, count)),)
     times = np.linspace(0.5, 8.5, 17)
     common = dict(rhs=FORCED, times=times)
     found = integrate(
         Runs(**common, start=start, until=until, held=held, surfaces=surfaces), method="dop853", mode="strict"
     )
     for i in range(count):
-        level = (Surface(state=0, level=surfaces[0].level[i]),)
+        level = (Level(state=0, level=surfaces[0].level[i]),)
         alone = integrate(
             Runs(**common, start=start[i], until=until[i], held=held[i], surfaces=level), method="dop853", mode="strict"
         )

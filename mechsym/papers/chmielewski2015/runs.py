@@ -27,7 +27,7 @@ FINEST = SWEEP[-1]
 
 
 @record
-class Speeds:
+class WindowSpeeds:
     """Crank speed of a run after the time that the paper names."""
 
     name: str  #: Model, integrator and tolerance or step
@@ -124,7 +124,7 @@ def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np
     return float(np.ptp(angle[inside]) / np.ptp(t[inside]))
 
 
-def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> Speeds:
+def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> WindowSpeeds:
     """What a run says about the paper's claim.
 
     Parameters
@@ -137,7 +137,7 @@ def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) 
         Energy residual [-]
     """
     end, claim = speed[t >= t[-1] - 2], speed[(t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)]
-    return Speeds(
+    return WindowSpeeds(
         name=name,
         mean=float(end.mean()),
         lowest=float(end.min()),

@@ -1,0 +1,22 @@
+"""Units at the border, records that check themselves, and code named by a text.
+
+units.py     "142 rpm" or "5 MPa" to SI; a wrong dimension is refused
+records.py   frozen records whose fields carry unit and range
+by_name.py   `load("module:name")`, imported when it is wanted
+
+    @record
+    class Spring:
+        p0: float = quantity("Pa", above=0, about="initial excess pressure")
+        stage: str = choice("low", "high", default="low")
+        area: float  #: of the piston [m^2]; a result needs no range, only its unit
+"""
+
+from mechsym.quantities.by_name import load
+from mechsym.quantities.records import allowed, check, choice, quantity, record
+from mechsym.quantities.units import RPM, dimension, parse, units
+
+__all__ = ["RPM", "allowed", "check", "choice", "dimension", "load", "parse", "quantity", "record", "units"]
+
+
+def __dir__() -> list[str]:
+    return __all__

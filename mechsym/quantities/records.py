@@ -1,0 +1,137 @@
+"""Records that declare unit and range at each field and check themselves."""
+
+import dataclasses
+import math
+from typing import Any, TypeVar, dataclass_transform
+
+from mechsym.errors import BadInput, shown
+
+
+def quantity(
+    unit: str,
+    *,
+    default: Any = dataclasses.MISSING,
+    above: float | None = None,
+    below: float | None = None,
+    low: float | None = None,
+    high: float | None = None,
+    about: str = "",
+) -> Any:
+    """A field of a record that is a number with a unit and a range.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit, `"-"` for a pure number
+    default : float, optional
+        Value when none is given; without it the field must be given [unit]
+    above, below : float, optional
+        Bounds that the value must not reach [unit]
+    low, high : float, optional
+        Bounds that the value may reach [unit]
+
+    Returns
+    -------
+    field : dataclasses.Field
+        To be assigned in the class body
+    """
+    metadata = {"unit": unit, "above": above, "below": below, "low": low, "high": high, "about": about}
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def choice(*options: str, default: Any = dataclasses.MISSING, about: str = "") -> Any:
+    """A field of a record that is one of several names.
+
+    Returns
+    -------
+    field : dataclasses.Field
+        To be assigned in the class body
+    """
+    return dataclasses.field(default=default, metadata={"options": options, "about": about})
+
+
+def allowed(metadata: Any) -> str:
+    """The range of a field in words.
+
+    Parameters
+    ----------
+    metadata : mapping
+        Metadata of a field made by `quantity`
+
+    Returns
+    -------
+    text : str
+        For example ``> 0 and <= 1``
+    """
+    words = [("above", ">"), ("low", ">="), ("below", "<"), ("high", "<=")]
+    return " and ".join(f"{sign} {metadata[key]:g}" for key, sign in words if metadata.get(key) is not None)
+
+
+Record = TypeVar("Record")
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, dataclasses.field))
+def record(cls: type[Record]) -> type[Record]:
+    """A frozen dataclass with keyword arguments whose quantities and choices are checked when it is made.
+
+    A `__post_init__` of the class runs behind that check and may rely on it.
+
+    Returns
+    -------
+    cls : type
+        The same class as a record
+
+    Examples
+    --------
+    >>> @record
+    ... class Rod:
+    ...     length: float = quantity("m", above=0)
+    >>> Rod(length=2.0)
+    Rod(length=2.0)
+    """
+    own = cls.__dict__.get("__post_init__")
+
+    def checked(self: Any) -> None:
+        check(self)
+        if own is not None:
+            own(self)
+
+    if any(isinstance(value, dataclasses.Field) and value.metadata for value in vars(cls).values()):
+        cls.__post_init__ = checked  # type: ignore[attr-defined]
+    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+
+
+def check(record: Any) -> None:
+    """Refuse a record whose numbers are not finite or out of range, or whose names are not among the options.
+
+    Parameters
+    ----------
+    record : dataclass instance
+        Fields made by `quantity` and `choice` are checked; others are left alone
+
+    Raises
+    ------
+    BadInput
+        Names the record's class, field, value, unit and what is allowed
+    """
+    for field in dataclasses.fields(record):
+        value, meta = getattr(record, field.name), field.metadata
+        if "options" in meta and value not in meta["options"]:
+            raise BadInput(f"{field.name} = {shown(value)} is not an option; options are {', '.join(meta['options'])}")
+        if "unit" in meta and value is not None:
+            for number in value if isinstance(value, tuple) else (value,):
+                _check_number(field.name, number, meta)
+
+
+def _check_number(name: str, value: float, meta: Any) -> None:
+    unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
+    if not math.isfinite(value):
+        raise BadInput(f"{name} = {value}{unit} is not finite")
+    inside = (
+        (meta["above"] is None or value > meta["above"])
+        and (meta["below"] is None or value < meta["below"])
+        and (meta["low"] is None or value >= meta["low"])
+        and (meta["high"] is None or value <= meta["high"])
+    )
+    if not inside:
+        raise BadInput(f"{name} = {value:g}{unit} is out of range; it must be {allowed(meta)}{unit}")
