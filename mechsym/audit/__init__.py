@@ -9,7 +9,7 @@ orders.py, dimensions.py          how good an approximation is; does it rescale
 edits.py, required.py,            single edits; what each part would have to be; what was left out;
 insertion.py, candidates.py       edits that meet it
 repair.py, verdict.py             the search and the decision
-sources/, claims/, registry.py    every relation of the sources as printed, and the claims of their texts
+entries.py                        what a paper holds: formulas as printed, and the claims of its text (`papers/`)
 mutants.py, trust.py              tests of the auditor itself
 findings.py, errata.py            rows, and docs/errata.md
 formula.py                        the user's own formula

@@ -1,7 +1,8 @@
-"""What the registry holds: printed formulas, relations that are listed only, and claims of the text."""
+"""What a paper holds: printed formulas, relations that are listed only, and claims of the text."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import field
+from typing import Protocol
 
 import numpy as np
 
@@ -61,11 +62,21 @@ class TextClaim:
 Entry = Printed | Listed | TextClaim
 
 
-@record
-class Source:
-    """A source with everything in it that is audited."""
+class Audited(Protocol):
+    """A source as the auditor needs it: a paper of `mechsym.papers`."""
 
-    stem: str
-    short: str
-    title: str
-    entries: tuple[Entry, ...]  #: In the order of the text
+    @property
+    def stem(self) -> str:
+        """Of its file."""
+
+    @property
+    def name(self) -> str:
+        """In one word."""
+
+    @property
+    def title(self) -> str:
+        """Authors, year and title."""
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """Everything that is audited, in the order of the text."""

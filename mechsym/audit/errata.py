@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from mechsym.audit.entries import Source
+from mechsym.audit.entries import Audited
 from mechsym.audit.findings import Row
 from mechsym.audit.trust import Trust, lines
 
@@ -14,13 +14,13 @@ _TITLES = {
 }  # fmt: skip
 
 
-def text(sources: Sequence[Source], rows: Sequence[Row], found: Trust) -> str:
+def text(sources: Sequence[Audited], rows: Sequence[Row], found: Trust) -> str:
     """The errata of all sources."""
     parts = [_HEAD, _summary(sources, rows)]
     for source in sources:
         own = [r for r in rows if r["source"] == source.stem]
         entries = [_entry(r) for r in own if r["verdict"] in _TITLES]
-        parts.append(f"## {source.title}\n\nSource `{source.stem}` (`{source.short}`).")
+        parts.append(f"## {source.title}\n\nSource `{source.stem}` (`{source.name}`).")
         parts += entries or ["Nothing to report."]
         remarks = [
             f"- {_where(r)}, {r['claim']}: {r['note']}." for r in own if r["note"] and r["verdict"] not in _TITLES
@@ -43,13 +43,13 @@ the correction that the repair search found and the largest relative error over 
 approximation is honest when its error is at most that of leaving out the first power of lambda that it neglects."""
 
 
-def _summary(sources: Sequence[Source], rows: Sequence[Row]) -> str:
+def _summary(sources: Sequence[Audited], rows: Sequence[Row]) -> str:
     verdicts = list(dict.fromkeys(r["verdict"] for r in rows))
     head = f"| source | {' | '.join(verdicts)} |"
     body = [head, "|---" * (len(verdicts) + 1) + "|"]
     for source in sources:
         own = [r["verdict"] for r in rows if r["source"] == source.stem]
-        body.append(f"| {source.short} | {' | '.join(str(own.count(v)) for v in verdicts)} |")
+        body.append(f"| {source.name} | {' | '.join(str(own.count(v)) for v in verdicts)} |")
     return "\n".join(body)
 
 

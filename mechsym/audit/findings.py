@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from mechsym.audit.edits import apply
-from mechsym.audit.entries import Entry, Listed, Printed, Source, TextClaim
+from mechsym.audit.entries import Audited, Entry, Listed, Printed, TextClaim
 from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read, write
@@ -38,7 +38,7 @@ def question_of(entry: Printed) -> Question:
     )
 
 
-def rows(sources: Iterable[Source], done: Callable[[], Any] = lambda: None) -> list[Row]:
+def rows(sources: Iterable[Audited], done: Callable[[], Any] = lambda: None) -> list[Row]:
     """Audit sources.
 
     Returns

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from mechsym.audit.entries import Printed, Source
+from mechsym.audit.entries import Audited, Printed
 from mechsym.audit.findings import Row, question_of
 from mechsym.audit.mutants import Kills, Returns, kills, returns, total_kills, total_returns
 from mechsym.quantities import record
@@ -21,7 +21,7 @@ class Trust:
     returns: Returns  #: Spoiled formulas, exact and approximate ones
 
 
-def trust(sources: Iterable[Source], rows: list[Row], done: Callable[[], Any] = lambda: None) -> Trust:
+def trust(sources: Iterable[Audited], rows: list[Row], done: Callable[[], Any] = lambda: None) -> Trust:
     """Spoil the formulas that were judged right.
 
     Parameters

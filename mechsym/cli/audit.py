@@ -1,5 +1,6 @@
 """`mechsym audit`: published hand formulas, or the user's own, against the derivations."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,14 +67,14 @@ def _own(formula: str | None, against: str | None, letters: str, case: str, file
 
 def _published(source: str | None, write: bool, as_json: bool) -> int:
     from mechsym.audit import findings
-    from mechsym.papers import recorded, registry
+    from mechsym.papers import record, sources
 
     if write and source:
         raise BadInput("--write records the findings of all sources; leave out --source")
-    chosen = [registry.source(source)] if source else registry.sources()
+    chosen = sources(source)
     with progress(sum(len(s.entries) for s in chosen), "auditing") as bar:
         rows = findings.rows(chosen, lambda: bar.update(1))
-    differences = recorded.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
+    differences = record.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
     emit(rows, as_json, lambda: table(rows, _COLUMNS))
     if write:
         _write(chosen, rows)
@@ -83,16 +84,16 @@ def _published(source: str | None, write: bool, as_json: bool) -> int:
     return 1 if differences else 0
 
 
-def _write(sources: list[Any], rows: list[dict[str, Any]]) -> None:
+def _write(sources: Sequence[Any], rows: list[dict[str, Any]]) -> None:
     from mechsym.audit import errata, findings
     from mechsym.audit.trust import lines, trust
     from mechsym.files import write_text
-    from mechsym.papers import recorded
+    from mechsym.papers import record
 
     with progress(len(rows), "testing the auditor") as bar:
         found = trust(sources, rows, lambda: bar.update(1))
     click.echo("\n".join(lines(found)), err=True)
-    recorded.write("mechsym.audit", rows, (*findings.NAME, *findings.COMPARED))
+    record.write("mechsym.audit", rows, (*findings.NAME, *findings.COMPARED))
     click.echo(str(write_text(errata.PATH, errata.text(sources, rows, found))), err=True)
 
 

@@ -24,24 +24,23 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
     \b
     Example: mechsym reproduce chmielewski2015 --out reproduction
     """
-    from mechsym.papers import recorded
-    from mechsym.papers.sources import chosen, rows
+    from mechsym.papers import record, sources
 
     if write and source:
         raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
-    sources, found = chosen(source), {}
-    with progress(len(sources), "sources") as bar:
-        for one in sources:
-            found[one.stem] = rows(one)
+    chosen, found = sources(source), {}
+    with progress(len(chosen), "sources") as bar:
+        for one in chosen:
+            found[one.stem] = one.rows()
             bar.update(1)
     flat = [row for one in found.values() for row in one]
-    files = [recorded.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
-    changed = recorded.differences(_PACKAGE, flat, _NAME, ("verdict",))
+    files = [record.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
+    changed = record.differences(_PACKAGE, flat, _NAME, ("verdict",))
     if out is not None:
         from mechsym.papers import page
 
-        files += page.write(out, sources, found, changed)
-    emit(flat, as_json, lambda: _text(sources, found, changed, files))
+        files += page.write(out, chosen, found, changed)
+    emit(flat, as_json, lambda: _text(chosen, found, changed, files))
     ctx.exit(1 if changed else 0)
 
 
@@ -52,7 +51,7 @@ def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[P
     for source in sources:
         own = found[source.stem]
         summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(own).items() if count)
-        lines += [f"{source.name}: {source.about}", table(_shown(own), [*_COLUMNS]), _notes(own), f"  {summed}", ""]
+        lines += [f"{source.name}: {source.title}", table(_shown(own), [*_COLUMNS]), _notes(own), f"  {summed}", ""]
     lines += ["differs from the recorded outcome:", *changed] if changed else ["the outcome is the recorded one"]
     if files:
         lines.append(f"written: {len(files)} files, {files[0]} first")

@@ -1,8 +1,25 @@
-"""Published numbers and figures beside what the models give.
+"""The papers: every formula as printed, and every published number and figure beside what the models give.
 
-rows.py         a row: published, computed, verdict, note
-sources.py      the five sources by name, their rows and their figures
-page.py         CSV, HTML and pictures of a run
-findings.json   the recorded verdicts; a finding is a result, only a changed one is a failure (`mechsym.recorded`)
-<source>.py     what is computed for a source; <source>_rows.py, <source>_figures.py set it beside the print
+sources.py   the papers by name; a paper is a folder here, and nothing else lists it
+record.py    the recorded verdicts; a finding is a result, only a changed one is a failure
+rows.py      a row of a reproduction: published, computed, verdict, note
+page.py      CSV, HTML and pictures of a run
+
+A paper's folder:
+
+__init__.py  SOURCE: stem, name, title
+printed.py   ENTRIES: its formulas and claims in the order of the text, for the auditor
+claims.py    what decides a claim, and what a misprint costs
+computed.py  what the models give for it
+rows.py      rows(): published numbers beside the computed ones
+figures.py   figures(): its figures by name, drawn from the computation
 """
+
+from mechsym.papers.rows import KEYS, VERDICTS, by_digits, row
+from mechsym.papers.sources import Source, sources
+
+__all__ = ["KEYS", "VERDICTS", "Source", "by_digits", "row", "sources"]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -10,7 +10,7 @@ from typing import Any
 from mechsym.files import write_csv, write_text
 from mechsym.hinge.plots import svg
 from mechsym.papers.rows import KEYS, VERDICTS
-from mechsym.papers.sources import Source, figures
+from mechsym.papers.sources import Source
 
 _DPI = 110
 
@@ -32,7 +32,7 @@ def write(
     differences : sequence of str
         How the outcome differs from the recorded one
     """
-    drawn = {source.stem: figures(source) for source in sources}
+    drawn = {source.stem: source.figures() for source in sources}
     files = [write_text(folder / "reproduction.html", html(sources, rows, drawn, differences))]
     flat = [row for source in sources for row in rows[source.stem]]
     files.append(write_csv(folder / "reproduction.csv", {key: [r[key] for r in flat] for key in KEYS}))

@@ -1,104 +1,59 @@
-"""The five sources by name, with the functions that give their rows and their figures."""
+"""The papers: each is a folder here, found by its name. What a folder holds is in the table of `mechsym.papers`."""
 
+import pkgutil
 from collections.abc import Mapping
-from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mechsym.errors import BadInput
 from mechsym.papers.rows import number
-from mechsym.quantities import record
+from mechsym.quantities import load, record
+
+if TYPE_CHECKING:
+    from mechsym.audit.entries import Entry
 
 
 @record
 class Source:
-    """A source and where its reproduction is computed."""
+    """A paper or thesis; the folder that it stands in has its name."""
 
-    stem: str
+    stem: str  #: Of its file; sources are listed in the order of their stems
     name: str
-    about: str
-    rows: tuple[str, ...]  #: Functions without arguments that give rows, as `module:function`
-    figures: str  #: Function without arguments that gives figures by name, as `module:function`
+    title: str  #: Authors, year and title
+
+    @property
+    def entries(self) -> "tuple[Entry, ...]":
+        """What is audited, in the order of the text."""
+        return load(f"mechsym.papers.{self.name}.printed:ENTRIES")
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Its published numbers beside the computed ones.
+
+        Returns
+        -------
+        rows : list of dict
+            Keys `rows.KEYS`, and for some sources more
+        """
+        return [_with_print(row) for row in load(f"mechsym.papers.{self.name}.rows:rows")()]
+
+    def figures(self) -> Mapping[str, Any]:
+        """The figures that it prints, drawn from the computation."""
+        return load(f"mechsym.papers.{self.name}.figures:figures")()
 
 
-SOURCES = (
-    Source(
-        stem="000_9f2b746dc1abd296",
-        name="zotov2024",
-        about="Zotov, Tokarev, Valeev, Fatkullina (2024): Two-stroke engine with constant crank angular velocity",
-        rows=("mechsym.papers.zotov2024.rows:rows",),
-        figures="mechsym.papers.zotov2024.figures:figures",
-    ),
-    Source(
-        stem="001_a140ef4f7e005dde",
-        name="moroianu2017",
-        about="Moroianu (2017): The dynamic design of the marin engines",
-        rows=("mechsym.papers.moroianu2017.computed:rows",),
-        figures="mechsym.papers.moroianu2017.figures:figures",
-    ),
-    Source(
-        stem="002_d7297926d6c52225",
-        name="chmielewski2015",
-        about="Chmielewski, Bogucki, Guminski, Maczak (2015): Crankshaft assembly with two degrees of freedom",
-        rows=("mechsym.papers.chmielewski2015.computed:rows",),
-        figures="mechsym.papers.chmielewski2015.figures:figures",
-    ),
-    Source(
-        stem="003_8746f5f4ad51b1d1",
-        name="prymak",
-        about="Prymak: Forces in connecting-rod-less mechanisms",
-        rows=("mechsym.papers.prymak.computed:rows",),
-        figures="mechsym.papers.prymak.figures:figures",
-    ),
-    Source(
-        stem="004_e00ef50339108dab",
-        name="nunes2017",
-        about="Nunes (2017): Opposed-piston engine, slider crank against geared hypocycloid",
-        rows=(
-            "mechsym.papers.nunes2017.computed:rows",
-            "mechsym.papers.nunes2017.text:rows",
-        ),
-        figures="mechsym.papers.nunes2017.figures:figures",
-    ),
-)
+def sources(name: str | None = None) -> tuple[Source, ...]:
+    """All sources, or the one with a name, a stem or a stem's number."""
+    from mechsym import papers
 
-
-def chosen(name: str | None = None) -> tuple[Source, ...]:
-    """One source by name, or all.
-
-    Returns
-    -------
-    sources : tuple of Source
-        In the order of their stems
-    """
+    folders = [m.name for m in pkgutil.iter_modules(papers.__path__) if m.ispkg]
+    known = sorted((load(f"mechsym.papers.{folder}:SOURCE") for folder in folders), key=lambda s: s.stem)
     if name is None:
-        return SOURCES
-    found = tuple(s for s in SOURCES if name.removesuffix(".txt") in (s.stem, s.name))
+        return tuple(known)
+    found = tuple(s for s in known if name.removesuffix(".txt") in (s.stem, s.name, s.stem[:3]))
     if not found:
-        raise BadInput(f"source {name!r} is not known; there are {', '.join(f'{s.name} ({s.stem})' for s in SOURCES)}")
+        raise BadInput(f"source {name!r} is not known; there are {', '.join(f'{s.name} ({s.stem})' for s in known)}")
     return found
-
-
-def rows(source: Source) -> list[dict[str, Any]]:
-    """All rows of a source.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys `rows.KEYS`, and for some sources more
-    """
-    return [_with_print(row) for path in source.rows for row in _function(path)()]
 
 
 def _with_print(row: dict[str, Any]) -> dict[str, Any]:
     text = row.get("printed", row["published"])
     return row | {"published": number(text), "printed": text}
-
-
-def figures(source: Source) -> Mapping[str, Any]:
-    """The figures that the source prints, drawn from the computation."""
-    return _function(source.figures)()
-
-
-def _function(path: str) -> Any:
-    module, _, name = path.partition(":")
-    return getattr(import_module(module), name)

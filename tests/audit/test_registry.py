@@ -9,7 +9,7 @@ from mechsym.audit.findings import question_of
 from mechsym.audit.formula import question_of as asked_by_user
 from mechsym.audit.theory.catalogue import names, theory
 from mechsym.errors import BadInput
-from mechsym.papers import registry
+from mechsym.papers import sources
 
 # numbers that are not in the texts: 001 (1) and (5)
 NUMBERED = {
@@ -19,19 +19,19 @@ NUMBERED = {
     "prymak": [str(n) for n in range(1, 11)],
     "nunes2017": [f"2.{n}" for n in range(1, 80)] + [f"3.{n}" for n in range(1, 18)],
 }
-PRINTED = [(s.short, e) for s in registry.sources() for e in s.entries if isinstance(e, Printed)]
+PRINTED = [(s.name, e) for s in sources() for e in s.entries if isinstance(e, Printed)]
 
 
-@pytest.mark.parametrize("source", registry.sources(), ids=lambda s: s.short)
+@pytest.mark.parametrize("source", sources(), ids=lambda s: s.name)
 def test_every_numbered_relation_is_there(source):
     found = [e.equation for e in source.entries if not isinstance(e, TextClaim)]
-    missing = [n for n in NUMBERED[source.short] if n not in found]
+    missing = [n for n in NUMBERED[source.name] if n not in found]
     assert not missing
 
 
 def test_there_are_more_than_sixty_rows_over_five_sources():
-    assert len(registry.sources()) == 5
-    assert sum(len(s.entries) for s in registry.sources()) > 160
+    assert len(sources()) == 5
+    assert sum(len(s.entries) for s in sources()) > 160
     assert len(PRINTED) > 90
 
 
@@ -43,7 +43,7 @@ def test_every_formula_is_read_in_known_letters(short, entry):
 
 
 def test_verdicts_that_are_given_are_definitions_or_empirical():
-    given = {e.verdict for s in registry.sources() for e in s.entries if isinstance(e, Listed)}
+    given = {e.verdict for s in sources() for e in s.entries if isinstance(e, Listed)}
     assert given == {"definition", "empirical"}
 
 
@@ -53,12 +53,12 @@ def test_no_correction_is_entered_by_hand():
 
 @pytest.mark.parametrize("name", ["zotov2024", "000_9f2b746dc1abd296", "000", "000_9f2b746dc1abd296.txt"])
 def test_sources_are_found_by_stem_and_short_name(name):
-    assert registry.source(name).short == "zotov2024"
+    assert sources(name)[0].name == "zotov2024"
 
 
 def test_unknown_sources_are_refused_with_the_list():
     with pytest.raises(BadInput, match="moroianu2017"):
-        registry.source("nobody1999")
+        sources("nobody1999")
 
 
 @pytest.mark.parametrize("name", names())

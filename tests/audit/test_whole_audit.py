@@ -6,7 +6,7 @@ import pytest
 
 from mechsym.audit import errata, findings
 from mechsym.audit.trust import trust
-from mechsym.papers import recorded, registry
+from mechsym.papers import record, sources
 
 pytestmark = pytest.mark.slow
 
@@ -14,9 +14,9 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def audited():
     begin = time.process_time()
-    sources = registry.sources()
-    rows = findings.rows(sources)
-    return sources, rows, time.process_time() - begin
+    found = sources()
+    rows = findings.rows(found)
+    return found, rows, time.process_time() - begin
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def test_it_takes_less_than_two_minutes(audited):
 
 
 def test_findings_are_as_recorded(audited):
-    assert not recorded.differences("mechsym.audit", audited[1], findings.NAME, findings.COMPARED)
+    assert not record.differences("mechsym.audit", audited[1], findings.NAME, findings.COMPARED)
 
 
 def test_errata_are_fresh(audited, trusted, pytestconfig):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.papers.chmielewski2015 import runs as paper
+from mechsym.papers.chmielewski2015 import computed as paper
 from mechsym.papers.chmielewski2015 import studies
-from mechsym.papers.chmielewski2015.computed import rows
+from mechsym.papers.chmielewski2015.rows import rows
 
 
 def test_table_1_is_the_case():

@@ -11,7 +11,7 @@ from mechsym.audit.algebra import FLOATS
 from mechsym.audit.entries import Printed, TextClaim
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
-from mechsym.papers import registry
+from mechsym.papers import sources
 from mechsym.papers.nunes2017 import claims_loads as loads
 from mechsym.papers.nunes2017.printed_chapter4 import CHAPTER_4
 from mechsym.papers.nunes2017.printed_engine import MODEL, RESULTS
@@ -106,7 +106,7 @@ def test_formulas_that_are_derived_are_exact(audited):
 
 
 def test_every_numbered_relation_of_chapter_4_is_there():
-    numbers = {e.equation for e in registry.source("nunes2017").entries if not isinstance(e, TextClaim)}
+    numbers = {e.equation for e in sources("nunes2017")[0].entries if not isinstance(e, TextClaim)}
     assert {f"4.{n}" for n in range(1, 38)} <= numbers
 
 
@@ -158,7 +158,7 @@ def test_journal_load_by_hand(monkeypatch):
 
 
 def test_readable_errata_have_them(audited):
-    source = registry.source("nunes2017")
+    source = sources("nunes2017")[0]
     trusted = SimpleNamespace(
         kills=SimpleNamespace(mutants=1, equivalent=0, refuted=1, survivors=()),
         returns=SimpleNamespace(spoiled=1, returned=1, by_kind={}, misses=()),

@@ -6,11 +6,11 @@ from collections import Counter
 import pytest
 from click.testing import CliRunner
 
+from mechsym import papers
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.papers import page, recorded
+from mechsym.papers import page, record, sources
 from mechsym.papers.rows import KEYS, NOT_REPRODUCED, REPRODUCED, VERDICTS, by_digits, last_digit, row
-from mechsym.papers.sources import SOURCES, chosen, figures, rows
 
 FAST = ("zotov2024", "moroianu2017", "prymak")
 FIGURES = {"zotov2024": 4, "moroianu2017": 9, "chmielewski2015": 8, "prymak": 1, "nunes2017": 32}
@@ -40,7 +40,7 @@ def test_fast_sources_give_the_recorded_outcome(name):
     result = run(name, "--json")
     found = json.loads(result.stdout)
     assert result.exit_code == 0 and found
-    (source,) = chosen(name)
+    (source,) = sources(name)
     for one in found:
         assert set(KEYS) <= set(one) and one["source"] == source.stem and one["verdict"] in VERDICTS
         assert one["note"] or one["verdict"] == REPRODUCED
@@ -55,13 +55,13 @@ def test_source_by_stem_and_text_for_people():
 
 
 def test_another_outcome_is_exit_status_1(monkeypatch):
-    known = recorded.stored("mechsym.papers")
+    known = record.stored("mechsym.papers")
     changed = [r | {"verdict": REPRODUCED} if r["item"].startswith("conclusion 3") else r for r in known]
-    monkeypatch.setattr(recorded, "stored", lambda package: changed)
+    monkeypatch.setattr(record, "stored", lambda package: changed)
     result = run("prymak")
     assert result.exit_code == 1 and "conclusion 3" in result.stdout.split("differs from")[1]
     assert run("moroianu2017").exit_code == 0
-    monkeypatch.setattr(recorded, "stored", lambda package: known[1:])
+    monkeypatch.setattr(record, "stored", lambda package: known[1:])
     assert run("zotov2024", "--json").exit_code == 1
 
 
@@ -81,6 +81,27 @@ def test_files(tmp_path):
     assert (tmp_path / "prymak" / "figure_3.svg").read_text() == first
 
 
+PAPER = {
+    "__init__": "from mechsym.papers import Source\n"
+    "SOURCE = Source(stem='009_f', name='doe1999', title='Doe (1999): Cranks')\n",
+    "printed": "ENTRIES = ()\n",
+    "rows": "from mechsym.papers import row\ndef rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
+    "figures": "def figures():\n    return {}\n",
+}
+
+
+def test_a_paper_is_its_folder(tmp_path, monkeypatch):
+    folder = tmp_path / "doe1999"
+    folder.mkdir()
+    for name, text in PAPER.items():
+        (folder / f"{name}.py").write_text(text)
+    monkeypatch.setattr(papers, "__path__", [*papers.__path__, str(tmp_path)])
+    assert [s.name for s in sources()][-1] == "doe1999" and not sources("009")[0].entries
+    result = run("doe1999", "--out", str(tmp_path / "out"))
+    assert "doe1999: Doe (1999): Cranks" in result.stdout and "1 reproduced" in result.stdout
+    assert "is not recorded" in result.stdout and result.exit_code == 1
+
+
 def test_counts():
     assert page.counts([{"verdict": REPRODUCED}]) == {v: int(v == REPRODUCED) for v in VERDICTS}
 
@@ -90,7 +111,7 @@ def test_the_whole_reproduction_is_the_recorded_one(tmp_path):
     result = run("--json", "--out", str(tmp_path))
     assert result.exit_code == 0
     found = json.loads(result.stdout)
-    assert {r["source"] for r in found} == {s.stem for s in SOURCES}
+    assert {r["source"] for r in found} == {s.stem for s in sources()}
     twice = [key for key, count in Counter((r["source"], r["item"]) for r in found).items() if count > 1]
     assert not twice
     for name, count in FIGURES.items():
@@ -101,8 +122,8 @@ def test_the_whole_reproduction_is_the_recorded_one(tmp_path):
 
 @pytest.mark.parametrize("name", ["zotov2024", "moroianu2017"])
 def test_figures_have_curves(name):
-    (source,) = chosen(name)
-    drawn = figures(source)
+    (source,) = sources(name)
+    drawn = source.figures()
     assert len(drawn) == FIGURES[name]
     for figure in drawn.values():
         assert all(axis.lines for axis in figure.axes) and all(
@@ -111,5 +132,5 @@ def test_figures_have_curves(name):
 
 
 def test_rows_of_a_source_carry_the_print():
-    (source,) = chosen("prymak")
-    assert {r["printed"] for r in rows(source)} >= {"4", "along the rod"}
+    (source,) = sources("prymak")
+    assert {r["printed"] for r in source.rows()} >= {"4", "along the rod"}

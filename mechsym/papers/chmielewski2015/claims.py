@@ -9,8 +9,7 @@ from mechsym.audit.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
-from mechsym.papers.chmielewski2015 import runs as computed
-from mechsym.papers.chmielewski2015 import studies
+from mechsym.papers.chmielewski2015 import computed, studies
 from mechsym.quantities import dimension
 
 _LEVER = "sin(phi0) + lam*sin(phi0)*cos(phi0)/sqrt(1 - lam**2*sin(phi0)**2)"

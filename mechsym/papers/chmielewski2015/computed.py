@@ -1,158 +1,193 @@
-"""Numbers and claims of Chmielewski et al. (2015) beside the converged start-up.
+"""Chmielewski et al. (2015): the start-up of section 2.2, run and looked at.
 
-The paper reports that the crank settles at 194 rad/s after 90 s. Neither the exact equations nor the printed ones do
-that, however finely they are integrated, and the work of the drive does not allow it.
+The paper solved (6) with (11) and (2) and reports a speed of 194 rad/s from 90 s on. Here: the printed model and the
+exact one, adaptive or with a fixed step; a rigid shaft as a hand check; the speeds and the motion of the piston. What
+the runs say about convergence stands in chmielewski2015_studies.py.
 """
 
-from typing import Any
+import dataclasses
+from functools import cache
 
 import numpy as np
 
-from mechsym.papers.chmielewski2015.runs import (
-    CLAIMED_TIME,
-    EXACT,
-    FINEST,
-    PRINTED,
-    mean_speed,
-    piston,
-    rigid_speed_with_piston,
-    run,
-)
-from mechsym.papers.chmielewski2015.studies import Reached, convergence, step_study
-from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
-from mechsym.simulate import Result
+from mechsym import cases, mechanisms
+from mechsym.jobs.run import problem_of
+from mechsym.mechanisms.record import acceleration_function
+from mechsym.quantities import record
+from mechsym.simulate import Problem, Result, Settings, simulate
+from mechsym.simulate.fixed_step import fixed_step
+from mechsym.torsion import modes as torsion
 
-SOURCE = "002_d7297926d6c52225"
-_CONSTANT = 0.01  # what the eye takes for constant in a figure [-]
+CASE = "chmielewski"
+CLAIMED_SPEED, CLAIMED_TIME = 194.0, 90.0  # section 2.2 [rad/s, s]
+EXACT, PRINTED = "crankshaft_flywheel", "crankshaft_flywheel_printed"
+# integrator and tolerance, from rough to fine, the last by a second integrator
+SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
+FINEST = SWEEP[-1]
 
 
-def rows() -> list[dict[str, Any]]:
-    """Every number and claim of section 2.2."""
-    found = run(EXACT, FINEST[1], FINEST[0])
-    return [_torque(found), *_speed(found), *_shape(found), *_amplitudes(found), *_steps()]
+@record
+class WindowSpeeds:
+    """Crank speed of a run after the time that the paper names."""
+
+    name: str  #: Model, integrator and tolerance or step
+    #: Over the last two seconds [rad/s]
+    mean: float
+    lowest: float
+    highest: float
+    peak_at_claim: float  #: Largest speed in the two seconds from 90 s on [rad/s]
+    #: Share of the drive's work that is not in the energy at the end; None where it is not known [-]
+    energy_residual: float | None
 
 
-def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, verdict, note)
+def problem(model: str) -> Problem:
+    """The start-up of the case with one of its two models.
+
+    Returns
+    -------
+    problem : Problem
+        0 to 100 s, torque step at 1 s
+    """
+    case = cases.load(CASE)
+    return dataclasses.replace(problem_of(case), mechanism=mechanisms.build(model, case.need("parameters")))
 
 
-def _claim(item: str, published: str, computed: float, holds: bool, note: str = "") -> dict[str, Any]:
-    return _row(item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
+@cache
+def run(model: str, tolerance: float = 1e-10, backend: str = "scipy-dop853") -> Result:
+    """One start-up without a second run for comparison.
+
+    Parameters
+    ----------
+    tolerance : float
+        Of a step [-]
+    """
+    return simulate(problem(model), Settings(tolerance=tolerance, backend=backend, check="none"))
 
 
-def _torque(found: Result) -> dict[str, Any]:
-    work, angle = found.columns["work_drive"], float(found.columns["phi0"][-1])
-    onset, torque = float(found.t[int(np.argmax(work > 0)) - 1]), float(work[-1]) / angle
-    return _claim(
-        "Fig. 5: torque stepped on at 1 s, work over angle [N*m]", "1.5", torque,
-        onset == 1.0 and by_digits("1.5", torque) == REPRODUCED,
-    )  # fmt: skip
+def rigid_speed(t: float) -> float:
+    r"""Speed that a rigid drive has at most, :math:`M (t - 1) / (I_0 + I_2)`.
+
+    Parameters
+    ----------
+    t : float
+        Time [s]
+
+    Returns
+    -------
+    speed : float
+        Without the piston's inertia, which lowers it [rad/s]
+    """
+    case = cases.load(CASE)
+    p, drive = case.need("parameters"), case.need("drive")
+    return float(drive.torque * (t - drive.time) / (p.I0 + p.I2))
 
 
-def _speed(found: Result) -> list[dict[str, Any]]:
-    t_end = float(found.t[-1])
-    exact, printed = (convergence()[model][-1].mean for model in (EXACT, PRINTED))
-    rigid = rigid_speed_with_piston(t_end)
-    return [
-        _row("Fig. 10: mean crank speed from 90 s on [rad/s]", "194", exact, by_digits("194", exact), _in_words(EXACT)),
-        _row(
-            "Fig. 10: the same with (6) and (11) as printed [rad/s]", "194", printed, by_digits("194", printed),
-            f"the misprint of the equation does not explain it; {_in_words(PRINTED)}",
-        ),
-        _claim(
-            "Fig. 10: mean speed that the drive's work allows at 100 s [rad/s]", "194", rigid, rigid >= 194,
-            f"hand check, M (t - 1)/(I0 + I2 + mean of m0 x0'^2); {rigid_speed_with_piston(CLAIMED_TIME):.1f} at 90 s",
-        ),
-    ]  # fmt: skip
+def rigid_speed_with_piston(t: float) -> float:
+    r"""Speed of a rigid drive that also carries the piston's mean inertia: the hand check.
+
+    .. math:: \omega = \frac{M\,(t - 1)}{I_0 + I_2 + \overline{m_0 x_0'^2}}
+
+    Parameters
+    ----------
+    t : float
+        Time [s]
+
+    Returns
+    -------
+    speed : float
+        What the work of the drive allows as a mean speed [rad/s]
+    """
+    case = cases.load(CASE)
+    linear = torsion.matrices(mechanisms.build(EXACT, case.need("parameters")))
+    drive = case.need("drive")
+    return float(drive.torque * (t - drive.time) / linear.mass.sum())
 
 
-def _in_words(model: str) -> str:
-    """The convergence of the mean speed, one clause for each run."""
-    return "; ".join(f"{s.name}: {s.mean:.5f} rad/s{_residual(s)}" for s in convergence()[model])
+def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np.inf) -> float:
+    """Mean in time of a crank's speed.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Times [s]
+    angle : ndarray, shape (n,)
+        Crank angle [rad]
+    since, until : float
+        Stretch; its ends are moved to the next times inside [s]
+
+    Returns
+    -------
+    mean : float
+        Angle over time [rad/s]
+    """
+    inside = (t >= since) & (t <= until)
+    return float(np.ptp(angle[inside]) / np.ptp(t[inside]))
 
 
-def _residual(found: Reached) -> str:
-    return "" if found.energy_residual is None else f", energy residual {found.energy_residual:.0e}"
+def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> WindowSpeeds:
+    """What a run says about the paper's claim.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Times [s]
+    speed : ndarray, shape (n,)
+        Crank speed [rad/s]
+    residual : float or None
+        Energy residual [-]
+    """
+    end, claim = speed[t >= t[-1] - 2], speed[(t >= CLAIMED_TIME) & (t < CLAIMED_TIME + 2)]
+    return WindowSpeeds(
+        name=name,
+        mean=float(end.mean()),
+        lowest=float(end.min()),
+        highest=float(end.max()),
+        peak_at_claim=float(claim.max()),
+        energy_residual=residual,
+    )
 
 
-def _shape(found: Result) -> list[dict[str, Any]]:
-    t, angle = found.t, found.columns["phi0"]
-    late = mean_speed(t, angle, 99.0) - mean_speed(t, angle, 90.0, 91.0)
-    risen = mean_speed(t, angle, 84.0, 85.0) - mean_speed(t, angle, 55.0, 56.0)
-    bent = _bent(t[t >= CLAIMED_TIME], angle[t >= CLAIMED_TIME])
-    return [
-        _claim(
-            "Fig. 10: speed above 90 s, its gain until 100 s [rad/s]", "constant", late, abs(late) < 1.0,
-            "constant torque without dissipation: no steady speed exists",
-        ),
-        _claim(
-            "speed up to 85 s, its gain from 55 to 85 s [rad/s]", "rises", risen, risen > 1.0,
-            "the second order of the piston's inertia meets the natural frequency there and holds the shaft at half of "
-            "it until about 90 s; the drive feeds the vibration",
-        ),
-        _claim(
-            "Fig. 9: angle above 90 s, largest departure from a line over the angle turned", "linear", bent,
-            bent < _CONSTANT, "the speed goes on growing",
-        ),
-    ]  # fmt: skip
+@cache
+def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """A start-up with a fixed step.
+
+    Parameters
+    ----------
+    step : float
+        Step [s]
+
+    Returns
+    -------
+    t : ndarray, shape (n,)
+        Times [s]
+    y : ndarray, shape (n, m)
+        phi0, phi2, their speeds, and the energy columns [SI]
+    """
+    with np.errstate(all="ignore"):
+        return fixed_step(problem(model), step, order)
 
 
-def _bent(t: np.ndarray, angle: np.ndarray) -> float:
-    """Largest departure from the straight line through both ends, over the angle turned."""
-    line = np.interp(t, t[[0, -1]], angle[[0, -1]])
-    return float(np.abs(angle - line).max() / np.ptp(angle))
+@cache
+def piston() -> dict[str, np.ndarray]:
+    """Motion of the piston and the crank's acceleration along the finest run of the exact model.
 
-
-def _amplitudes(found: Result) -> list[dict[str, Any]]:
-    t, moved = found.t, piston()
-
-    def largest(key: str, since: float) -> float:
-        return float(np.abs(moved[key][(t >= since) & (t <= since + 5.0)]).max())
-
-    lines = [
-        _row(
-            "Fig. 6: largest piston displacement [m]",
-            None,
-            float(moved["x0"].max()),
-            NOT_COMPUTABLE,
-            "no value printed",
-        )
-    ]
-    for figure, key, name in (
-        ("7", "v", "piston velocity"), ("8", "a", "piston acceleration"), ("11", "epsilon", "angular acceleration"),
-    ):  # fmt: skip
-        growth = largest(key, 95.0) / largest(key, 90.0) - 1
-        lines.append(
-            _claim(
-                f"Fig. {figure}: amplitude of the {name} above 90 s, its growth until 100 s", "constant", growth,
-                abs(growth) < _CONSTANT, f"amplitude {largest(key, 95.0):.4g} at the end",
-            )
-        )  # fmt: skip
-    until, after = largest("epsilon", 45.0), largest("epsilon", 85.0) - largest("epsilon", 45.0)
-    lines.append(
-        _claim(
-            "Fig. 11: amplitude grows fast to 50 s and slower from 50 to 90 s, second gain over first", "< 1",
-            after / until, after < until, "the other way round: the shaft is caught by the resonance at 53 s",
-        )
-    )  # fmt: skip
-    return lines
-
-
-def _steps() -> list[dict[str, Any]]:
-    converged = convergence()[PRINTED][-1].mean
-    apart = max(abs(s.mean / converged - 1) for s in step_study())
-    peaks = ", ".join(f"{s.name} {s.peak:.0f}" for s in step_study()[1:])
-    telling = step_study()[1]
-    return [
-        _claim(
-            "the result depends on the step, largest change of the mean speed from 90 s on", "depends", apart,
-            apart > _CONSTANT, "; ".join(f"{s.name}: {s.mean:.2f} rad/s" for s in step_study()),
-        ),
-        _row(
-            "Fig. 10: 194 rad/s with the source's integrator and step [rad/s]", "194", telling.peak,
-            NOT_COMPUTABLE,
-            "the source prints neither; several fixed steps give it as a peak of the speed from 90 s on "
-            f"({peaks} rad/s): they lose work, {100 * (telling.energy_residual or 0):.0f} % with the first, so that "
-            f"the shaft is held at a mean of {telling.mean:.1f} rad/s for ever, with the source's constant amplitudes",
-        ),
-    ]  # fmt: skip
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        `x0` [m], `v` [m/s], `a` [m/s^2], `epsilon` [rad/s^2], in SI [-]
+    """
+    found, mechanism = run(EXACT, FINEST[1], FINEST[0]), problem(EXACT).mechanism
+    drive = cases.load(CASE).need("drive")
+    given = {name: column[None, :] for name, column in found.columns.items()}
+    given |= {"M": np.where(found.t > drive.time, drive.torque, 0.0)[None, :], "F": np.zeros_like(given["phi0"])}
+    accelerations, kinematics = acceleration_function(mechanism), mechanism.functions["kinematics"]
+    epsilon = np.asarray(accelerations.call([given[n] for n in accelerations.name_in()])[0])[0]
+    values = kinematics.call([given[n] for n in kinematics.name_in()])
+    x = dict(zip(kinematics.name_out(), (np.asarray(v).ravel() for v in values), strict=True))
+    speed = found.columns["phi0d"]
+    return {
+        "x0": x["x0"],
+        "v": x["dx0_dphi0"] * speed,
+        "a": x["dx0_dphi0"] * epsilon + x["d2x0_dphi0_dphi0"] * speed**2,
+        "epsilon": epsilon,
+    }

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from mechsym.cases import load
 from mechsym.hinge.plots import BLUE, GREEN, GREY, RED
-from mechsym.papers.chmielewski2015.runs import (
+from mechsym.papers.chmielewski2015.computed import (
     CASE,
     CLAIMED_SPEED,
     CLAIMED_TIME,

@@ -4,7 +4,7 @@ F in (1) and (3) is the rod force, tension positive. The models have no damping 
 """
 
 import mechsym.papers.chmielewski2015.claims as claims
-from mechsym.audit.entries import Listed, Printed, Source, TextClaim
+from mechsym.audit.entries import Listed, Printed, TextClaim
 
 _NO_GAS = {"F": 0.0, "c1": 0.0}
 _LEVER = "(lam*sin(phi0)*cos(phi0) + sin(phi0)*sqrt(1 - lam**2*sin(phi0)**2))/sqrt(1 - lam**2*sin(phi0)**2)"
@@ -55,11 +55,3 @@ ENTRIES = (
               decide=claims.constant_speed),
     TextClaim(equation="list of symbols", claim="the stiffness k1 has the unit N/m", decide=claims.unit_of_stiffness),
 )  # fmt: skip
-
-SOURCE = Source(
-    stem="002_d7297926d6c52225",
-    short="chmielewski2015",
-    title="Chmielewski, Bogucki, Guminski, Maczak (2015): Dynamic model of a crankshaft assembly with two degrees of "
-    "freedom",
-    entries=ENTRIES,
-)

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from mechsym import cases, mechanisms
-from mechsym.papers.chmielewski2015.runs import CASE, CLAIMED_TIME, EXACT, PRINTED, SWEEP, fixed, mean_speed, run
+from mechsym.papers.chmielewski2015.computed import CASE, CLAIMED_TIME, EXACT, PRINTED, SWEEP, fixed, mean_speed, run
 from mechsym.quantities import record
 from mechsym.simulate.audit import energies
 

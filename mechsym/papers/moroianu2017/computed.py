@@ -1,20 +1,11 @@
-"""Moroianu (2017) prints definitions and nine curves without any data: no number of it can be checked.
-
-The chain (2) to (13) is computed for the case `moroianu`, a marine drive whose data are assumed, and drawn as in the
-source. Only the rule of Terskih, (3), gives numbers of its own.
-"""
+"""The chain (2) to (13) of Moroianu (2017) for the case `moroianu`, a marine drive whose data are assumed."""
 
 from functools import cache
-from typing import Any
-
-import numpy as np
 
 from mechsym.cases import load
 from mechsym.forces.textbook import Chain, chain, terskih
 from mechsym.forces.turn import Turn, turn
-from mechsym.papers.rows import NOT_COMPUTABLE, row
 
-SOURCE = "001_a140ef4f7e005dde"
 CASE = "moroianu"
 # number of the figure: (field of the chain, its name in the source, unit)
 FIGURES = {
@@ -22,9 +13,6 @@ FIGURES = {
     "6": ("B", "longitudinal force", "N"), "7": ("N", "normal force", "N"), "9": ("Z_B", "radial force", "N"),
     "10": ("T", "tangential force", "N"), "11": ("Z", "total radial force", "N"), "12": ("M", "driving moment", "N*m"),
 }  # fmt: skip
-_SPEEDS_RPM = (100, 500, 1000)
-_MISSING = "no mass, length, speed or diagram is printed; computed: largest value with the assumed case moroianu"
-_NO_VALUE = "no value is printed; an empirical rule that knows nothing of the rod itself"
 
 
 @cache
@@ -38,17 +26,3 @@ def curves() -> tuple[Turn, Chain]:
     """
     one = turn(load(CASE))
     return one, chain(one, terskih(one.omega))
-
-
-def rows() -> list[dict[str, Any]]:
-    """Every figure with curves, and the rule of Terskih."""
-    found = curves()[1]
-    drawn = [
-        _row(f"Fig. {number}: {name} [{unit}]", float(np.abs(getattr(found, field)).max()), _MISSING)
-        for number, (field, name, unit) in FIGURES.items()
-    ]
-    return drawn + [_row(f"(3): L_m/L at {rpm} rpm", terskih(rpm * np.pi / 30), _NO_VALUE) for rpm in _SPEEDS_RPM]
-
-
-def _row(item: str, computed: float, note: str) -> dict[str, Any]:
-    return row(SOURCE, item, None, computed, NOT_COMPUTABLE, note)

@@ -5,7 +5,7 @@ F is the total force on the piston along the cylinder axis, alpha the crank angl
 """
 
 import mechsym.papers.moroianu2017.claims as claims
-from mechsym.audit.entries import Listed, Printed, Source, TextClaim
+from mechsym.audit.entries import Listed, Printed, TextClaim
 
 # the paper's F is the gas force and the inertia of the reciprocating masses together
 _CHAIN = {"F": "total_force", "alpha": "phi", "B": "rod_force", "R": "r"}
@@ -39,10 +39,3 @@ ENTRIES = (
             letters={"T": "tangential_force", "R": "r"}, quantity="slider_crank.torque"),
     TextClaim(equation="text", claim="two masses at its ends stand for the connecting rod", decide=claims.two_masses),
 )  # fmt: skip
-
-SOURCE = Source(
-    stem="001_a140ef4f7e005dde",
-    short="moroianu2017",
-    title="Moroianu (2017): The dynamic design of the marine engines",
-    entries=ENTRIES,
-)

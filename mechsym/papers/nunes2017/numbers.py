@@ -1,6 +1,10 @@
 """Published numbers of the thesis that lie on curves over the speed, as data: text as printed, and where it lies."""
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from mechsym.papers.nunes2017 import SOURCE
+from mechsym.papers.rows import NOT_REPRODUCED, REPRODUCED, SLIP, last_digit
 
 
 class Item(NamedTuple):
@@ -19,6 +23,65 @@ class Item(NamedTuple):
     slip: str = ""
     meant: str = ""
     about: float = 0.0
+
+
+def verdict(item: Item, computed: float) -> tuple[str, str]:
+    """Verdict on one number by its printed digits.
+
+    Parameters
+    ----------
+    item : Item
+        The number as printed, and the source's slip if there is one
+    computed : float
+        The number as computed in the unit of the print [-]
+
+    Returns
+    -------
+    verdict : str
+        `reproduced`, `reproduced with the source's slip` or `not reproduced`
+    note : str
+        The slip, or how far off; empty when rounding gives the print
+    """
+    target = item.meant or item.published
+    wanted, unit = float(target), max(last_digit(target), 2 * item.about * abs(float(target)))
+    off = abs(computed - wanted) / unit
+    # 0.55 for 0.5: T(5400) = 245.03252 is printed 245.032
+    rounded = off <= 0.55
+    truncated = not item.about and 0 <= abs(computed) - abs(wanted) < unit
+    if not (rounded or truncated):
+        return NOT_REPRODUCED, "; ".join(filter(None, [item.slip, f"{off:.2f} of the last digit off"]))
+    edge = f"{off:.2f} of the last digit off" if 0.5 < off <= 0.55 else ""
+    notes = [item.slip, "" if rounded else "truncated in print", edge, "the text says about" if item.about else ""]
+    return SLIP if item.slip else REPRODUCED, "; ".join(filter(None, notes))
+
+
+def item_row(item: Item, values: Mapping[str, float | None]) -> dict[str, Any]:
+    """A row for one number.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        What the `printed`, the `converged` and the `corrected` model give, in the unit of the print [-]
+
+    Returns
+    -------
+    row : dict
+        Keys source, item, published, computed, rel_error, verdict, note, converged, corrected
+    """
+    computed, published = values["printed"], float(item.published)
+    assert computed is not None
+    judged, note = verdict(item, computed)
+    return {
+        "source": SOURCE.stem,
+        "item": item.item,
+        "published": item.published,
+        "computed": computed,
+        "rel_error": computed / published - 1 if published else None,
+        "verdict": judged,
+        "note": note,
+        "converged": values.get("converged"),
+        "corrected": values.get("corrected"),
+    }
 
 
 _SC, _SC74, _HY = "slider_crank", "slider_crank_74", "hypocycloid"

@@ -3,7 +3,7 @@
 S is the piston's distance from the shaft, r the crank radius (13 mm in the hypocycloid), l the length of the rod.
 """
 
-from mechsym.audit.entries import Entry, Listed, Printed, Source
+from mechsym.audit.entries import Entry, Listed, Printed
 from mechsym.papers.nunes2017.printed_chapter4 import CHAPTER_4
 from mechsym.papers.nunes2017.printed_cycle import CLOSED_CYCLE, HEAT_MODELS, IDEAL_CYCLE
 from mechsym.papers.nunes2017.printed_engine import MODEL, RESULTS
@@ -106,19 +106,14 @@ HYPOCYCLOID: tuple[Entry, ...] = (
            statement="sigma_HP*Z_N*C_H/(SH*K_T*K_R)"),
 )  # fmt: skip
 
-SOURCE = Source(
-    stem="004_e00ef50339108dab",
-    short="nunes2017",
-    title="Nunes (2017): Design of an opposed-piston engine, slider crank against geared hypocycloid",
-    entries=(
-        *IDEAL_CYCLE,
-        *HEAT_MODELS,
-        *PERFORMANCE,
-        *SLIDER_CRANK,
-        *HYPOCYCLOID,
-        *CLOSED_CYCLE,
-        *MODEL,
-        *CHAPTER_4,
-        *RESULTS,
-    ),
+ENTRIES: tuple[Entry, ...] = (
+    *IDEAL_CYCLE,
+    *HEAT_MODELS,
+    *PERFORMANCE,
+    *SLIDER_CRANK,
+    *HYPOCYCLOID,
+    *CLOSED_CYCLE,
+    *MODEL,
+    *CHAPTER_4,
+    *RESULTS,
 )

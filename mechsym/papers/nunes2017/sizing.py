@@ -12,8 +12,7 @@ import numpy as np
 from mechsym.cases import load
 from mechsym.jobs.cycle import columns, engine, over_speeds, speed_range
 from mechsym.papers.nunes2017 import gears as gearing
-from mechsym.papers.nunes2017.computed import SOURCE, verdict
-from mechsym.papers.nunes2017.numbers import Item
+from mechsym.papers.nunes2017.numbers import Item, item_row
 from mechsym.papers.nunes2017.sizing_numbers import COLUMNS, GEOMETRY, SINGLE, TWIN
 from mechsym.sizing.rules import balancing, bearings, bolts, crankshaft, cylinder, masses, piston, rod
 from mechsym.sizing.rules.agma908 import interpolated
@@ -74,11 +73,8 @@ def _entry(
 
 
 def _row(item: str, published: str, computed: float, slip: str, meant: str, corrected: float | None) -> dict[str, Any]:
-    judged, note = verdict(Item(item, published, "hypocycloid", "", "", slip, meant), computed)
-    target = float(published)
-    return {"source": SOURCE, "item": item, "published": published, "computed": computed,
-            "rel_error": computed / target - 1 if target else None, "verdict": judged, "note": note,
-            "converged": None, "corrected": corrected}  # fmt: skip
+    values = {"printed": computed, "corrected": corrected}
+    return item_row(Item(item, published, "hypocycloid", "", "", slip, meant), values)
 
 
 def _materials(peaks: Peaks) -> list[Entry]:

@@ -8,7 +8,8 @@ import numpy as np
 from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, travel
 from mechsym.jobs.cycle import engine
-from mechsym.papers.nunes2017.computed import SOURCE, Curves, over_printed_speeds, value
+from mechsym.papers.nunes2017 import SOURCE
+from mechsym.papers.nunes2017.computed import Curves, over_printed_speeds, value
 from mechsym.papers.nunes2017.numbers import Item
 from mechsym.papers.rows import NOT_REPRODUCED, REPRODUCED, row
 
@@ -41,7 +42,7 @@ def rows() -> list[dict[str, Any]]:
 
 
 def _claim(item: str, published: str, computed: float, holds: bool, note: str = "") -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
+    return row(SOURCE.stem, item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
 
 
 def _variation(curves: Mapping[str, Curves]) -> list[dict[str, Any]]:

@@ -5,7 +5,7 @@ the four rod journals.
 """
 
 import mechsym.papers.prymak.claims as claims
-from mechsym.audit.entries import Listed, Printed, Source, TextClaim
+from mechsym.audit.entries import Listed, Printed, TextClaim
 
 _CHAIN = {"P": "total_force", "P_g": "F", "P_j": "inertia_force"}
 _STEADY = {"phidd": 0.0}
@@ -47,10 +47,3 @@ ENTRIES = (
     TextClaim(equation="conclusion 2", claim="no side force presses the piston of a rodless engine on the cylinder",
               decide=claims.no_side_force),
 )  # fmt: skip
-
-SOURCE = Source(
-    stem="003_8746f5f4ad51b1d1",
-    short="prymak",
-    title="Prymak (undated): Distribution of forces in connecting-rod-less mechanisms",
-    entries=ENTRIES,
-)

@@ -5,7 +5,7 @@ the cylinder axis. Roots and fraction bars that the machine-read text lost are r
 """
 
 import mechsym.papers.zotov2024.claims as claims
-from mechsym.audit.entries import Listed, Printed, Source, TextClaim
+from mechsym.audit.entries import Listed, Printed, TextClaim
 
 _WEIGHTS = {"P1": "m1*g", "P2": "m2*g", "P3": "m3*g", "P4": "m4*g", "P5": "m5*g", "IC22": "IC2"}
 _LYING = {"axis_tilt": 0.0}
@@ -107,10 +107,3 @@ ENTRIES = (
     TextClaim(equation="Fig. 5", claim="the guide compresses the spring everywhere",
               decide=claims.spring_compressed),
 )  # fmt: skip
-
-SOURCE = Source(
-    stem="000_9f2b746dc1abd296",
-    short="zotov2024",
-    title="Zotov, Tokarev, Valeev, Fatkullina (2024): Two-stroke engine with constant crank angular velocity",
-    entries=ENTRIES,
-)

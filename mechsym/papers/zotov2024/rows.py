@@ -15,6 +15,7 @@ from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.jobs.machine import running
 from mechsym.machine.loads import ConstantLoad
 from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
+from mechsym.papers.zotov2024 import SOURCE
 from mechsym.papers.zotov2024.computed import (
     PRESSURES,
     VARIANTS,
@@ -30,7 +31,6 @@ from mechsym.papers.zotov2024.computed import (
 )
 from mechsym.periodic import even_angles
 
-SOURCE = "000_9f2b746dc1abd296"
 FACTOR = 1.9  # caption of Fig. 6
 _NO_FORCE = "the gas force is not printed; computed with the cycle of zotov-89 and zotov-142"
 _ZERO = 1e-9  # of the peak
@@ -45,7 +45,7 @@ def rows() -> list[dict[str, Any]]:
 
 
 def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
-    return row(SOURCE, item, published, computed, verdict, note)
+    return row(SOURCE.stem, item, published, computed, verdict, note)
 
 
 def _claim(item: str, published: str, computed: float, holds: bool, note: str = "") -> dict[str, Any]:
