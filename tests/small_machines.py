@@ -1,20 +1,16 @@
-"""Machines for the tests of forces: a case without a file, and a gas whose work is known in closed form."""
+"""Machines for the tests of forces, from records and numbers, and a gas whose work is known in closed form."""
 
 import math
 
 import numpy as np
 
-from mechsym.cases import Case
-from mechsym.cases.settings import Operation
-from mechsym.cycle.on_pistons import Gas
-from mechsym.forces.turn import Turn, at, one_coordinate
+from mechsym.cycle.gas import Gas
+from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive
 
 
-def machine(mechanism, parameters, speed=20.0, **sections) -> Case:
-    """A case of that mechanism."""
-    head = {"name": "small", "file": "test", "source": "", "about": ""}
-    given = {"parameters": parameters, "operation": Operation(speed=speed), **sections}
-    return Case(mechanism=mechanism, sections=given, **head)
+def machine(mechanism, parameters, speed=20.0, **given) -> tuple[CrankDrive, float]:
+    """That mechanism and its speed [rad/s]."""
+    return crank_drive(mechanism, parameters, **given), speed
 
 
 def smooth_gas(stroke, bore=0.2, level=30e5, swing=20e5) -> Gas:
@@ -31,7 +27,7 @@ def smooth_gas(stroke, bore=0.2, level=30e5, swing=20e5) -> Gas:
     )
 
 
-def turn_of(case, gas, n=720) -> Turn:
+def turn_of(machine, gas, n=720) -> Turn:
     """One turn at n even angles."""
-    phi = np.arange(n) * 2 * math.pi / n
-    return at(case, one_coordinate(case), gas, case.need("operation").speed, phi)
+    drive, speed = machine
+    return at(drive, gas, speed, np.arange(n) * 2 * math.pi / n)

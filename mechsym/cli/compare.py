@@ -27,8 +27,9 @@ def compare(
     import numpy as np
 
     from mechsym.cases import load
+    from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.compare import compare as side_by_side
-    from mechsym.jobs.cycle import columns, engine, over_speeds, speed_range
+    from mechsym.jobs.cycle import engine, speed_range
 
     cases = [load(name, pairs(overrides)) for name in (case_a, case_b)]
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))

@@ -49,10 +49,9 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
 
 
 def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
-    from mechsym.cycle.figures import two_stroke_columns
     from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-    from mechsym.cycle.on_pistons import one_cylinder
-    from mechsym.jobs.cycle import engine
+    from mechsym.jobs.cycle import columns_of_cylinder, engine
+    from mechsym.jobs.gas import one_cylinder
 
     as_json, out = output
     if isinstance(case.need("cycle"), SparkIgnition):
@@ -61,14 +60,14 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     elif over:
         raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
     else:
-        machine, found = None, two_stroke_columns(case, _array(omega))
+        machine, found = None, columns_of_cylinder(case, _array(omega))
     files = _write(out, machine, found, case.need("operation").speed) if out else []
     units = _units(machine) if over else {}
     emit(found, as_json, lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]))
 
 
 def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
-    from mechsym.jobs.cycle import columns, over_design
+    from mechsym.cycle.engine import columns, over_design
 
     design: dict[str, Any] = {"omega": _array(omega)}
     if over:
@@ -112,9 +111,9 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
 
 
 def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
+    from mechsym.cycle.engine import curves
     from mechsym.cycle.plots import cycle_picture, performance_picture
     from mechsym.files import write_csv
-    from mechsym.jobs.cycle import curves
 
     flat = {k: v for k, v in found.items() if k not in ("fractions", "loads")}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]

@@ -38,36 +38,32 @@ def forces(
               mechsym forces nunes-hypocycloid --law 1000:8000:1000
     """
     from mechsym import cases
-    from mechsym.cycle.on_pistons import measured
+    from mechsym.forces.summary import summary
     from mechsym.jobs.forces import forces as run
-    from mechsym.jobs.forces import summary
+    from mechsym.jobs.forces import write
+    from mechsym.jobs.gas import measured
 
     loaded = cases.load(case, pairs(overrides))
-    found = run(loaded if diagram is None else measured(loaded, diagram), comparison)
-    report = summary(found)
-    report["friction_law"] = _law(found.turn.case, law) if law else None
-    report["files"] = [] if out is None else [str(file) for file in _write(found, report, out)]
+    loaded = loaded if diagram is None else measured(loaded, diagram)
+    found = run(loaded, comparison)
+    report = summary(found, loaded.name)
+    report["friction_law"] = _law(loaded, law) if law else None
+    report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
     emit(report, as_json, lambda: _text(report))
     ctx.exit(1 if found.unbalanced else 0)
-
-
-def _write(found: Any, report: dict[str, Any], out: Path) -> list[Path]:
-    from mechsym.forces.report import write
-
-    return write(found, report, out)
 
 
 def _law(case: Any, speeds: str) -> dict[str, Any]:
     import dataclasses
 
-    from mechsym.forces.friction_law import fitted_law
+    from mechsym.jobs.turn import fitted_law
 
     found = fitted_law(case, parse_speeds(speeds, "--law"))
     return {"law": "chen_flynn", **dataclasses.asdict(found.law), "misfit": found.misfit}
 
 
 def _text(report: dict[str, Any]) -> str:
-    from mechsym.jobs.forces import quantities
+    from mechsym.forces.summary import quantities
 
     rows = [{"quantity": n, "max": report["max"][n], "min": report["min"][n]} for n in quantities(report)]
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]

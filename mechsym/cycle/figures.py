@@ -7,57 +7,54 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.cases import Case
-from mechsym.cycle.chamber import moving_mass, travel
+from mechsym.cycle.chamber import Motion, moving_mass, travel
 from mechsym.cycle.cylinder import piston_area, swept_volume
+from mechsym.cycle.engine import RPM
 from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, shares, two_stroke_zone
-from mechsym.cycle.motion import motion
-from mechsym.cycle.on_pistons import one_cylinder
-from mechsym.cycle.on_pistons import travel as travel_of
+from mechsym.cycle.motion import motion, piston_travel
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import RPM
 
 _SHARES = ("heat", "work", "exhaust", "unburnt")
 _POINTS = 1441
 
 
-def two_stroke_columns(case: Case, omega: np.ndarray) -> dict[str, Any]:
-    """Figures of a two-stroke case over the speeds.
+def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) -> dict[str, Any]:
+    """Figures of a two-stroke cycle over the speeds.
 
     Parameters
     ----------
-    case : Case
-        With a cycle of kind `two-stroke-marine` or `two-stroke-zone`
+    cycle : TwoStrokeMarine or TwoStrokeZone
+        Of another kind it is refused
+    name : str
+        Name of a mechanism with one piston, which `parameters` belong to
     omega : ndarray, shape (n,)
         Crank speeds; the algebraic cycle does not depend on them [rad/s]
 
     Returns
     -------
     columns : dict
-        As `cycle.columns`, of one cylinder; consumption, efficiency and shares are nan for the algebraic cycle, which
+        As `engine.columns`, of one cylinder; consumption, efficiency and shares are nan for the algebraic cycle, which
         knows no fuel
     """
-    if not isinstance(case.need("cycle"), (TwoStrokeMarine, TwoStrokeZone)):
+    if not isinstance(cycle, (TwoStrokeMarine, TwoStrokeZone)):
         raise BadInput(
-            f"{case.file}: [cycle] is of no kind with figures over the speed; kinds are spark-ignition, "
+            "[cycle] is of no kind with figures over the speed; kinds are spark-ignition, "
             "two-stroke-marine, two-stroke-zone and, with --diagram, diagram"
         )
-    seen = one_cylinder(case)
-    rows = [_at(seen, float(speed)) for speed in omega]
+    kinematics, moves = piston_travel(name, parameters), motion(name, dataclasses.asdict(parameters))
+    rows = [_at(cycle, kinematics, moves, float(speed)) for speed in omega]
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     fractions = {name: columns.pop(name) for name in _SHARES}
     return {"speed_rpm": omega / RPM} | columns | {"fractions": fractions, "loads": {}}
 
 
-def _at(case: Case, omega: float) -> dict[str, float]:
-    cycle = case.need("cycle")
-    kinematics = travel_of(case)
+def _at(cycle: Any, kinematics: ca.Function, moves: Motion, omega: float) -> dict[str, float]:
     cycle = dataclasses.replace(cycle, speed=omega) if isinstance(cycle, TwoStrokeZone) else cycle
     pressure, cylinder = cylinder_pressure(cycle, kinematics)
     work = pressure.mean_indicated * swept_volume(cylinder)
-    torque, force = _extremes(case, pressure, (piston_area(cylinder.bore), back_pressure(cycle)), omega)
+    torque, force = _extremes(moves, pressure, (piston_area(cylinder.bore), back_pressure(cycle)), omega)
     return {
         "torque_avg": work / (2 * math.pi), "torque_max": torque, "power_kw": work * omega / (2 * math.pi) / 1e3,
         "mep_kpa": pressure.mean_indicated / 1e3, "p_max_mpa": pressure.p_max / 1e6,
@@ -65,8 +62,7 @@ def _at(case: Case, omega: float) -> dict[str, float]:
     }  # fmt: skip
 
 
-def _extremes(case: Case, pressure: Any, piston: tuple[float, float], omega: float) -> tuple[float, float]:
-    moves = motion(case.mechanism, dataclasses.asdict(case.need("parameters")))
+def _extremes(moves: Motion, pressure: Any, piston: tuple[float, float], omega: float) -> tuple[float, float]:
     phi = np.linspace(-math.pi, math.pi, _POINTS)
     _, dx, d2x = travel(moves, phi)
     force = (pressure.absolute(phi) - piston[1]) * piston[0] - moving_mass(moves) * d2x * omega**2

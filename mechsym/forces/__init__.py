@@ -1,7 +1,6 @@
 """Forces of a crank train over one cycle at constant speed, and what follows from them.
 
-gas.py          case -> gas pressure on the pistons (any kind of cycle)
-turn.py         case -> mechanism, gas forces and exact reactions over the angle, with the power they must balance
+turn.py         mechanism, gas, speed -> gas forces and exact reactions over the angle, the power they must balance
 loads.py        reactions under common names: side force, crank pin radial and tangential, main bearing
 table.py        forces.csv and its extremes
 textbook.py     the chains of Moroianu (2017) and Prymak: two-mass rod, Terskih's rule, their errors
@@ -11,5 +10,6 @@ friction.py     first-order losses from the frictionless reactions
 comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force
 friction_law.py the mechanism's friction as a law of the engine cycle
 claims.py       what the sources claim about friction and loads, judged by the comparison
-result.py       the whole job: case -> result record
+result.py       all of it in one record
+summary.py      the record in numbers
 """

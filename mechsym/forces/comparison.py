@@ -13,15 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cases import Case
-from mechsym.cycle.on_pistons import Gas, at_same_travel, one_cylinder, travel
+from mechsym.cycle.gas import Gas, at_same_travel
+from mechsym.cycle.motion import one_cylinder, piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.friction import Friction, losses, pistons
 from mechsym.forces.harmonics import whole
 from mechsym.forces.loads import loads, power_residual
 from mechsym.forces.rings import Rings
 from mechsym.forces.shaking import shaking
-from mechsym.forces.turn import Turn, at, one_coordinate
+from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive, faces_of
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
@@ -43,12 +43,10 @@ class ComparisonSettings:
 
 
 def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: ComparisonSettings) -> list[dict[str, Any]]:
-    """The mechanisms side by side with the stroke, mass and gas of a case.
+    """The mechanisms side by side with the stroke, mass and gas of a machine, which must have gas.
 
     Parameters
     ----------
-    turn : Turn
-        Of the case, with a gas
     friction : Friction or None
         The same coefficients for all; None leaves friction out
 
@@ -58,7 +56,7 @@ def compare(turn: Turn, friction: Friction | None, rings: Rings, settings: Compa
         One a mechanism; forces in N, torque in N*m, `friction_per_piston` in W
     """
     if turn.gas is None:
-        raise BadInput(f"{turn.case.file}: a comparison at equal gas force needs a [cycle]")
+        raise BadInput("a comparison at equal gas force needs a [cycle]")
     machines = _machines(turn, turn.gas, settings)
     return [_row(name, turn, machine, friction, rings) for name, machine in machines.items()]
 
@@ -71,19 +69,19 @@ def reciprocating_mass(turn: Turn) -> float:
     mass : float
         Mass [kg]
     """
-    p = turn.mechanism.parameters
-    if turn.case.mechanism == "crosshead":
+    p = turn.drive.mechanism.parameters
+    if turn.drive.name == "crosshead":
         return float(p["m3"] + p["m4"] + p["m5"])
-    if turn.case.mechanism == "hypocycloid":
+    if turn.drive.name == "hypocycloid":
         return float(p["m3"])
-    if turn.case.mechanism == "rodless":
-        on_a = sum(side[0] == "a" for side in turn.case.need("faces").sides)
+    if turn.drive.name == "rodless":
+        on_a = sum(side[0] == "a" for side in faces_of(turn.drive).sides)
         return float(p["m_a"]) / max(on_a, 1)
     mass = p["m_piston"]
     return float(mass[0] if isinstance(mass, tuple) else mass)
 
 
-def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, Case]:
+def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, CrankDrive]:
     s, m = gas.stroke, reciprocating_mass(turn)
     l = s / 2 / settings.lam
     nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
@@ -92,10 +90,10 @@ def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, C
     one = RodlessParameters(r=s / 4, I1=_INERTIA, m_link=0, I_link=0, m_a=m, m_b=0)
     four = dataclasses.replace(one, m_a=2 * m, m_b=2 * m)
     single = RodlessFaces(sides=("a+",), areas=(gas.area,), firing=(0.0,))
-    machines = {"slider crank": _case("crosshead", crosshead), "hypocycloid": _case("hypocycloid", planet)}
+    machines = {"slider crank": crank_drive("crosshead", crosshead), "hypocycloid": crank_drive("hypocycloid", planet)}
     for rule_name, rule in (("crank free radially", CrankFreeRadially()), ("equal stiffnesses", _EQUAL)):
         for count, parameters, faces in (("one piston", one, single), ("four pistons", four, _four_faces(gas))):
-            machines[f"rodless, {count}, {rule_name}"] = _case("rodless", parameters, faces=faces, closing=rule)
+            machines[f"rodless, {count}, {rule_name}"] = crank_drive("rodless", parameters, faces, rule)
     return machines
 
 
@@ -106,20 +104,9 @@ def _four_faces(gas: Gas) -> RodlessFaces:
     return RodlessFaces(sides=tuple(late), areas=(gas.area,) * 4, firing=firing)
 
 
-def _case(mechanism: str, parameters: Any, **sections: Any) -> Case:
-    return Case(
-        name=mechanism,
-        file=f"comparison, {mechanism}",
-        mechanism=mechanism,
-        source="",
-        about="",
-        sections={"parameters": parameters, **sections},
-    )
-
-
-def _row(name: str, turn: Turn, case: Case, friction: Friction | None, rings: Rings) -> dict[str, Any]:
-    gas = at_same_travel(turn.gas, *(travel(one_cylinder(c)) for c in (turn.case, case))) if turn.gas else None
-    machine = at(case, one_coordinate(case), gas, turn.omega, turn.phi)
+def _row(name: str, turn: Turn, drive: CrankDrive, friction: Friction | None, rings: Rings) -> dict[str, Any]:
+    travels = (piston_travel(*one_cylinder(d.name, d.parameters)) for d in (turn.drive, drive))
+    machine = at(drive, at_same_travel(turn.gas, *travels) if turn.gas else None, turn.omega, turn.phi)
     found, shake, count = loads(machine), shaking(machine), len(pistons(machine))
     pin = np.hypot(found.pins[0].x, found.pins[0].y)
     main = np.hypot(*found.bearings["main_bearing"])

@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsym.forces.loads import Loads
 from mechsym.forces.rings import Rings, ring_power
-from mechsym.forces.turn import Turn
+from mechsym.forces.turn import Turn, faces_of
 from mechsym.mechanisms.crank_train.parameters import each
 from mechsym.quantities import quantity, record
 
@@ -54,7 +54,7 @@ def losses(turn: Turn, found: Loads, friction: Friction, rings: Rings) -> Losses
     losses : Losses
         By place, and what they cost
     """
-    curves = _PLACES[turn.case.mechanism](turn, found, friction)
+    curves = _PLACES[turn.drive.name](turn, found, friction)
     shaft = sum((np.hypot(x, y) for x, y in found.bearings.values()), np.zeros_like(turn.phi))
     curves["main_bearings"] = friction.mu_main * friction.radius_main * shaft * turn.omega
     if turn.gas is not None:
@@ -78,13 +78,13 @@ def pistons(turn: Turn) -> list[tuple[np.ndarray, np.ndarray]]:
     faces : list of (ndarray, ndarray)
         For each face the angle from its firing dead centre [rad] and the speed of its piston [m/s]
     """
-    q = turn.mechanism.coordinates[0]
-    if turn.case.mechanism == "rodless":
-        faces = turn.case.need("faces")
+    q = turn.drive.mechanism.coordinates[0]
+    if turn.drive.name == "rodless":
+        faces = faces_of(turn.drive)
         rows = zip(faces.sides, faces.firing, strict=True)
         return [(turn.phi - fires, turn.kinematics[f"dx_{side[0]}_d{q}"] * turn.omega) for side, fires in rows]
-    if turn.case.mechanism == "crank_train":
-        p = turn.case.need("parameters")
+    if turn.drive.name == "crank_train":
+        p = turn.drive.parameters
         firing = each(p, "firing") or (0.0,) * len(p.throw)
         return [(turn.phi - f, turn.kinematics[f"dx_{i}_d{q}"] * turn.omega) for i, f in enumerate(firing, 1)]
     return [(turn.phi, turn.kinematics[f"dx_d{q}"] * turn.omega)]
@@ -99,8 +99,8 @@ def swept_volume(turn: Turn) -> float:
         Swept volume [m^3]
     """
     assert turn.gas is not None
-    if turn.case.mechanism == "rodless":
-        return sum(turn.case.need("faces").areas) * turn.gas.stroke
+    if turn.drive.name == "rodless":
+        return sum(faces_of(turn.drive).areas) * turn.gas.stroke
     return turn.gas.area * turn.gas.stroke * len(pistons(turn))
 
 

@@ -1,24 +1,22 @@
 r"""The mechanism's own friction as a law of the engine cycle.
 
 The cycle knows friction as a mean pressure by a named correlation, `[friction_pressure]`. Here the coefficients of Chen
-and Flynn's form are fitted to the friction that the joints and rings of a case have over its speeds; the record can be
+and Flynn's form are fitted to the friction that joints and rings have at several speeds; the record can be
 used wherever the cycle takes a correlation, or written into the case.
 """
 
-import dataclasses
 import math
 from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import nnls
 
-from mechsym.cases import Case
 from mechsym.cycle.friction import ChenFlynn, friction_pressure
 from mechsym.errors import BadInput
-from mechsym.forces.friction import losses
+from mechsym.forces.friction import Friction, losses
 from mechsym.forces.loads import loads
-from mechsym.forces.rings import NoRings
-from mechsym.forces.turn import Turn, turn
+from mechsym.forces.rings import Rings
+from mechsym.forces.turn import Turn
 from mechsym.quantities import record
 
 
@@ -34,30 +32,23 @@ class FittedLaw:
     misfit: float  #: Largest difference over the largest value [-]
 
 
-def fitted_law(case: Case, omega: Sequence[float]) -> FittedLaw:
+def fit(turns: Sequence[Turn], friction: Friction, rings: Rings) -> FittedLaw:
     r"""Chen and Flynn's coefficients, none negative, that come closest to a mechanism's friction.
 
     .. math:: p_{mf} \approx A + B\,p_{max} + C\,\bar S_p + D\,\bar S_p^2
 
     Parameters
     ----------
-    case : Case
-        With `[cycle]` and `[friction]`, perhaps `[rings]`
-    omega : sequence of float
-        Crank speeds; a single one gives a constant [rad/s]
+    turns : sequence of Turn
+        One machine with gas at several speeds; a single one gives a constant
 
     Returns
     -------
     fitted : FittedLaw
         Law and how close it comes
-
-    Raises
-    ------
-    BadInput
-        The case has no cycle
     """
-    turns = [_at_speed(case, speed) for speed in omega]
-    computed = np.array([_mean_pressure(case, one) for one in turns])
+    omega = np.array([one.omega for one in turns])
+    computed = np.array([_mean_pressure(one, friction, rings) for one in turns])
     p_max = np.array([one.gas.absolute(one.phi).max() for one in turns if one.gas])
     piston_speed = np.array([one.gas.stroke * one.omega / math.pi for one in turns if one.gas])
     columns = np.array([np.ones_like(p_max), p_max, piston_speed, piston_speed**2])
@@ -66,20 +57,13 @@ def fitted_law(case: Case, omega: Sequence[float]) -> FittedLaw:
     found = nnls((columns / scale[:, None]).T, computed)[0] / scale
     names = ("constant", "per_peak_pressure", "per_speed", "per_speed_squared")
     law = ChenFlynn(**dict(zip(names, found.tolist(), strict=True)))
-    fitted = friction_pressure(law, p_max, piston_speed, np.asarray(omega))
+    fitted = friction_pressure(law, p_max, piston_speed, omega)
     misfit = float(np.abs(fitted - computed).max() / computed.max()) if computed.max() > 0 else 0.0
-    return FittedLaw(law=law, omega=np.asarray(omega, float), computed=computed, fitted=fitted, misfit=misfit)
+    return FittedLaw(law=law, omega=omega, computed=computed, fitted=fitted, misfit=misfit)
 
 
-def _at_speed(case: Case, speed: float) -> Turn:
-    operation = dataclasses.replace(case.need("operation"), speed=speed)
-    one = turn(dataclasses.replace(case, sections={**case.sections, "operation": operation}))
-    if one.gas is None:
-        raise BadInput(f"{case.file}: a friction mean pressure needs a [cycle]")
-    return one
-
-
-def _mean_pressure(case: Case, one: Turn) -> float:
-    lost = losses(one, loads(one), case.need("friction"), case.sections.get("rings", NoRings()))
-    assert lost.friction_mean_pressure is not None
-    return lost.friction_mean_pressure
+def _mean_pressure(one: Turn, friction: Friction, rings: Rings) -> float:
+    found = losses(one, loads(one), friction, rings).friction_mean_pressure
+    if found is None:
+        raise BadInput("a friction mean pressure needs a gas on the pistons")
+    return found

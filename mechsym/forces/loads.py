@@ -39,7 +39,7 @@ class Loads:
 
 def loads(turn: Turn) -> Loads:
     """The loads of a turn."""
-    return _LOADS[turn.case.mechanism](turn)
+    return _LOADS[turn.drive.name](turn)
 
 
 def pin_torque(found: Loads) -> np.ndarray:
@@ -88,13 +88,13 @@ def power_residual(turn: Turn, found: Loads) -> float:
 
 
 def _crosshead(turn: Turn) -> Loads:
-    p, R = turn.mechanism.parameters, turn.reactions
+    p, R = turn.drive.mechanism.parameters, turn.reactions
     weight = -p["g"] * p["m1"] * p["r1"] * np.cos(turn.phi + p["axis_tilt"])
     return _single(turn, p["r1"] + p["r2"], (-R["R_x_A"], -R["R_y_A"]), R["R_y_G"], weight)
 
 
 def _throw(turn: Turn) -> Loads:
-    p, R = turn.mechanism.parameters, turn.reactions
+    p, R = turn.drive.mechanism.parameters, turn.reactions
     weight = -p["g"] * p["u0"] * np.cos(turn.phi + p["axis_tilt"])
     return _single(turn, p["r"], (-R["R_x_A"], -R["R_y_A"]), R["R_y_G"], weight)
 
@@ -115,7 +115,7 @@ def _hypocycloid(turn: Turn) -> Loads:
     R, none = turn.reactions, np.zeros_like(turn.phi)
     x, y = -R["journal_force_x"], -R["journal_force_y"]
     return Loads(
-        pins=(Pin(name="crank_pin", angle=turn.phi, radius=turn.mechanism.parameters["e"], sense=1.0, x=x, y=y),),
+        pins=(Pin(name="crank_pin", angle=turn.phi, radius=turn.drive.mechanism.parameters["e"], sense=1.0, x=x, y=y),),
         bearings={"main_bearing": (R["main_bearing_force_x"], R["main_bearing_force_y"])},
         guides={"side_force": none},
         weight_torque=none,
@@ -126,7 +126,7 @@ def _rodless(turn: Turn) -> Loads:
     R = turn.reactions
     x, y = -R["pin_force_x"], -R["pin_force_y"]
     return Loads(
-        pins=(Pin(name="crank_pin", angle=turn.phi, radius=turn.mechanism.parameters["r"], sense=1.0, x=x, y=y),),
+        pins=(Pin(name="crank_pin", angle=turn.phi, radius=turn.drive.mechanism.parameters["r"], sense=1.0, x=x, y=y),),
         bearings={"main_bearing": (R["main_bearing_force_x"], R["main_bearing_force_y"])},
         guides={"side_force_a": R["X_a"], "side_force_b": R["X_b"]},
         weight_torque=np.zeros_like(turn.phi),
@@ -134,7 +134,7 @@ def _rodless(turn: Turn) -> Loads:
 
 
 def _crank_train(turn: Turn) -> Loads:
-    p, R = turn.case.need("parameters"), turn.reactions
+    p, R = turn.drive.parameters, turn.reactions
     return Loads(
         pins=tuple(_train_pin(p, R, turn.phi, i) for i in range(len(p.throw))),
         bearings={
@@ -195,5 +195,5 @@ def roll_sense(turn: Turn) -> float:
     sense : float
         1 or -1 [-]
     """
-    parameters = turn.case.need("parameters")
+    parameters = turn.drive.parameters
     return each(parameters, "sense")[-1] if isinstance(parameters, CrankTrainParameters) else 1.0

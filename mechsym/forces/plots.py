@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.forces.loads import polar, radial, tangential
-from mechsym.jobs.forces import Forces
+from mechsym.forces.result import Forces
 
 _INK, _QUIET = "#1b2a41", "#8a94a6"
 _SERIES = ("#2f6690", "#c8553d", "#3a7d44", "#8d6a9f", "#b08900", "#5b6570")

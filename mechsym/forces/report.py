@@ -6,24 +6,27 @@ from typing import Any
 
 from mechsym.files import to_json, write_csv, write_text
 from mechsym.forces import plots as plots_forces
+from mechsym.forces.result import Forces
+from mechsym.forces.summary import quantities
 from mechsym.hinge.plots import svg
 from mechsym.hinge.report import significant
-from mechsym.jobs.forces import Forces, quantities
 from mechsym.mechanisms import plots as plots_mechanism
 
 
-def write(found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
+def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, source: str) -> list[Path]:
     """Write page, tables, summary and pictures.
 
     Parameters
     ----------
     folder : Path
         Where to write; made when missing
+    about, source : str
+        What the page says of the machine, and where its data come from
     """
-    case, figures = found.turn.case, _figures(found)
-    turning = plots_mechanism.animation(case.mechanism, case.need("parameters"), case.about)
+    drive, figures = found.turn.drive, _figures(found)
+    turning = plots_mechanism.animation(drive.name, drive.parameters, about)
     files = [
-        write_text(folder / "report.html", html(found, numbers, figures)),
+        write_text(folder / "report.html", html(numbers, figures, about, source)),
         write_csv(folder / "forces.csv", found.columns),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
         write_text(folder / "mechanism.html", turning),
@@ -33,26 +36,25 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 
-def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str]) -> str:
+def html(numbers: dict[str, Any], figures: dict[str, str], about: str, source: str) -> str:
     """The page as text."""
     import jinja2
 
-    source = (resources.files("mechsym") / "templates" / "forces.html").read_text(encoding="utf-8")
+    template = (resources.files("mechsym") / "templates" / "forces.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
     environment.filters["sig"] = significant
-    case = found.turn.case
-    return environment.from_string(source).render(
-        numbers=numbers, figures=figures, about=case.about, source=case.source, shown=quantities(numbers)
+    return environment.from_string(template).render(
+        numbers=numbers, figures=figures, about=about, source=source, shown=quantities(numbers)
     )
 
 
 def _figures(found: Forces) -> dict[str, str]:
-    case = found.turn.case
+    drive = found.turn.drive
     figures = {
         "forces": plots_forces.chain(found),
         "polar": plots_forces.polar_diagrams(found),
         "orders": plots_forces.orders(found),
-        "mechanism": plots_mechanism.figure(case.mechanism, case.need("parameters"), 0.8),
+        "mechanism": plots_mechanism.figure(drive.name, drive.parameters, 0.8),
     }
     if found.losses is not None:
         figures["friction"] = plots_forces.friction(found)

@@ -6,7 +6,7 @@ pressure of the rings on the wall, elastic and from the gas behind them.
 
 import numpy as np
 
-from mechsym.cycle.on_pistons import Gas
+from mechsym.cycle.gas import Gas
 from mechsym.quantities import quantity, record
 
 

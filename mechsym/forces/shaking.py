@@ -95,7 +95,7 @@ def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
 
 
 def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...]:
-    train = turn.case.need("parameters")
+    train = turn.drive.parameters
     if not isinstance(train, CrankTrainParameters) or set(each(train, "sense")) != {1.0}:
         return ()
     z = np.array([min(each(train, "z")), max(each(train, "z"))])
@@ -134,7 +134,7 @@ def verdict(turn: Turn, found: Shaking, wanted: BalanceWanted) -> list[str]:
 
 def _scale(turn: Turn, name: str) -> float:
     """Force of one cylinder's reciprocating mass, for a couple times the length of the shaft."""
-    p, train = turn.mechanism.parameters, turn.case.need("parameters")
+    p, train = turn.drive.mechanism.parameters, turn.drive.parameters
     if isinstance(train, CrankTrainParameters):
         force = max(m * r for m, r in zip(each(train, "m_piston"), each(train, "r"), strict=True)) * turn.omega**2
         return force * (np.ptp(each(train, "z")) if name.startswith("rocking") else 1.0)
@@ -144,12 +144,12 @@ def _scale(turn: Turn, name: str) -> float:
         "hypocycloid": ("m3",),
         "rodless": ("m_a",),
     }
-    stroke = np.ptp(turn.kinematics["x_a" if turn.case.mechanism == "rodless" else "x"])
-    return sum(p[m] for m in masses[turn.case.mechanism]) * stroke / 2 * turn.omega**2
+    stroke = np.ptp(turn.kinematics["x_a" if turn.drive.name == "rodless" else "x"])
+    return sum(p[m] for m in masses[turn.drive.name]) * stroke / 2 * turn.omega**2
 
 
 def _advice(turn: Turn, name: str, order: int) -> str:
-    parameters = turn.case.need("parameters")
+    parameters = turn.drive.parameters
     if isinstance(parameters, RodlessParameters):
         return _rodless_advice(parameters)
     if not isinstance(parameters, CrankTrainParameters):

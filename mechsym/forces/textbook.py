@@ -17,7 +17,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, radial, tangential
-from mechsym.forces.turn import Turn, at, one_coordinate
+from mechsym.forces.turn import Turn, at, crank_drive
 from mechsym.quantities import record
 
 _FREE_FALL = 9.81  # [m/s^2]
@@ -93,14 +93,14 @@ def slider_crank(turn: Turn) -> SliderCrank:
     slider_crank : SliderCrank
         With the true centre of mass of the rod
     """
-    p = turn.mechanism.parameters
-    if turn.case.mechanism == "crosshead":
+    p = turn.drive.mechanism.parameters
+    if turn.drive.name == "crosshead":
         return SliderCrank(R=p["r1"] + p["r2"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m2"], I_b=p["IC2"],
                            m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
-    if turn.case.mechanism == "crank_throw":
+    if turn.drive.name == "crank_throw":
         return SliderCrank(R=p["r"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m_rod"], I_b=p["I_rod"],
                            m_p=p["m_piston"], u_c=p["u0"])  # fmt: skip
-    raise BadInput(f"{turn.case.file}: the chain of Moroianu is that of a slider crank, not of {turn.case.mechanism}")
+    raise BadInput(f"the chain of Moroianu is that of a slider crank, not of {turn.drive.name}")
 
 
 def chain(turn: Turn, ratio: float) -> Chain:
@@ -162,9 +162,8 @@ def with_weight(turn: Turn, g: float) -> Turn:
     g : float
         Acceleration of free fall [m/s^2]
     """
-    parameters = dataclasses.replace(turn.case.need("parameters"), g=g)
-    case = dataclasses.replace(turn.case, sections={**turn.case.sections, "parameters": parameters})
-    return at(case, one_coordinate(case), turn.gas, turn.omega, turn.phi)
+    drive = crank_drive(turn.drive.name, dataclasses.replace(turn.drive.parameters, g=g))
+    return at(drive, turn.gas, turn.omega, turn.phi)
 
 
 def _exact(turn: Turn) -> dict[str, np.ndarray]:

@@ -1,4 +1,4 @@
-r"""A case over one cycle at constant speed: gas forces, exact reactions, and the power that they must balance.
+r"""A machine over one cycle at constant speed: gas forces, exact reactions, and the power that they must balance.
 
 At constant speed the load must take, at every angle, what gas and weight give and the moving masses do not store:
 
@@ -9,32 +9,44 @@ The same torque follows from the forces on the crank alone; their difference is 
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cases import Case
-from mechsym.cycle.kinds.schmidt import Schmidt
-from mechsym.cycle.on_pistons import Gas, gas
+from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.mechanisms import rodless
 from mechsym.mechanisms.crank_train import parameters as crank_train
 from mechsym.mechanisms.crank_train.firing import gas_forces
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.rodless_faces import axis_forces
+from mechsym.mechanisms.rodless import CrankFreeRadially, Stiffnesses
+from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
 from mechsym.quantities import record
 
 _STEPS_PER_TURN = 1440
+ClosingRule = CrankFreeRadially | Stiffnesses
 _SUPPORTED = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
+
+
+@record
+class CrankDrive:
+    """A mechanism with pistons as its force chain sees it."""
+
+    name: str
+    parameters: Any  #: The mechanism's record
+    mechanism: Mechanism  #: With one coordinate and all reactions
+    #: Working faces of a rodless engine, and how its parts give way; None for the others
+    faces: RodlessFaces | None = None
+    closing: ClosingRule | None = None
 
 
 @record
 class Turn:
     """One cycle at constant speed, evenly spaced angles without the last."""
 
-    case: Case
-    mechanism: Mechanism  #: With one coordinate and all reactions
+    drive: CrankDrive
     gas: Gas | None
     #: Crank speed [rad/s], period of the cycle [rad]
     omega: float
@@ -49,40 +61,49 @@ class Turn:
     gas_power: np.ndarray  #: shape (n,): Power of the gas forces [W]
 
 
-def turn(case: Case) -> Turn:
-    """One cycle of a case.
+def turn(drive: CrankDrive, gas: Gas | None, omega: float) -> Turn:
+    """One cycle at a speed.
 
     Parameters
     ----------
-    case : Case
-        With `[operation]`; `[cycle]` gives the gas, `[faces]` and `[closing]` belong to a rodless engine
+    gas : Gas or None
+        None: only inertia and weight act
+    omega : float
+        Crank speed [rad/s]
     """
-    mechanism, omega, found = one_coordinate(case), case.need("operation").speed, gas(case)
-    period = found.period if found else 2 * math.pi
+    period = gas.period if gas else 2 * math.pi
     steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
-    phi = np.arange(steps) * period / steps
-    return at(case, mechanism, found, omega, phi)
+    return at(drive, gas, omega, np.arange(steps) * period / steps)
 
 
-def one_coordinate(case: Case) -> Mechanism:
-    """The mechanism of a case with one coordinate and every reaction determined.
+def crank_drive(
+    name: str, parameters: Any, faces: RodlessFaces | None = None, closing: ClosingRule | None = None
+) -> CrankDrive:
+    """A mechanism with one coordinate and every reaction determined.
 
-    Returns
-    -------
-    mechanism : Mechanism
-        A crank train on a rigid shaft, a rodless engine with its closing rule
+    Parameters
+    ----------
+    parameters : record
+        Of the mechanism of that name; a crank train stands on a rigid shaft
+    faces : RodlessFaces, optional
+        Where gas acts on a rodless engine
+    closing : closing rule, optional
+        What a rodless engine needs besides, for it is overconstrained
     """
-    parameters = case.need("parameters")
-    if case.mechanism not in _SUPPORTED:
-        raise BadInput(f"{case.file}: forces of {case.mechanism} are not known; there are {', '.join(_SUPPORTED)}")
-    if case.mechanism == "crank_train":
-        return crank_train.build_rigid(parameters)
-    if case.mechanism == "rodless":
-        return rodless.closed(rodless.build(parameters), case.need("closing"))
-    return mechanisms.build(case.mechanism, parameters)
+    if name not in _SUPPORTED:
+        raise BadInput(f"forces of {name} are not known; there are {', '.join(_SUPPORTED)}")
+    if name == "crank_train":
+        mechanism = crank_train.build_rigid(parameters)
+    elif name == "rodless":
+        if closing is None:
+            raise BadInput("a rodless engine is overconstrained: give the closing rule")
+        mechanism = rodless.closed(rodless.build(parameters), closing)
+    else:
+        mechanism = mechanisms.build(name, parameters)
+    return CrankDrive(name=name, parameters=parameters, mechanism=mechanism, faces=faces, closing=closing)
 
 
-def at(case: Case, mechanism: Mechanism, found: Gas | None, omega: float, phi: np.ndarray) -> Turn:
+def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Turn:
     """Forces of a mechanism at given angles.
 
     Parameters
@@ -92,18 +113,17 @@ def at(case: Case, mechanism: Mechanism, found: Gas | None, omega: float, phi: n
     phi : ndarray, shape (n,)
         Crank angles, evenly spaced over a period [rad]
     """
-    inputs = _inputs(case, found, phi)
+    inputs, mechanism = _inputs(drive, gas, phi), drive.mechanism
     letters = _letters(mechanism, omega, phi) | inputs
     kinematics, reactions, momentum = (
         evaluate(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
     )
     force = evaluate(_virtual_work(mechanism), letters)
     return Turn(
-        case=case,
-        mechanism=mechanism,
-        gas=found,
+        drive=drive,
+        gas=gas,
         omega=omega,
-        period=found.period if found else 2 * math.pi,
+        period=gas.period if gas else 2 * math.pi,
         phi=phi,
         inputs=inputs,
         kinematics=kinematics,
@@ -120,21 +140,28 @@ def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, n
     return {q: phi, f"{q}d": none + omega, f"{q}dd": none} | dict.fromkeys(mechanism.inputs, none)
 
 
-def _inputs(case: Case, found: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
-    if found is None:
+def _inputs(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
+    if gas is None:
         return {}
 
     def net(angle: np.ndarray) -> np.ndarray:
-        return found.absolute(angle) - found.p_back
+        return gas.absolute(angle) - gas.p_back
 
-    if case.mechanism == "rodless":
-        return dict(zip(("F_a", "F_b"), axis_forces(case.need("faces"), net, phi), strict=True))
-    if isinstance(case.sections.get("cycle"), Schmidt):  # one gas for all pistons, known over the shaft angle
-        return {f"F{i + 1}": net(phi) * found.area for i in range(len(case.need("parameters").throw))}
-    if case.mechanism == "crank_train":
-        forces = gas_forces(case.need("parameters"), net, found.area, phi)
+    if drive.name == "rodless":
+        return dict(zip(("F_a", "F_b"), axis_forces(faces_of(drive), net, phi), strict=True))
+    if gas.shared:
+        return {f"F{i + 1}": net(phi) * gas.area for i in range(len(drive.parameters.throw))}
+    if drive.name == "crank_train":
+        forces = gas_forces(drive.parameters, net, gas.area, phi)
         return {f"F{i + 1}": force for i, force in enumerate(forces)}
-    return {"F": net(phi) * found.area}
+    return {"F": net(phi) * gas.area}
+
+
+def faces_of(drive: CrankDrive) -> RodlessFaces:
+    """Working faces of a rodless engine."""
+    if drive.faces is None:
+        raise BadInput("gas acts on the faces of a rodless engine; give them")
+    return drive.faces
 
 
 def evaluate(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -1,28 +1,18 @@
-"""The engine of a case and what it does over the speeds: case -> motion -> engine -> performance."""
+"""`mechsym cycle`: the engine of a case and its figures over the speeds."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, fields, replace
-from functools import partial
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
-from mechsym.cycle.chamber import chamber, piston_force, travel, volume
-from mechsym.cycle.closed.model import ClosedEngine, closed_period
-from mechsym.cycle.closed.performance import Performance, performance
-from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.figures import cylinder_columns
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
-from mechsym.cycle.kinds.printed import marched, performance_printed
-from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-from mechsym.cycle.mixture import ConstantGamma
-from mechsym.cycle.motion import motion
-from mechsym.errors import BadInput
+from mechsym.jobs.gas import engine_with, of, one_cylinder
+from mechsym.jobs.turn import fitted_law
 
-RPM = np.pi / 30
-Progress = Callable[[int], Any]
-_BLOCK = 1000
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
 
@@ -32,149 +22,39 @@ def engine(case: Case) -> ClosedEngine:
     Parameters
     ----------
     case : Case
-        With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` and `[friction_pressure]`
-        default to a constant gamma and no friction, the law `mechanism` is fitted to the case's `[friction]`
+        As for `engine_with`; `[friction_pressure]` defaults to no friction, its law `mechanism` is fitted to the
+        case's `[friction]`
 
     Raises
     ------
     BadInput
         A section is missing, or the cycle is of another kind
     """
-    cycle = case.need("cycle")
-    if not isinstance(cycle, SparkIgnition):
-        raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
-    return ClosedEngine(
-        chamber=case.need("chamber"),
-        motion=motion(case.mechanism, asdict(case.need("parameters"))),
-        cycle=cycle,
-        gas=case.sections.get("gas", ConstantGamma()),
-        heat_transfer=case.need("heat_transfer"),
-        friction_pressure=_friction(case),
-    )
+    return engine_with(case, _friction(case))
 
 
 def _friction(case: Case) -> Friction:
     law = case.sections.get("friction_pressure", NoFriction())
     if not isinstance(law, MechanismFriction):
         return law
-    from mechsym.forces.friction_law import fitted_law
-
     # the friction hangs on the gas forces, and those not on the friction
     plain = replace(case, sections={**case.sections, "friction_pressure": NoFriction()})
     return fitted_law(plain, case.need("operation").speed * np.array(_FRICTION_SPEEDS)).law
 
 
-def over_speeds(engine: ClosedEngine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:
-    """Figures over the speeds, by the method that the cycle names.
+def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
+    """Figures of a case whose cycle is no engine's but one cylinder's, over the speeds.
 
     Parameters
     ----------
+    case : Case
+        With a cycle of kind `two-stroke-marine` or `two-stroke-zone`
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
-    progress : callable, optional
-        Called with the number of points done after each block of them
     """
-    return over_design(engine, {"omega": omega}, progress)
-
-
-def over_design(
-    engine: ClosedEngine, design: Mapping[str, Any], progress: Progress = lambda count: None
-) -> Performance:
-    """Figures over any of the engine's values, by the method that the cycle names.
-
-    Parameters
-    ----------
-    design : mapping of str to ndarray, shape (n,)
-        Operating points, see `model.design_names`; must hold `omega` [rad/s]
-    progress : callable, optional
-        Called with the number of points done after each block of them
-
-    Raises
-    ------
-    BadInput
-        The printed method knows no other variable than the speed
-    """
-    printed = engine.cycle.method == "nunes2017_printed"
-    if printed and set(design) != {"omega"}:
-        raise BadInput("method = 'nunes2017_printed' runs over the speed alone; set cycle.method = 'converged'")
-    points = dict(zip(design, np.broadcast_arrays(*(np.atleast_1d(v) for v in design.values())), strict=True))
-    parts = []
-    # blocks keep the memory of a large map small and cost nothing
-    for first in range(0, points["omega"].size, _BLOCK):
-        block = {name: values[first : first + _BLOCK] for name, values in points.items()}
-        parts.append(performance_printed(engine, block["omega"]) if printed else performance(engine, block))
-        progress(block["omega"].size)
-    return parts[0] if len(parts) == 1 else _joined(parts)
-
-
-def _joined(parts: list[Performance]) -> Performance:
-    names = [f.name for f in fields(Performance) if f.name != "loads"]
-    values = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    loads = {name: np.concatenate([part.loads[name] for part in parts]) for name in parts[0].loads}
-    return Performance(**values, loads=loads)
-
-
-def columns(found: Performance) -> dict[str, Any]:
-    """Figures under the names and units of the command line.
-
-    Returns
-    -------
-    columns : dict
-        `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings
-    """
-    shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
-    return {
-        "speed_rpm": found.omega / RPM,
-        "torque_avg": found.torque_avg,
-        "torque_max": found.torque_max,
-        "power_kw": found.power / 1e3,
-        "mep_kpa": found.mep / 1e3,
-        "sfc_g_kwh": found.sfc * 3.6e9,
-        "efficiency": found.efficiency,
-        "p_max_mpa": found.p_max / 1e6,
-        "p_max_angle_deg": np.degrees(found.p_max_angle),
-        "force_max": found.force_max,
-        "fractions": shares,
-        "loads": found.loads,
-        "friction_mep_kpa": found.friction_mep / 1e3,
-        "brake_torque": found.brake_torque,
-        "brake_power_kw": found.brake_power / 1e3,
-        "brake_sfc_g_kwh": found.brake_sfc * 3.6e9,
-        "brake_efficiency": found.brake_efficiency,
-        "energy_residual": found.energy_residual,
-    }
-
-
-def curves(engine: ClosedEngine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
-    """The closed period at one speed, curve by curve.
-
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    step : float
-        Distance of the angles; the printed method keeps its whole degrees [rad]
-
-    Returns
-    -------
-    curves : dict of str to ndarray, shape (k,)
-        `phi_deg` from firing top dead centre, `p_pa`, `t_k`, `v_m3`, `force_n` and `torque_nm` of one piston
-    """
-    room = chamber(engine.chamber, engine.motion)
-    if engine.cycle.method == "nunes2017_printed":
-        result = marched(engine, np.array([omega]))
-        phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
-    else:
-        phi, p, t = at_angles(run(partial(closed_period, engine), {"omega": omega}), step)
-    force = piston_force(room, phi, omega, p)
-    return {
-        "phi_deg": np.degrees(phi),
-        "p_pa": p,
-        "t_k": t,
-        "v_m3": volume(room, phi)[0],
-        "force_n": force,
-        "torque_nm": force * travel(room.motion, phi)[1],
-    }
+    seen = one_cylinder(case)
+    with of(case):
+        return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega)
 
 
 def speed_range(speeds: Speeds) -> np.ndarray:

@@ -5,9 +5,9 @@ import math
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cycle.closed.performance import performance
-from mechsym.cycle.on_pistons import one_cylinder
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
+from mechsym.jobs.gas import one_cylinder
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters

@@ -10,7 +10,8 @@ from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
 from mechsym.cycle.measured.fits import Fit
 from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.on_pistons import one_cylinder, travel
+from mechsym.cycle.motion import piston_travel
+from mechsym.jobs.gas import of, one_cylinder
 
 _DEG = 180 / math.pi
 
@@ -36,7 +37,10 @@ def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustio
         The file is refused, or the diagram cannot be aligned
     """
     cycle = with_diagram(case.need("cycle"), file) if file else case.need("cycle")
-    cylinder = cylinder_of(travel(one_cylinder(case)), cycle.bore, cycle.compression_ratio)
+    seen = one_cylinder(case)
+    with of(case):
+        travel = piston_travel(seen.mechanism, seen.need("parameters"))
+    cylinder = cylinder_of(travel, cycle.bore, cycle.compression_ratio)
     return diagram_combustion(measured_cycles(cycle, cylinder), cylinder, case.sections.get("combustion", Analysis()))
 
 

@@ -16,8 +16,9 @@ from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.performance import Performance
 from mechsym.cycle.closed.run import dense, run
+from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import engine, over_speeds, speed_range
+from mechsym.jobs.cycle import engine, speed_range
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
 from mechsym.mechanisms.record import bind, curves
 from mechsym.quantities import record

@@ -12,11 +12,12 @@ import math
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-from mechsym.cycle.on_pistons import Gas, gas
 from mechsym.errors import BadInput
-from mechsym.forces.turn import turn
+from mechsym.jobs.gas import gas
+from mechsym.jobs.turn import turn
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each

@@ -37,11 +37,11 @@ def single(case: Case) -> dict[str, Any]:
     Returns
     -------
     figures : dict
-        As `mechsym.cycle.columns`, each with one value
+        As `mechsym.cycle.engine.columns`, each with one value
     """
-    from mechsym.cycle.figures import two_stroke_columns
+    from mechsym.jobs.cycle import columns_of_cylinder
 
-    return two_stroke_columns(case, np.array([case.need("operation").speed]))
+    return columns_of_cylinder(case, np.array([case.need("operation").speed]))
 
 
 def families(found: Sequence[Case]) -> list[list[int]]:
@@ -79,10 +79,11 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     Returns
     -------
     figures : list of dict or Gap
-        As `mechsym.cycle.columns`, each with one value; a gap where there is no cycle
+        As `mechsym.cycle.engine.columns`, each with one value; a gap where there is no cycle
     """
-    from mechsym.cycle.on_pistons import one_cylinder
-    from mechsym.jobs.cycle import columns, engine, over_design
+    from mechsym.cycle.engine import columns, over_design
+    from mechsym.jobs.cycle import engine
+    from mechsym.jobs.gas import one_cylinder
 
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)

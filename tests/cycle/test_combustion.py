@@ -15,6 +15,7 @@ from mechsym.cycle.chamber import travel
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.engine import RPM
 from mechsym.cycle.measured.fits import compression_line, fit_double_wiebe, fit_wiebe, least_squares_fit, trapped_mass
 from mechsym.cycle.measured.heat_release import (
     Walls,
@@ -28,7 +29,7 @@ from mechsym.cycle.measured.heat_release import (
 from mechsym.cycle.measured.identify import identify
 from mechsym.cycle.wiebe import double_wiebe, wiebe
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import RPM, engine
+from mechsym.jobs.cycle import engine
 
 DEG = math.pi / 180
 OMEGA = 3000 * RPM

@@ -7,10 +7,11 @@ import pytest
 
 from mechsym.cases import load
 from mechsym.cycle.chamber import volume
+from mechsym.cycle.engine import RPM, over_speeds
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.cycle.mixture import NasaMixture
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import RPM, engine, over_speeds
+from mechsym.jobs.cycle import engine
 
 SPEEDS = np.arange(500.0, 8001.0, 500.0) * RPM
 

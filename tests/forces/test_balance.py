@@ -14,7 +14,8 @@ from small_machines import machine, smooth_gas, turn_of
 from mechsym import cases
 from mechsym.forces.loads import loads, polar, power_residual, radial, tangential
 from mechsym.forces.table import columns
-from mechsym.forces.turn import at, one_coordinate, turn
+from mechsym.forces.turn import at, crank_drive
+from mechsym.jobs.turn import turn
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
@@ -68,8 +69,7 @@ def absolute(p: CrossheadParameters, F: float, M: float) -> System:
 @settings(max_examples=25)
 @given(slider_cranks(), numbers(0, 2 * math.pi), numbers(1, 60))
 def test_bearing_loads_and_torque_agree_with_newton_euler(p, phi, speed):
-    case = machine("crosshead", p, speed)
-    one = at(case, one_coordinate(case), smooth_gas(2 * (p.r1 + p.r2)), speed, np.array([phi]))
+    one = at(crank_drive("crosshead", p), smooth_gas(2 * (p.r1 + p.r2)), speed, np.array([phi]))
     r, l, torque = p.r1 + p.r2, p.l1 + p.l2, float(one.torque[0])
     c, s = math.cos(phi), math.sin(phi)
     b = -math.asin(r * s / l)

@@ -9,8 +9,8 @@ from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.cycle.on_pistons import gas, measured
 from mechsym.errors import BadInput
+from mechsym.jobs.gas import gas, measured
 
 CASES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid")
 

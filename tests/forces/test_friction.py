@@ -12,7 +12,7 @@ from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Friction, losses, mesh_power, swept_volume
 from mechsym.forces.loads import loads
 from mechsym.forces.rings import ContactPressure, NoRings, Patton1989, patton_pressure, ring_power
-from mechsym.forces.turn import turn
+from mechsym.jobs.turn import turn
 
 NOTHING = {"mu_guide": 0.0, "mu_pin": 0.0, "mu_main": 0.0, "mu_mesh": 0.0}
 RADII = {"radius_piston_pin": 0.01, "radius_crank_pin": 0.012, "radius_main": 0.013, "module": 1e-3}
@@ -20,6 +20,9 @@ RADII = {"radius_piston_pin": 0.01, "radius_crank_pin": 0.012, "radius_main": 0.
 
 def only(**changes):
     return Friction(**(NOTHING | RADII | changes))
+
+
+FRICTION = cases.load("nunes-slider-crank").need("friction")
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +37,7 @@ def planet():
 
 def test_guide_friction_by_hand(slider):
     found = losses(slider, loads(slider), only(mu_guide=0.1), NoRings())
-    p = slider.case.need("parameters")
+    p = slider.drive.parameters
     lam = (p.r1 + p.r2) / (p.l1 + p.l2)
     xdd = slider.kinematics["d2x_dphi2"] * slider.omega**2
     side = (slider.inputs["F"] - p.m5 * xdd) * np.tan(np.arcsin(lam * np.sin(slider.phi)))
@@ -64,7 +67,7 @@ def test_mesh_friction_is_the_sliding_of_involute_flanks():
 
 
 def test_efficiency_and_mean_pressure_follow_from_the_lost_power(slider):
-    found = losses(slider, loads(slider), slider.case.need("friction"), Patton1989())
+    found = losses(slider, loads(slider), FRICTION, Patton1989())
     lost = sum(found.places.values())
     assert found.mechanical_efficiency == pytest.approx(1 - lost / found.indicated_power, rel=1e-12)
     per_cycle = lost * 4 * math.pi / slider.omega
@@ -90,7 +93,7 @@ def test_ring_rules(slider):
 
 @pytest.fixture(scope="module")
 def rows(slider):
-    found = compare(slider, slider.case.need("friction"), NoRings(), ComparisonSettings())
+    found = compare(slider, FRICTION, NoRings(), ComparisonSettings())
     return {row["mechanism"]: row for row in found}
 
 
@@ -100,7 +103,7 @@ def test_the_compared_machines_have_equal_gas_and_mass(rows, slider):
     assert max(one) == pytest.approx(0.25 * 0.026 * slider.omega**2, rel=1e-6)
     four = rows["rodless, four pistons, crank free radially"]
     assert four["torque_mean"] == pytest.approx(4 * rows["hypocycloid"]["torque_mean"], rel=1e-9)
-    base = losses(slider, loads(slider), slider.case.need("friction"), NoRings())
+    base = losses(slider, loads(slider), FRICTION, NoRings())
     # the blow-down is a step at bottom dead centre: the angle that stands there may take either side of it
     assert rows["slider crank"]["friction_per_piston"] == pytest.approx(sum(base.places.values()), rel=1e-4)
     per_piston = [row["torque_mean"] / row["pistons"] for row in rows.values()]

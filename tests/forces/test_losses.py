@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.cases.settings import Operation
-from mechsym.cycle.on_pistons import at_same_travel, travel
+from mechsym.cycle.gas import at_same_travel
+from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import Friction, losses, mesh_power
@@ -116,7 +117,10 @@ def test_ring_rules():
 @pytest.mark.parametrize("own", ["crosshead", "hypocycloid"])
 @pytest.mark.parametrize("other", ["crosshead", "hypocycloid"])
 def test_same_travel_means_same_work(own, other):
-    gas, motions = smooth_gas(0.6), {name: travel(CASES[name]) for name in ("crosshead", "hypocycloid")}
+    gas, motions = (
+        smooth_gas(0.6),
+        {name: piston_travel(name, p) for name, p in (("crosshead", CRANK), ("hypocycloid", PLANET))},
+    )
     moved = at_same_travel(gas, motions[own], motions[other])
     work = [turn_of(CASES[name], g).torque.mean() for name, g in ((own, gas), (other, moved))]
     assert work[0] == pytest.approx(work[1], rel=1e-5)
@@ -155,7 +159,7 @@ def test_all_get_the_same_work_and_only_the_slider_crank_has_a_second_order():
 
 def test_friction_as_a_law_of_the_cycle():
     from mechsym.cases import load
-    from mechsym.forces.friction_law import fitted_law
+    from mechsym.jobs.turn import fitted_law
 
     case = load("zotov-89")
     case = dataclasses.replace(case, sections={**case.sections, "friction": SOME, "rings": RINGS})
@@ -166,7 +170,7 @@ def test_friction_as_a_law_of_the_cycle():
     assert several.misfit < 0.02
     assert several.computed == pytest.approx(several.fitted, rel=0.02)
     slower = dataclasses.replace(case, sections={**case.sections, "operation": Operation(speed=6.0)})
-    from mechsym.forces.turn import turn
+    from mechsym.jobs.turn import turn
 
     one = turn(slower)
     wanted = losses(one, loads(one), SOME, RINGS).friction_mean_pressure

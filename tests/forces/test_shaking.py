@@ -11,7 +11,7 @@ from mechsym import cases
 from mechsym.forces.harmonics import orders, whole
 from mechsym.forces.loads import loads
 from mechsym.forces.shaking import BalanceWanted, shaking, verdict
-from mechsym.forces.turn import turn
+from mechsym.jobs.turn import turn
 
 
 def test_orders_of_a_known_curve():
@@ -36,7 +36,7 @@ def test_the_shaking_force_is_what_the_frame_bears():
 
 def test_half_of_the_reciprocating_mass_is_the_best_counterweight():
     one = turn(cases.load("nunes-hypocycloid"))
-    p, found = one.case.need("parameters"), shaking(one).counterweight
+    p, found = one.drive.parameters, shaking(one).counterweight
     assert found.unbalance == pytest.approx(0.5 * p.m3 * 2 * p.e, rel=1e-10)
     assert math.degrees(found.angle) == pytest.approx(180, abs=1e-6)
     assert found.rms_after == pytest.approx(found.rms_before / math.sqrt(2), rel=1e-10)

@@ -10,7 +10,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.forces import textbook
 from mechsym.forces.loads import loads, radial, tangential
-from mechsym.forces.turn import turn
+from mechsym.jobs.turn import turn
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def test_the_two_mass_error_is_the_missing_inertia(moroianu):
 
 
 def test_an_exact_massless_rod_makes_the_chain_exact(moroianu):
-    one = turn(changed(moroianu.case, m2=0.0, IC2=0.0))
+    one = turn(changed(cases.load("moroianu"), m2=0.0, IC2=0.0))
     found = loads(one)
     c = textbook.chain(one, 0.4)
     assert pytest.approx(found.guides["side_force"], abs=1e-6) == c.N
@@ -74,7 +74,7 @@ def test_prymak_6_is_the_first_order_of_the_inertia_force():
     case, errors = cases.load("moroianu"), []
     for l in (1.035, 10.35):
         one = turn(changed(case, l1=l, l2=l, m2=0.0, IC2=0.0))
-        exact = -1 * sum(getattr(one.case.need("parameters"), n) for n in ("m3", "m4", "m5"))
+        exact = -1 * sum(getattr(one.drive.parameters, n) for n in ("m3", "m4", "m5"))
         exact = exact * one.kinematics["d2x_dphi2"] * one.omega**2
         errors.append(np.abs(textbook.piston_inertia_printed(one) - exact).max() / np.abs(exact).max())
     assert 0.001 < errors[0] < 0.1

@@ -10,7 +10,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, pin_torque, polar, power_residual, radial, tangential
 from mechsym.forces.table import columns
-from mechsym.forces.turn import turn
+from mechsym.jobs.turn import turn
 
 NAMES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid", "zotov-89", "alpha-stirling",
          "opposed-pistons")  # fmt: skip
@@ -45,7 +45,7 @@ def test_the_mean_torque_is_the_work_of_the_gas(turns, name):
 def test_the_roll_moment_is_the_side_force_at_its_arm():
     """The main bearing acts on the axis: only the guide turns the frame."""
     one = turn(cases.load("moroianu"))
-    p, found = one.case.need("parameters"), loads(one)
+    p, found = one.drive.parameters, loads(one)
     place = p.r1 + p.r2 + p.l1 + p.l2 - one.kinematics["x"]
     wanted = -found.guides["side_force"] * place
     assert columns(one, found)["roll_moment"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())

@@ -9,9 +9,9 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.forces.turn import turn
 from mechsym.jobs import train as trains
 from mechsym.jobs.run import problem_of, settings_of
+from mechsym.jobs.turn import turn
 from mechsym.mechanisms.crank_train import parameters as crank_train
 from mechsym.simulate import simulate
 from mechsym.torsion import twist

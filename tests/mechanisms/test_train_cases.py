@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.forces.turn import turn
+from mechsym.jobs.turn import turn
 from mechsym.mechanisms import crankshaft_flywheel, shaft
 from mechsym.mechanisms.crank_train.parameters import build, build_rigid
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters

@@ -12,8 +12,9 @@ from mechsym.cases import load, text
 from mechsym.cli.optimise import optimise
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.engine import RPM
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import RPM, engine
+from mechsym.jobs.cycle import engine
 from mechsym.optimise.problem import Optimise, problem
 from mechsym.optimise.solver import pareto, solve
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
+from mechsym.cycle.engine import RPM, columns, over_speeds
 from mechsym.jobs.compare import crossovers
-from mechsym.jobs.cycle import RPM, columns, engine, over_speeds, speed_range
+from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.nunes2017.errata import errata
 from mechsym.papers.nunes2017.figures import figures
 from mechsym.papers.nunes2017.numbers import Item, verdict

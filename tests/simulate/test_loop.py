@@ -13,8 +13,9 @@ from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.run import run
+from mechsym.cycle.engine import RPM
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import RPM, engine
+from mechsym.jobs.cycle import engine
 from mechsym.jobs.loop import loop
 from mechsym.jobs.other_loads import hinge_at_loads
 from mechsym.simulate.loop.run import run_loop

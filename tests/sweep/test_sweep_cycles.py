@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.cycle.engine import columns as figures
+from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import columns as figures
-from mechsym.jobs.cycle import engine, over_speeds
+from mechsym.jobs.cycle import engine
 from mechsym.sweep import Plan, columns, failures, sweep
 from mechsym.sweep import cycles as maps
 from mechsym.sweep.outcomes import flat

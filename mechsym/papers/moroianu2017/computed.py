@@ -4,7 +4,8 @@ from functools import cache
 
 from mechsym.cases import load
 from mechsym.forces.textbook import Chain, chain, terskih
-from mechsym.forces.turn import Turn, turn
+from mechsym.forces.turn import Turn
+from mechsym.jobs.turn import turn
 
 CASE = "moroianu"
 # number of the figure: (field of the chain, its name in the source, unit)

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from mechsym.cases import Case, load
+from mechsym.cycle.engine import columns, over_speeds
 from mechsym.jobs.compare import crossovers
-from mechsym.jobs.cycle import columns, engine, over_speeds, speed_range
+from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.nunes2017.numbers import Item
 
 _ROD_74 = {"parameters.l1": "37 mm", "parameters.l2": "37 mm"}

@@ -11,10 +11,11 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, piston_force
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance
+from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds.march import March
 from mechsym.cycle.kinds.printed import marched
 from mechsym.jobs.compare import crossovers
-from mechsym.jobs.cycle import engine, over_speeds, speed_range
+from mechsym.jobs.cycle import engine, speed_range
 
 _PRINTED = {"cycle.method": "nunes2017_printed"}
 _MAXIMA = np.array([5400.0, 6700.0])  # published speeds of the largest average torque [rpm]

@@ -7,8 +7,9 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cycle.chamber import Chamber, chamber, travel
+from mechsym.cycle.engine import RPM
 from mechsym.cycle.kinds.ideal import otto_efficiency
-from mechsym.jobs.cycle import RPM, engine
+from mechsym.jobs.cycle import engine
 from mechsym.papers.nunes2017.numbers import Item
 
 _TOP_SPEED = 8000 * RPM

@@ -11,10 +11,11 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber as make_chamber
 from mechsym.cycle.chamber import travel, volume
 from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.engine import RPM
 from mechsym.cycle.kinds.march import crank_torque
 from mechsym.cycle.kinds.printed import marched
 from mechsym.hinge.plots import BLUE, GREEN, ORANGE, RED
-from mechsym.jobs.cycle import RPM, engine
+from mechsym.jobs.cycle import engine
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.nunes2017.computed import over_printed_speeds
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import load
-from mechsym.jobs.cycle import columns, engine, over_speeds, speed_range
+from mechsym.cycle.engine import columns, over_speeds
+from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.nunes2017 import gears as gearing
 from mechsym.papers.nunes2017.numbers import Item, item_row
 from mechsym.papers.nunes2017.sizing_numbers import COLUMNS, GEOMETRY, SINGLE, TWIN

@@ -1,8 +1,4 @@
-"""Gas pressure on the pistons of a case, whatever kind of cycle it has.
-
-The gas knows one cylinder of the mechanism. Mechanisms whose pistons move alike share a view of it: the rodless slider
-moves as the piston of a hypocycloid with e = r, and a crank train's cylinder as that of a single throw.
-"""
+"""Gas pressure on the pistons, whatever kind of cycle it comes from."""
 
 import dataclasses
 import math
@@ -13,19 +9,15 @@ import casadi as ca
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from mechsym import mechanisms
-from mechsym.cases import Case
+from mechsym.cycle.chamber import chamber
+from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.cylinder import piston_area
-from mechsym.cycle.kinds import back_pressure, cylinder_pressure, with_diagram
+from mechsym.cycle.engine import curves
+from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_pressure
-from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.pressure import periodic
 from mechsym.errors import BadInput
-from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
-from mechsym.mechanisms.hypocycloid import HypocycloidParameters
-from mechsym.mechanisms.rodless import RodlessParameters
 from mechsym.quantities import record
 
 _STEP = math.radians(0.25)  # of the tabulated cycle
@@ -46,25 +38,18 @@ class Gas:
     facts: tuple[str, ...]  #: What was assumed, one sentence each
     #: Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
     kinks: tuple[float, ...] = ()
+    shared: bool = False  #: Whether all pistons of a machine share it, over the angle of the shaft
 
 
-def gas(case: Case) -> Gas | None:
-    """Gas of a case.
+def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
+    """Gas of a cycle that needs nothing but a cylinder.
 
-    Returns
-    -------
-    gas : Gas or None
-        None for a case without a cycle: only inertia and weight act
+    Parameters
+    ----------
+    kinematics : casadi.Function
+        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
     """
-    if "cycle" not in case.sections:
-        return None
-    if isinstance(case.sections["cycle"], Schmidt):
-        return _schmidt(case)
-    seen = one_cylinder(case)
-    if isinstance(case.sections["cycle"], SparkIgnition):
-        return _spark(seen)
-    cycle = seen.sections["cycle"]
-    pressure, cylinder = cylinder_pressure(cycle, travel(seen))
+    pressure, cylinder = cylinder_pressure(cycle, kinematics)
     return Gas(
         absolute=pressure.absolute,
         p_back=back_pressure(cycle),
@@ -78,33 +63,15 @@ def gas(case: Case) -> Gas | None:
     )
 
 
-def measured(case: Case, file: str) -> Case:
-    """The case with a measured diagram in place of its cycle.
+def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
+    """Gas of an engine at one speed.
 
     Parameters
     ----------
-    case : Case
-        With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
+    omega : float
+        Crank speed [rad/s]
     """
-    cycle = case.need("cycle")
-    if isinstance(cycle, SparkIgnition):
-        room = case.need("chamber")
-        cycle = Diagram(
-            bore=room.bore,
-            compression_ratio=room.compression_ratio,
-            working_cycle="four-stroke",
-            inlet_pressure=cycle.intake_pressure,
-            p_back=room.back_pressure,
-        )
-    return dataclasses.replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)})
-
-
-def _spark(case: Case) -> Gas:
-    from mechsym.cycle.chamber import chamber
-    from mechsym.jobs import cycle
-
-    engine, omega = cycle.engine(case), case.need("operation").speed
-    found, room, charge = cycle.curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
+    found, room, charge = curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
     phi = np.radians(found["phi_deg"])
 
     def closed_or_open(angle: np.ndarray) -> np.ndarray:
@@ -122,15 +89,15 @@ def _spark(case: Case) -> Gas:
     )
 
 
-def _schmidt(case: Case) -> Gas:
-    cycle, parameters = case.sections["cycle"], case.need("parameters")
-    if not isinstance(parameters, CrankTrainParameters) or len(parameters.throw) != 2:
-        raise BadInput(f"{case.file}: [cycle] of kind 'schmidt' needs a crank_train with two cylinders, hot and cold")
-    kinematics, phi = build_rigid(parameters).functions["kinematics"], ca.SX.sym("phi")
+def gas_of_train(cycle: Schmidt, train: CrankTrainParameters) -> Gas:
+    """Gas that the two cylinders of a crank train share, hot and cold."""
+    if not isinstance(train, CrankTrainParameters) or len(train.throw) != 2:
+        raise BadInput("[cycle] of kind 'schmidt' needs a crank_train with two cylinders, hot and cold")
+    kinematics, phi = build_rigid(train).functions["kinematics"], ca.SX.sym("phi")
     found = dict(zip(kinematics.name_out(), kinematics(phi), strict=True))
     travels = [_vectorised(ca.Function("x", [phi], [found[f"x_{i}"]])) for i in (1, 2)]
     pressure = schmidt_pressure(cycle, *travels)
-    stroke = 2 * each(parameters, "r")[0]
+    stroke = 2 * each(train, "r")[0]
     area = piston_area(cycle.bore)
     return Gas(
         absolute=pressure.absolute,
@@ -141,57 +108,12 @@ def _schmidt(case: Case) -> Gas:
         stroke=stroke,
         compression_ratio=1 + area * stroke / cycle.dead_hot if cycle.dead_hot else math.inf,
         facts=pressure.facts,
+        shared=True,
     )
 
 
 def _vectorised(function: ca.Function) -> Callable[[np.ndarray], np.ndarray]:
     return lambda phi: np.asarray(function(np.reshape(phi, (1, -1)))).reshape(np.shape(phi))
-
-
-def one_cylinder(case: Case) -> Case:
-    """The case as one cylinder of it sees itself.
-
-    Returns
-    -------
-    case : Case
-        With a mechanism that has one piston and its travel as `x`
-    """
-    parameters = case.need("parameters")
-    if isinstance(parameters, RodlessParameters):
-        p = parameters
-        return _seen(case, "hypocycloid", HypocycloidParameters(e=p.r, I1=p.I1, m2=0, I2=0, m3=p.m_a, alpha_n=0))
-    if isinstance(parameters, CrankTrainParameters):
-        letters = {n: each(parameters, n)[0] for n in ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")}
-        parameters = CrankThrowParameters(**letters, I0=each(parameters, "I0")[0])
-        case = _seen(case, "crank_throw", parameters)
-    if isinstance(parameters, CrankThrowParameters) and parameters.offset != 0:
-        raise BadInput(
-            f"{case.file}: offset = {parameters.offset:g} m: the cycles know dead centres half a turn apart; "
-            "set offset = 0 or leave [cycle] out"
-        )
-    return case
-
-
-def _seen(case: Case, mechanism: str, parameters: Any) -> Case:
-    return dataclasses.replace(case, mechanism=mechanism, sections={**case.sections, "parameters": parameters})
-
-
-def travel(case: Case) -> ca.Function:
-    """Travel of the piston of a mechanism with one coordinate.
-
-    Returns
-    -------
-    function : casadi.Function
-        phi to `x` [m] and `dx_dphi` [m/rad]
-    """
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
-    kinematics, phi = mechanism.functions["kinematics"], ca.SX.sym("phi")
-    if len(mechanism.coordinates) != 1 or "x" not in kinematics.name_out():
-        raise BadInput(f"{case.file}: mechanism {case.mechanism} has no piston that a cycle could drive")
-    found = kinematics(phi)
-    values = dict(zip(kinematics.name_out(), found, strict=True))
-    outputs = [values["x"], values[f"dx_d{mechanism.coordinates[0]}"]]
-    return ca.Function("travel", [phi], outputs, ["phi"], ["x", "dx_dphi"])
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:

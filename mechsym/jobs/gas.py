@@ -1,0 +1,110 @@
+"""Gas of a case: its engine as one cylinder sees it, and the pressure on the pistons, whatever kind of cycle it has."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, replace
+
+from mechsym.cases import Case
+from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.friction import Friction, NoFriction
+from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
+from mechsym.cycle.kinds import with_diagram
+from mechsym.cycle.kinds.schmidt import Schmidt
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.mixture import ConstantGamma
+from mechsym.cycle.motion import motion, piston_travel
+from mechsym.cycle.motion import one_cylinder as seen_by_one
+from mechsym.errors import BadInput
+
+
+@contextmanager
+def of(case: Case) -> Iterator[None]:
+    """Puts the file of a case before what physics has to say about its data."""
+    try:
+        yield
+    except BadInput as error:
+        raise BadInput(f"{case.file}: {error}") from None
+
+
+def gas(case: Case) -> Gas | None:
+    """Gas of a case.
+
+    Returns
+    -------
+    gas : Gas or None
+        None for a case without a cycle: only inertia and weight act
+    """
+    if "cycle" not in case.sections:
+        return None
+    cycle = case.sections["cycle"]
+    if isinstance(cycle, Schmidt):
+        with of(case):
+            return gas_of_train(cycle, case.need("parameters"))
+    seen = one_cylinder(case)
+    if isinstance(cycle, SparkIgnition):
+        return gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)
+    with of(case):
+        travel = piston_travel(seen.mechanism, seen.need("parameters"))
+    return gas_in_cylinder(cycle, travel)
+
+
+def one_cylinder(case: Case) -> Case:
+    """The case as one cylinder of it sees itself.
+
+    Returns
+    -------
+    case : Case
+        With a mechanism that has one piston and its travel as `x`
+    """
+    parameters = case.need("parameters")
+    with of(case):
+        name, parameters = seen_by_one(case.mechanism, parameters)
+    return replace(case, mechanism=name, sections={**case.sections, "parameters": parameters})
+
+
+def engine_with(case: Case, friction: Friction) -> ClosedEngine:
+    """The engine that a case describes, with a friction law whose numbers are known.
+
+    Parameters
+    ----------
+    case : Case
+        With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` defaults to a constant gamma
+
+    Raises
+    ------
+    BadInput
+        A section is missing, or the cycle is of another kind
+    """
+    cycle = case.need("cycle")
+    if not isinstance(cycle, SparkIgnition):
+        raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
+    return ClosedEngine(
+        chamber=case.need("chamber"),
+        motion=motion(case.mechanism, asdict(case.need("parameters"))),
+        cycle=cycle,
+        gas=case.sections.get("gas", ConstantGamma()),
+        heat_transfer=case.need("heat_transfer"),
+        friction_pressure=friction,
+    )
+
+
+def measured(case: Case, file: str) -> Case:
+    """The case with a measured diagram in place of its cycle.
+
+    Parameters
+    ----------
+    case : Case
+        With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
+    """
+    cycle = case.need("cycle")
+    if isinstance(cycle, SparkIgnition):
+        room = case.need("chamber")
+        cycle = Diagram(
+            bore=room.bore,
+            compression_ratio=room.compression_ratio,
+            working_cycle="four-stroke",
+            inlet_pressure=cycle.intake_pressure,
+            p_back=room.back_pressure,
+        )
+    return replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)})
