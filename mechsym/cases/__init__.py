@@ -32,6 +32,9 @@ class Case:
     source: str
     about: str
     sections: Mapping[str, Any]  #: Section name to its checked record
+    #: What `load` was given: name or path, and values that replace the file's
+    path: str = ""
+    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)
 
     def need(self, section: str) -> Any:
         """The record of a section that the caller cannot do without.
@@ -87,7 +90,19 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
         records = {key: _section(head["mechanism"], key, table) for key, table in sections.items()}
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
-    return Case(name=Path(name).stem if name not in names() else name, file=file, sections=records, **head)
+    short = Path(name).stem if name not in names() else name
+    return Case(name=short, file=file, sections=records, path=name, overrides=overrides or {}, **head)
+
+
+def underlaid(case: Case, settings: Mapping[str, Any]) -> Case:
+    """A case read again with settings below what the user has replaced.
+
+    Parameters
+    ----------
+    settings : mapping
+        Values to replace, by dotted key, where the user has not
+    """
+    return load(case.path, {**settings, **case.overrides})
 
 
 def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, option: str = "--set") -> Place:

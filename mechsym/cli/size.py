@@ -27,9 +27,11 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
               mechsym size nunes-hypocycloid --as-printed --json
               mechsym size nunes-slider-crank --set sizing.life="500 h"
     """
-    from mechsym.jobs.size import sized
+    from mechsym import cases
+    from mechsym.jobs import size as sizing
 
-    found = sized(case, pairs(overrides), as_printed)
+    loaded = cases.load(case, pairs(overrides))
+    found = sizing.check_printed(loaded) if as_printed else sizing.size(loaded)
     files = _write(out, found) if out else []
     emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
     if found.failing or not found.converged:

@@ -1,37 +1,31 @@
-"""The whole sizing job: case -> pressures -> forces -> parts and checks -> rows, with the headline restated."""
+"""Sizing: case -> cycle over the speeds -> forces of the mechanism -> parts and checks -> rows."""
 
 import dataclasses
 from typing import Any
 
 import numpy as np
 
+from mechsym import cases
+from mechsym.cases import Case
+from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
 from mechsym.jobs.compare import crossovers
-from mechsym.jobs.size_loads import (
-    Job,
-    hypocycloid_forces,
-    job,
-    performance,
-    pressures,
-    printed,
-    slider_crank_forces,
-    speeds,
-)
-from mechsym.quantities import record
+from mechsym.jobs.cycle import engine, speed_range
+from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
-from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
-from mechsym.sizing.hypocycloid import design as hypocycloid_design
-from mechsym.sizing.hypocycloid import engine as hypocycloid_engine
-from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
-from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock
+from mechsym.sizing.hypocycloid import design as hypocycloid
+from mechsym.sizing.hypocycloid import masses
+from mechsym.sizing.hypocycloid.checks import check_all
+from mechsym.sizing.hypocycloid.forces import hypocycloid_forces
+from mechsym.sizing.hypocycloid.parts import Parts, Stock
+from mechsym.sizing.hypocycloid.rows import engine_rows, mass_rows, nearest_rows, part_rows
+from mechsym.sizing.pressures import Pressures, pressures
 from mechsym.sizing.rows import check_rows, fact, size_rows
-from mechsym.sizing.rules.masses import power_to_weight
-from mechsym.sizing.rules.materials import get
-from mechsym.sizing.rules.shaft_beam import inner_slope
-from mechsym.sizing.slider_crank import design as slider_crank_design
-from mechsym.sizing.slider_crank.parts import SliderDesign
-
-RPM = np.pi / 30
+from mechsym.sizing.rules import bearing_data, materials
+from mechsym.sizing.slider_crank import design as slider_crank
+from mechsym.sizing.slider_crank.forces import slider_crank_forces
+from mechsym.sizing.wants import Wants
 
 
 @record
@@ -47,136 +41,155 @@ class Sizing:
     stock: Stock
 
 
-def sized(name: str, overrides: dict[str, Any], as_printed: bool) -> Sizing:
-    """Size the engine of a case, or check the parts that it prints.
+@record
+class Task:
+    """An engine ready for sizing."""
 
-    Parameters
-    ----------
-    as_printed : bool
-        Check `[part_*]` instead of sizing
+    case: Case  #: With the cycle settings that its section `[sizing]` asks for
+    machine: ClosedEngine
+    wants: Wants
+    stock: Stock
+
+
+def size(case: Case) -> Sizing:
+    """Size the engine of a case for the loads of its cycle.
 
     Raises
     ------
     BadInput
-        The mechanism is not one that can be sized, or the case prints no parts
+        The mechanism is not one that can be sized
     """
-    found = job(name, overrides)
-    if found.case.mechanism == "hypocycloid":
-        return _printed_hypocycloid(found) if as_printed else _hypocycloid(found)
-    if found.case.mechanism != "crosshead":
-        raise BadInput(f"{found.case.file}: mechanism {found.case.mechanism!r} cannot be sized; crosshead and "
-                       "hypocycloid can")  # fmt: skip
-    if as_printed:
-        raise BadInput(f"{found.case.file}: the case prints no parts; leave out --as-printed")
-    return _slider_crank(found)
+    one = task(case)
+    if case.mechanism == "hypocycloid":
+        return _hypocycloid(one)
+    if case.mechanism == "crosshead":
+        return _slider_crank(one)
+    raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
 
 
-def _hypocycloid(found: Job) -> Sizing:
-    reference = printed(found.case)
-    forces_of = hypocycloid_forces(found, pressures(found, speeds(found)))
-    start = hypocycloid_masses.moving_printed(reference, found.stock)
-    design = hypocycloid_design.design(forces_of, reference, start, found.wants, found.stock)
-    mass = hypocycloid_masses.total_mass(design.parts, reference, found.wants, found.stock)
-    rows = _part_rows(design.parts, "sized") + check_rows(design.checks)
-    masses = hypocycloid_masses.part_masses(design.parts, reference, found.wants, found.stock)
-    rows += [
-        fact(part, "mass of one", m, "kg", "mass model", note=f"{n} in the engine") for part, (m, n) in masses.items()
-    ]
-    rows += _engine_rows(found, mass, design.moving, design.parts, design.forces)
-    failing = unsafe(design.checks)
-    if failing:
-        rows += _nearest(found, design.parts, design.forces)
-    return Sizing(rows=rows, failing=failing, converged=design.converged, rounds=design.rounds, parts=design.parts,
-                   forces=design.forces, stock=found.stock)  # fmt: skip
+def check_printed(case: Case) -> Sizing:
+    """Check the parts that a case prints, in its sections `[part_*]`.
 
-
-def _printed_hypocycloid(found: Job) -> Sizing:
-    reference = printed(found.case)
+    Raises
+    ------
+    BadInput
+        The case prints no parts
+    """
+    one = task(case)
+    if case.mechanism not in ("crosshead", "hypocycloid"):
+        raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
+    if case.mechanism == "crosshead":
+        raise BadInput(f"{case.file}: the case prints no parts; leave out --as-printed")
+    reference = printed_parts(one.case)
     # the printed engine takes its torque off at the output shaft set only
-    wants = dataclasses.replace(found.wants, take_off="one_end")
-    moving = hypocycloid_masses.moving_printed(reference, found.stock)
-    forces = hypocycloid_forces(found, pressures(found, speeds(found)))(moving)
-    checks = hypocycloid_checks.check_all(reference.parts, forces, wants, found.stock)
-    mass = hypocycloid_masses.total_mass_printed(reference, found.stock)
-    rows = _part_rows(reference.parts, "as printed") + check_rows(checks)
-    rows += _engine_rows(found, mass, moving, reference.parts, forces)
-    return Sizing(
-        rows=rows,
-        failing=unsafe(checks),
-        converged=True,
-        rounds=1,
-        parts=reference.parts,
-        forces=forces,
-        stock=found.stock,
-    )
+    wants = dataclasses.replace(one.wants, take_off="one_end")
+    moving = masses.moving_printed(reference, one.stock)
+    forces = hypocycloid_forces(gas_of(one), one.case.need("parameters"))(moving)
+    checks = check_all(reference.parts, forces, wants, one.stock)
+    mass = masses.total_mass_printed(reference, one.stock)
+    rows = part_rows(reference.parts, "as printed") + check_rows(checks)
+    rows += engine_rows(reference.parts, forces, moving, mass, _power(one, forces.omega.max()), one.wants, one.stock,
+                        one.case.need("parameters").m3)  # fmt: skip
+    return Sizing(rows=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
+                  parts=reference.parts, forces=forces, stock=one.stock)  # fmt: skip
 
 
-def _slider_crank(found: Job) -> Sizing:
-    forces_of = slider_crank_forces(found, pressures(found, speeds(found)))
-    parameters = found.case.need("parameters")
+def _hypocycloid(one: Task) -> Sizing:
+    reference, wants, stock = printed_parts(one.case), one.wants, one.stock
+    parameters = one.case.need("parameters")
+    forces_of = hypocycloid_forces(gas_of(one), parameters)
+    found = hypocycloid.design(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
+    mass, power = masses.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
+    rows = part_rows(found.parts, "sized") + check_rows(found.checks)
+    rows += mass_rows(found.parts, reference, wants, stock)
+    rows += engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, parameters.m3)
+    rows += _crossing_rows(one)
+    failing = unsafe(found.checks)
+    if failing:
+        rows += nearest_rows(found.parts, found.forces, wants, stock, lambda omega: _power(one, omega))
+    return Sizing(rows=rows, failing=failing, converged=found.converged, rounds=found.rounds, parts=found.parts,
+                  forces=found.forces, stock=stock)  # fmt: skip
+
+
+def _slider_crank(one: Task) -> Sizing:
+    parameters = one.case.need("parameters")
     start = parameters.m3 + parameters.m4 + parameters.m5
-    design: SliderDesign = slider_crank_design.design(forces_of, start, found.wants, found.stock)
+    found = slider_crank.design(slider_crank_forces(gas_of(one), parameters), start, one.wants, one.stock)
     rows = [
-        row for key in ("piston", "cylinder", "crank") for row in size_rows(key, getattr(design.parts, key), "sized")
+        row for key in ("piston", "cylinder", "crank") for row in size_rows(key, getattr(found.parts, key), "sized")
     ]
-    rows += check_rows(design.checks)
-    rows.append(fact("engine", "moving mass of one piston", design.reciprocating, "kg", "mass model",
+    rows += check_rows(found.checks)
+    rows.append(fact("engine", "moving mass of one piston", found.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
-    rows += _speed_rows(found)
-    return Sizing(rows=rows, failing=unsafe(design.checks), converged=design.converged, rounds=design.rounds,
-                   parts=design.parts, forces=design.forces, stock=found.stock)  # fmt: skip
+    return Sizing(rows=rows + _crossing_rows(one), failing=unsafe(found.checks), converged=found.converged,
+                  rounds=found.rounds, parts=found.parts, forces=found.forces, stock=one.stock)  # fmt: skip
 
 
-def _part_rows(parts: Parts, rule: str) -> list[dict[str, Any]]:
-    rows = []
-    for field in dataclasses.fields(parts):
-        rows += size_rows(field.name, getattr(parts, field.name), rule)
-    return rows
+def task(case: Case) -> Task:
+    """A case with the cycle settings that its section `[sizing]` asks for, and the stock to choose from.
+
+    Raises
+    ------
+    BadInput
+        A section is missing or a setting is no KEY=VALUE
+    """
+    wants = case.sections.get("sizing", Wants())
+    settings = dict(_setting(text, case.file) for text in wants.settings)
+    stock = Stock(materials=materials.load(wants.materials_file or None),
+                  bearings=bearing_data.catalogue(wants.bearings_file or None))  # fmt: skip
+    set_up = cases.underlaid(case, settings) if settings else case
+    return Task(case=set_up, machine=engine(set_up), wants=wants, stock=stock)
 
 
-def _engine_rows(
-    found: Job, mass: float, moving: hypocycloid_masses.Moving, parts: Parts, forces: PartForces
-) -> list[dict[str, Any]]:
-    top = performance(found, np.array([forces.omega.max()]))
-    power = float(top.power[0])
-    steel = get(dict(found.stock.materials), found.wants.crankshaft)
-    moment = hypocycloid_engine.bending_moment(parts, forces, found.stock)
-    slope = inner_slope(hypocycloid_engine.shaft(parts, found.stock), steel.youngs_modulus, moment)
-    case_mass = found.case.need("parameters").m3
-    return [
-        fact("engine", "moving mass on the cylinder axis", moving.axis, "kg", "mass model",
-             note=f"the case has {case_mass:.3f} kg"),
-        fact("engine", "largest force on a piston rod", float(np.abs(forces.rod).max()), "N", "force chain"),
-        fact("engine", "largest tooth load of a crank", float(np.abs(forces.tooth).max()), "N", "force chain"),
-        fact("engine", "slope at the inner journal", float(slope.max()), "rad", "beam, not rated",
-             "Shigley table 7-2", "0.0008 to 0.0012 are usual for rollers under a steady load"),
-        fact("engine", "mass without belt", mass, "kg", "mass roll-up", "ch. 5.1.2"),
-        fact("engine", "power at the highest speed", power, "W", "cycle", "eq. 2.46"),
-        fact("engine", "power to weight", power_to_weight(power, mass), "W/kg", "mass roll-up", "fig. 5.13"),
-        *_speed_rows(found),
-    ]  # fmt: skip
+def _setting(text: str, file: str) -> tuple[str, str]:
+    key, sign, value = text.partition("=")
+    if not sign or not key.strip() or not value.strip():
+        raise BadInput(f"{file}: sizing.settings {text!r} is not KEY=VALUE")
+    return key.strip(), value.strip()
 
 
-def _speed_rows(found: Job) -> list[dict[str, Any]]:
-    if not found.wants.rival:
+def speeds(one: Task) -> np.ndarray:
+    """Crank speeds at which the parts are sized and checked.
+
+    Returns
+    -------
+    omega : ndarray, shape (k,)
+        The range of `[speeds]` in steps of `sizing.speed_step`, the highest included [rad/s]
+    """
+    given = one.case.need("speeds")
+    coarse = dataclasses.replace(given, step=max(given.step, one.wants.speed_step))
+    return np.unique(np.append(speed_range(coarse), given.highest))
+
+
+def gas_of(one: Task) -> Pressures:
+    """The cycle at every speed."""
+    return pressures(one.machine, speeds(one), one.wants.heat_share)
+
+
+def printed_parts(case: Case) -> masses.PrintedMasses:
+    """The parts that a case prints, with their masses: the reference of the mass model.
+
+    Raises
+    ------
+    BadInput
+        A section is missing
+    """
+    parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
+                  crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
+    return masses.PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
+                                e=case.need("parameters").e)  # fmt: skip
+
+
+def _power(one: Task, omega: float) -> float:
+    return float(over_speeds(one.machine, np.array([omega])).power[0])
+
+
+def _crossing_rows(one: Task) -> list[dict[str, Any]]:
+    """Where the mean torque crosses that of the rival."""
+    if not one.wants.rival:
         return []
-    omega = speeds(found)
-    rival = job(found.wants.rival, {})
-    crossing = crossovers(omega, performance(found, omega).torque_avg, performance(rival, omega).torque_avg)
+    omega, rival = speeds(one), task(cases.load(one.wants.rival))
+    own, other = (over_speeds(machine, omega).torque_avg for machine in (one.machine, rival.machine))
     return [fact("engine", "crossover of the mean torque", value, "rad/s", "cycle", "fig. 5.14",
-                 f"{value / RPM:.0f} rpm, against {rival.case.name}") for value in crossing]  # fmt: skip
-
-
-def _nearest(found: Job, parts: Parts, forces: PartForces) -> list[dict[str, Any]]:
-    """Speeds at which these parts may run at full load, when they may not at all."""
-    held = hypocycloid_checks.holding(parts, forces, found.wants, found.stock)
-    if not held.any():
-        return []
-    low, high = hypocycloid_checks.fastest_run(held)
-    at = "full load only inside this range; the nearest engine that holds"
-    power = performance(found, forces.omega[high : high + 1]).power[0]
-    return [
-        fact("engine", "lowest speed at full load", forces.omega[low], "rad/s", "all checks", note=at),
-        fact("engine", "highest speed", forces.omega[high], "rad/s", "all checks", note=at),
-        fact("engine", "power at that speed", float(power), "W", "cycle", note=at),
-    ]
+                 f"{value / RPM:.0f} rpm, against {rival.case.name}")
+            for value in crossovers(omega, own, other)]  # fmt: skip

@@ -7,7 +7,7 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, piston_force
 from mechsym.cycle.kinds.printed import marched
 from mechsym.jobs.cycle import engine, speed_range
-from mechsym.jobs.size import sized
+from mechsym.jobs.size import check_printed
 from mechsym.papers.nunes2017 import errata as nunes2017_errata
 from mechsym.papers.nunes2017.claims_record import against, right
 from mechsym.quantities import dimension
@@ -135,7 +135,7 @@ def chosen_parts() -> Decided:
     decided : Decided
         Which factors are below the wanted ones
     """
-    found = sized("nunes-hypocycloid", {}, True)
+    found = check_printed(load("nunes-hypocycloid"))
     checks = [row for row in found.rows if row["limit"] is not None]
     below = [row for row in checks if not row["holds"]]
     told = ", ".join(
