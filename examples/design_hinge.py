@@ -3,14 +3,13 @@
 import sys
 from pathlib import Path
 
-from mechsym import cases
+from mechsym import cases, jobs
 from mechsym.hinge import report
-from mechsym.jobs import hinge as design
 
 
 def main(folder: Path) -> None:
     case = cases.load("zotov-89", {"spring.p0": "8 MPa"})
-    found = design.design(case)
+    found = jobs.hinge(case)
 
     hinge, verdict = found.hinge, found.verdict
     print(f"load torque        {hinge.load_torque:.0f} N*m")

@@ -4,28 +4,26 @@ from functools import cache
 
 import numpy as np
 
-from mechsym import cases
-from mechsym.hinge import balance
-from mechsym.hinge import torque as hinge
-from mechsym.hinge.torque import EngineTorques
-from mechsym.jobs.machine import assemble
+from mechsym import cases, jobs
+from mechsym.hinge.balance import balance
+from mechsym.hinge.torque import EngineTorques, engine_torques, hinge_of, torque
 
 LOWER, HIGHER = "zotov-89", "zotov-142"
 
 
 @cache
-def assembly(name=LOWER):
-    return assemble(cases.load(name))
+def engine(name=LOWER):
+    return jobs.machine(cases.load(name))
 
 
 @cache
 def built(name=LOWER):
-    return hinge.build(assembly(name).torques, assembly(name).omega)
+    return torque(engine(name))
 
 
 @cache
 def whole(name=LOWER):
-    return balance.build(built(name), "whole_cycle")
+    return balance(built(name), "whole_cycle")
 
 
 def section(name, case=LOWER):
@@ -34,7 +32,7 @@ def section(name, case=LOWER):
 
 def exact_torque(name, phi):
     """Equation (8) from the engine's functions, without any fitted polynomial but the mean."""
-    torques, omega = assembly(name).torques, assembly(name).omega
+    torques, omega = engine_torques(engine(name)), engine(name).omega
     inertia = omega**2 / 2 * torques.dinertia_dphi(phi)
     return inertia - torques.gas_torque(phi) + built(name).load_torque - torques.gravity_torque(phi)
 
@@ -58,4 +56,4 @@ def four_stroke(kink=0.3):
 
 @cache
 def built_four_stroke():
-    return hinge.build(four_stroke(), 20.0)
+    return hinge_of(four_stroke(), 20.0)

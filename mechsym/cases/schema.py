@@ -62,8 +62,8 @@ _SECTIONS: dict[str, Any] = {
             "table": "mechsym.machine.loads:TableLoad",
         },
     ),
-    "drive": "mechsym.jobs.run:StepTorque",
-    "simulation": "mechsym.jobs.run:Simulation",
+    "drive": "mechsym.simulate.settings:StepTorque",
+    "simulation": "mechsym.simulate.settings:Simulation",
     "startup": "mechsym.torsion.startup:StartUpClaim",
     "spring": (
         "law",

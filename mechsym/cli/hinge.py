@@ -36,13 +36,14 @@ def hinge(
     from mechsym.files import make_folder
     from mechsym.hinge.setting import setting_text
     from mechsym.hinge.summary import summary
-    from mechsym.jobs import hinge as design
+    from mechsym.jobs.hinge import STEPS
+    from mechsym.jobs.hinge import hinge as design
 
     case, shares = cases.load(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
         make_folder(out)
-    with progress(design.STEPS + bool(out), f"hinge of {case.name}") as bar:
-        found = design.design(case, diagram, lambda: bar.update(1), shares)
+    with progress(STEPS + bool(out), f"hinge of {case.name}") as bar:
+        found = design(case, diagram, lambda: bar.update(1), shares)
         files: list[Path] = []
         if out is not None:
             from mechsym.hinge.report import write

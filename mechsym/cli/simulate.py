@@ -2,15 +2,18 @@
 
 import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mechsym import cases
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
-from mechsym.errors import BadInput, MissingExtra
+from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.quantities import parse
+
+if TYPE_CHECKING:
+    from mechsym.jobs.run import Run
 
 
 @click.command(short_help="Simulate over time, with an energy audit.")
@@ -44,53 +47,43 @@ def simulate(
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
              mechsym simulate alpha-stirling --set c="5 N*m*s/rad"
     """
-    from mechsym.jobs.run import problem_of, settings_of, window_of
-    from mechsym.jobs.train import remarks
-    from mechsym.simulate import simulate as run
-    from mechsym.simulate.summary import summary
-    from mechsym.torsion.findings import findings, numbers
-    from mechsym.torsion.twist import natural_frequencies, sections
+    from mechsym.jobs.run import run
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
     found = cases.load(case, pairs(overrides) | given)
-    settings = settings_of(found)
-    problem = problem_of(found)
-    result = run(problem, dataclasses.replace(settings, check="none") if no_check else settings)
-    report: dict[str, Any] = {"case": found.name, "backend": settings.backend, "tolerance": settings.tolerance}
-    report |= summary(result, problem.mechanism.coordinates, window_of(found, problem))
-    twists = sections(found, result, result.t[-1] - report["window"])
-    report["natural_frequencies"] = list(natural_frequencies(found))
-    report["twist"] = [dataclasses.asdict(s) for s in twists]
-    starts = _start_ups(found, result, dampings)
-    report["findings"] = [*remarks(found), *(findings(starts[0]) if starts else ())]
-    report["start_up"] = [numbers(s) for s in starts]
-    report["files"] = [] if out is None else _write(result, len(twists), starts, out)
+    done = run(found, _dampings(dampings), "none" if no_check else "tolerance")
+    report = _report(found.name, done)
+    report["files"] = [] if out is None else _write(done, out)
     emit(report, as_json, lambda: _text(report))
-    ctx.exit(1 if result.status in ("failed", "not converged", "chaotic") else 0)
+    ctx.exit(1 if done.result.status in ("failed", "not converged", "chaotic") else 0)
 
 
-def _start_ups(case: cases.Case, result: Any, dampings: str | None) -> list[Any]:
-    """The start-up of the run, and of further dampers; nothing for other runs."""
-    from mechsym.torsion.startup import AVERAGE, start_up, start_up_map
-
-    values = (
-        tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in dampings.split(",")) if dampings is not None else ()
-    )
-    if "startup" not in case.sections:
-        if values:
-            raise BadInput(f"{case.file}: --dampings needs a start-up case, with a section [startup]")
-        return []
-    if result.status == "failed" or result.t[-1] - result.t[0] <= AVERAGE:
-        return []
-    return [start_up(case, result), *start_up_map(case, values)]
+def _dampings(text: str | None) -> tuple[float, ...]:
+    return tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in text.split(",")) if text is not None else ()
 
 
-def _write(result: Any, shafts: int, starts: list[Any], out: Path) -> list[str]:
+def _report(name: str, run: "Run") -> dict[str, Any]:
+    from mechsym.torsion.findings import numbers
+
+    return {
+        "case": name,
+        "backend": run.settings.backend,
+        "tolerance": run.settings.tolerance,
+        **run.summary,
+        "natural_frequencies": list(run.natural_frequencies),
+        "twist": [dataclasses.asdict(s) for s in run.twist],
+        "findings": list(run.findings),
+        "start_up": [numbers(s) for s in run.start_ups],
+    }
+
+
+def _write(run: "Run", out: Path) -> list[str]:
     from mechsym.hinge.plots import svg
     from mechsym.simulate import write_netcdf, write_series
     from mechsym.torsion import plots as plots_torsion
 
+    result, shafts, starts = run.result, len(run.twist), run.start_ups
     files = [write_series(result, out / "series.csv")]
     try:
         files.append(write_netcdf(result, out / "series.nc"))

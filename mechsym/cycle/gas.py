@@ -8,14 +8,15 @@ from typing import Any
 import casadi as ca
 import numpy as np
 from numpy.polynomial import Chebyshev
+from scipy.integrate import trapezoid
 
-from mechsym.cycle.chamber import chamber
+from mechsym.cycle.chamber import chamber, travel
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.cylinder import piston_area
 from mechsym.cycle.engine import curves
 from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_pressure
-from mechsym.cycle.pressure import periodic
+from mechsym.cycle.pressure import Pressure, periodic, piston_force
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
 from mechsym.quantities import record
@@ -26,19 +27,67 @@ _DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 @record
 class Gas:
-    """Pressure on one piston over the angle from its firing dead centre."""
+    """Pressure on one piston over the angle from its firing dead centre, the cylinder it acts in, the other side."""
 
-    absolute: Callable[[Any], Any]  #: Angle, ndarray, to absolute pressure [Pa]
+    pressure: Pressure
     p_back: float  #: Absolute pressure on the other side of the piston [Pa]
-    period: float  #: 2 pi or 4 pi [rad]
     bore: float  #: Of one piston [m]
-    area: float  #: [m^2]
     stroke: float  #: [m]
     compression_ratio: float  #: Largest over smallest volume of one cylinder [-]
-    facts: tuple[str, ...]  #: What was assumed, one sentence each
-    #: Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]
-    kinks: tuple[float, ...] = ()
     shared: bool = False  #: Whether all pistons of a machine share it, over the angle of the shaft
+
+    # a gas is itself: what is computed of it is kept by identity
+    __hash__ = object.__hash__
+
+    @property
+    def area(self) -> float:
+        """Area of one piston [m^2]."""
+        return piston_area(self.bore)
+
+    @property
+    def period(self) -> float:
+        """Period of the pressure, 2 pi or 4 pi [rad]."""
+        return self.pressure.period
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]."""
+        return self.pressure.kinks
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """What was assumed, one sentence each."""
+        return self.pressure.facts
+
+    def absolute(self, phi: Any) -> Any:
+        """Absolute pressure.
+
+        Parameters
+        ----------
+        phi : float or ndarray
+            Angle from firing dead centre [rad]
+
+        Returns
+        -------
+        p : float or ndarray
+            Shape of phi [Pa]
+        """
+        return self.pressure.absolute(phi)
+
+    def force(self, phi: Any) -> Any:
+        """Net force on the piston, positive away from the head.
+
+        Parameters
+        ----------
+        phi : float or ndarray
+            Angle from firing dead centre [rad]
+
+        Returns
+        -------
+        F : float or ndarray
+            Shape of phi [N]
+        """
+        return piston_force(self.pressure, self.p_back, self.area, phi)
 
 
 def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
@@ -51,15 +100,11 @@ def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
     """
     pressure, cylinder = cylinder_pressure(cycle, kinematics)
     return Gas(
-        absolute=pressure.absolute,
+        pressure=pressure,
         p_back=back_pressure(cycle),
-        period=pressure.period,
         bore=cylinder.bore,
-        area=piston_area(cylinder.bore),
         stroke=cylinder.stroke,
         compression_ratio=cylinder.compression_ratio,
-        facts=pressure.facts,
-        kinks=pressure.kinks,
     )
 
 
@@ -77,15 +122,25 @@ def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
     def closed_or_open(angle: np.ndarray) -> np.ndarray:
         return np.interp(angle, phi, found["p_pa"], left=charge.intake_pressure, right=charge.intake_pressure)
 
-    return Gas(
-        absolute=periodic(closed_or_open, 4 * math.pi, -2 * math.pi),
-        p_back=room.back_pressure,
+    # gas exchange at intake pressure gives back what the closed period took at that pressure
+    work = trapezoid(found["p_pa"] - charge.intake_pressure, np.asarray(travel(engine.motion, phi)[0]).ravel())
+    top = int(np.argmax(found["p_pa"]))
+    pressure = Pressure(
+        kind="spark-ignition",
         period=4 * math.pi,
+        kinks=(),
+        absolute=periodic(closed_or_open, 4 * math.pi, -2 * math.pi),
+        p_max=float(found["p_pa"][top]),
+        phi_p_max=float(phi[top]),
+        mean_indicated=float(work / room.stroke),
+        facts=("gas exchange takes place at intake pressure: assumed, the cycle models the closed period only",),
+    )
+    return Gas(
+        pressure=pressure,
+        p_back=room.back_pressure,
         bore=room.bore,
-        area=float(room.area),
         stroke=float(room.stroke),
         compression_ratio=engine.chamber.compression_ratio,
-        facts=("gas exchange takes place at intake pressure: assumed, the cycle models the closed period only",),
     )
 
 
@@ -100,14 +155,11 @@ def gas_of_train(cycle: Schmidt, train: CrankTrainParameters) -> Gas:
     stroke = 2 * each(train, "r")[0]
     area = piston_area(cycle.bore)
     return Gas(
-        absolute=pressure.absolute,
+        pressure=pressure,
         p_back=cycle.p_back,
-        period=pressure.period,
         bore=cycle.bore,
-        area=area,
         stroke=stroke,
         compression_ratio=1 + area * stroke / cycle.dead_hot if cycle.dead_hot else math.inf,
-        facts=pressure.facts,
         shared=True,
     )
 
@@ -141,7 +193,7 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
         return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
-    return dataclasses.replace(found, absolute=absolute, kinks=())
+    return dataclasses.replace(found, pressure=dataclasses.replace(found.pressure, absolute=absolute, kinks=()))
 
 
 def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:

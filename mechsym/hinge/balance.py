@@ -38,7 +38,7 @@ class Balance:
     ripple_propeller_load: float | None
 
 
-def build(hinge: Hinge, kind: str) -> Balance:
+def balance(hinge: Hinge, kind: str) -> Balance:
     """The part of the hinge torque that the hinge takes.
 
     Parameters

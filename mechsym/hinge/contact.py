@@ -6,14 +6,14 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.hinge import rollers
-from mechsym.hinge.guide import Guide, Spring, closing, path
+from mechsym.hinge.guide import Guide, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import law
 from mechsym.quantities import record
 
 
 @record
-class Turn:
+class Contact:
     """Arrays of shape (n,) over one period of the track."""
 
     #: Angle of the guide's shaft and of the crank [rad]
@@ -41,7 +41,7 @@ class Turn:
     loss_torque: np.ndarray
 
 
-def at_angles(guide: Guide, spring: Spring, parameters: RollerParameters, theta: np.ndarray) -> Turn:
+def at_angles(guide: Guide, parameters: RollerParameters, theta: np.ndarray) -> Contact:
     """The turn at given angles, for tables and plots.
 
     Parameters
@@ -51,24 +51,24 @@ def at_angles(guide: Guide, spring: Spring, parameters: RollerParameters, theta:
     """
     rho = path(guide)
     values = [rho(theta), rho.derivative()(theta), rho.derivative(2)(theta)]
-    return _turn(guide, spring, parameters, np.asarray(theta, dtype=float), values)
+    return _contact(guide, parameters, np.asarray(theta, dtype=float), values)
 
 
-def at_pieces(guide: Guide, spring: Spring, parameters: RollerParameters) -> Turn:
+def at_pieces(guide: Guide, parameters: RollerParameters) -> Contact:
     """The turn at points dense enough for extremes; each kink appears twice, with the values of both its sides.
 
     Returns
     -------
-    turn : Turn
+    contact : Contact
         Arrays of shape (n,), angles not decreasing
     """
     rho = path(guide)
     theta = periodic.piece_points(rho, 65)
     values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]
-    return _turn(guide, spring, parameters, theta.ravel(), values)
+    return _contact(guide, parameters, theta.ravel(), values)
 
 
-def columns(turn: Turn) -> dict[str, np.ndarray]:
+def columns(contact: Contact) -> dict[str, np.ndarray]:
     """The turn as columns of a CSV file.
 
     Returns
@@ -76,19 +76,19 @@ def columns(turn: Turn) -> dict[str, np.ndarray]:
     columns : dict of str to ndarray
         By field name; the pressure only of a gas spring
     """
-    values = {field.name: getattr(turn, field.name) for field in dataclasses.fields(turn)}
+    values = {field.name: getattr(contact, field.name) for field in dataclasses.fields(contact)}
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _turn(guide: Guide, spring: Spring, parameters: RollerParameters, theta: np.ndarray, values: list) -> Turn:
+def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, values: list) -> Contact:
     rho, drho, d2rho = values
-    functions, chosen = law(spring), guide.parameters
+    functions, chosen = law(guide.spring), guide.parameters
     z = closing(guide, rho)
     force = functions.force(z)
     kappa = rollers.curvature(rho, drho, d2rho)
     reaction = rollers.reaction(force, rho, drho)
     offset = parameters.plane_offset if chosen.arrangement == "two_tracks" else 0.0
-    return Turn(
+    return Contact(
         theta=theta,
         phi=theta / chosen.shaft_ratio,
         rho=rho,

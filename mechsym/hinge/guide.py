@@ -13,10 +13,11 @@ The spring gives the work that the torque takes: U(z) = const - W(phi), so z fol
 .. math:: M_\theta = c\,F(z)\,\frac{d\rho}{d\theta} = \frac{M_h}{\text{shaft ratio}}
 
 Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `as_printed`; the names are explained in
-`mechsym.arrangement`.
+`mechsym.hinge.choices`.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -26,7 +27,7 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
 from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
-from mechsym.hinge.torque import exists
+from mechsym.hinge.torque import Hinge, exists
 from mechsym.quantities import record
 
 Spring = AirGauge | AirAbsolute | Coil
@@ -39,7 +40,7 @@ class Guide:
     """A guide, or the reason why there is none."""
 
     parameters: GuideParameters
-    spring: Spring  #: Spring that it was made for
+    spring: Spring  #: Spring in it: the one it was cut for, or another (see `refit`)
     omega: float  #: Crank speed that it was made for [rad/s]
     rollers: int  #: Rollers c that move the spring
     #: `cut`; or why not: `takes_work` (no spring gives this torque), `spring_bottoms`, `spring_pulls` (this spring
@@ -53,7 +54,7 @@ class Guide:
     closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
-def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guide:
+def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) -> Guide:
     r"""Guide that makes a spring give a torque.
 
     .. math:: U(z) = U_0 - W(\varphi), \qquad \rho = \rho_0 - z / c, \qquad
@@ -61,8 +62,8 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
 
     Parameters
     ----------
-    balance : Balance
-        Torque to give, with its work
+    wanted : Hinge or Balance
+        Torque to give with its work: all of it, or the part that was chosen
 
     Returns
     -------
@@ -80,17 +81,17 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
     exact integral, so that the torque of the path is exact too. Massless rollers and spring, no friction.
     """
     rollers = ROLLERS[parameters.arrangement]
-    refuse_open_track(parameters, balance.period)
+    refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
         raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
-    low, _, high, _ = periodic.extremes(balance.work)
+    low, _, high, _ = periodic.extremes(wanted.work)
     at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
-    status, reason = _status(balance, spring, parameters, at_start - high, at_start - low)
-    rho, closure = _path(balance, spring, parameters, at_start) if status == "cut" else (None, 0.0)
+    status, reason = _status(wanted, spring, parameters, at_start - high, at_start - low)
+    rho, closure = _path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
     return Guide(
         parameters=parameters,
         spring=spring,
-        omega=balance.omega,
+        omega=wanted.omega,
         rollers=rollers,
         status=status,
         reason=reason,
@@ -99,6 +100,11 @@ def build(balance: Balance, spring: Spring, parameters: GuideParameters) -> Guid
         rho=rho,
         closure=closure,
     )
+
+
+def refit(guide: Guide, spring: Spring) -> Guide:
+    """The same track with another spring in it, or the same one set anew; what it was cut for stays in `omega`."""
+    return replace(guide, spring=spring)
 
 
 def path(guide: Guide) -> PPoly:
@@ -137,8 +143,8 @@ def closing(guide: Guide, rho: np.ndarray) -> np.ndarray:
     return guide.rollers * (guide.parameters.rho0 - rho)
 
 
-def crank_torque(guide: Guide, spring: Spring, phi: np.ndarray) -> np.ndarray:
-    r"""Torque of a guide on the crank by virtual work, with the spring it was cut for or another.
+def crank_torque(guide: Guide, phi: np.ndarray) -> np.ndarray:
+    r"""Torque of a guide on the crank by virtual work, with the spring that is in it.
 
     .. math:: M_h^* = \text{shaft ratio}\; c\, F(z)\, \frac{d\rho}{d\theta}
 
@@ -158,10 +164,10 @@ def crank_torque(guide: Guide, spring: Spring, phi: np.ndarray) -> np.ndarray:
     """
     rho, ratio = path(guide), guide.parameters.shaft_ratio
     theta = ratio * np.asarray(phi, dtype=float)
-    return ratio * guide.rollers * law(spring).force(closing(guide, rho(theta))) * rho.derivative()(theta)
+    return ratio * guide.rollers * law(guide.spring).force(closing(guide, rho(theta))) * rho.derivative()(theta)
 
 
-def torque_function(guide: Guide, spring: Spring) -> Callable[[float], float]:
+def torque_function(guide: Guide) -> Callable[[float], float]:
     """The same torque as a fast function of one float, for time simulations.
 
     Returns
@@ -169,7 +175,7 @@ def torque_function(guide: Guide, spring: Spring) -> Callable[[float], float]:
     torque : callable
         Crank angle, any real number [rad], to torque on the crank [N*m]; about 1.5 microseconds
     """
-    point, force = periodic.scalar(path(guide)), law(spring).force
+    point, force = periodic.scalar(path(guide)), law(guide.spring).force
     c, rho0, ratio = guide.rollers, guide.parameters.rho0, guide.parameters.shaft_ratio
 
     def torque(phi: float) -> float:
@@ -180,11 +186,11 @@ def torque_function(guide: Guide, spring: Spring) -> Callable[[float], float]:
 
 
 def _status(
-    balance: Balance, spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float
+    wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float
 ) -> tuple[str, str]:
     functions = law(spring)
-    if not exists(balance.torque):
-        return "takes_work", f"the torque has a mean of {periodic.mean(balance.torque):.6g} N*m; no spring gives that"
+    if not exists(wanted.torque):
+        return "takes_work", f"the torque has a mean of {periodic.mean(wanted.torque):.6g} N*m; no spring gives that"
     if energy_max >= functions.energy_high:
         return "spring_bottoms", (
             f"the spring would have to store {energy_max:.6g} J and holds {functions.energy_high:.6g} J at its full "
@@ -210,18 +216,18 @@ def _status(
     return "cut", ""
 
 
-def _path(balance: Balance, spring: Spring, parameters: GuideParameters, at_start: float) -> tuple[PPoly, float]:
+def _path(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters, at_start: float) -> tuple[PPoly, float]:
     """Path over the guide's angle and the gap that its slope would leave after a period."""
     functions, ratio = law(spring), parameters.shaft_ratio
     rollers = ROLLERS[parameters.arrangement]
 
     def z(theta: np.ndarray) -> np.ndarray:
-        return functions.closing(at_start - balance.work(theta / ratio))
+        return functions.closing(at_start - wanted.work(theta / ratio))
 
     slope = periodic.fit(
-        lambda theta: balance.torque(theta / ratio) / (ratio * rollers * functions.force(z(theta))),
-        balance.torque.x * ratio,
-        balance.period * ratio,
+        lambda theta: wanted.torque(theta / ratio) / (ratio * rollers * functions.force(z(theta))),
+        wanted.torque.x * ratio,
+        wanted.period * ratio,
     )
     rho = periodic.antiderivative(slope)
     edges = rho.x[:-1]

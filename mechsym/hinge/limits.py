@@ -7,7 +7,7 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from mechsym import periodic
-from mechsym.hinge.contact import Turn, at_pieces
+from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import Coil, law
@@ -30,7 +30,7 @@ class Limits:
 
 
 @record
-class Check:
+class LimitCheck:
     """One limit."""
 
     #: What is checked, and value against limit in words
@@ -48,7 +48,7 @@ class Verdict:
     feasible: bool
     reason: str  #: The limits that are not kept, or the tightest one
     margin: float  #: Smallest margin of all checks, negative when infeasible [-]
-    checks: tuple[Check, ...]
+    checks: tuple[LimitCheck, ...]
     rho_min: float | None = None  #: Path and closing [m]
     rho_max: float | None = None  #: Path and closing [m]
     z_min: float | None = None  #: Path and closing [m]
@@ -69,20 +69,14 @@ class Verdict:
     closure: float = 0.0  #: Gap of the path after a period [m]
 
 
-def judge(guide: Guide, spring: Spring, rollers: RollerParameters, limits: Limits) -> Verdict:
-    """Check a guide with a spring against all limits.
-
-    Parameters
-    ----------
-    spring : AirGauge, AirAbsolute or Coil
-        Spring that works in it: the one it was cut for, or another
-    """
+def judge(guide: Guide, rollers: RollerParameters, limits: Limits) -> Verdict:
+    """Check a guide with the spring that is in it against all limits."""
     if guide.rho is None:
-        failed = Check(name="spring", text=guide.reason, kept=False, margin=-1.0)
+        failed = LimitCheck(name="spring", text=guide.reason, kept=False, margin=-1.0)
         return Verdict(feasible=False, reason=guide.reason, margin=-1.0, checks=(failed,))
-    turn = at_pieces(guide, spring, rollers)
-    numbers = _numbers(guide, spring, turn)
-    checks = (*_spring_checks(numbers, spring, limits), *_track_checks(guide, numbers, rollers, limits))
+    contact = at_pieces(guide, rollers)
+    numbers = _numbers(guide, contact)
+    checks = (*_spring_checks(numbers, guide.spring, limits), *_track_checks(guide, numbers, rollers, limits))
     return Verdict(
         feasible=all(c.kept for c in checks),
         reason=_reason(checks),
@@ -134,10 +128,10 @@ def highest(theta: np.ndarray, values: np.ndarray) -> float:
     return float(values[i] - slope**2 / (4 * bend)) if bend < 0 else float(values[i])
 
 
-def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
+def _numbers(guide: Guide, contact: Contact) -> dict[str, Any]:
     rho_min, _, rho_max, _ = periodic.extremes(path(guide))
     z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
-    functions = law(spring)
+    functions = law(guide.spring)
     return {
         "rho_min": rho_min,
         "rho_max": rho_max,
@@ -146,30 +140,30 @@ def _numbers(guide: Guide, spring: Spring, turn: Turn) -> dict[str, Any]:
         # all laws rise with z
         "spring_force_max": float(functions.force(z_max)),
         "spring_pressure_max": None if functions.pressure is None else float(functions.pressure(z_max)),
-        "pressure_angle_max": highest(turn.theta, np.abs(turn.pressure_angle)),
-        "curvature_radius_min": 1 / highest(turn.theta, np.abs(turn.curvature)),
-        "undercut_radius": undercut_radius(turn.curvature),
-        "roller_reaction_max": highest(turn.theta, turn.reaction_1),
-        "hertz_stress_max": highest(turn.theta, turn.hertz_stress),
-        "tilting_couple_max": highest(turn.theta, turn.tilting_couple),
-        "inertia_force_max": highest(turn.theta, np.abs(turn.inertia_force)),
-        "loss_torque_mean": float(trapezoid(turn.loss_torque, turn.theta) / np.ptp(turn.theta)),
+        "pressure_angle_max": highest(contact.theta, np.abs(contact.pressure_angle)),
+        "curvature_radius_min": 1 / highest(contact.theta, np.abs(contact.curvature)),
+        "undercut_radius": undercut_radius(contact.curvature),
+        "roller_reaction_max": highest(contact.theta, contact.reaction_1),
+        "hertz_stress_max": highest(contact.theta, contact.hertz_stress),
+        "tilting_couple_max": highest(contact.theta, contact.tilting_couple),
+        "inertia_force_max": highest(contact.theta, np.abs(contact.inertia_force)),
+        "loss_torque_mean": float(trapezoid(contact.loss_torque, contact.theta) / np.ptp(contact.theta)),
         "closure": guide.closure,
     }
 
 
-def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> list[Check]:
+def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> list[LimitCheck]:
     z_min, force_min = numbers["z_min"], float(law(spring).force(numbers["z_min"]))
     longer = f"the spring is {-z_min * 1e3:.3g} mm longer than its free height; place the start"
     checks = [
-        Check(
+        LimitCheck(
             name="free_height",
             text=longer if z_min < 0 else f"smallest closing {z_min * 1e3:.3g} mm",
             kept=z_min >= -_ROUNDING * spring.H,
             margin=z_min / spring.H if z_min < 0 else None,
         ),
         _at_most("closing", "closing z/H", numbers["z_max"] / spring.H, limits.closing_share, ""),
-        Check(
+        LimitCheck(
             name="spring_force",
             text=f"smallest spring force {force_min / 1e3:.4g} kN",
             kept=force_min > 0,
@@ -182,7 +176,7 @@ def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> l
     return checks
 
 
-def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParameters, limits: Limits) -> list[Check]:
+def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParameters, limits: Limits) -> list[LimitCheck]:
     angle, stress = math.degrees(numbers["pressure_angle_max"]), numbers["hertz_stress_max"]
     reaction = numbers["roller_reaction_max"] / 1e3
     checks = [
@@ -201,9 +195,9 @@ def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParamete
     return checks
 
 
-def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> Check:
+def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> LimitCheck:
     if largest is None:
-        return Check(name="undercut", text="the path never bends inwards", kept=True, margin=None)
+        return LimitCheck(name="undercut", text="the path never bends inwards", kept=True, margin=None)
     left = largest - radius - profile_radius
     text = (
         f"the path bends inwards with a radius of {largest * 1e3:.4g} mm, which leaves the profile "
@@ -211,16 +205,16 @@ def _undercut_check(largest: float | None, radius: float, profile_radius: float)
         + (" (undercut)" if largest <= radius else "")
         + f"; at least {profile_radius * 1e3:.4g} mm"
     )
-    return Check(name="undercut", text=text, kept=left >= 0, margin=left / largest)
+    return LimitCheck(name="undercut", text=text, kept=left >= 0, margin=left / largest)
 
 
-def _at_most(name: str, words: str, value: float, limit: float, unit: str) -> Check:
+def _at_most(name: str, words: str, value: float, limit: float, unit: str) -> LimitCheck:
     text = f"{words} {value:.4g} of at most {limit:.4g} {unit}".rstrip()
     margin = (limit - value) / (limit if limit > 0 else value)
-    return Check(name=name, text=text, kept=margin >= -_ROUNDING, margin=margin)
+    return LimitCheck(name=name, text=text, kept=margin >= -_ROUNDING, margin=margin)
 
 
-def _reason(checks: tuple[Check, ...]) -> str:
+def _reason(checks: tuple[LimitCheck, ...]) -> str:
     failed = [c.text for c in checks if not c.kept]
     if failed:
         return "; ".join(failed)

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.cycle.cylinder import volume
-from mechsym.hinge.contact import Turn
+from mechsym.hinge.contact import Contact
+from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
-from mechsym.jobs.hinge import Design
-from mechsym.mechanisms.record import velocities
+from mechsym.machine.record import gas_of
+from mechsym.mechanisms.record import curves, velocities
 
 BLUE, RED, GREEN, GREY, ORANGE = "#1f5fa8", "#b5342b", "#2f7d4f", "#8a8f98", "#c77c11"
 _DEG = 180 / np.pi
@@ -65,7 +65,8 @@ def unit_of(peak: float, unit: str) -> tuple[float, str]:
 
 def pressure(design: Design) -> Figure:
     """Cylinder pressure over the crank angle with the angles of its events, and over the volume."""
-    gas, cylinder = design.assembly.pressure, design.assembly.cylinder
+    room = gas_of(design.machine)
+    gas = room.pressure
     figure, (left, right) = _axes(9, 3.2, 1, 2)
     phi = np.unique(np.append(np.linspace(0, gas.period, 1441), gas.kinks))
     p = gas.absolute(phi) / 1e5
@@ -78,7 +79,8 @@ def pressure(design: Design) -> Figure:
     left.set_xlabel("crank angle [deg]")
     left.set_ylabel("absolute pressure [bar]")
     _angle_axis(left, gas.period)
-    right.plot(1e3 * volume(cylinder, phi), p, color=BLUE)
+    volume = room.area * (room.stroke / (room.compression_ratio - 1) + curves(design.machine.mechanism, phi)["x"])
+    right.plot(1e3 * volume, p, color=BLUE)
     right.set_xlabel("volume [L]")
     right.set_ylabel("absolute pressure [bar]")
     return figure
@@ -115,12 +117,12 @@ def torque(design: Design) -> Figure:
     return figure
 
 
-def track(design: Design, turn: Turn, radius: float) -> Figure:
+def track(design: Design, turn: Contact, radius: float) -> Figure:
     """The path of the roller centres and the cut profile, to scale, with spring and rollers at a quarter turn.
 
     Parameters
     ----------
-    turn : Turn
+    turn : Contact
         The guide in numbers over a whole turn of its shaft
     radius : float
         Roller radius [m]
@@ -145,12 +147,12 @@ def track(design: Design, turn: Turn, radius: float) -> Figure:
     return figure
 
 
-def contact(turn: Turn) -> Figure:
+def contact(turn: Contact) -> Figure:
     """Roller reactions, pressure angle, spring pressure and curvature around the turn.
 
     Parameters
     ----------
-    turn : Turn
+    turn : Contact
         The guide in numbers over a whole turn of its shaft
 
     Returns
@@ -197,10 +199,10 @@ def speeds(design: Design) -> Figure:
         "off_constant": RED,
         "off_propeller": ORANGE,
     }
-    (q,), (u,) = design.assembly.mechanism.coordinates, velocities(design.assembly.mechanism)
+    (q,), (u,) = design.machine.mechanism.coordinates, velocities(design.machine.mechanism)
     for trial in design.trials:
         turns = trial.result.columns[q] / (2 * np.pi)
-        share = trial.result.columns[u] / design.assembly.omega
+        share = trial.result.columns[u] / design.machine.omega
         for axis in (right,) if trial.name in ("without", "flywheel") else (left, right):
             axis.plot(turns, share, color=colors[trial.name], linewidth=1.1, label=trial.about)
     left.set_title("with the hinge", fontsize=9)
@@ -215,7 +217,7 @@ def speeds(design: Design) -> Figure:
 
 def retuning(design: Design) -> Figure:
     """Torque that the other speed needs, and what the same guide gives there with the best pressure."""
-    from mechsym.hinge.guide import crank_torque
+    from mechsym.hinge.guide import crank_torque, refit
 
     again = design.retuned
     if again is None:
@@ -225,7 +227,10 @@ def retuning(design: Design) -> Figure:
     left.plot(phi * _DEG, design.hinge.torque(phi) / 1e3, color=GREY, label="wanted at the design speed")
     left.plot(phi * _DEG, again.wanted.torque(phi) / 1e3, color=BLUE, label="wanted at the other speed")
     left.plot(
-        phi * _DEG, crank_torque(design.guide, again.spring, phi) / 1e3, color=RED, label="same guide, best pressure"
+        phi * _DEG,
+        crank_torque(refit(design.guide, again.spring), phi) / 1e3,
+        color=RED,
+        label="same guide, best pressure",
     )
     left.legend(fontsize=7)
     left.set_xlabel("crank angle [deg]")

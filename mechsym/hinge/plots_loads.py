@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from mechsym.hinge.plots import BLUE, GREY, RED
-from mechsym.jobs.other_loads import AtLoad
+from mechsym.hinge.result import AtLoad
 from mechsym.simulate.steady import Steady
 
 

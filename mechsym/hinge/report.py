@@ -11,10 +11,11 @@ import numpy as np
 
 from mechsym.files import to_json, write_csv, write_text
 from mechsym.hinge import plots, plots_loads
+from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.setting import setting_text
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
-from mechsym.jobs.hinge import Design
+from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
 
 _FRAMES = 180
@@ -44,14 +45,14 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
     source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
     environment.filters["sig"] = significant
-    environment.filters["setting"] = partial(setting_text, design.assembly.case.need("spring"))
+    environment.filters["setting"] = partial(setting_text, design.guide.spring)
     return environment.from_string(source).render(
-        case=design.assembly.case,
+        case=design.origin,
         design=design,
         numbers=numbers,
         figures=figures,
         parameters=_parameters(design),
-        equations=listing(design.assembly.mechanism.name)["equations"],
+        equations=listing(design.machine.mechanism.name)["equations"],
         motion=json.dumps(_motion(design)),
         degrees=180 / np.pi,
     )
@@ -80,7 +81,7 @@ def significant(value: float | None, digits: int = 4) -> str:
 
 def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
     rows = []
-    for section, record in design.assembly.case.sections.items():
+    for section, record in design.origin.sections.items():
         for field in dataclasses.fields(record):
             value = getattr(record, field.name)
             if "unit" in field.metadata and isinstance(value, float):
@@ -92,7 +93,7 @@ def _figures(design: Design) -> dict[str, str]:
     figures = {"pressure": plots.pressure(design), "torque": plots.torque(design), "speeds": plots.speeds(design)}
     if design.guide.rho is not None:
         turn = guide_turn(design)
-        radius = design.assembly.case.need("rollers").radius
+        radius = design.rollers.radius
         figures |= {"track": plots.track(design, turn, radius), "contact": plots.contact(turn)}
     if design.retuned is not None:
         figures["retuning"] = plots.retuning(design)
@@ -103,19 +104,20 @@ def _figures(design: Design) -> dict[str, str]:
 
 def _motion(design: Design) -> dict[str, Any]:
     """Positions for the moving picture, with five digits of the rod's length."""
-    p = design.assembly.case.need("parameters")
+    p = design.origin.sections["parameters"]
     r, l = p.r1 + p.r2, p.l1 + p.l2
     phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
-    found, digits = curves(design.assembly.mechanism, phi), 5 - int(np.floor(np.log10(l)))
+    found, digits = curves(design.machine.mechanism, phi), 5 - int(np.floor(np.log10(l)))
     factor, unit = plots.unit_of(max(design.hinge.torque_max, -design.hinge.torque_min), "N m")
+    bore = gas_of(design.machine).bore
     motion = {
-        "torque_unit": unit, "r": r, "l": l, "bore": design.assembly.cylinder.bore, "phi": np.round(phi, 5).tolist(),
+        "torque_unit": unit, "r": r, "l": l, "bore": bore, "phi": np.round(phi, 5).tolist(),
         "crosshead": np.round(r + l - found["x"], digits).tolist(),
         "torque": np.round(design.hinge.torque(phi) * factor, 2).tolist(), "rho": [], "profile": [], "rollers": 0,
         "radius": 0.0, "ratio": 1.0,
     }  # fmt: skip
     if design.guide.rho is not None:
-        turn, radius = guide_turn(design), design.assembly.case.need("rollers").radius
+        turn, radius = guide_turn(design), design.rollers.radius
         x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
         ratio = design.guide.parameters.shaft_ratio
         rho = np.interp(ratio * phi % (2 * np.pi), turn.theta, turn.rho)

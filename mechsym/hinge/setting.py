@@ -11,7 +11,7 @@ import dataclasses
 
 import numpy as np
 
-from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path
+from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path, refit
 from mechsym.hinge.springs import Coil, law
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
@@ -93,7 +93,7 @@ def affine(guide: Guide, hinge: Hinge) -> Affine:
     torques, works = [], []
     for spring in (guide.spring, with_setting(guide.spring, second)):
         energy = law(spring).energy(z)
-        torques.append(crank_torque(guide, spring, phi))
+        torques.append(crank_torque(refit(guide, spring), phi))
         works.append(energy[-1] - energy[:-1])
     torque_1, work_1 = ((values[1] - values[0]) / (second - first) for values in (torques, works))
     return Affine(

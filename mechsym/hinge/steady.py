@@ -8,17 +8,18 @@ import dataclasses
 
 from scipy.optimize import minimize_scalar
 
-from mechsym.hinge.guide import Guide, Spring
+from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import Guide, Spring, refit
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.hinge.springs import Coil
 from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import Trial, run
-from mechsym.jobs.machine import Assembly, running
-from mechsym.machine.loads import ConstantLoad, Load
+from mechsym.machine.loads import ConstantLoad
+from mechsym.machine.record import Machine
 from mechsym.quantities import record
 from mechsym.simulate.angle import Panels, tabulate
-from mechsym.simulate.engine import Engine, machine
+from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import (
     Flywheel,
     Steady,
@@ -58,7 +59,7 @@ class Sensitivity:
 class Retuned:
     """The same guide at another speed with the spring setting that ripples least."""
 
-    other: Assembly
+    other: Machine  #: The machine at that speed
     wanted: Hinge
     spring: Spring
     #: p0 [Pa] (F0 of a coil [N]), and over that of the design [-]
@@ -69,7 +70,7 @@ class Retuned:
     trial: Trial | None  #: Run in time from the design speed; None when no setting turns steadily
 
 
-def flywheels(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load) -> Flywheels:
+def flywheels(machine: Machine, wanted: Hinge, guide: Guide | None) -> Flywheels:
     """Flywheels that replace the hinge, or that a faulty hinge needs.
 
     Returns
@@ -77,20 +78,20 @@ def flywheels(assembly: Assembly, wanted: Hinge, guide: Guide | None, load: Load
     flywheels : Flywheels
         Inertias on top of what the case keeps
     """
-    bare = _panels(running(assembly, wanted, load), load)
+    bare = _panels(machine, wanted)
     faulty = None
     if guide is not None:
         spring = with_setting(guide.spring, 1.02 * setting_of(guide.spring))
-        beside = _panels(running(assembly, wanted, load, guide, spring), load)
-        faulty = flywheel_for_ripple(beside, assembly.omega, RIPPLE)
+        beside = _panels(machine, wanted, refit(guide, spring))
+        faulty = flywheel_for_ripple(beside, machine.omega, RIPPLE)
     return Flywheels(
-        turns=smallest_flywheel_that_turns(bare, assembly.omega),
-        steady=flywheel_for_ripple(bare, assembly.omega, RIPPLE),
+        turns=smallest_flywheel_that_turns(bare, machine.omega),
+        steady=flywheel_for_ripple(bare, machine.omega, RIPPLE),
         beside_faulty=faulty,
     )
 
 
-def sensitivities(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load) -> list[Sensitivity]:
+def sensitivities(machine: Machine, wanted: Hinge, guide: Guide) -> list[Sensitivity]:
     """Steady motion with one quantity of the spring one per cent off.
 
     Returns
@@ -101,14 +102,14 @@ def sensitivities(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load) -
     found = []
     for name, unit in [("F0", "N"), ("k", "N/m")] if isinstance(guide.spring, Coil) else [("p0", "Pa"), ("n", "-")]:
         low, high = (
-            with_spring(assembly, wanted, guide, load, _scaled(guide.spring, name, factor)) for factor in (0.99, 1.01)
+            with_guide(machine, wanted, refit(guide, _scaled(guide.spring, name, factor))) for factor in (0.99, 1.01)
         )
         found.append(Sensitivity(name=name, unit=unit, value=getattr(guide.spring, name), low=low, high=high))
     return found
 
 
-def with_spring(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load, spring: Spring) -> Steady:
-    """Steady motion with another spring in the guide.
+def with_guide(machine: Machine, wanted: Hinge, guide: Guide) -> Steady:
+    """Steady motion with a guide and the spring in it.
 
     Parameters
     ----------
@@ -120,10 +121,10 @@ def with_spring(assembly: Assembly, wanted: Hinge, guide: Guide, load: Load, spr
     steady : Steady
         Motion, or why there is none
     """
-    return steady_state(_panels(running(assembly, wanted, load, guide, spring), load), assembly.omega)
+    return steady_state(_panels(machine, wanted, guide), machine.omega)
 
 
-def retuned(other: Assembly, wanted: Hinge, guide: Guide, load: Load, turns: float) -> Retuned:
+def retuned(other: Machine, wanted: Hinge, guide: Guide, turns: float) -> Retuned:
     """The spring setting with the least steady ripple at another speed, and how the engine runs with it.
 
     Parameters
@@ -137,16 +138,16 @@ def retuned(other: Assembly, wanted: Hinge, guide: Guide, load: Load, turns: flo
     near = retune(guide, wanted, "least_ripple_propeller_load").setting
 
     def ripple(setting: float) -> float:
-        found = with_spring(other, wanted, guide, load, with_setting(guide.spring, setting)).speed_ripple
+        found = with_guide(other, wanted, refit(guide, with_setting(guide.spring, setting))).speed_ripple
         return 2.0 if found is None else found
 
     bounds = (0.8 * near, 1.25 * near)
     best = float(minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x)
     spring = with_setting(guide.spring, best)
-    steady = with_spring(other, wanted, guide, load, spring)
+    steady = with_guide(other, wanted, refit(guide, spring))
     trial = None
     if steady.speed_mean is not None:
-        engine = running(other, wanted, load, guide, spring)
+        engine = fitted(other, wanted, refit(guide, spring))
         trial = run("retuned", "same guide, best pressure, other speed", engine, float(steady.omega[0]), turns)
     return Retuned(
         other=other,
@@ -155,15 +156,15 @@ def retuned(other: Assembly, wanted: Hinge, guide: Guide, load: Load, turns: flo
         setting=best,
         ratio=best / design,
         steady=steady,
-        paper=with_spring(other, wanted, guide, load, with_setting(guide.spring, 1.9 * design)),
+        paper=with_guide(other, wanted, refit(guide, with_setting(guide.spring, 1.9 * design))),
         trial=trial,
     )
 
 
-def _panels(engine: Engine, load: Load) -> Panels:
-    """The engine over the angle; a constant load without a number is the mean that these very panels integrate."""
-    panels = tabulate(machine(engine))
-    if isinstance(load, ConstantLoad) and load.torque is None:
+def _panels(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Panels:
+    """The machine over the angle; a constant load without a number is the mean that these very panels integrate."""
+    panels = tabulate(reduced(fitted(machine, wanted, guide)))
+    if isinstance(machine.load, ConstantLoad) and machine.load.torque is None:
         return dataclasses.replace(panels, load=ConstantLoad(torque=mean_torque(panels)))
     return panels
 

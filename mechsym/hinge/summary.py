@@ -4,14 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.hinge.contact import Turn, at_angles
+from mechsym.hinge.contact import Contact, at_angles
+from mechsym.hinge.result import AtLoad, Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.steady import RIPPLE
 from mechsym.hinge.ways import Offer
-from mechsym.jobs.hinge import Design
-from mechsym.jobs.machine import load_of
-from mechsym.jobs.other_loads import AtLoad
 from mechsym.machine.loads import PropellerLoad
+from mechsym.machine.record import gas_of
 
 _RPM = 60 / (2 * np.pi)
 
@@ -27,9 +26,9 @@ def summary(design: Design) -> dict[str, Any]:
     hinge, verdict, runs = design.hinge, design.verdict, {t.name: t for t in design.trials}
     check = runs.get(f"hinge_{_law(design)}")
     return {
-        "speed_rpm": design.assembly.omega * _RPM,
-        "p_max_bar": design.assembly.pressure.p_max / 1e5,
-        "mep_bar": design.assembly.pressure.mean_indicated / 1e5,
+        "speed_rpm": design.machine.omega * _RPM,
+        "p_max_bar": gas_of(design.machine).pressure.p_max / 1e5,
+        "mep_bar": gas_of(design.machine).pressure.mean_indicated / 1e5,
         "load_torque": hinge.load_torque,
         "hinge_torque_max": hinge.torque_max,
         "hinge_torque_min": hinge.torque_min,
@@ -84,7 +83,7 @@ def offers(design: Design) -> list[dict[str, Any]]:
 
 
 def _law(design: Design) -> str:
-    return "propeller" if isinstance(load_of(design.assembly.case), PropellerLoad) else "constant"
+    return "propeller" if isinstance(design.machine.load, PropellerLoad) else "constant"
 
 
 def _saved(design: Design) -> float | None:
@@ -130,7 +129,7 @@ def _at_load(row: AtLoad) -> dict[str, Any]:
     }
 
 
-def guide_turn(design: Design, points: int = 721) -> Turn:
+def guide_turn(design: Design, points: int = 721) -> Contact:
     """The guide in numbers over a whole turn of its shaft.
 
     Parameters
@@ -139,7 +138,7 @@ def guide_turn(design: Design, points: int = 721) -> Turn:
         Number of angles, both ends included
     """
     theta = np.linspace(0, 2 * np.pi, points)
-    return at_angles(design.guide, design.guide.spring, design.assembly.case.need("rollers"), theta)
+    return at_angles(design.guide, design.rollers, theta)
 
 
 def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
@@ -152,11 +151,11 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
     """
     hinge = design.hinge
     phi = np.linspace(0, hinge.period, points)
-    pressure = design.assembly.pressure.absolute(phi)
+    gas = gas_of(design.machine)
     return {
         "phi": phi,
-        "pressure": pressure,
-        "piston_force": design.assembly.force(phi),
+        "pressure": gas.pressure.absolute(phi),
+        "piston_force": gas.force(phi),
         "hinge_torque": hinge.torque(phi),
         "inertia_part": hinge.inertia_part(phi),
         "gas_part": hinge.gas_part(phi),
@@ -166,7 +165,7 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
     }
 
 
-def guide_columns(design: Design, turn: Turn) -> dict[str, np.ndarray]:
+def guide_columns(design: Design, contact: Contact) -> dict[str, np.ndarray]:
     """Table of the guide over a turn of its shaft: path, cut profile, contact.
 
     Returns
@@ -174,11 +173,12 @@ def guide_columns(design: Design, turn: Turn) -> dict[str, np.ndarray]:
     columns : dict of str to ndarray
         SI units; the profile is in the frame of the track
     """
-    x, y = parallel(turn.rho, turn.drho, turn.theta, design.assembly.case.need("rollers").radius)
+    x, y = parallel(contact.rho, contact.drho, contact.theta, design.rollers.radius)
     columns = {
-        "theta": turn.theta, "phi": turn.phi, "rho": turn.rho, "drho_dtheta": turn.drho, "profile_x": x, "profile_y": y,
-        "z": turn.z, "spring_force": turn.force, "pressure_angle": turn.pressure_angle, "curvature": turn.curvature,
-        "roller_reaction_1": turn.reaction_1, "roller_reaction_2": turn.reaction_2, "hertz_stress": turn.hertz_stress,
-        "torque": turn.torque,
+        "theta": contact.theta, "phi": contact.phi, "rho": contact.rho, "drho_dtheta": contact.drho,
+        "profile_x": x, "profile_y": y, "z": contact.z, "spring_force": contact.force,
+        "pressure_angle": contact.pressure_angle, "curvature": contact.curvature,
+        "roller_reaction_1": contact.reaction_1, "roller_reaction_2": contact.reaction_2,
+        "hertz_stress": contact.hertz_stress, "torque": contact.torque,
     }  # fmt: skip
-    return columns | ({} if turn.pressure is None else {"spring_excess_pressure": turn.pressure})
+    return columns | ({} if contact.pressure is None else {"spring_excess_pressure": contact.pressure})

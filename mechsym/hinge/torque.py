@@ -7,10 +7,10 @@ motion of one degree of freedom is
 
 .. math:: I \ddot\varphi + \tfrac12 I' \dot\varphi^2 = F x' - M_r + M_h + M_g
 
-with M_g the generalised force of gravity; a constant speed omega asks for the M_h that `build` returns. A spring can
+with M_g the generalised force of gravity; a constant speed omega asks for the M_h that `torque` returns. A spring can
 give that torque only if it takes as much work as it gives: the mean of M_h over a period must vanish.
 
-Source: Zotov et al. (2024), eqs. (3) to (8). `hinge_printed.py` has equation (8) as printed.
+Source: Zotov et al. (2024), eqs. (3) to (8). `papers/zotov2024/hinge_printed.py` has equation (8) as printed.
 """
 
 import functools
@@ -21,6 +21,8 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from mechsym import periodic
+from mechsym.cycle.gas import Gas
+from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import Mechanism, curves
 from mechsym.quantities import record
 
@@ -65,25 +67,13 @@ class Hinge:
     work_max: float  #: Signed extremes [N*m], [J]
 
 
-def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float], period: float) -> EngineTorques:
-    """The functions of the crank angle that a mechanism and a piston force give.
+def engine_torques(machine: Machine) -> EngineTorques:
+    """What the gas, the inertia and the weights of a machine ask of its hinge."""
+    return _torques(machine.mechanism, gas_of(machine))
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        One coordinate, with outputs `inertia` and the travel `x`
-    force : callable
-        phi of shape (n,) [rad] to the net force F on the piston, positive away from the head [N]
-    kinks : sequence of float
-        Angles where the force is not smooth [rad]
-    period : float
-        Period of the force, 2 pi or 4 pi [rad]
 
-    Returns
-    -------
-    torques : EngineTorques
-        Functions of arrays of crank angles
-    """
+@functools.lru_cache(maxsize=8)
+def _torques(mechanism: Mechanism, gas: Gas) -> EngineTorques:
     (q,) = mechanism.coordinates
     dynamics = mechanism.functions["dynamics"]
 
@@ -96,16 +86,14 @@ def engine_torques(mechanism: Mechanism, force: Function, kinks: Sequence[float]
     return EngineTorques(
         inertia=lambda phi: curves(mechanism, phi)["inertia"],
         dinertia_dphi=lambda phi: curves(mechanism, phi)[f"dinertia_d{q}"],
-        gas_torque=lambda phi: force(phi) * curves(mechanism, phi)[f"dx_d{q}"],
+        gas_torque=lambda phi: gas.force(phi) * curves(mechanism, phi)[f"dx_d{q}"],
         gravity_torque=gravity_torque,
-        kinks=kinks,
-        period=period,
+        kinks=gas.pressure.kinks,
+        period=gas.pressure.period,
     )
 
 
-# the springs of a sweep share one engine, and so its hinge torque
-@functools.lru_cache(maxsize=8)
-def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
+def torque(machine: Machine, tol: float = 1e-12) -> Hinge:
     r"""Hinge torque that keeps the crank speed constant, with its parts and its work.
 
     .. math:: M_h = \tfrac12 \omega^2 I'(\varphi) - F x'(\varphi) + M_r - M_g(\varphi), \qquad
@@ -113,10 +101,8 @@ def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
 
     Parameters
     ----------
-    torques : EngineTorques
-        What the hinge has to balance
-    omega : float
-        Crank speed [rad/s]
+    machine : Machine
+        Engine with gas, one coordinate, and its speed of operation
     tol : float
         Error of the piecewise polynomials, as a share of the largest part [-]
 
@@ -130,6 +116,21 @@ def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
     Source: Zotov et al. (2024), eqs. (4), (5) and (8), with the exact kinematics. Valid: rigid links, one degree of
     freedom, constant speed. The mean of M_h is not set to zero: it is what quadrature leaves, and it is checked.
     """
+    return hinge_of(engine_torques(machine), machine.omega, tol)
+
+
+# the springs of a sweep share one engine, and so its hinge torque
+@functools.lru_cache(maxsize=8)
+def hinge_of(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
+    """The same from what has to be balanced, wherever that comes from.
+
+    Parameters
+    ----------
+    omega : float
+        Crank speed [rad/s]
+    tol : float
+        Error of the piecewise polynomials, as a share of the largest part [-]
+    """
     parts = periodic.fit(
         lambda phi: np.stack(
             [omega**2 / 2 * torques.dinertia_dphi(phi), -torques.gas_torque(phi), -torques.gravity_torque(phi)]
@@ -141,22 +142,22 @@ def build(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
     inertia_part, gas_part, gravity_part = (_part(parts, i) for i in range(3))
     load_torque = -periodic.mean(gas_part)
     gas_part.c[-1] += load_torque
-    torque = PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
-    work = periodic.antiderivative(torque)
-    low, _, high, _ = periodic.extremes(torque)
+    total = PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
+    work = periodic.antiderivative(total)
+    low, _, high, _ = periodic.extremes(total)
     work_low, _, work_high, _ = periodic.extremes(work)
     return Hinge(
         omega=omega,
         period=torques.period,
         load_torque=load_torque,
-        torque=torque,
+        torque=total,
         inertia_part=inertia_part,
         gas_part=gas_part,
         gravity_part=gravity_part,
         inertia=periodic.fit(torques.inertia, torques.kinks, torques.period, tol),
         work=work,
-        mean_torque=periodic.mean(torque),
-        exists=exists(torque),
+        mean_torque=periodic.mean(total),
+        exists=exists(total),
         torque_min=low,
         torque_max=high,
         work_min=work_low,

@@ -6,12 +6,11 @@ guide turn with the crank and takes only what repeats every turn; the rest stays
 
 import dataclasses
 
-from mechsym.hinge import balance, guide
-from mechsym.hinge import limits as feasibility
+from mechsym.hinge import balance
 from mechsym.hinge.balance import KINDS, Balance
 from mechsym.hinge.choices import GuideParameters, closing_ratio
-from mechsym.hinge.guide import Guide, Spring
-from mechsym.hinge.limits import Limits, Verdict
+from mechsym.hinge.guide import Guide, Spring, cut
+from mechsym.hinge.limits import Limits, Verdict, judge
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge
 from mechsym.quantities import record
@@ -44,14 +43,14 @@ def offers(
         One or two, the chosen one first
     """
     kinds = [choices.balance] + [k for k in KINDS if k != choices.balance]
-    parts = [balance.build(hinge, kind) for kind in kinds]
+    parts = [balance.balance(hinge, kind) for kind in kinds]
     if parts[0].period == parts[1].period:
         parts = parts[:1]
     found = []
     for part in parts:
         wanted = choices if part is parts[0] else _instead(choices, part)
-        cut = guide.build(part, spring, wanted)
-        found.append(Offer(balance=part, guide=cut, verdict=feasibility.judge(cut, spring, rollers, limits)))
+        track = cut(part, spring, wanted)
+        found.append(Offer(balance=part, guide=track, verdict=judge(track, rollers, limits)))
     return tuple(found)
 
 

@@ -1,51 +1,27 @@
-"""The whole job: case -> mechanism -> pressure -> hinge -> guide -> verdict -> trials -> retuning and other loads."""
+"""Case -> hinge: machine -> torque wanted -> guide -> verdict -> trials -> flywheels -> retuning and other loads."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.settings import TrialSettings
 from mechsym.errors import BadInput
-from mechsym.hinge import steady as steadiness
-from mechsym.hinge import torque as hinge
-from mechsym.hinge import trials
-from mechsym.hinge.balance import Balance
-from mechsym.hinge.guide import Guide
-from mechsym.hinge.limits import Verdict
-from mechsym.hinge.steady import Flywheels, Retuned, Sensitivity
-from mechsym.hinge.torque import Hinge
-from mechsym.hinge.trials import Trial
-from mechsym.hinge.ways import Offer, offers
-from mechsym.jobs.machine import Assembly, assemble, kept_flywheel, load_of
-from mechsym.jobs.other_loads import AtLoad, design_load, guide_at_loads
-from mechsym.machine.loads import Load
-from mechsym.quantities import record
+from mechsym.hinge import steady, trials
+from mechsym.hinge.guide import Guide, refit
+from mechsym.hinge.result import AtLoad, Design, Origin
+from mechsym.hinge.retune import retune
+from mechsym.hinge.setting import setting_of, with_setting
+from mechsym.hinge.torque import torque
+from mechsym.hinge.ways import offers
+from mechsym.jobs.machine import kept_flywheel, machine
+from mechsym.machine.record import Machine
 
-STEPS = 6  # how often `design` calls `progress`
+STEPS = 6  # how often `hinge` calls `progress`
 
 
-@record
-class Design:
-    """A designed hinge and how it runs."""
-
-    assembly: Assembly
-    hinge: Hinge  #: Torque that keeps the speed constant
-    balance: Balance  #: Part of it that the guide gives
-    guide: Guide  #: Guide, or why there is none
-    verdict: Verdict
-    #: The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
-    instead: tuple[Offer, ...]
-    trials: tuple[Trial, ...]
-    flywheels: Flywheels  #: What the hinge saves, and what a faulty one needs
-    sensitivities: tuple[Sensitivity, ...]  #: Ripple for each per cent of error
-    retuned: Retuned | None  #: The same guide at the other speed of the case
-    flywheel_kept: float  #: Flywheel of the case [kg*m^2]
-    loads: tuple[AtLoad, ...] = ()  #: The same guide at other loads, as far as they were asked for
-
-
-def design(
+def hinge(
     case: Case,
     diagram: str | None = None,
     progress: Callable[[], Any] = lambda: None,
@@ -64,44 +40,97 @@ def design(
     loads : sequence of float
         Other loads to try the guide at, as shares of the case's mean indicated pressure [-]
 
+    Returns
+    -------
+    design : Design
+        Guide and verdict, also when it cannot be built; runs, flywheels and sensitivities of what could be cut
+
     Raises
     ------
     BadInput
         A section is missing, a value is impossible, or the cycle has one load only and others are asked for
     """
-    spring, choices = case.need("spring"), case.need("guide")
-    rollers, limits, load = case.need("rollers"), case.need("limits"), load_of(case)
+    spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
     turns = case.sections.get("trials", TrialSettings()).turns
     pressures = _pressures(case, diagram, loads)
-    engine, other = assemble(case, diagram), _other(case)
+    engine, other = machine(case, diagram), _other(case)
     progress()
-    wanted = hinge.build(engine.torques, engine.omega)
+    wanted = torque(engine)
     chosen, *instead = offers(wanted, spring, choices, rollers, limits)
     usable = chosen.guide if chosen.guide.rho is not None else None
     progress()
-    runs = trials.side_by_side(engine, wanted, usable, load, turns)
+    runs = trials.side_by_side(engine, wanted, usable, turns)
     progress()
-    wheels = steadiness.flywheels(engine, wanted, usable, load)
+    wheels = steady.flywheels(engine, wanted, usable)
     if wheels.steady.inertia:
-        runs.append(trials.with_flywheel(engine, wanted, load, wheels.steady.inertia, turns))
+        runs.append(trials.with_flywheel(engine, wanted, wheels.steady.inertia, turns))
     progress()
-    errors = steadiness.sensitivities(engine, wanted, usable, load) if usable else []
+    errors = steady.sensitivities(engine, wanted, usable) if usable else []
     progress()
-    again = _retuned(other, usable, load, turns) if usable and other else None
+    again = steady.retuned(other, torque(other), usable, turns) if usable and other else None
     progress()
     return Design(
-        assembly=engine,
-        hinge=wanted,
-        balance=chosen.balance,
-        guide=chosen.guide,
-        verdict=chosen.verdict,
-        instead=tuple(instead),
-        trials=tuple(runs),
-        flywheels=wheels,
-        sensitivities=tuple(errors),
-        retuned=again,
-        flywheel_kept=kept_flywheel(case),
-        loads=tuple(guide_at_loads(case, usable, pressures) if usable else ()),
+        origin=Origin(name=case.name, about=case.about, source=case.source, sections=case.sections),
+        machine=engine, rollers=rollers, hinge=wanted, balance=chosen.balance, guide=chosen.guide,
+        verdict=chosen.verdict, instead=tuple(instead), trials=tuple(runs), flywheels=wheels,
+        sensitivities=tuple(errors), retuned=again, flywheel_kept=kept_flywheel(case),
+        loads=tuple(at_loads(case, usable, pressures) if usable else ()),
+    )  # fmt: skip
+
+
+def design_load(case: Case) -> float:
+    """The load that a case is designed for.
+
+    Returns
+    -------
+    mean_indicated_pressure : float
+        Of its cycle [Pa]
+
+    Raises
+    ------
+    BadInput
+        The cycle has no mean indicated pressure to change
+    """
+    cycle = case.need("cycle")
+    if not hasattr(cycle, "mean_indicated_pressure"):
+        raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed; it has one load")
+    return float(cycle.mean_indicated_pressure)
+
+
+def at_loads(case: Case, guide: Guide, loads: Sequence[float]) -> list[AtLoad]:
+    """Steady running of a guide at other loads, at the speed of operation.
+
+    The guide stays as it was cut. At another load the gas torque has another shape, so the hinge misses it; a spring
+    set anew for that load takes part of the rest away.
+
+    Parameters
+    ----------
+    guide : Guide
+        Guide of the case's hinge, status `cut`
+    loads : sequence of float
+        Mean indicated pressures to try [Pa]
+
+    Returns
+    -------
+    rows : list of AtLoad
+        As cut and set anew, one for each load
+    """
+    return [_at_load(case, guide, load) for load in loads]
+
+
+def _at_load(case: Case, guide: Guide, load: float) -> AtLoad:
+    cycle = replace(case.need("cycle"), mean_indicated_pressure=load)
+    engine = machine(replace(case, sections={**case.sections, "cycle": cycle}))
+    wanted = torque(engine)
+    setting = retune(guide, wanted, "least_squares_work").setting
+    anew = refit(guide, with_setting(guide.spring, setting))
+    return AtLoad(
+        share=load / design_load(case),
+        mean_indicated_pressure=load,
+        as_cut=steady.with_guide(engine, wanted, guide),
+        reset=steady.with_guide(engine, wanted, anew),
+        setting=setting,
+        ratio=setting / setting_of(guide.spring),
     )
 
 
@@ -111,17 +140,14 @@ def _pressures(case: Case, diagram: str | None, loads: Sequence[float]) -> list[
     return [share * design_load(case) for share in loads]
 
 
-def _other(case: Case) -> Assembly | None:
-    """The same engine with the speed and the cycle of another case, if the case names one."""
+def _other(case: Case) -> Machine | None:
+    """The same engine and load with the speed and the cycle of another case, if the case names one."""
     section = case.sections.get("retune")
     if section is None:
         return None
     other = cases.load(section.case)
-    same = {key: record for key, record in case.sections.items() if key in ("parameters", "flywheel")}
+    same = {key: record for key, record in case.sections.items() if key in ("parameters", "flywheel", "load")}
     if other.mechanism != case.mechanism:
         raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
-    return assemble(dataclasses.replace(other, sections={**other.sections, **same}))
-
-
-def _retuned(other: Assembly, cut: Guide, load: Load, turns: float) -> Retuned:
-    return steadiness.retuned(other, hinge.build(other.torques, other.omega), cut, load, turns)
+    sections = {key: record for key, record in other.sections.items() if key != "load"}
+    return machine(replace(other, sections={**sections, **same}))

@@ -1,226 +1,74 @@
-"""From a case to a run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
+"""Case -> run in time: problem -> integration and audit -> speeds, twist of the shaft, start-ups explained."""
 
-import dataclasses
-import functools
-import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
-import numpy as np
-
-from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.hinge import balance, guide
-from mechsym.hinge import torque as hinge
-from mechsym.jobs import train as trains
-from mechsym.jobs.machine import assemble, load_of, running
-from mechsym.mechanisms.crank_train import parameters as crank_train
-from mechsym.quantities import choice, quantity, record
-from mechsym.simulate import engine as engines
-from mechsym.simulate.backends import BACKENDS, DEFAULT
-from mechsym.simulate.engine import Engine
-from mechsym.simulate.problem import Part, Problem, Steps, Stop
+from mechsym.jobs.problem import problem_of, settings_of, window_of
+from mechsym.jobs.startup import startup, startup_map
+from mechsym.jobs.train import remarks
+from mechsym.quantities import record
+from mechsym.simulate import Result, simulate
 from mechsym.simulate.settings import Settings
-
-# the window whose mean, least and greatest speed is reported is sampled this finely
-_WINDOW_POINTS = 4000
-_TURN_POINTS = 360  # results a turn of a run over turns
-
-
-@record
-class Simulation:
-    """Section `[simulation]`: how long, from where, how exactly."""
-
-    #: Last time; with turns too, the run ends at what comes first [s]
-    t_end: float | None = quantity("s", default=None, above=0, about="last time")
-    #: Turns of the crank to run [-]
-    turns: float | None = quantity("-", default=None, above=0, about="turns to run")
-    #: Speed of every coordinate at the start; None takes the speed of operation of an engine, else rest [rad/s]
-    speed_start: float | None = quantity("rad/s", default=None, about="speed at the start")
-    phi_start: float = quantity("rad", default=0.0, about="angle at the start")
-    #: Relative and absolute tolerance of a step [-]
-    tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
-    backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
-    #: Spacing of the results in a run to t_end [s]
-    output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
-    #: Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
-    window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
-    #: `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
-    hinge: str = choice("designed", "none", default="designed", about="hinge of an engine")
-    #: Largest relative difference to the run at the tighter tolerance that counts as converged [-]
-    difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")
-
-    def __post_init__(self) -> None:
-        if self.t_end is None and self.turns is None:
-            raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
+from mechsym.simulate.summary import summary
+from mechsym.torsion.findings import findings
+from mechsym.torsion.startup import AVERAGE, StartUp
+from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
 
 
 @record
-class StepTorque:
-    """Section `[drive]`: a torque that is switched on."""
+class Run:
+    """A finished run and what is said of it."""
 
-    #: The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
-    input: str | None = None
-    time: float = quantity("s", default=0.0, about="when the torque is switched on")
-    #: Torque from then on, 0 before [N*m]
-    torque: float = quantity("N*m", about="driving torque")
-
-
-def settings_of(case: Case) -> Settings:
-    """Tolerance and integrator of a case.
-
-    Parameters
-    ----------
-    case : Case
-        With section `[simulation]`
-    """
-    wanted: Simulation = case.need("simulation")
-    return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
+    settings: Settings
+    result: Result
+    summary: Mapping[str, Any]  #: The numbers that `mechsym simulate` reports
+    natural_frequencies: tuple[float, ...]  #: Of an elastic shaft [rad/s]
+    twist: tuple[ShaftSection, ...]
+    start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
+    findings: tuple[str, ...]
 
 
-def problem_of(case: Case) -> Problem:
-    """The run that a case describes.
+def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> Run:
+    """Simulate a case over time, with an energy audit and a check of the tolerance.
 
     Parameters
     ----------
     case : Case
-        With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
-        train may have both
-
-    Raises
-    ------
-    BadInput
-        A section is missing or names what the mechanism has not
-    """
-    wanted: Simulation = case.need("simulation")
-    if case.mechanism == "crank_train":
-        return _train(case, wanted)
-    if "drive" in case.sections:
-        return _driven(case, wanted)
-    engine = engine_of(case)
-    speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
-    if wanted.turns is None or speed <= 0:
-        raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
-    problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
-    if wanted.t_end is None:
-        return problem
-    return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
-
-
-def engine_of(case: Case) -> Engine:
-    """The engine of a case with its hinge, as far as the case has one.
-
-    Parameters
-    ----------
-    case : Case
-        With `[cycle]` and `[operation]`; the hinge needs `[spring]` and `[guide]`
+        With `[simulation]`, and `[drive]` or `[cycle]`
+    dampings : tuple of float
+        Further values of c1 for a start-up [N*m*s/rad]
+    check : str
+        `tolerance` runs again at a hundredth of the tolerance; `none` leaves that out
 
     Returns
     -------
-    engine : Engine
-        The hinge's torque comes from guide and spring
-
-    Raises
-    ------
-    BadInput
-        The guide that the case asks for cannot be cut
+    run : Run
+        Columns, audit, speeds, twist and findings
     """
-    engine = assemble(case)
-    wanted = hinge.build(engine.torques, engine.omega)
-    simulation: Simulation = case.need("simulation")
-    if simulation.hinge == "none" or not {"spring", "guide"} <= set(case.sections):
-        return running(engine, wanted, load_of(case))
-    choices = case.need("guide")
-    cut = guide.build(balance.build(wanted, choices.balance), case.need("spring"), choices)
-    if cut.rho is None:
-        raise BadInput(f"{case.file}: no guide can be cut ({cut.reason}); set simulation.hinge=none to run without")
-    return running(engine, wanted, load_of(case), cut)
-
-
-def window_of(case: Case, problem: Problem) -> float | None:
-    """The stretch at the end over which speeds are summed up.
-
-    Parameters
-    ----------
-    case : Case
-        With section `[simulation]`
-
-    Returns
-    -------
-    window : float or None
-        None for the last turn [s]
-    """
-    wanted: Simulation = case.need("simulation")
-    if wanted.window is None and problem.turns is None:
-        return problem.t_end - problem.t_start
-    return wanted.window
-
-
-def _drive(case: Case, usual: str) -> Part:
-    drive: StepTorque = case.need("drive")
-    steps = Steps(times=(drive.time,), values=(0.0, drive.torque))
-    if drive.time <= 0:
-        steps = Steps(values=(drive.torque,))
-    return Part(name="drive", input=drive.input or usual, value=steps)
-
-
-def _driven(case: Case, wanted: Simulation) -> Problem:
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
-    if wanted.t_end is None:
-        raise BadInput(f"{case.file}: a driven run needs simulation.t_end, for example '100 s'")
-    n = len(mechanism.coordinates)
-    return Problem(
-        mechanism=mechanism,
-        parts=(_drive(case, "M"),),
-        q0=(wanted.phi_start,) * n,
-        u0=(wanted.speed_start or 0.0,) * n,
-        t_end=wanted.t_end,
-        turns=wanted.turns,
-        output=_times(wanted.t_end, wanted.output_step, wanted.window),
+    settings, problem = settings_of(case), problem_of(case)
+    result = simulate(problem, replace(settings, check=check))
+    told = summary(result, problem.mechanism.coordinates, window_of(case, problem))
+    starts = _start_ups(case, result, dampings)
+    return Run(
+        settings=settings,
+        result=result,
+        summary=told,
+        natural_frequencies=natural_frequencies(case.need("parameters")),
+        twist=sections(case.need("parameters"), result, result.t[-1] - told["window"]),
+        start_ups=starts,
+        findings=(*remarks(case), *(findings(starts[0]) if starts else ())),
     )
 
 
-def _train(case: Case, wanted: Simulation) -> Problem:
-    gas, driven = trains.cylinders(case), "drive" in case.sections
-    if not (gas.parts or driven):
-        raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
-    usual = case.need("operation").speed if gas.parts and not driven else 0.0
-    speed = usual if wanted.speed_start is None else wanted.speed_start
-    mechanism = crank_train.build_driven(case.need("parameters"))
-    torque = gas.torque + (case.need("drive").torque if driven else 0.0)
-    t_end, output = _end(case, wanted, speed)
-    return Problem(
-        mechanism=mechanism,
-        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *trains.load(case, torque, speed)),
-        q0=(wanted.phi_start,) * len(mechanism.coordinates),
-        u0=(speed,) * len(mechanism.coordinates),
-        t_end=t_end,
-        turns=wanted.turns,
-        kinks=gas.kinks,
-        # a crank may swing back within a turn; the flywheel does only when the shaft stops
-        stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
-        output=output,
-    )
-
-
-def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:
-    """Last time and wanted times: of a run to t_end, or of turns from a speed."""
-    if wanted.t_end is not None:
-        return wanted.t_end, _times(wanted.t_end, wanted.output_step, wanted.window)
-    if speed <= 0:
-        raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
-    turn_time = 2 * math.pi / speed
-    # a shaft that takes ten times as long has stopped for every purpose
-    assert wanted.turns is not None  # the section has one of the two
-    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
-
-
-@functools.lru_cache(maxsize=8)
-def _times(t_end: float, step: float, window: float | None) -> tuple[float, ...]:
-    """Even times, and finer ones in the window, with both of its ends among them."""
-    coarse = np.minimum(step * np.arange(1, math.ceil(t_end / step) + 1), t_end)
-    if window is None:
-        return tuple(np.unique(coarse).tolist())
-    fine = np.linspace(max(t_end - window, 0.0), t_end, _WINDOW_POINTS + 1)
-    # an even time and its neighbour of the finer set may differ by rounding only
-    keep = coarse[coarse < fine[0] - 1e-9 * t_end]
-    return tuple(np.concatenate([keep, fine[fine > 0]]).tolist())
+def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:
+    """The start-up of the run, and of further dampers; nothing for other runs."""
+    if "startup" not in case.sections:
+        if dampings:
+            raise BadInput(f"{case.file}: --dampings needs a start-up case, with a section [startup]")
+        return ()
+    if result.status == "failed" or result.t[-1] - result.t[0] <= AVERAGE:
+        return ()
+    return (startup(case, result), *startup_map(case, dampings))

@@ -32,6 +32,9 @@ class Mechanism:
     #: jacobian, bias; only those that exist
     functions: Mapping[str, ca.Function]
 
+    # a mechanism is itself: what is computed of it is kept by identity
+    __hash__ = object.__hash__
+
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
     """Names of the velocities."""

@@ -1,5 +1,7 @@
 """Matrices of a torsionally elastic shaft, for torsional analysis: inertia, stiffness, damping."""
 
+from typing import Any
+
 import casadi as ca
 import numpy as np
 
@@ -21,6 +23,11 @@ class ShaftMatrices:
     inertia_mean: np.ndarray  #: shape (n, n): Discs with the mean over a turn of what reciprocates [kg*m^2]
     stiffness: np.ndarray  #: shape (n, n): Stiffness; rows sum to zero, the shaft turns freely [N*m/rad]
     damping: np.ndarray  #: shape (n, n): Damping [N*m*s/rad]
+
+
+def is_elastic(parameters: Any) -> bool:
+    """Whether parameters are those of a shaft that twists."""
+    return isinstance(parameters, CrankTrainParameters | CrankshaftFlywheelParameters)
 
 
 def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) -> ShaftMatrices:

@@ -23,8 +23,8 @@ _WIDEST = np.pi / 18
 
 
 @record
-class Machine:
-    """Inertia and torque over the angle, and the load."""
+class ReducedMachine:
+    """A machine reduced to its crank: inertia and torque over the angle, and the load."""
 
     inertia: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to reduced inertia [kg*m^2]
     #: phi, ndarray (n,), to the torque of all that depends on the angle only [N*m]
@@ -62,7 +62,7 @@ def gauss() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return x, weights, integrals.T @ to_coefficients
 
 
-def tabulate(machine: Machine, phi_start: float = 0.0) -> Panels:
+def tabulate(machine: ReducedMachine, phi_start: float = 0.0) -> Panels:
     """Evaluate a machine at the Gauss points of one period.
 
     Parameters

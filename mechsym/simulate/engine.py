@@ -1,8 +1,8 @@
-"""An engine with one coordinate, set up once, run over time or over the angle.
+"""A machine set up once, run over time or over the angle.
 
-    mechanism + forces over the crank angle (gas, hinge) + load law
-        -> machine(engine)   angle domain: steady motion, ripple, flywheels (machine.py, steady.py)
-        -> problem(engine)   time domain: adaptive run with energy audit and events (run.py)
+    machine.Machine (mechanism, gas, forces over the angle, load law)
+        -> reduced(machine)   angle domain: steady motion, ripple, flywheels (angle.py, steady.py)
+        -> problem(machine)   time domain: adaptive run with energy audit and events (run.py)
 
 This is where torques computed elsewhere come in: a hinge is one `AngleForce` on the input M_h.
 """
@@ -14,63 +14,30 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.machine.loads import Load, TableLoad, load_torque
+from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.quantities import choice, quantity, record
-from mechsym.simulate.angle import Machine
+from mechsym.simulate.angle import ReducedMachine
 from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Stop
 
 
-@record
-class AngleForce:
-    """A force or torque that depends on the crank angle only."""
-
-    name: str
-    input: str  #: The mechanism's input it acts on
-    #: `drive` counts as work in, `store` (a spring) does not
-    role: str = choice("drive", "store", default="drive", about="side of the energy balance")
-    value: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to values (n,) in the unit of the input
-    #: The same for one float, where there is a fast way; without it a polynomial is fitted to round-off
-    point: Callable[[float], float] | None = None
-
-
-@record
-class Engine:
-    """Mechanism, forces and load of an engine with one coordinate."""
-
-    mechanism: Mechanism  #: One coordinate, no dampers; a flywheel belongs into its parameters
-    forces: tuple[AngleForce, ...]
-    load: Load
-    load_input: str = "M_r"  #: Input that takes the load torque, positive against the motion
-    period: float = quantity("rad", default=2 * np.pi, above=0, about="period of the forces")
-    kinks: tuple[float, ...] = ()  #: Where a force is not smooth, in [0, period) [rad]
-
-    def __post_init__(self) -> None:
-        if len(self.mechanism.coordinates) != 1:
-            raise BadInput(
-                f"{self.mechanism.name} has {len(self.mechanism.coordinates)} coordinates; an engine has one"
-            )
-        for name in (self.load_input, *(f.input for f in self.forces)):
-            if name not in self.mechanism.inputs:
-                known = ", ".join(self.mechanism.inputs)
-                raise BadInput(f"{self.mechanism.name} has no input {name!r}; its inputs are {known}")
-
-
-def machine(engine: Engine) -> Machine:
-    """The engine over the angle."""
-    dynamics = engine.mechanism.functions["dynamics"]
-    if _depends_on_speed(engine.mechanism):
-        raise BadInput(f"{engine.mechanism.name} has dampers; its torque is no function of the angle alone")
+def reduced(machine: Machine) -> ReducedMachine:
+    """The machine over the angle of its crank."""
+    dynamics = machine.mechanism.functions["dynamics"]
+    if _depends_on_speed(machine.mechanism):
+        raise BadInput(f"{machine.mechanism.name} has dampers; its torque is no function of the angle alone")
 
     def inertia(phi: np.ndarray) -> np.ndarray:
         return _over(dynamics, phi, {})[0]
 
     def torque(phi: np.ndarray) -> np.ndarray:
         inputs: dict[str, np.ndarray] = {}
-        for force in engine.forces:
+        for force in acting(machine):
             inputs[force.input] = inputs.get(force.input, np.zeros(len(phi))) + force.value(phi)
         return _over(dynamics, phi, inputs)[2]
 
-    return Machine(inertia=inertia, torque=torque, load=engine.load, period=engine.period, kinks=engine.kinks)
+    return ReducedMachine(
+        inertia=inertia, torque=torque, load=machine.load, period=period_of(machine), kinks=kinks_of(machine)
+    )
 
 
 def _depends_on_speed(mechanism: Mechanism) -> bool:
@@ -87,8 +54,8 @@ def _over(dynamics: ca.Function, phi: np.ndarray, inputs: dict[str, np.ndarray])
     return [np.broadcast_to(np.asarray(v).ravel(), phi.shape) for v in dynamics(*rows)]
 
 
-def problem(engine: Engine, speed: float, turns: float, phi_start: float = 0.0, points: int = 360) -> Problem:
-    """The engine over time, started at a speed; it ends after some turns or when the shaft stops.
+def problem(machine: Machine, speed: float, turns: float, phi_start: float = 0.0, points: int = 360) -> Problem:
+    """The machine over time, started at a speed; it ends after some turns or when the shaft stops.
 
     Parameters
     ----------
@@ -107,28 +74,29 @@ def problem(engine: Engine, speed: float, turns: float, phi_start: float = 0.0, 
         To be handed to `simulate`; its event is `stall`
     """
     turn_time = 2 * np.pi / speed
-    parts = [Part(name=f.name, input=f.input, role=f.role, value=_at_angle(engine, f)) for f in engine.forces]
-    kinks = (Kinks(coordinate=engine.mechanism.coordinates[0], angles=engine.kinks, period=engine.period),)
+    parts = [Part(name=f.name, input=f.input, role=f.role, value=_at_angle(machine, f)) for f in acting(machine)]
+    angles = kinks_of(machine)
+    kinks = (Kinks(coordinate=machine.mechanism.coordinates[0], angles=angles, period=period_of(machine)),)
     return Problem(
-        mechanism=engine.mechanism,
-        parts=(*parts, Part(name="load", input=engine.load_input, role="load", value=load_value(engine.load))),
+        mechanism=machine.mechanism,
+        parts=(*parts, Part(name="load", input=machine.load_input, role="load", value=load_value(machine.load))),
         q0=(phi_start,),
         u0=(speed,),
         # a shaft so slow that it takes ten times as long has stopped for every purpose
         t_end=10 * turns * turn_time,
         turns=turns,
-        kinks=kinks if engine.kinks else (),
-        stops=(Stop(name="stall", of=velocities(engine.mechanism)[0], direction="falling"),),
+        kinks=kinks if angles else (),
+        stops=(Stop(name="stall", of=velocities(machine.mechanism)[0], direction="falling"),),
         output=turn_time / points,
     )
 
 
-def _at_angle(engine: Engine, force: AngleForce) -> Periodic:
+def _at_angle(machine: Machine, force: AngleForce) -> Periodic:
     return Periodic(
-        coordinate=engine.mechanism.coordinates[0],
+        coordinate=machine.mechanism.coordinates[0],
         value=force.value,
-        period=engine.period,
-        kinks=engine.kinks,
+        period=period_of(machine),
+        kinks=kinks_of(machine),
         point=force.point,
     )
 

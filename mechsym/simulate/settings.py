@@ -1,5 +1,6 @@
 """How a problem is integrated and how far its result must be trusted."""
 
+from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.simulate.backends import BACKENDS, DEFAULT
 
@@ -16,3 +17,42 @@ class Settings:
     #: Largest difference of a speed between the two runs, relative to its peak, that counts as converged [-]
     difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")
     max_steps: int = 5_000_000  #: Limit of steps in a smooth phase
+
+
+@record
+class Simulation:
+    """Section `[simulation]`: how long, from where, how exactly."""
+
+    #: Last time; with turns too, the run ends at what comes first [s]
+    t_end: float | None = quantity("s", default=None, above=0, about="last time")
+    #: Turns of the crank to run [-]
+    turns: float | None = quantity("-", default=None, above=0, about="turns to run")
+    #: Speed of every coordinate at the start; None takes the speed of operation of an engine, else rest [rad/s]
+    speed_start: float | None = quantity("rad/s", default=None, about="speed at the start")
+    phi_start: float = quantity("rad", default=0.0, about="angle at the start")
+    #: Relative and absolute tolerance of a step [-]
+    tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
+    backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
+    #: Spacing of the results in a run to t_end [s]
+    output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
+    #: Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
+    window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
+    #: `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
+    hinge: str = choice("designed", "none", default="designed", about="hinge of an engine")
+    #: Largest relative difference to the run at the tighter tolerance that counts as converged [-]
+    difference_allowed: float = quantity("-", default=1e-4, above=0, about="difference that counts as converged")
+
+    def __post_init__(self) -> None:
+        if self.t_end is None and self.turns is None:
+            raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
+
+
+@record
+class StepTorque:
+    """Section `[drive]`: a torque that is switched on."""
+
+    #: The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
+    input: str | None = None
+    time: float = quantity("s", default=0.0, about="when the torque is switched on")
+    #: Torque from then on, 0 before [N*m]
+    torque: float = quantity("N*m", about="driving torque")

@@ -76,9 +76,9 @@ def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
 
 def _hinged(case: Case) -> dict[str, Any]:
     from mechsym.hinge.summary import summary
-    from mechsym.jobs.hinge import design
+    from mechsym.jobs.hinge import hinge
 
-    return summary(design(case))
+    return summary(hinge(case))
 
 
 def _maps(found: Sequence[Case]) -> list[Outcome]:
@@ -100,7 +100,7 @@ def _bisected(family: list[Case]) -> list[Outcome]:
 
 
 def _simulated(found: Sequence[Case]) -> list[Outcome]:
-    from mechsym.jobs.run import problem_of, settings_of
+    from mechsym.jobs.problem import problem_of, settings_of
 
     problems = {i: _guarded(problem_of, case) for i, case in enumerate(found)}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
@@ -124,14 +124,14 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
 
 
 def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
-    from mechsym.jobs.run import window_of
+    from mechsym.jobs.problem import window_of
     from mechsym.simulate.summary import summary
     from mechsym.torsion.twist import sections
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
     report = summary(result, problem.mechanism.coordinates, window_of(case, problem))
-    twists = [dataclasses.asdict(s) for s in sections(case, result, result.t[-1] - report["window"])]
+    twists = [dataclasses.asdict(s) for s in sections(case.need("parameters"), result, result.t[-1] - report["window"])]
     if twists:
         report |= {peak: max(t[peak] for t in twists) for peak in ("twist_peak", "torque_peak")}
     return report | {"twist": {t.pop("section"): t for t in twists}}

@@ -9,19 +9,18 @@ speed |            . rigid            The mean speed follows the rigid shaft unt
 """
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cases import Case
-from mechsym.errors import BadInput
-from mechsym.jobs.run import StepTorque, problem_of, settings_of
+from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.quantities import quantity, record
-from mechsym.simulate import Result, simulate, simulate_many
+from mechsym.simulate import Result
+from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
 
+_MECHANISM = "crankshaft_flywheel"
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
 AVERAGE = 1.0  # the mean speed is taken over this time [s]
@@ -75,38 +74,23 @@ class StartUp:
     speed_max: float
 
 
-def start_up(case: Case, result: Result | None = None) -> StartUp:
-    """Run a start-up case, or take its finished run, and explain it.
-
-    Parameters
-    ----------
-    case : Case
-        Mechanism `crankshaft_flywheel` with `[drive]` and `[simulation]`
-    result : Result, optional
-        Its run, when there is one already
-    """
-    if case.mechanism != "crankshaft_flywheel":
-        raise BadInput(
-            f"{case.file}: [startup] explains a crankshaft_flywheel, not a {case.mechanism}; leave the section out"
-        )
-    if result is None:
-        result = simulate(problem_of(case), settings_of(case))
-    parameters, drive = case.need("parameters"), case.need("drive")
-    linear = _linear(case.mechanism, parameters)
+def start_up(
+    parameters: CrankshaftFlywheelParameters, drive: StepTorque, claim: StartUpClaim, result: Result
+) -> StartUp:
+    """Explain the finished run of a start-up."""
+    linear = _linear(parameters)
     modes = torsion.modes(linear.mass, linear.stiffness)
-    bare = _linear(case.mechanism, replace(parameters, m0=0.0))
-    excitation = torsion.orders(mechanisms.build(case.mechanism, parameters))
+    bare = _linear(replace(parameters, m0=0.0))
+    excitation = torsion.orders(mechanisms.build(_MECHANISM, parameters))
     criticals = torsion.critical_speeds(modes, excitation, linear.damping)
-    unit = float(
-        modes.shapes[:, -1] @ _linear(case.mechanism, replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1]
-    )
+    unit = float(modes.shapes[:, -1] @ _linear(replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1])
     rate = drive.torque / float(linear.mass.sum())
     t, speed, twist = series(result)
     peak = float(np.abs(result.columns["phi0"] - result.columns["phi2"]).max())
     return StartUp(
         c1=parameters.c1,
         drive=drive,
-        claim=case.sections.get("startup", StartUpClaim()),
+        claim=claim,
         result=result,
         t=t,
         speed_mean=speed,
@@ -124,22 +108,8 @@ def start_up(case: Case, result: Result | None = None) -> StartUp:
     )
 
 
-def _linear(mechanism: str, parameters: Any) -> torsion.Matrices:
-    return torsion.matrices(mechanisms.build(mechanism, parameters))
-
-
-def start_up_map(case: Case, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:
-    """The same start-up with several dampers.
-
-    Parameters
-    ----------
-    dampings : tuple of float
-        Values of c1 [N*m*s/rad]
-    """
-    damped = [replace(case.need("parameters"), c1=c1) for c1 in dampings]
-    cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]
-    results = simulate_many([problem_of(c) for c in cases], settings_of(case))
-    return tuple(start_up(c, r) for c, r in zip(cases, results, strict=True))
+def _linear(parameters: CrankshaftFlywheelParameters) -> torsion.Matrices:
+    return torsion.matrices(mechanisms.build(_MECHANISM, parameters))
 
 
 def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -7,20 +7,19 @@ r"""Twist of a shaft in a run, section by section.
 The window is the stretch at the end over which speeds are summed up; the peaks are those of the whole run.
 """
 
+from typing import Any
+
 import numpy as np
 from scipy.integrate import trapezoid
 
-from mechsym.cases import Case
 from mechsym.mechanisms import shaft
 from mechsym.quantities import record
 from mechsym.simulate import Result
 from mechsym.torsion import modes as torsion
 
-MECHANISMS = ("crank_train", "crankshaft_flywheel")
-
 
 @record
-class Section:
+class ShaftSection:
     """Twist of one section of a shaft."""
 
     section: str  #: The two coordinates at its ends
@@ -34,7 +33,7 @@ class Section:
     torque_peak: float
 
 
-def sections(case: Case, result: Result, since: float) -> tuple[Section, ...]:
+def sections(parameters: Any, result: Result, since: float) -> tuple[ShaftSection, ...]:
     """Twist of every section of the shaft in a run.
 
     Parameters
@@ -44,12 +43,12 @@ def sections(case: Case, result: Result, since: float) -> tuple[Section, ...]:
 
     Returns
     -------
-    sections : tuple of Section
+    sections : tuple of ShaftSection
         From the free end to the flywheel; none for a rigid shaft
     """
-    if case.mechanism not in MECHANISMS:
+    if not shaft.is_elastic(parameters):
         return ()
-    k, c = shaft.springs(case.need("parameters"))
+    k, c = shaft.springs(parameters)
     return tuple(
         _section(result, pair, k_i, c_i, result.t >= since)
         for pair, k_i, c_i in zip(pairs(result, len(k)), k, c, strict=True)
@@ -73,11 +72,11 @@ def pairs(result: Result, count: int) -> list[tuple[str, str]]:
     return list(zip(names, names[1:], strict=False))
 
 
-def _section(result: Result, pair: tuple[str, str], k: float, c: float, window: np.ndarray) -> Section:
+def _section(result: Result, pair: tuple[str, str], k: float, c: float, window: np.ndarray) -> ShaftSection:
     a, b = pair
     twist = result.columns[a] - result.columns[b]
     torque = k * twist + c * (result.columns[f"{a}d"] - result.columns[f"{b}d"])
-    return Section(
+    return ShaftSection(
         section=f"{a}-{b}",
         twist_mean=_mean(result.t[window], twist[window]),
         twist_amplitude=float(np.ptp(twist[window])) / 2,
@@ -92,15 +91,15 @@ def _mean(t: np.ndarray, values: np.ndarray) -> float:
     return float(trapezoid(values, t) / (t[-1] - t[0])) if len(t) > 1 else float(values[-1])
 
 
-def natural_frequencies(case: Case) -> tuple[float, ...]:
-    """Natural frequencies of the shaft of a case, with the mean reciprocating inertia.
+def natural_frequencies(parameters: Any) -> tuple[float, ...]:
+    """Natural frequencies of a shaft, with the mean reciprocating inertia.
 
     Returns
     -------
     frequencies : tuple of float
         Ascending, without that of turning as a whole; none for a rigid shaft [rad/s]
     """
-    if case.mechanism not in MECHANISMS:
+    if not shaft.is_elastic(parameters):
         return ()
-    linear = shaft.matrices(case.need("parameters"))
+    linear = shaft.matrices(parameters)
     return tuple(torsion.modes(linear.inertia_mean, linear.stiffness).frequencies[1:].tolist())

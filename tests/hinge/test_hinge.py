@@ -4,17 +4,16 @@ import dataclasses
 
 import numpy as np
 import pytest
-from hinges import HIGHER, LOWER, assembly, built, built_four_stroke, exact_torque, four_stroke
+from hinges import HIGHER, LOWER, built, built_four_stroke, engine, exact_torque, four_stroke
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from mechsym import cases, periodic
+from mechsym import cases, jobs, periodic
 from mechsym.errors import BadInput
 from mechsym.hinge import balance, guide
 from mechsym.hinge import limits as feasibility
-from mechsym.hinge import torque as hinge
-from mechsym.jobs.machine import assemble
+from mechsym.hinge.torque import EngineTorques, engine_torques, exists, harmonics, hinge_of, odd_share, torque
 from mechsym.papers.zotov2024.hinge_printed import hinge_torque_printed, load_torque_printed
 
 TURN = 2 * np.pi
@@ -42,22 +41,22 @@ def test_torque_keeps_the_speed_constant_between_the_knots(name, rng):
 
 @BOTH
 def test_no_acceleration_in_the_equation_of_motion(name, rng):
-    engine, found = assembly(name), built(name)
-    dynamics = engine.mechanism.functions["dynamics"]
+    machine, found = engine(name), built(name)
+    dynamics = machine.mechanism.functions["dynamics"]
     for phi in rng.uniform(0, TURN, 50):
         inputs = {
-            "F": float(engine.force(np.array([phi]))[0]),
+            "F": float(machine.gas.force(np.array([phi]))[0]),
             "M_r": found.load_torque,
             "M_h": float(found.torque(phi)),
         }
-        value = dynamics(phi=phi, phid=engine.omega, **inputs)
+        value = dynamics(phi=phi, phid=machine.omega, **inputs)
         residual = float(value["generalized_force"] - value["bias"])
         assert abs(residual) < 1e-9 * peak(found)
 
 
 @BOTH
 def test_parts_sum_to_the_torque_and_are_what_they_say(name, rng):
-    phi, found, torques = rng.uniform(0, TURN, 1000), built(name), assembly(name).torques
+    phi, found, torques = rng.uniform(0, TURN, 1000), built(name), engine_torques(engine(name))
     sum_of_parts = found.inertia_part(phi) + found.gas_part(phi) + found.gravity_part(phi)
     assert sum_of_parts == pytest.approx(found.torque(phi), abs=1e-10 * peak(found))
     expected = {
@@ -73,8 +72,8 @@ def test_parts_sum_to_the_torque_and_are_what_they_say(name, rng):
 @BOTH
 def test_4_5_load_torque_takes_the_work_of_the_gas(name):
     work, _ = quad(
-        lambda phi: float(assembly(name).torques.gas_torque(np.array([phi]))[0]),
-        0, TURN, points=assembly(name).pressure.kinks[1:], limit=200, epsrel=1e-10,
+        lambda phi: float(engine_torques(engine(name)).gas_torque(np.array([phi]))[0]),
+        0, TURN, points=engine(name).gas.pressure.kinks[1:], limit=200, epsrel=1e-10,
     )  # fmt: skip
     assert built(name).load_torque == pytest.approx(work / TURN, rel=1e-9)
 
@@ -88,15 +87,15 @@ def test_work_is_the_integral_of_the_torque(name):
 @BOTH
 def test_more_than_four_fifths_of_the_torque_are_odd(name):
     found = built(name)
-    orders, amplitudes = hinge.harmonics(found.torque, 400)
+    orders, amplitudes = harmonics(found.torque, 400)
     odd = np.sum(amplitudes[orders % 2 == 1] ** 2) / np.sum(amplitudes**2)
-    assert hinge.odd_share(found.torque) > 0.8
-    assert hinge.odd_share(found.torque) == pytest.approx(np.sqrt(odd), rel=1e-4)
+    assert odd_share(found.torque) > 0.8
+    assert odd_share(found.torque) == pytest.approx(np.sqrt(odd), rel=1e-4)
 
 
 def test_8_printed_torque_against_the_exact_one(zotov):
     phi = np.linspace(0, TURN, 2000, endpoint=False)
-    force, found = assembly().force(phi), built()
+    force, found = engine().gas.force(phi), built()
     load = load_torque_printed(zotov, force, phi)
     printed = hinge_torque_printed(zotov, found.omega, force, load, phi)
     wrong = np.max(np.abs(printed - found.torque(phi))) / peak(found)
@@ -114,13 +113,13 @@ def test_torque_grows_with_speed_but_not_with_its_square():
 
 def test_a_torque_with_a_mean_has_no_hinge():
     poly = periodic.fit(lambda phi: 1 + np.sin(phi), (), TURN)
-    assert not hinge.exists(poly)
-    assert hinge.exists(periodic.fit(np.sin, (), TURN))
+    assert not exists(poly)
+    assert exists(periodic.fit(np.sin, (), TURN))
 
 
 @given(st.floats(1, 100), st.floats(-0.5, 0.5), st.floats(0.01, 10), st.sampled_from([TURN, 2 * TURN]))
 def test_any_engine_has_a_hinge(omega, wobble, gas, period):
-    torques = hinge.EngineTorques(
+    torques = EngineTorques(
         inertia=lambda phi: 2 + wobble * np.cos(phi),
         dinertia_dphi=lambda phi: -wobble * np.sin(phi),
         gas_torque=lambda phi: gas * np.mod(phi - 0.4, period) ** 1.8 * np.sin(phi),
@@ -128,14 +127,14 @@ def test_any_engine_has_a_hinge(omega, wobble, gas, period):
         kinks=(0.4,),
         period=period,
     )
-    found = hinge.build(torques, omega)
+    found = hinge_of(torques, omega)
     assert found.exists
     assert found.work_max >= 0 >= found.work_min
 
 
 def test_four_stroke_parts_add_up(rng):
     found, phi = built_four_stroke(), rng.uniform(-30, 30, 500)
-    part = balance.build(found, "every_turn")
+    part = balance.balance(found, "every_turn")
     assert part.period == pytest.approx(TURN)
     assert part.torque(phi) + part.rest(phi) == pytest.approx(found.torque(phi), abs=1e-8 * peak(found))
     assert part.rest(phi) + part.rest(phi + TURN) == pytest.approx(0 * phi, abs=1e-8 * peak(found))
@@ -144,7 +143,7 @@ def test_four_stroke_parts_add_up(rng):
 
 def test_four_stroke_rest_ripples_as_a_run_does():
     found = built_four_stroke()
-    part = balance.build(found, "every_turn")
+    part = balance.balance(found, "every_turn")
     engine, omega, load = four_stroke(), found.omega, found.load_torque
 
     def rate(_, state):
@@ -162,31 +161,30 @@ def test_four_stroke_rest_ripples_as_a_run_does():
 
 
 def test_whole_cycle_leaves_nothing():
-    part = balance.build(built_four_stroke(), "whole_cycle")
+    part = balance.balance(built_four_stroke(), "whole_cycle")
     assert part.rest_swing == part.ripple_constant_load == part.ripple_propeller_load == 0
     assert part.period == pytest.approx(2 * TURN)
 
 
 def test_two_stroke_balances_are_the_same():
-    one, two = (balance.build(built(), kind) for kind in balance.KINDS)
+    one, two = (balance.balance(built(), kind) for kind in balance.KINDS)
     assert one.torque is two.torque
     assert dataclasses.replace(one, kind="every_turn", rest=two.rest, work=two.work) == two
 
 
 def test_unknown_balance_is_refused():
     with pytest.raises(BadInput, match="whole_cycle, every_turn"):
-        balance.build(built(), "half")
+        balance.balance(built(), "half")
 
 
 def test_measured_diagram_drives_the_hinge_of_the_generator(measured_data, rng):
     case = cases.load("generator")
-    engine = assemble(case, str(measured_data / "generator-half-load.csv"))
-    found = hinge.build(engine.torques, engine.omega)
+    found = torque(jobs.machine(case, str(measured_data / "generator-half-load.csv")))
     assert found.exists
     assert found.period == pytest.approx(2 * TURN)
-    part, phi = balance.build(found, case.need("guide").balance), rng.uniform(0, 30, 500)
-    cut = guide.build(part, case.need("spring"), case.need("guide"))
-    assert feasibility.judge(cut, cut.spring, case.need("rollers"), case.need("limits")).feasible
-    assert guide.crank_torque(cut, cut.spring, phi) == pytest.approx(found.torque(phi), abs=1e-8 * peak(found))
+    part, phi = balance.balance(found, case.need("guide").balance), rng.uniform(0, 30, 500)
+    cut = guide.cut(part, case.need("spring"), case.need("guide"))
+    assert feasibility.judge(cut, case.need("rollers"), case.need("limits")).feasible
+    assert guide.crank_torque(cut, phi) == pytest.approx(found.torque(phi), abs=1e-8 * peak(found))
     # on the crank itself the hinge can take only what repeats every turn
-    assert balance.build(found, "every_turn").ripple_propeller_load > 0.1
+    assert balance.balance(found, "every_turn").ripple_propeller_load > 0.1

@@ -1,5 +1,6 @@
 """The hinge of a four-stroke engine from its measured diagram: on a half-speed shaft, or for what repeats each turn."""
 
+import dataclasses
 import json
 import math
 import sys
@@ -14,7 +15,7 @@ from mechsym.hinge import report
 from mechsym.hinge import steady as steadiness
 from mechsym.hinge.guide import crank_torque
 from mechsym.hinge.summary import summary
-from mechsym.jobs.hinge import design
+from mechsym.jobs import hinge as design
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 
 
@@ -41,7 +42,7 @@ def test_hinge_on_a_half_speed_shaft_can_be_built(generator):
 
 def test_virtual_work_returns_the_torque(generator, rng):
     phi = rng.uniform(0, 4 * math.pi, 20_000)
-    given = crank_torque(generator.guide, generator.guide.spring, phi)
+    given = crank_torque(generator.guide, phi)
     assert np.abs(given - generator.hinge.torque(phi)).max() < 1e-8 * -generator.hinge.torque_min
 
 
@@ -58,7 +59,8 @@ def test_both_ways_are_offered_with_the_ripple_they_leave(generator):
 )
 def test_remaining_ripple_is_that_of_the_guide_at_work(generator, load, key):
     (every,) = generator.instead
-    steady = steadiness.with_spring(generator.assembly, generator.hinge, every.guide, load, every.guide.spring)
+    machine = dataclasses.replace(generator.machine, load=load)
+    steady = steadiness.with_guide(machine, generator.hinge, every.guide)
     assert steady.speed_ripple == pytest.approx(getattr(every.balance, key), rel=1e-3)
     assert steady.speed_ripple > 0.1
 
@@ -68,7 +70,7 @@ def test_part_of_every_turn_repeats_every_turn(generator):
     phi = np.linspace(0, 2 * math.pi, 999)
     torque, part = generator.hinge.torque, every.balance.torque
     assert part(phi) == pytest.approx((torque(phi) + torque(phi + 2 * math.pi)) / 2, abs=1e-8)
-    given = crank_torque(every.guide, every.guide.spring, phi)
+    given = crank_torque(every.guide, phi)
     assert given == pytest.approx(part(phi), abs=1e-6)
 
 

@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 from mechsym.hinge.ripple import constant_load_speed, mean_speed, propeller_load_speed, ripple
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.periodic import even_angles
-from mechsym.simulate.angle import Machine, tabulate
+from mechsym.simulate.angle import ReducedMachine, tabulate
 from mechsym.simulate.steady import steady_state
 
 TURN = 2 * np.pi
@@ -91,7 +91,7 @@ def test_closed_forms_are_the_steady_turn_of_that_machine(load, phid):
         wanted = LOAD + OMEGA**2 * 4 * np.sin(2 * phi)  # keeps the speed: M_r + omega^2 I'/2
         return wanted - 20 * np.cos(phi) + 24 * np.sin(3 * phi)
 
-    found = steady_state(tabulate(Machine(inertia=inertia, torque=torque, load=load)), OMEGA)
+    found = steady_state(tabulate(ReducedMachine(inertia=inertia, torque=torque, load=load)), OMEGA)
     # both are sampled; a spline between the points of the panels keeps their digits
     again = CubicSpline(*np.unique([found.phi, found.omega], axis=1))(PHI)
     assert again == pytest.approx(phid, rel=2e-6)

@@ -27,12 +27,12 @@ def wave(a, k, theta=THETA):
 
 
 def cut(name=LOWER):
-    return guide.build(whole(name), section("spring", name), section("guide", name))
+    return guide.cut(whole(name), section("spring", name), section("guide", name))
 
 
 def around(name=LOWER):
     parameters = section("rollers", name)
-    return turn.at_angles(cut(name), section("spring", name), parameters, THETA)
+    return turn.at_angles(cut(name), parameters, THETA)
 
 
 def test_curvature_of_a_circle_is_its_own_from_any_axis():
@@ -151,7 +151,7 @@ def test_reactions_do_the_work_of_the_torque(name):
 def test_one_roller_rests_on_its_seat():
     spring = section("spring")
     chosen = guide.GuideParameters(arrangement="one_roller", rho0=1.2)
-    found = turn.at_angles(guide.build(whole(), spring, chosen), spring, section("rollers"), THETA)
+    found = turn.at_angles(guide.cut(whole(), spring, chosen), section("rollers"), THETA)
     assert found.reaction_2 == pytest.approx(found.force)
     assert np.all(found.tilting_couple == 0)
 
@@ -201,8 +201,8 @@ def test_inertia_force_of_a_roller_that_turns_with_the_spring():
 
 
 def test_both_sides_of_a_kink_are_seen():
-    spring, path = section("spring"), cut().rho
-    found = turn.at_pieces(cut(), spring, section("rollers"))
+    path = cut().rho
+    found = turn.at_pieces(cut(), section("rollers"))
     same = np.flatnonzero(np.diff(found.theta) == 0)
     assert same.size == path.x.size - 2
     jump = np.abs(found.curvature[same + 1] - found.curvature[same])

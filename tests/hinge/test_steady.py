@@ -11,13 +11,15 @@ from simulated import oscillator, shaft
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.machine import Machine
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, load_torque
+from mechsym.machine.record import AngleForce
 from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.mechanisms.record import curves
 from mechsym.simulate import Settings, simulate
-from mechsym.simulate.angle import Machine, tabulate
+from mechsym.simulate.angle import ReducedMachine, tabulate
 from mechsym.simulate.angle_turn import lowest_energy, speeds, stop_angle, turn
-from mechsym.simulate.engine import AngleForce, Engine, machine, problem
+from mechsym.simulate.engine import problem, reduced
 from mechsym.simulate.steady import (
     flywheel_for_ripple,
     mean_torque,
@@ -29,7 +31,7 @@ from mechsym.simulate.summary import speed_ripple
 
 def ideal(inertia=100.0, swing=300.0, mean=50.0, load=None, order=1):
     """Constant inertia, torque mean + swing cos(order phi): T = T0 + swing sin(order phi) / order at constant load."""
-    return Machine(
+    return ReducedMachine(
         inertia=lambda phi: np.full(len(phi), inertia),
         torque=lambda phi: mean + swing * np.cos(order * phi),
         load=load or ConstantLoad(torque=mean),
@@ -167,7 +169,7 @@ def test_smallest_flywheel_in_closed_form():
 
 
 def test_panels_end_at_kinks():
-    square = Machine(
+    square = ReducedMachine(
         inertia=lambda phi: np.full(len(phi), 100.0),
         torque=lambda phi: np.where(phi % (2 * np.pi) < 2.0, 30.0, 0.0),
         load=ConstantLoad(torque=0.0),
@@ -183,9 +185,9 @@ def test_bad_machines_are_refused():
     with pytest.raises(BadInput, match="inertia = -1"):
         tabulate(dataclasses.replace(ideal(), inertia=lambda phi: np.full(len(phi), -1.0)))
     with pytest.raises(BadInput, match="has dampers"):
-        machine(Engine(mechanism=oscillator(damping=1.0), forces=(), load=ConstantLoad(torque=0.0), load_input="M"))
+        reduced(Machine(mechanism=oscillator(damping=1.0), load=ConstantLoad(torque=0.0), load_input="M"))
     with pytest.raises(BadInput, match="no input 'M_x'"):
-        Engine(mechanism=shaft(), forces=(), load=ConstantLoad(torque=0.0), load_input="M_x")
+        Machine(mechanism=shaft(), load=ConstantLoad(torque=0.0), load_input="M_x")
 
 
 SPEED = 9.32
@@ -200,8 +202,8 @@ def engine_of(parameters, load, hinge=False):
     """The crosshead engine with that gas, and the exact hinge torque at SPEED."""
     mechanism = mechanisms.build("crosshead", parameters)
     forces = [AngleForce(name="gas", input="F", value=gas)]
-    engine = Engine(mechanism=mechanism, forces=tuple(forces), load=ConstantLoad(torque=0.0))
-    bare = machine(engine)
+    engine = Machine(mechanism=mechanism, forces=tuple(forces), load=ConstantLoad(torque=0.0))
+    bare = reduced(engine)
     mean = mean_torque(tabulate(bare))
 
     def torque(phi):
@@ -228,7 +230,7 @@ def test_exact_hinge_keeps_the_speed(zotov, load):
     assert result.status == "converged" and result.end == "turns"
     assert np.ptp(result.columns["phid"]) / SPEED < 1e-9
     assert abs(result.energy.residual) < 1e-9
-    assert steady_state(tabulate(machine(engine)), SPEED).speed_ripple < 1e-12
+    assert steady_state(tabulate(reduced(engine)), SPEED).speed_ripple < 1e-12
 
 
 def test_start_one_per_cent_off_keeps_its_ripple_at_constant_load(zotov):
@@ -253,8 +255,8 @@ def test_start_one_per_cent_off_dies_out_under_propeller_load(zotov):
 @pytest.mark.parametrize("load", [constant, propeller])
 def test_flywheel_is_right_when_run_in_time(zotov, load):
     engine = engine_of(zotov, load)
-    found = flywheel_for_ripple(tabulate(machine(engine)), SPEED, 0.02)
-    steady = steady_state(tabulate(machine(engine)), SPEED, found.inertia)
+    found = flywheel_for_ripple(tabulate(reduced(engine)), SPEED, 0.02)
+    steady = steady_state(tabulate(reduced(engine)), SPEED, found.inertia)
     heavy = mechanisms.build("crosshead", with_flywheel(zotov, found.inertia))
     result = simulate(problem(dataclasses.replace(engine, mechanism=heavy), float(steady.omega[0]), 3), Settings())
     assert result.status == "converged" and abs(result.energy.residual) < 1e-8
@@ -267,7 +269,7 @@ def test_flywheel_is_right_when_run_in_time(zotov, load):
 
 def test_engine_without_hinge_stalls_where_the_angle_domain_says(zotov):
     engine = engine_of(zotov, propeller)
-    panels = tabulate(machine(engine))
+    panels = tabulate(reduced(engine))
     result = simulate(problem(engine, SPEED, 5), Settings())
     assert result.event.name == "stall"
     energy = 0.5 * panels.inertia_edges[0] * SPEED**2
@@ -285,7 +287,7 @@ def test_four_stroke_period(zotov):
         forces=(AngleForce(name="gas", input="F", value=lambda phi: gas(phi) * (1 + 0.5 * np.cos(phi / 2))),),
         period=4 * np.pi,
     )
-    panels = tabulate(machine(engine))
+    panels = tabulate(reduced(engine))
     panels = dataclasses.replace(panels, load=ConstantLoad(torque=mean_torque(panels)))
     steady = steady_state(panels, SPEED, 3e5)
     assert steady.phi[-1] == pytest.approx(4 * np.pi)

@@ -10,7 +10,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs import train as trains
-from mechsym.jobs.run import problem_of, settings_of
+from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.jobs.turn import turn
 from mechsym.mechanisms.crank_train import parameters as crank_train
 from mechsym.simulate import simulate
@@ -74,9 +74,14 @@ def test_one_throw_is_the_crankshaft_with_flywheel(written):
     ours, theirs = finished(train), finished(other)
     assert ours.columns["phi1d"][-1] == pytest.approx(theirs.columns["phi0d"][-1], rel=1e-8)
     assert ours.energy.work["drive"] == pytest.approx(theirs.energy.work["drive"], rel=1e-8)
-    (section,), (printed) = twist.sections(train, ours, 3.0), twist.sections(other, theirs, 3.0)[0]
+    (section,), (printed) = (
+        twist.sections(train.need("parameters"), ours, 3.0),
+        twist.sections(other.need("parameters"), theirs, 3.0)[0],
+    )
     assert section.twist_amplitude == pytest.approx(printed.twist_amplitude, rel=1e-5)
-    assert twist.natural_frequencies(train) == pytest.approx(twist.natural_frequencies(other), rel=1e-9)
+    assert twist.natural_frequencies(train.need("parameters")) == pytest.approx(
+        twist.natural_frequencies(other.need("parameters")), rel=1e-9
+    )
 
 
 def test_command_reports_residual_and_twist(written, tmp_path):
@@ -116,7 +121,7 @@ def test_each_piston_follows_its_own_throw(written):
     assert {k.coordinate for k in problem.kinks} == {"phi1", "phi2"}
     result = finished(case)
     assert result.status == "converged" and abs(result.energy.residual) < 1e-9
-    first, second = twist.sections(case, result, float(result.t[-1] - 0.06))
+    first, second = twist.sections(case.need("parameters"), result, float(result.t[-1] - 0.06))
     # the flywheel takes the torque of both throws, the first section that of one
     assert second.torque_mean / first.torque_mean == pytest.approx(2, rel=0.05)
 

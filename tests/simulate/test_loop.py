@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from mechsym import jobs
 from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.closed.model import closed_period
@@ -15,9 +16,11 @@ from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.run import run
 from mechsym.cycle.engine import RPM
 from mechsym.errors import BadInput
+from mechsym.hinge.guide import cut
+from mechsym.hinge.torque import torque
 from mechsym.jobs.cycle import engine
+from mechsym.jobs.hinge import at_loads, design_load
 from mechsym.jobs.loop import loop
-from mechsym.jobs.other_loads import hinge_at_loads
 from mechsym.simulate.loop.run import run_loop
 from mechsym.simulate.loop.summary import series, summary
 
@@ -147,7 +150,9 @@ def test_what_no_loop_can_be_made_of_is_refused(tmp_path):
 
 
 def test_a_hinge_cut_for_one_load_ripples_at_others():
-    rows = hinge_at_loads(load("zotov-89"), [7.2e5, 8e5, 8.8e5])
+    case = load("zotov-89")
+    guide = cut(torque(jobs.machine(case)), case.need("spring"), case.need("guide"))
+    rows = at_loads(case, guide, [7.2e5, 8e5, 8.8e5])
     low, same, high = rows
     assert same.as_cut.speed_ripple < 1e-6 and same.setting == pytest.approx(5e6, rel=1e-6)
     for row in (low, high):
@@ -159,4 +164,4 @@ def test_a_hinge_cut_for_one_load_ripples_at_others():
 
 def test_only_a_cycle_with_a_load_can_be_tried_at_others():
     with pytest.raises(BadInput, match="mean_indicated_pressure"):
-        hinge_at_loads(load("nunes-slider-crank"), [1e6])
+        design_load(load("nunes-slider-crank"))

@@ -9,12 +9,13 @@ import pytest
 from simulated import double_pendulum, oscillator, shaft
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.simulate import Formula, Kinks, Part, Problem, Settings, Steps, Stop, dataset, simulate, write_netcdf
+from mechsym.simulate import Part, Problem, Settings, Steps, simulate, write_netcdf
 from mechsym.simulate.backends import BACKENDS
 from mechsym.simulate.equations import held, system
 from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.phase import Phase, Surface
-from mechsym.simulate.result import write_series
+from mechsym.simulate.problem import Formula, Kinks, Stop
+from mechsym.simulate.result import dataset, write_series
 from mechsym.simulate.scipy_backend import advance
 from mechsym.simulate.summary import last_period, speed_over, speed_ripple, summary
 

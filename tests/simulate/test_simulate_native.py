@@ -9,9 +9,10 @@ from simulated import oscillator, shaft
 
 from mechsym import cases
 from mechsym.errors import BadInput
-from mechsym.jobs.run import problem_of
+from mechsym.jobs.problem import problem_of
 from mechsym.native import library
-from mechsym.simulate import Kinks, Part, Periodic, Problem, Settings, Steps, Stop, simulate, simulate_many
+from mechsym.simulate import Part, Periodic, Problem, Settings, Steps, simulate, simulate_many
+from mechsym.simulate.problem import Kinks, Stop
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 NATIVE, SCIPY = (Settings(backend=name, tolerance=1e-10, check="none") for name in ("native", "scipy-dop853"))

@@ -9,7 +9,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.errors import BadInput
-from mechsym.jobs.run import problem_of
+from mechsym.jobs.problem import problem_of
 from mechsym.simulate import Settings, simulate
 from mechsym.sweep import Gap, Plan, columns, failures, layout, points, sweep
 from mechsym.sweep.axes import override, parse_axis
@@ -220,7 +220,7 @@ def test_errors_of_arithmetic_are_gaps_of_their_points(monkeypatch, where):
         raise RuntimeError("one of many")
 
     if where == "problem_of":
-        monkeypatch.setattr("mechsym.jobs.run.problem_of", spoiled)
+        monkeypatch.setattr("mechsym.jobs.problem.problem_of", spoiled)
     else:
         monkeypatch.setattr("mechsym.simulate.simulate_many", upset)
     found = sweep(Plan(case="chmielewski", over=("c1=0,1,2",), overrides=SHORT))
@@ -231,7 +231,7 @@ def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
     def mistaken(case):
         raise TypeError("a mistake")
 
-    monkeypatch.setattr("mechsym.jobs.run.problem_of", mistaken)
+    monkeypatch.setattr("mechsym.jobs.problem.problem_of", mistaken)
     with pytest.raises(TypeError, match="a mistake"):
         sweep(Plan(case="chmielewski", over=("c1=0,1",), overrides=SHORT))
 
@@ -344,7 +344,7 @@ def test_hinges_over_the_spring():
 @pytest.mark.slow
 def test_hinges_are_those_of_single_designs():
     from mechsym.hinge.summary import summary
-    from mechsym.jobs.hinge import design
+    from mechsym.jobs import hinge as design
 
     found = sweep(Plan(case="zotov-89", over=("spring.p0=5,8 MPa", "speed_rpm=80,89")))
     data = columns(found)

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from mechsym import cases, mechanisms
-from mechsym.jobs.run import problem_of, settings_of
+from mechsym.jobs.problem import problem_of, settings_of
+from mechsym.jobs.startup import startup, startup_map
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.summary import summary
 from mechsym.torsion.findings import findings, numbers
-from mechsym.torsion.startup import find_captures, series, start_up, start_up_map
+from mechsym.torsion.startup import find_captures, series
 
 BACKENDS = ("scipy-dop853", "sundials")
 
@@ -42,7 +43,7 @@ def test_torque_is_off_before_its_time():
 
 
 def test_rigid_drive_is_an_upper_bound():
-    found = start_up(case(t_end="12 s"))
+    found = startup(case(t_end="12 s"))
     mean = 1.1 * 0.06**2 / 2 * (1 + (0.06 / 0.26) ** 2 / 4)  # of m0 x0'^2, to the second order in r/l
     bound = 1.5 / (0.26 + 0.58 + mean)
     assert found.rigid_rate == pytest.approx(bound, rel=1e-5)
@@ -54,7 +55,7 @@ def test_rigid_drive_is_an_upper_bound():
 
 
 def test_captures_are_found_in_a_made_up_series():
-    criticals = start_up(case(t_end="3 s")).criticals
+    criticals = startup(case(t_end="3 s")).criticals
     second = next(c for c in criticals if c.order == 2)
     t = np.arange(0, 100, 0.1)
     held = np.where(t < 50, 1.9 * t, np.where(t < 80, second.speed * 1.001, second.speed + 2 * (t - 80)))
@@ -68,7 +69,7 @@ def test_captures_are_found_in_a_made_up_series():
 
 
 def test_series_of_means():
-    found = start_up(case(t_end="5 s"))
+    found = startup(case(t_end="5 s"))
     t, speed, twist = series(found.result)
     assert t[0] == 0.5 and t[-1] == pytest.approx(4.5)
     np.testing.assert_allclose(np.diff(t), 0.1)
@@ -93,7 +94,7 @@ def test_hundred_seconds_converge():
 
 @pytest.mark.slow
 def test_capture_by_the_second_order_and_what_damping_does():
-    runs = start_up_map(case(backend="sundials", simulation__tolerance="1e-11"), (0.0, 0.2, 1.0, 5.0))
+    runs = startup_map(case(backend="sundials", simulation__tolerance="1e-11"), (0.0, 0.2, 1.0, 5.0))
     assert all(r.result.status == "converged" for r in runs)
     bare, weak, middle, strong = runs
     assert [c.critical.order for c in bare.captures] == [2] and bare.captures[0].released

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 
 from mechsym import cases, mechanisms
-from mechsym.jobs.run import problem_of
+from mechsym.jobs.problem import problem_of
 from mechsym.mechanisms.record import acceleration_function
 from mechsym.quantities import record
 from mechsym.simulate import Problem, Result, Settings, simulate

@@ -9,6 +9,7 @@ from mechsym.audit.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
+from mechsym.machine.record import gas_of
 from mechsym.papers.zotov2024 import computed
 
 _TURN = np.linspace(0, 2 * np.pi, 721)
@@ -17,7 +18,7 @@ _CYCLE = "with the cycle of the built-in cases"
 
 def gas_force() -> Turn:
     """The piston force over a turn, at 89 rpm."""
-    return {"F": computed.engines().assemblies[0].force}
+    return {"F": gas_of(computed.engines().machines[0]).force}
 
 
 def loads() -> Turn:
@@ -30,7 +31,7 @@ def loads() -> Turn:
     """
     engines = computed.engines()
     load = engines.hinges[0].load_torque
-    return {"F": engines.assemblies[0].force, "M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}
+    return {"F": gas_of(engines.machines[0]).force, "M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}
 
 
 def hinge_torque_effect(verdict: Decision) -> str:
@@ -108,16 +109,16 @@ def proportional_to_pressure() -> Decided:
     decided : Decided
         True for the printed spring law, not for a real one
     """
-    from mechsym.hinge.guide import crank_torque
+    from mechsym.hinge.guide import crank_torque, refit
     from mechsym.hinge.setting import with_setting
     from mechsym.hinge.springs import AirAbsolute
 
     cut = computed.engines().cut
-    doubled = crank_torque(cut, with_setting(cut.spring, 2 * computed.PRESSURES[0]), _TURN)
-    once = crank_torque(cut, cut.spring, _TURN)
+    doubled = crank_torque(refit(cut, with_setting(cut.spring, 2 * computed.PRESSURES[0])), _TURN)
+    once = crank_torque(cut, _TURN)
     error = float(np.max(np.abs(doubled - 2 * once)) / np.max(np.abs(once)))
     real = AirAbsolute(A=cut.spring.A, H=cut.spring.H, p0=cut.spring.p0, n=cut.spring.n, pa=101325.0)  # type: ignore[union-attr]
-    first, second = (crank_torque(cut, with_setting(real, p), _TURN) for p in (real.p0, 2 * real.p0))
+    first, second = (crank_torque(refit(cut, with_setting(real, p)), _TURN) for p in (real.p0, 2 * real.p0))
     away = float(np.max(np.abs(second - 2 * first)) / np.max(np.abs(first)))
     return Decided(
         supported=error < 1e-9,
@@ -153,11 +154,11 @@ def almost_constant() -> Decided:
     decided : Decided
         Almost constant means a flywheel's usual 2 per cent
     """
-    from mechsym.hinge import retune
+    from mechsym.hinge.retune import retune
 
     paper = computed.retuned(computed.PRESSURES[1])
     engines = computed.engines()
-    best = retune.retune(engines.cut, engines.hinges[1], "least_ripple_propeller_load")
+    best = retune(engines.cut, engines.hinges[1], "least_ripple_propeller_load")
     ripple = best.ripple_propeller_load
     stops = paper.ripple_propeller_load is None
     return Decided(

@@ -10,14 +10,15 @@ from functools import cache
 import numpy as np
 
 from mechsym import cases, periodic
-from mechsym.hinge import balance, guide, retune
-from mechsym.hinge import torque as hinge
-from mechsym.hinge.choices import GuideParameters
+from mechsym.cases import Case
+from mechsym.hinge import guide
+from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide
-from mechsym.hinge.retune import Retuning, at_setting
+from mechsym.hinge.retune import Retuning, at_setting, retune
 from mechsym.hinge.springs import AirGauge
-from mechsym.hinge.torque import Hinge
-from mechsym.jobs.machine import Assembly, assemble
+from mechsym.hinge.torque import Hinge, torque
+from mechsym.jobs.machine import machine
+from mechsym.machine.record import Machine, gas_of
 from mechsym.papers.zotov2024.family import Member, family
 from mechsym.papers.zotov2024.hinge_printed import hinge_torque_printed, load_torque_printed
 from mechsym.periodic import even_angles
@@ -37,7 +38,8 @@ VARIANTS: dict[str, dict[str, str]] = {
 class Engines:
     """Both speeds of the paper."""
 
-    assemblies: tuple[Assembly, Assembly]  #: Engine at 89 and at 142 rpm
+    cases: tuple[Case, Case]  #: Of 89 and of 142 rpm
+    machines: tuple[Machine, Machine]
     hinges: tuple[Hinge, Hinge]  #: Torque that keeps each speed constant
     cut: Guide  #: Dependence 2 of Fig. 5 a: the guide of 89 rpm for the printed spring law at 5 MPa
     #: The same for a spring that obeys the absolute pressure, placed so that it is never longer than its free height
@@ -47,23 +49,19 @@ class Engines:
 @cache
 def engines(variant: str = "atmosphere under the piston") -> Engines:
     """Both engines with their hinges and the paper's guide."""
-    slow, fast = (assemble(cases.load(name, VARIANTS[variant])) for name in CASES)
-    hinges = (hinge.build(slow.torques, slow.omega), hinge.build(fast.torques, fast.omega))
-    part = balance.build(hinges[0], "whole_cycle")
-    placed = guide.build(part, slow.case.need("spring"), _choices(slow))
-    return Engines(assemblies=(slow, fast), hinges=hinges, cut=_printed_guide(slow, hinges[0]), placed=placed)
+    slow, fast = (cases.load(name, VARIANTS[variant]) for name in CASES)
+    machines = (machine(slow), machine(fast))
+    hinges = (torque(machines[0]), torque(machines[1]))
+    placed = guide.cut(balance(hinges[0], "whole_cycle"), slow.need("spring"), slow.need("guide"))
+    printed = _printed_guide(slow, hinges[0])
+    return Engines(cases=(slow, fast), machines=machines, hinges=hinges, cut=printed, placed=placed)
 
 
-def _printed_guide(engine: Assembly, wanted: Hinge) -> Guide:
-    spring = engine.case.need("spring")
+def _printed_guide(case: Case, wanted: Hinge) -> Guide:
+    spring = case.need("spring")
     printed = AirGauge(A=spring.A, H=spring.H, p0=spring.p0, n=spring.n)
-    choices = dataclasses.replace(_choices(engine), start="as_printed", arrangement="two_tracks")
-    return guide.build(balance.build(wanted, "whole_cycle"), printed, choices)
-
-
-def _choices(engine: Assembly) -> GuideParameters:
-    found: GuideParameters = engine.case.need("guide")
-    return found
+    choices = dataclasses.replace(case.need("guide"), start="as_printed", arrangement="two_tracks")
+    return guide.cut(balance(wanted, "whole_cycle"), printed, choices)
 
 
 def peak(wanted: Hinge) -> float:
@@ -98,7 +96,7 @@ def best_pressure() -> Retuning:
         By least squares of the torque
     """
     found = engines()
-    return retune.retune(found.cut, found.hinges[1], "least_squares_torque")
+    return retune(found.cut, found.hinges[1], "least_squares_torque")
 
 
 def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
@@ -116,18 +114,18 @@ def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
     M_h : ndarray, shape (n,)
         Torque on the crank [N*m]
     """
-    engine = engines().assemblies[index]
-    p, even = engine.case.need("parameters"), even_angles(2 * np.pi)
-    load = load_torque_printed(p, engine.force(even), even)
-    return hinge_torque_printed(p, engine.omega, engine.force(phi), load, phi)
+    found = engines()
+    engine, p, even = found.machines[index], found.cases[index].need("parameters"), even_angles(2 * np.pi)
+    force = gas_of(engine).force
+    return hinge_torque_printed(p, engine.omega, force(phi), load_torque_printed(p, force(even), even), phi)
 
 
 @cache
 def guides() -> tuple[Member, ...]:
     """The twelve guides of Fig. 5, as printed and placed."""
     found = engines()
-    case = found.assemblies[0].case
-    slow, fast = (balance.build(h, "whole_cycle") for h in found.hinges)
+    case = found.cases[0]
+    slow, fast = (balance(h, "whole_cycle") for h in found.hinges)
     settings = (case.need(k) for k in ("spring", "guide", "rollers", "limits"))
     return family((slow, fast), *settings)
 

@@ -9,12 +9,10 @@ Source: Zotov et al. (2024), Fig. 5 and its caption.
 import dataclasses
 
 from mechsym.errors import BadInput
-from mechsym.hinge import guide
-from mechsym.hinge import limits as feasibility
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import GuideParameters
-from mechsym.hinge.guide import Guide, Spring
-from mechsym.hinge.limits import Limits, Verdict
+from mechsym.hinge.guide import Guide, Spring, cut
+from mechsym.hinge.limits import Limits, Verdict, judge
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.quantities import record
@@ -67,7 +65,7 @@ def family(
             gauge = AirGauge(A=spring.A, H=H, p0=p0, n=spring.n)
             filled = dataclasses.replace(spring, H=H, p0=p0)
             for chosen, air in ((printed, gauge), (placed, filled)):
-                cut = guide.build(balances[speed], air, chosen)
-                verdict = feasibility.judge(cut, air, rollers, limits)
-                members.append(Member(label=letter + number, start=chosen.start, guide=cut, verdict=verdict))
+                guide = cut(balances[speed], air, chosen)
+                verdict = judge(guide, rollers, limits)
+                members.append(Member(label=letter + number, start=chosen.start, guide=guide, verdict=verdict))
     return tuple(members)

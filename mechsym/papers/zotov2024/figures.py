@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from mechsym.hinge import guide
 from mechsym.hinge.plots import BLUE, GREEN, GREY, RED
 from mechsym.hinge.setting import with_setting
+from mechsym.machine.record import gas_of
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.zotov2024.computed import (
     PRESSURES,
@@ -35,8 +36,8 @@ def figures() -> dict[str, Figure]:
 
 def _forces(found: Engines) -> Figure:
     figure, (axis,) = panels()
-    for engine, (color, line), name in zip(found.assemblies, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
-        axis.plot(_DEG, engine.force(_PHI) / 1e3, color=color, linestyle=line, label=name)
+    for engine, (color, line), name in zip(found.machines, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
+        axis.plot(_DEG, gas_of(engine).force(_PHI) / 1e3, color=color, linestyle=line, label=name)
     axis.set_ylabel("force on the piston [kN]")
     axis.set_title("Fig. 3, stated cycle")
     axis.legend()
@@ -96,4 +97,4 @@ def _fit(found: Engines) -> Figure:
 
 
 def _torque_at(cut: guide.Guide, p0: float) -> np.ndarray:
-    return guide.crank_torque(cut, with_setting(cut.spring, p0), _PHI)
+    return guide.crank_torque(guide.refit(cut, with_setting(cut.spring, p0)), _PHI)

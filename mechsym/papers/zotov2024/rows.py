@@ -4,15 +4,17 @@ The paper does not print its gas force. What holds for every gas force gets a ve
 `not computable` as printed, and is computed with the stated cycle of the cases zotov-89 and zotov-142 instead.
 """
 
-import dataclasses
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from mechsym.hinge import balance, guide, retune, trials
+from mechsym.hinge import guide, trials
+from mechsym.hinge.balance import balance
+from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide
+from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
-from mechsym.jobs.machine import running
 from mechsym.machine.loads import ConstantLoad
 from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
 from mechsym.papers.zotov2024 import SOURCE
@@ -97,7 +99,7 @@ def _integral_rows(found: Engines) -> list[dict[str, Any]]:
 
 
 def _ripple_with_hinge(found: Engines) -> float:
-    engine = running(found.assemblies[0], found.hinges[0], ConstantLoad(), found.cut)
+    engine = fitted(replace(found.machines[0], load=ConstantLoad()), found.hinges[0], found.cut)
     ripple = trials.run("hinge", "guide a2", engine, found.hinges[0].omega, 3.0).speed_ripple
     return float("inf") if ripple is None else ripple
 
@@ -139,10 +141,10 @@ def _rounder_when_taller(found: Engines) -> list[bool]:
     """For both speeds and the three pressures: is the guide for H = 1 m rounder than that for 0.4 m, at one rho0."""
     lines = []
     for wanted in found.hinges:
-        part = balance.build(wanted, "whole_cycle")
+        part = balance(wanted, "whole_cycle")
         for p0 in _PRESSURES:
-            springs = (dataclasses.replace(with_setting(found.cut.spring, p0), H=H) for H in _HEIGHTS)
-            short, tall = (departure(guide.build(part, spring, found.cut.parameters)) for spring in springs)
+            springs = (replace(with_setting(found.cut.spring, p0), H=H) for H in _HEIGHTS)
+            short, tall = (departure(guide.cut(part, spring, found.cut.parameters)) for spring in springs)
             lines.append(tall < short)
     return lines
 
@@ -178,7 +180,7 @@ def _retuning_rows(found: Engines) -> list[dict[str, Any]]:
 
 
 def _least_ripple(found: Engines) -> float:
-    ripple = retune.retune(found.placed, found.hinges[1], "least_ripple_propeller_load").ripple_propeller_load
+    ripple = retune(found.placed, found.hinges[1], "least_ripple_propeller_load").ripple_propeller_load
     return float("nan") if ripple is None else ripple
 
 
@@ -189,7 +191,7 @@ def _fate(ripple: float | None) -> str:
 def _departure_from_proportional(cut: Guide) -> float:
     phi, spring = even_angles(2 * np.pi), cut.spring
     doubled = with_setting(spring, 2 * setting_of(spring))
-    once, twice = guide.crank_torque(cut, spring, phi), guide.crank_torque(cut, doubled, phi)
+    once, twice = (guide.crank_torque(guide.refit(cut, s), phi) for s in (spring, doubled))
     return float(np.abs(twice - 2 * once).max() / np.abs(twice).max())
 
 

@@ -1,0 +1,187 @@
+"""Case -> run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+
+from mechsym import mechanisms
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.hinge.balance import balance
+from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import cut
+from mechsym.hinge.torque import torque
+from mechsym.jobs import train as trains
+from mechsym.jobs.machine import machine
+from mechsym.machine.record import Machine
+from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.simulate import engine as engines
+from mechsym.simulate.problem import Part, Problem, Steps, Stop
+from mechsym.simulate.settings import Settings, Simulation, StepTorque
+
+# the window whose mean, least and greatest speed is reported is sampled this finely
+_WINDOW_POINTS = 4000
+_TURN_POINTS = 360  # results a turn of a run over turns
+
+
+def settings_of(case: Case) -> Settings:
+    """Tolerance and integrator of a case.
+
+    Parameters
+    ----------
+    case : Case
+        With section `[simulation]`
+    """
+    wanted: Simulation = case.need("simulation")
+    return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
+
+
+def problem_of(case: Case) -> Problem:
+    """The run that a case describes.
+
+    Parameters
+    ----------
+    case : Case
+        With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
+        train may have both
+
+    Raises
+    ------
+    BadInput
+        A section is missing or names what the mechanism has not
+    """
+    wanted: Simulation = case.need("simulation")
+    if case.mechanism == "crank_train":
+        return _train(case, wanted)
+    if "drive" in case.sections:
+        return _driven(case, wanted)
+    engine = engine_of(case)
+    speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
+    if wanted.turns is None or speed <= 0:
+        raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
+    problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
+    if wanted.t_end is None:
+        return problem
+    return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
+
+
+def engine_of(case: Case) -> Machine:
+    """The engine of a case with its hinge, as far as the case has one.
+
+    Parameters
+    ----------
+    case : Case
+        With `[cycle]` and `[operation]`; the hinge needs `[spring]` and `[guide]`
+
+    Returns
+    -------
+    engine : Machine
+        The hinge's torque comes from guide and spring
+
+    Raises
+    ------
+    BadInput
+        The guide that the case asks for cannot be cut
+    """
+    engine = machine(case)
+    wanted = torque(engine)
+    simulation: Simulation = case.need("simulation")
+    if simulation.hinge == "none" or not {"spring", "guide"} <= set(case.sections):
+        return fitted(engine, wanted)
+    choices = case.need("guide")
+    guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)
+    if guide.rho is None:
+        raise BadInput(f"{case.file}: no guide can be cut ({guide.reason}); set simulation.hinge=none to run without")
+    return fitted(engine, wanted, guide)
+
+
+def window_of(case: Case, problem: Problem) -> float | None:
+    """The stretch at the end over which speeds are summed up.
+
+    Parameters
+    ----------
+    case : Case
+        With section `[simulation]`
+
+    Returns
+    -------
+    window : float or None
+        None for the last turn [s]
+    """
+    wanted: Simulation = case.need("simulation")
+    if wanted.window is None and problem.turns is None:
+        return problem.t_end - problem.t_start
+    return wanted.window
+
+
+def _drive(case: Case, usual: str) -> Part:
+    drive: StepTorque = case.need("drive")
+    steps = Steps(times=(drive.time,), values=(0.0, drive.torque))
+    if drive.time <= 0:
+        steps = Steps(values=(drive.torque,))
+    return Part(name="drive", input=drive.input or usual, value=steps)
+
+
+def _driven(case: Case, wanted: Simulation) -> Problem:
+    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
+    if wanted.t_end is None:
+        raise BadInput(f"{case.file}: a driven run needs simulation.t_end, for example '100 s'")
+    n = len(mechanism.coordinates)
+    return Problem(
+        mechanism=mechanism,
+        parts=(_drive(case, "M"),),
+        q0=(wanted.phi_start,) * n,
+        u0=(wanted.speed_start or 0.0,) * n,
+        t_end=wanted.t_end,
+        turns=wanted.turns,
+        output=_times(wanted.t_end, wanted.output_step, wanted.window),
+    )
+
+
+def _train(case: Case, wanted: Simulation) -> Problem:
+    gas, driven = trains.cylinders(case), "drive" in case.sections
+    if not (gas.parts or driven):
+        raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
+    usual = case.need("operation").speed if gas.parts and not driven else 0.0
+    speed = usual if wanted.speed_start is None else wanted.speed_start
+    mechanism = crank_train.build_driven(case.need("parameters"))
+    mean = gas.torque + (case.need("drive").torque if driven else 0.0)
+    t_end, output = _end(case, wanted, speed)
+    return Problem(
+        mechanism=mechanism,
+        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *trains.load(case, mean, speed)),
+        q0=(wanted.phi_start,) * len(mechanism.coordinates),
+        u0=(speed,) * len(mechanism.coordinates),
+        t_end=t_end,
+        turns=wanted.turns,
+        kinks=gas.kinks,
+        # a crank may swing back within a turn; the flywheel does only when the shaft stops
+        stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
+        output=output,
+    )
+
+
+def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:
+    """Last time and wanted times: of a run to t_end, or of turns from a speed."""
+    if wanted.t_end is not None:
+        return wanted.t_end, _times(wanted.t_end, wanted.output_step, wanted.window)
+    if speed <= 0:
+        raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
+    turn_time = 2 * math.pi / speed
+    # a shaft that takes ten times as long has stopped for every purpose
+    assert wanted.turns is not None  # the section has one of the two
+    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
+
+
+@functools.lru_cache(maxsize=8)
+def _times(t_end: float, step: float, window: float | None) -> tuple[float, ...]:
+    """Even times, and finer ones in the window, with both of its ends among them."""
+    coarse = np.minimum(step * np.arange(1, math.ceil(t_end / step) + 1), t_end)
+    if window is None:
+        return tuple(np.unique(coarse).tolist())
+    fine = np.linspace(max(t_end - window, 0.0), t_end, _WINDOW_POINTS + 1)
+    # an even time and its neighbour of the finer set may differ by rounding only
+    keep = coarse[coarse < fine[0] - 1e-9 * t_end]
+    return tuple(np.concatenate([keep, fine[fine > 0]]).tolist())
