@@ -59,12 +59,9 @@ def hinge(
 
 def _shares(loads: str | None) -> list[float]:
     from mechsym.errors import BadInput
-    from mechsym.quantities import parse
+    from mechsym.quantities.ranges import values
 
-    parts = [part.strip() for part in loads.split(",")] if loads is not None else []
-    if "" in parts:
-        raise BadInput(f"--loads {loads!r}: write shares of the case's load with commas, such as 0.5,0.75,1")
-    shares = [parse(part, "-", "--loads") for part in parts]
+    shares = values(loads, "-", "--loads") if loads is not None else []
     if len(set(shares)) < len(shares):
         raise BadInput(f"--loads {loads}: each share once")
     for share in shares:

@@ -10,7 +10,7 @@ from mechsym import cases
 from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
-from mechsym.quantities import parse
+from mechsym.quantities import ranges
 
 if TYPE_CHECKING:
     from mechsym.jobs.run import Run
@@ -60,7 +60,7 @@ def simulate(
 
 
 def _dampings(text: str | None) -> tuple[float, ...]:
-    return tuple(parse(c.strip(), "N*m*s/rad", "--dampings") for c in text.split(",")) if text is not None else ()
+    return tuple(ranges.values(text, "N*m*s/rad", "--dampings")) if text is not None else ()
 
 
 def _report(name: str, run: "Run") -> dict[str, Any]:

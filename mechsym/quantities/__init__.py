@@ -2,6 +2,7 @@
 
 units.py     "142 rpm" or "5 MPa" to SI; a wrong dimension is refused
 records.py   frozen records whose fields carry unit and range
+ranges.py    lists and ranges as options take them: `3..8 MPa:11`, `80,85 rpm`
 by_name.py   `load("module:name")`, imported when it is wanted
 
     @record

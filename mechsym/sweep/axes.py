@@ -1,6 +1,6 @@
 """What a sweep runs over: ranges on a grid, or distributions that samples are drawn from.
 
-spring.p0=3..8 MPa:11        eleven even values, both ends included
+spring.p0=3..8 MPa:11        eleven even values, both ends included; speed_rpm=80:140:10 in steps
 speed_rpm=89,120,142         a list; words such as simulation.hinge=designed,none too
 spring.n=1.2..1.3            with samples: evenly distributed
 k1=6500+-200 N*m/rad         with samples: normally distributed, mean and standard deviation
@@ -8,7 +8,6 @@ k1=6500+-200 N*m/rad         with samples: normally distributed, mean and standa
 
 import itertools
 import math
-import re
 from typing import Any
 
 import numpy as np
@@ -16,14 +15,7 @@ import numpy as np
 from mechsym.cases.values import Place
 from mechsym.errors import BadInput, shown
 from mechsym.quantities import parse, record
-
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_UNIT = r"([A-Za-z%][^:,]*?)?"
-_RANGE = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*\.\.\s*({_NUMBER})\s*{_UNIT}\s*(?::\s*(\d{{1,18}}))?")
-_NORMAL = re.compile(rf"({_NUMBER})\s*\+-\s*({_NUMBER})\s*{_UNIT}")
-_ONE = re.compile(rf"({_NUMBER})\s*{_UNIT}")
-_FORMS = "{key}=1..5{unit}:9, {key}=1,2,5{unit} or, with --samples, {key}=1..5{unit} or {key}=3+-0.1{unit}"
-MOST = 1_000_000
+from mechsym.quantities.ranges import MOST, read_range
 
 
 @record
@@ -66,50 +58,20 @@ def parse_axis(text: str, place: Place) -> Axis:
         words = tuple(part.strip() for part in span.split(","))
         _check_words(text, words)
         return Axis(key=key, place=place, unit="", suffix="", kind="grid", values=words)
-    kind, numbers, count, units = _read(text, key, span, place.unit)
-    unit = _unit(text, units, place)
-    if not all(math.isfinite(number) for number in numbers):
-        raise BadInput(f"--over {shown(text)}: a value is not finite; allowed are numbers up to 1e20 in SI")
-    if kind == "normal" and not numbers[1] > 0:
-        raise BadInput(f"--over {shown(text)}: the standard deviation {numbers[1]:g} is out of range; it must be > 0")
-    if count is not None:
-        kind, numbers = "grid", tuple(np.linspace(numbers[0], numbers[1], _few(text, count)).tolist())
+    found = read_range(span, "--over", place.written or place.unit, key)
+    unit = _unit(text, found.unit, place)
     suffix = "" if place.written or unit == place.unit or unit == "-" else unit
-    return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=kind, values=numbers)
+    return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=found.kind, values=found.values)
 
 
-def _read(text: str, key: str, span: str, unit: str) -> tuple[str, tuple[float, ...], int | None, set[str]]:
-    """Kind, numbers, how many, and the units that were written."""
-    if found := _RANGE.fullmatch(span):
-        numbers = float(found[1]), float(found[3])
-        return "even", numbers, None if found[5] is None else int(found[5]), {found[2], found[4]} - {None}
-    if found := _NORMAL.fullmatch(span):
-        return "normal", (float(found[1]), float(found[2])), None, {found[3]} - {None}
-    parts = [_ONE.fullmatch(part.strip()) for part in span.split(",")]
-    if not all(parts):
-        forms = _FORMS.format(key=key, unit="" if unit == "-" else f" {unit}")
-        raise BadInput(f"--over {shown(text)}: {key} takes numbers, after a colon how many; write {forms}")
-    found_parts = [part for part in parts if part]
-    return "grid", tuple(float(p[1]) for p in found_parts), None, {p[2] for p in found_parts} - {None}
-
-
-def _unit(text: str, units: set[str], place: Place) -> str:
-    """The one unit of an axis, of the right dimension."""
-    if len(units) > 1:
-        raise BadInput(f"--over {shown(text)}: units {' and '.join(sorted(units))}; write all values in one unit")
-    written = "".join(units)
+def _unit(text: str, written: str, place: Place) -> str:
+    """The unit of an axis, of the right dimension."""
     if written and place.written:
         why = f"the key names {place.written}"
         raise BadInput(f"--over {shown(text)}: unit {written!r} is one too many, {why}; leave it away")
     if written:
         parse(f"1 {written}", place.unit or "-", f"--over {place.section}.{place.field}")
     return written or place.written or place.unit or "-"
-
-
-def _few(text: str, count: int) -> int:
-    if not 1 <= count <= MOST:
-        raise BadInput(f"--over {shown(text)}: {count} values; allowed are 1 to {MOST}")
-    return count
 
 
 def _check_words(text: str, words: tuple[str, ...]) -> None:

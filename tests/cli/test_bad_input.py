@@ -21,7 +21,7 @@ COMMAND_LINE = [
     ("unknown mechanism", ["eval", "croshead"], ["'croshead'", "did you mean 'crosshead'?"]),
     ("unknown derivation", ["derive", "--check", "croshead"], ["'croshead'", "crosshead"]),
     ("derivation by path", ["derive", "../generated/crosshead"], ["'../generated/crosshead'", "crosshead"]),
-    ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1.5"]),
+    ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1..5 rpm:9"]),
     ("no engine", ["forces", "chmielewski"], ["crankshaft_flywheel", "crosshead"]),
     ("nothing to optimise", ["optimise", "zotov-89"], ["zotov-89", "[optimise]", "mechsym cases"]),
     ("cycle of another kind", ["size", "zotov-89"], ["[cycle]", "'spark-ignition'"]),
@@ -35,7 +35,7 @@ COMMAND_LINE = [
     ),
     ("no dampings", ["simulate", "chmielewski", "--dampings", ""], ["--dampings", "N*m*s/rad"]),
     ("half a value", ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:2.5"], ["how many", "spring.p0=1..5 Pa:9"]),
-    ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "A <= B"]),
+    ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "a <= b"]),
 ]
 OVERRIDES = [
     ("no equals sign", "spring.p0", ["'spring.p0'", "KEY=VALUE"]),

@@ -238,7 +238,7 @@ def test_no_other_loads_unless_asked_for(run, written):
     ("words", "message"),
     [
         (["--loads", "0"], "--loads 0: shares"),
-        (["--loads", ""], "write shares of the case's load with commas"),
+        (["--loads", ""], "takes numbers"),
         (["--loads", "1,0.5,1"], "--loads 1,0.5,1: each share once"),
         (["--loads", "50"], "--loads 50: shares"),
         (["--loads", "half"], "--loads"),

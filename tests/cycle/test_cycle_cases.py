@@ -159,7 +159,7 @@ def test_text_names_units_gaps_and_what_is_left_out():
     [
         (["--over", "chamber.compression_ratio=1:3:1"], "compression_ratio = 1 is out of range; it must be > 1"),
         (["--over", "chamber.colour=1:3:1"], "chamber.colour' is not known"),
-        (["--over", "chamber.bore=1:3"], "write NAME=A:B:STEP"),
+        (["--over", "chamber.bore=1:3"], "takes numbers"),
         (["--over", "chamber.bore=1 s:3 s:1 s"], "wrong dimension"),
         (["--over", "gas.gamma=1.3:1.4:0.1", "--speeds", "1000:2000:1000"], "runs at one speed"),
         (["--over", "gas.gamma=1.3:1.4:0.1", "--set", "cycle.method=nunes2017_printed"], "speed alone"),

@@ -53,7 +53,7 @@ def test_axes_as_written(case, text, kind, unit, values):
         ("c1", "KEY=RANGE"),
         ("=1..2:3", "KEY=RANGE"),
         ("c1=", "KEY=RANGE"),
-        ("c1=a..b:3", "c1 takes numbers, after a colon how many; write c1=1..5 N[*]m[*]s/rad:9"),
+        ("c1=a..b:3", "takes numbers, as a list or a range; .* c1=1..5 N[*]m[*]s/rad:9"),
         ("c1=1,x", "takes numbers"),
         ("c1=1..2:1.5", "takes numbers"),
         ("c1=1..2:-1", "takes numbers"),
