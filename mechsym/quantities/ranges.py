@@ -129,4 +129,4 @@ def _even(where: str, ends: tuple[float, ...], count: int) -> tuple[float, ...]:
 
 def _check_count(where: str, count: float) -> None:
     if not 1 <= count < MOST + 1:
-        raise BadInput(f"{where}: {count:.15g} values; allowed are 1 to {MOST}")
+        raise BadInput(f"{where}: {count:.0f} values; allowed are 1 to {MOST}")

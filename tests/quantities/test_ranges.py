@@ -41,7 +41,7 @@ def test_values_in_si(text, unit, plain, found):
         ("1..2", "--any: 1..2 does not say how many; write 1..2:5 or a list"),
         ("1+-2", "does not say how many"),
         ("1..2:0", "0 values; allowed are 1 to 1000000"),
-        ("1:1e9:1", "1000000000(.0*1)? values; allowed"),
+        ("1:1e9:1", "1000000000 values; allowed"),
         ("2:1:1", "needs a <= b and a step > 0"),
         ("1:2:0", "a step > 0"),
         ("1e999,2", "not finite"),
