@@ -6,8 +6,7 @@ import math
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms import crankshaft_flywheel, crosshead
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train, crankshaft_flywheel, crosshead
 from mechsym.mechanisms.record import acceleration_function
 
 CROSSHEAD = crosshead.CrossheadParameters(

@@ -16,7 +16,7 @@ import numpy as np
 from benchmarks import models
 from benchmarks.measure import Route, Row, take_turns
 from mechsym import native
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train
 from mechsym.mechanisms.record import acceleration_function
 from mechsym.native import library, source
 

@@ -1,6 +1,7 @@
-"""Data flows one way: who may import sympy, and what an import of the package loads."""
+"""Arrows run down only: one ordered list of rooms, for every import, hidden or not, and every text "module:name"."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,14 +11,120 @@ import pytest
 import mechsym
 
 ROOT = Path(mechsym.__file__).parent
-FILES = sorted(p for p in ROOT.rglob("*.py") if "generated" not in p.parts)
+OUTSIDE = ("generated", "derivations")  # plain functions and declarations: no room
+FILES = sorted(p for p in ROOT.rglob("*.py") if not set(OUTSIDE) & set(p.parts))
+# each room may import what stands before it; docs/house.md says what is in each
+ORDER = (
+    "errors quantities files periodic style plausible "
+    "derive convert native mechanisms cycle sizing machine simulate hinge torsion forces optimise codesign "
+    "cases jobs sweep audit papers out app cli"
+).split()
+SYMBOLIC = ("derive", "convert", "audit", "papers")
+READS_CASES = ("cases", "jobs", "sweep", "papers", "app", "cli")
+PLAIN = {"mechsym.cases.numbers.numbers", "mechsym.cases.numbers.usual"}  # numbers by letter, no case
+_TEXT = re.compile(r"mechsym(?:\.\w+)+(?::\w+)")
+
+
+def room(path):
+    return path.relative_to(ROOT).parts[0].removesuffix(".py")
+
+
+def imported(tree):
+    """Full names of modules that a file imports anywhere, or names in a text "module:name"."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (a.name for a in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert not node.level, "imports are absolute, so that they can be followed"
+            yield from (f"{node.module}.{a.name}" for a in node.names)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and _TEXT.fullmatch(node.value):
+            yield node.value.partition(":")[0]
+
+
+def rooms_above(name, tree):
+    """Rooms that a file of the room `name` imports and may not; an unknown room is above all."""
+    found = {m.split(".")[1] for m in imported(tree) if m.startswith("mechsym.")} - {name, *OUTSIDE}
+    below = ORDER[: ORDER.index(name)] if name in ORDER else []
+    return sorted(found - set(below) - ({"__version__"} if name == "cli" else set()))
+
+
+INSIDE = [p for p in FILES if room(p) not in ("__init__", "__main__")]
+
+
+@pytest.mark.parametrize("path", INSIDE, ids=lambda p: str(p.relative_to(ROOT)))
+def test_arrows_run_down(path):
+    assert room(path) in ORDER, f"room {room(path)} is not in the list; where does it stand?"
+    assert not (found := rooms_above(room(path), ast.parse(path.read_text()))), f"{room(path)} imports {found}"
+
+
+@pytest.mark.parametrize("name", ORDER[:-1])
+def test_an_arrow_upwards_is_seen(name):
+    above = ORDER[ORDER.index(name) + 1]
+    for text in (
+        f"from mechsym import {above}",
+        f"from mechsym.{above} import x",
+        f"import mechsym.{above}",
+        f"def f():\n    from mechsym.{above}.y import x",
+        f"from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import mechsym.{above}",
+        f"x = 'mechsym.{above}.y:Z'",
+    ):
+        assert rooms_above(name, ast.parse(text)) == [above], text
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_sympy_stays_in_its_rooms(path):
-    if path.relative_to(ROOT).parts[0] not in ("derive", "audit", "papers", "derivations"):
-        modules = [a.name for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Import) for a in n.names]
-        assert not [m for m in modules if m.split(".")[0] in ("sympy", "mpmath")]
+    if room(path) not in SYMBOLIC:
+        assert not [m for m in imported(ast.parse(path.read_text())) if m.split(".")[0] in ("sympy", "mpmath")]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_only_the_upper_rooms_read_cases(path):
+    if room(path) not in (*READS_CASES, "__init__", "__main__"):
+        assert not {m for m in imported(ast.parse(path.read_text())) if m.startswith("mechsym.cases")} - PLAIN
+
+
+def modules():
+    """Dotted name of every module with the modules it imports, packages included as their parts import them."""
+    known = {
+        ".".join(("mechsym", *p.relative_to(ROOT).with_suffix("").parts)).removesuffix(".__init__"): p for p in FILES
+    }
+    arrows = {}
+    for name, path in known.items():
+        targets = set()
+        for wanted in imported(ast.parse(path.read_text())):
+            while wanted not in known and "." in wanted:
+                wanted = wanted.rpartition(".")[0]
+            targets.add(wanted)
+        arrows[name] = {
+            t for t in targets if t in known and t not in (name, "mechsym") and not name.startswith(f"{t}.")
+        }
+    return arrows
+
+
+def test_no_import_circle():
+    """Not even one that is hidden in functions. A package may import its parts, and its parts one another."""
+    arrows, finished = modules(), set()
+
+    def visit(name, trail):
+        assert name not in trail, " -> ".join([*trail[trail.index(name) :], name])
+        if name not in finished:
+            for target in sorted(arrows[name]):
+                visit(target, [*trail, name])
+            finished.add(name)
+
+    for name in arrows:
+        visit(name, [])
+
+
+def test_few_entries_and_unique_names():
+    entries = {p.name.removesuffix(".py") for p in ROOT.iterdir() if p.suffix in ("", ".py")}
+    assert entries - {"__init__", "__main__", "templates", "py", "__pycache__", *OUTSIDE} <= set(ORDER)
+    owners = {}
+    for path in FILES:
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef):
+                owners.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
+    assert not (twice := {n: w for n, w in owners.items() if len(w) > 1}), f"one word, one meaning: {twice}"
 
 
 def test_import_of_the_package_is_light():

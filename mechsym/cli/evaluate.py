@@ -22,7 +22,7 @@ def evaluate(name: str, case_name: str | None, overrides: tuple[str, ...], as_js
     \b
     Example: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
     """
-    from mechsym.mechanisms.record import state
+    from mechsym.mechanisms.state import state
 
     mechanism, values = _read(name, case_name, pairs(overrides))
     found = state(mechanism, values)

@@ -13,7 +13,7 @@ from mechsym.files import write_text
 from mechsym.quantities import ranges
 
 if TYPE_CHECKING:
-    from mechsym.jobs.run import Run
+    pass
 
 
 @click.command(short_help="Simulate over time, with an energy audit.")
@@ -63,7 +63,7 @@ def _dampings(text: str | None) -> tuple[float, ...]:
     return tuple(ranges.values(text, "N*m*s/rad", "--dampings")) if text is not None else ()
 
 
-def _report(name: str, run: "Run") -> dict[str, Any]:
+def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
     from mechsym.torsion.findings import numbers
 
     return {
@@ -78,7 +78,7 @@ def _report(name: str, run: "Run") -> dict[str, Any]:
     }
 
 
-def _write(run: "Run", out: Path) -> list[str]:
+def _write(run: "FinishedRun", out: Path) -> list[str]:
     from mechsym.hinge.plots import svg
     from mechsym.simulate import write_netcdf, write_series
     from mechsym.torsion import plots as plots_torsion

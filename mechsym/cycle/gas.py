@@ -18,7 +18,8 @@ from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_pressure
 from mechsym.cycle.pressure import Pressure, periodic, piston_force
 from mechsym.errors import BadInput
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
+from mechsym.mechanisms.crank_train import build_rigid
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.quantities import record
 
 _STEP = math.radians(0.25)  # of the tabulated cycle

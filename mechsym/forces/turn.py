@@ -17,8 +17,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
-from mechsym.mechanisms import rodless
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train, rodless
 from mechsym.mechanisms.crank_train.firing import gas_forces
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.rodless import CrankFreeRadially, Stiffnesses

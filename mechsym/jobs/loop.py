@@ -12,7 +12,7 @@ from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, 
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.record import Mechanism
-from mechsym.simulate.loop.system import Cylinder, Loop
+from mechsym.simulate.loop.system import Loop, LoopCylinder
 
 _LOAD_INPUTS = ("M_r", "M")
 
@@ -53,13 +53,13 @@ def _smooth(case: Case, load: Load) -> ConstantLoad | PropellerLoad:
     return load
 
 
-def _cylinders(case: Case, mechanism: Mechanism) -> tuple[Cylinder, ...]:
+def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
     parameters = case.need("parameters")
     if not isinstance(parameters, CrankTrainParameters):
-        return (Cylinder(input="F", coordinate=mechanism.coordinates[0], firing=0.0),)
+        return (LoopCylinder(input="F", coordinate=mechanism.coordinates[0], firing=0.0),)
     refuse_wrong_firing(parameters)
     firing = parameters.firing if isinstance(parameters.firing, tuple) else (parameters.firing,) * len(parameters.throw)
     return tuple(
-        Cylinder(input=f"F{i}", coordinate=mechanism.coordinates[throw - 1], firing=float(angle) % (4 * math.pi))
+        LoopCylinder(input=f"F{i}", coordinate=mechanism.coordinates[throw - 1], firing=float(angle) % (4 * math.pi))
         for i, (throw, angle) in enumerate(zip(parameters.throw, firing, strict=True), 1)
     )

@@ -16,7 +16,7 @@ from mechsym.hinge.torque import torque
 from mechsym.jobs import train as trains
 from mechsym.jobs.machine import machine
 from mechsym.machine.record import Machine
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train
 from mechsym.simulate import engine as engines
 from mechsym.simulate.problem import Part, Problem, Steps, Stop
 from mechsym.simulate.settings import Settings, Simulation, StepTorque

@@ -19,7 +19,7 @@ from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
 
 
 @record
-class Run:
+class FinishedRun:
     """A finished run and what is said of it."""
 
     settings: Settings
@@ -31,7 +31,7 @@ class Run:
     findings: tuple[str, ...]
 
 
-def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> Run:
+def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> FinishedRun:
     """Simulate a case over time, with an energy audit and a check of the tolerance.
 
     Parameters
@@ -45,14 +45,14 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
 
     Returns
     -------
-    run : Run
+    run : FinishedRun
         Columns, audit, speeds, twist and findings
     """
     settings, problem = settings_of(case), problem_of(case)
     result = simulate(problem, replace(settings, check=check))
     told = summary(result, problem.mechanism.coordinates, window_of(case, problem))
     starts = _start_ups(case, result, dampings)
-    return Run(
+    return FinishedRun(
         settings=settings,
         result=result,
         summary=told,

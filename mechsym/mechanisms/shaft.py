@@ -5,7 +5,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, each
+from mechsym.mechanisms.crank_train import build
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.mechanisms.crankshaft_flywheel import build as build_two
 from mechsym.mechanisms.record import Mechanism

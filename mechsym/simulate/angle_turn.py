@@ -14,7 +14,7 @@ _SLOWEST = 1e-9  # the load's slope is asked for at this speed at least, where t
 
 
 @record
-class Turn:
+class AngleTurn:
     """One period of motion."""
 
     energy: np.ndarray  #: shape (k, n): Kinetic energy at the Gauss points; negative beyond a stop [J]
@@ -22,7 +22,7 @@ class Turn:
     multiplier: float  #: Change of the energy at the end per change at the start [-]
 
 
-def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
+def turn(panels: Panels, flywheel: float, energy: float) -> AngleTurn:
     """Integrate one period from a kinetic energy.
 
     Parameters
@@ -34,7 +34,7 @@ def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
 
     Returns
     -------
-    turn : Turn
+    turn : AngleTurn
         Energies; where they are negative the shaft has stopped before
     """
     if isinstance(panels.load, ConstantLoad):
@@ -42,15 +42,15 @@ def turn(panels: Panels, flywheel: float, energy: float) -> Turn:
     return _turn_together(panels, flywheel, energy) or _turn_panel_by_panel(panels, flywheel, energy)
 
 
-def _turn_constant(panels: Panels, energy: float) -> Turn:
+def _turn_constant(panels: Panels, energy: float) -> AngleTurn:
     _, weights, matrix = gauss()
     half = np.diff(panels.edges)[:, None] / 2
     net = panels.torque - panels.load.torque  # type: ignore[union-attr]
     edges = energy + np.concatenate([[0.0], np.cumsum(half * net @ weights[:, None])])
-    return Turn(energy=edges[:-1, None] + half * net @ matrix.T, energy_edges=edges, multiplier=1.0)
+    return AngleTurn(energy=edges[:-1, None] + half * net @ matrix.T, energy_edges=edges, multiplier=1.0)
 
 
-def _turn_together(panels: Panels, flywheel: float, energy: float) -> Turn | None:
+def _turn_together(panels: Panels, flywheel: float, energy: float) -> AngleTurn | None:
     """All panels in one Newton iteration; a linear law, such as the propeller's, needs one step. None if it fails."""
     inertia, half = panels.inertia + flywheel, np.diff(panels.edges)[:, None] / 2
     found, edges = np.full_like(panels.phi, energy), np.full(len(panels.edges), energy)
@@ -66,7 +66,7 @@ def _turn_together(panels: Panels, flywheel: float, energy: float) -> Turn | Non
         if np.max(np.abs(found - before)) <= 1e-13 * np.max(np.abs(found)):
             if np.any(found <= 0):
                 multiplier = _linear(net, slope, half, energy)[2]
-            return Turn(energy=found, energy_edges=edges, multiplier=multiplier)
+            return AngleTurn(energy=found, energy_edges=edges, multiplier=multiplier)
     return None
 
 
@@ -94,7 +94,7 @@ def _slope(load: Load, omega: np.ndarray, inertia: np.ndarray) -> np.ndarray:
     return load_slope(load, turning) / (inertia * turning)
 
 
-def _turn_panel_by_panel(panels: Panels, flywheel: float, energy: float) -> Turn:
+def _turn_panel_by_panel(panels: Panels, flywheel: float, energy: float) -> AngleTurn:
     _, weights, matrix = gauss()
     edges, points, multiplier = [energy], [], 1.0
     guess = np.full(len(weights), energy)
@@ -105,7 +105,7 @@ def _turn_panel_by_panel(panels: Panels, flywheel: float, energy: float) -> Turn
         multiplier *= 1 - half * float(weights @ (slope * sensitivity))
         edges.append(edges[-1] + half * float(weights @ net))
         guess = np.full(len(weights), edges[-1])
-    return Turn(energy=np.array(points), energy_edges=np.array(edges), multiplier=multiplier)
+    return AngleTurn(energy=np.array(points), energy_edges=np.array(edges), multiplier=multiplier)
 
 
 def _collocate(
@@ -125,7 +125,7 @@ def _collocate(
     return energy, net, slope
 
 
-def speeds(panels: Panels, flywheel: float, turn: Turn) -> tuple[np.ndarray, np.ndarray, float]:
+def speeds(panels: Panels, flywheel: float, turn: AngleTurn) -> tuple[np.ndarray, np.ndarray, float]:
     """Speed around a turn that does not stop, and how long the turn takes.
 
     Parameters
@@ -148,7 +148,7 @@ def speeds(panels: Panels, flywheel: float, turn: Turn) -> tuple[np.ndarray, np.
     return phi, omega, time
 
 
-def lowest_energy(turn: Turn) -> float:
+def lowest_energy(turn: AngleTurn) -> float:
     """Smallest kinetic energy of a turn.
 
     Returns
@@ -159,7 +159,7 @@ def lowest_energy(turn: Turn) -> float:
     return float(min(turn.energy.min(), turn.energy_edges.min()))
 
 
-def stop_angle(panels: Panels, turn: Turn) -> float | None:
+def stop_angle(panels: Panels, turn: AngleTurn) -> float | None:
     """Where a turn stops.
 
     Returns

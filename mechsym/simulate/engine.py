@@ -17,7 +17,7 @@ from mechsym.machine.loads import Load, TableLoad, load_torque
 from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.simulate.angle import ReducedMachine
-from mechsym.simulate.problem import Formula, Kinks, Part, Periodic, Problem, Stop
+from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Problem, Stop
 
 
 def reduced(machine: Machine) -> ReducedMachine:
@@ -101,7 +101,7 @@ def _at_angle(machine: Machine, force: AngleForce) -> Periodic:
     )
 
 
-def load_value(load: Load, index: int = 0) -> Formula | Callable[[float, list[float], list[float]], float]:
+def load_value(load: Load, index: int = 0) -> FormulaForce | Callable[[float, list[float], list[float]], float]:
     """A load law as the value of a part.
 
     Parameters
@@ -111,9 +111,9 @@ def load_value(load: Load, index: int = 0) -> Formula | Callable[[float, list[fl
 
     Returns
     -------
-    value : Formula or callable
+    value : FormulaForce or callable
         A formula where the law has one; a table is a plain callable
     """
     if isinstance(load, TableLoad):
         return lambda t, q, u: float(load_torque(load, u[index]))
-    return Formula(function=lambda t, q, u: load_torque(load, u[index]))
+    return FormulaForce(function=lambda t, q, u: load_torque(load, u[index]))

@@ -17,7 +17,7 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import acceleration_function, velocities
 from mechsym.quantities import record
-from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
+from mechsym.simulate.problem import FormulaForce, Periodic, Problem, Steps
 
 
 @record
@@ -49,7 +49,7 @@ def system(problem: Problem) -> System:
     n, names = len(mechanism.coordinates), velocities(mechanism)
     t, y = ca.SX.sym("t"), ca.SX.sym("y", 2 * n + len(problem.parts) + 1)
     q, u = ca.vertsplit(y[:n]), ca.vertsplit(y[n : 2 * n])
-    outer = tuple(p.value for p in problem.parts if not isinstance(p.value, Formula))
+    outer = tuple(p.value for p in problem.parts if not isinstance(p.value, FormulaForce))
     w = ca.SX.sym("w", len(outer))
     values = _values(problem, t, q, u, w)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
@@ -71,7 +71,7 @@ def _values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any
     """Each part with the symbol or the formula of its value."""
     found, next_w = [], 0
     for part in problem.parts:
-        if isinstance(part.value, Formula):
+        if isinstance(part.value, FormulaForce):
             found.append((part, ca.SX(part.value.function(t, q, u))))
         else:
             found.append((part, w[next_w]))

@@ -11,7 +11,7 @@ from mechsym.native.integrate import integrate
 from mechsym.native.runs import STATUS, Breaks, Level, Outcome, Runs, Table
 from mechsym.simulate.equations import System, fitted, held
 from mechsym.simulate.phase import Raw
-from mechsym.simulate.problem import Formula, Periodic, Problem, Steps
+from mechsym.simulate.problem import FormulaForce, Periodic, Problem, Steps
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.watch import Watch, watch
 
@@ -20,9 +20,9 @@ _DONE, _MET, _TOO_MANY = 0, 1, 2
 
 def unsuited(problem: Problem) -> str:
     """Why a problem cannot be run in C."""
-    plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | Formula)]
+    plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | FormulaForce)]
     if plain:
-        return f"part {plain[0]!r} is a plain Python callable; give it as Formula, Periodic or Steps"
+        return f"part {plain[0]!r} is a plain Python callable; give it as FormulaForce, Periodic or Steps"
     try:
         find()
     except NoCompiler as error:

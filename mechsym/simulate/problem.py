@@ -33,7 +33,7 @@ class Steps:
 
 
 @record
-class Formula:
+class FormulaForce:
     """A value given by a function that takes numbers and CasADi symbols alike, so every backend can use it."""
 
     #: (t, q, u) to value; q and u are sequences of the coordinates and velocities, in the mechanism's order
@@ -61,7 +61,7 @@ class Part:
     #: `drive` counts as work in; `load` and `store` (a spring outside the mechanism) do not
     role: str = choice("drive", "load", "store", default="drive", about="side of the energy balance")
     #: A plain callable takes floats (t, q, u); only the scipy backends can use it
-    value: Steps | Formula | Periodic | Callable[[float, list[float], list[float]], float]
+    value: Steps | FormulaForce | Periodic | Callable[[float, list[float], list[float]], float]
 
 
 @record

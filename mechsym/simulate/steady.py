@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from mechsym.machine.loads import ConstantLoad
 from mechsym.quantities import record
 from mechsym.simulate.angle import Panels
-from mechsym.simulate.angle_turn import Turn, lowest_energy, speeds, stop_angle, turn
+from mechsym.simulate.angle_turn import AngleTurn, lowest_energy, speeds, stop_angle, turn
 
 # a constant load is in balance when a turn gains less than this part of the work that swings in it
 _BALANCE = 1e-6
@@ -106,7 +106,7 @@ def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:
     return _steady(panels, flywheel, turn(panels, flywheel, energy), "neutral", reason)
 
 
-def _steady(panels: Panels, flywheel: float, found: Turn, status: str, reason: str) -> Steady:
+def _steady(panels: Panels, flywheel: float, found: AngleTurn, status: str, reason: str) -> Steady:
     phi, omega, time = speeds(panels, flywheel, found)
     mean = float(panels.edges[-1] - panels.edges[0]) / time
     return Steady(

@@ -12,7 +12,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs import train as trains
 from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.jobs.turn import turn
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train
 from mechsym.simulate import simulate
 from mechsym.torsion import twist
 

@@ -18,9 +18,11 @@ from mechsym.derive.build import declared
 from mechsym.derive.emit import module_text
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crank_throw, shaft
+from mechsym.mechanisms.crank_train import build, build_rigid
 from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles, firing_gaps, gas_forces
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, build_rigid, each
-from mechsym.mechanisms.record import acceleration_function, state
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.record import acceleration_function
+from mechsym.mechanisms.state import state
 
 DEG = math.pi / 180
 FOUR_STROKE = 4 * math.pi

@@ -14,7 +14,7 @@ from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceF
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build, build_printed
-from mechsym.mechanisms.record import state
+from mechsym.mechanisms.state import state
 
 STATE = {"phi0": 1.0, "phi2": 0.99, "phi0d": 50.0, "phi2d": 51.0, "M": 1.5}
 

@@ -16,7 +16,8 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_throw import build as build_throw
 from mechsym.mechanisms.crosshead import CrossheadParameters, build, with_flywheel
-from mechsym.mechanisms.record import curves, state
+from mechsym.mechanisms.record import curves
+from mechsym.mechanisms.state import state
 
 STATE = {"phi": 1.0, "phid": 9.32, "F": 1e5, "M_r": 9000.0, "M_h": -20000.0}
 

@@ -8,8 +8,9 @@ import pytest
 
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_throw import build as build_throw
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build_rigid, each
-from mechsym.mechanisms.record import state
+from mechsym.mechanisms.crank_train import build_rigid
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.state import state
 
 exu = pytest.importorskip("exudyn", reason="exudyn is an optional outside judge: pip install exudyn")
 # what exudyn itself deprecates is not ours to fix

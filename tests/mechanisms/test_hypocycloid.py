@@ -14,7 +14,8 @@ from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceF
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
-from mechsym.mechanisms.record import curves, state
+from mechsym.mechanisms.record import curves
+from mechsym.mechanisms.state import state
 
 SAMPLE = HypocycloidParameters(e=0.013, I1=2e-3, u1=4e-3, m2=0.31, I2=8e-5, m3=0.25, alpha_n=math.radians(25))
 STATE = {"theta": 0.8, "thetad": 310.0, "F": 2.1e4, "M": 35.0}

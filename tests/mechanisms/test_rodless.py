@@ -18,9 +18,10 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.hypocycloid import build as build_hypocycloid
-from mechsym.mechanisms.record import curves, state
+from mechsym.mechanisms.record import curves
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses, build, closed
 from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
+from mechsym.mechanisms.state import state
 
 SAMPLE = RodlessParameters(r=0.05, I1=0.04, u1=0.02, m_link=1.3, I_link=2e-3, m_a=2.4, m_b=1.9)
 STATE = {"alpha": 0.8, "alphad": 210.0, "F_a": -2.1e4, "F_b": 700.0, "M": 35.0}

@@ -5,7 +5,8 @@ import re
 import pytest
 
 from mechsym.derive.build import scripts
-from mechsym.mechanisms.record import bind, listing, state
+from mechsym.mechanisms.record import bind, listing
+from mechsym.mechanisms.state import state
 
 SCALES = {"kg": 3.7, "m": 0.41, "s": 1.9, "rad": 1.0, "-": 1.0, "": 1.0, "1": 1.0}
 SCALES |= {"N": SCALES["kg"] * SCALES["m"] / SCALES["s"] ** 2}

@@ -13,9 +13,9 @@ from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.turn import turn
 from mechsym.mechanisms import crankshaft_flywheel, shaft
-from mechsym.mechanisms.crank_train.parameters import build, build_rigid
+from mechsym.mechanisms.crank_train import build, build_rigid
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
-from mechsym.mechanisms.record import state
+from mechsym.mechanisms.state import state
 
 
 def parameters(name):

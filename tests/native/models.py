@@ -5,8 +5,7 @@ import functools
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms import crank_throw, crankshaft_flywheel, crosshead, hypocycloid, rodless
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_throw, crank_train, crankshaft_flywheel, crosshead, hypocycloid, rodless
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 
 CROSSHEAD = crosshead.CrossheadParameters(

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from mechsym.mechanisms import crosshead
-from mechsym.mechanisms.record import curves, state
+from mechsym.mechanisms.record import curves
+from mechsym.mechanisms.state import state
 from mechsym.papers.zotov2024.equations_printed import (
     cos_psi_printed,
     dinertia_dphi_printed,

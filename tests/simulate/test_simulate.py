@@ -14,7 +14,7 @@ from mechsym.simulate.backends import BACKENDS
 from mechsym.simulate.equations import held, system
 from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.phase import Phase, Surface
-from mechsym.simulate.problem import Formula, Kinks, Stop
+from mechsym.simulate.problem import FormulaForce, Kinks, Stop
 from mechsym.simulate.result import dataset, write_series
 from mechsym.simulate.scipy_backend import advance
 from mechsym.simulate.summary import last_period, speed_over, speed_ripple, summary
@@ -227,10 +227,12 @@ def test_backends_agree(name):
         pytest.importorskip("heyoka")
     if name == "native" and not any(map(shutil.which, ("gcc", "clang", "cc"))):
         pytest.skip("no C compiler")
-    load = Part(name="load", input="M", role="load", value=Formula(function=lambda t, q, u: -0.3 * u[0] * abs(u[0])))
+    load = Part(
+        name="load", input="M", role="load", value=FormulaForce(function=lambda t, q, u: -0.3 * u[0] * abs(u[0]))
+    )
     parts = (*stepped().parts, load)
     if name == "heyoka":  # its Taylor series know no absolute value
-        parts = (parts[0], dataclasses.replace(load, value=Formula(function=lambda t, q, u: -0.3 * u[0])))
+        parts = (parts[0], dataclasses.replace(load, value=FormulaForce(function=lambda t, q, u: -0.3 * u[0])))
     tolerance, allowed = (1e-6, 1e-3) if name in ("scipy-rk23", "scipy-bdf") else (1e-9, 1e-6)
     result = simulate(stepped(parts=parts), Settings(backend=name, tolerance=tolerance, check="none"))
     best = simulate(stepped(parts=parts), Settings(tolerance=1e-12, check="none"))
@@ -271,7 +273,7 @@ def test_loose_tolerance_is_reported():
 
 def test_blow_up_is_a_result():
     # phi'' = phi'^2 goes to infinity at t = 1 / u0
-    square = Part(name="drive", input="M", value=Formula(function=lambda t, q, u: 3.0 * u[0] ** 2))
+    square = Part(name="drive", input="M", value=FormulaForce(function=lambda t, q, u: 3.0 * u[0] ** 2))
     result = simulate(braked(parts=(square,), speed=1.0, stops=(), t_end=2.0), Settings())
     assert result.status == "failed" and result.end == "failure"
     assert "stopped at t = " in result.reason

@@ -8,8 +8,7 @@ import pytest
 from simulated import mechanism as build
 
 from mechsym.errors import BadInput
-from mechsym.mechanisms import crankshaft_flywheel
-from mechsym.mechanisms.crank_train import parameters as crank_train
+from mechsym.mechanisms import crank_train, crankshaft_flywheel
 from mechsym.simulate import Part, Problem, Settings, Steps, simulate
 from mechsym.torsion import modes as torsion
 

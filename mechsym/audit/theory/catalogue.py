@@ -1,14 +1,11 @@
 """All theories by name, each with the data of a case."""
 
-import dataclasses
-import tomllib
 from collections.abc import Callable, Mapping
 from functools import cache, partial
-from typing import Any
 
-from mechsym import cases
 from mechsym.audit.theory import drives, engines, guides, parts, rodless, sliders
 from mechsym.audit.theory.record import Theory
+from mechsym.cases.numbers import numbers, usual
 from mechsym.derive.build import scripts
 from mechsym.errors import BadInput
 
@@ -47,20 +44,6 @@ def theory(name: str, case: str = "") -> Theory:
     """
     if name not in names():
         raise BadInput(f"there is no theory {name!r}; there are {', '.join(names())}")
-    build, usual = _THEORIES.get(name) or (partial(drives.mechanism, name), _usual_case(name))
-    chosen = case or usual
-    return build(_values(name, chosen) if chosen else {}, chosen)
-
-
-def _usual_case(mechanism: str) -> str:
-    fitting = (c for c in cases.names() if tomllib.loads(cases.text(c)).get("mechanism") == mechanism)
-    return next(fitting, "")
-
-
-def _values(name: str, case: str) -> dict[str, float]:
-    found = cases.load(case)
-    if name in scripts() and found.mechanism != name:
-        raise BadInput(f"case {case} is of the mechanism {found.mechanism}, not of {name}; name another with --case")
-    values = {k: v for k, v in dataclasses.asdict(found.need("parameters")).items() if isinstance(v, float)}
-    operation: Any = found.sections.get("operation")
-    return values | ({"speed": operation.speed} if operation else {})
+    build, own = _THEORIES.get(name) or (partial(drives.mechanism, name), usual(name))
+    chosen = case or own
+    return build(numbers(chosen, name if name in scripts() else "") if chosen else {}, chosen)

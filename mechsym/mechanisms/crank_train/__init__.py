@@ -6,6 +6,7 @@ forces      kinematics, reactions and momentum per throw
 firing      firing order, crank phases and gas forces
 """
 
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, build, listing
+from mechsym.mechanisms.crank_train.assembly import build, build_driven, build_rigid, listing
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 
-__all__ = ["CrankTrainParameters", "build", "listing"]
+__all__ = ["CrankTrainParameters", "build", "build_driven", "build_rigid", "listing"]

@@ -1,33 +1,29 @@
 """Outputs of a crank train from the derived throw's: turned into the common frame and summed where they meet."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import casadi as ca
 
-if TYPE_CHECKING:
-    from mechsym.mechanisms.crank_train.parts import Part
+from mechsym.mechanisms.crank_train.throws import ThrowPart
 
 Outputs = dict[str, ca.SX]
-Call = Callable[["Part"], Outputs]
+Call = Callable[[ThrowPart], Outputs]
 
 
-def _common(part: Part, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
+def _common(part: ThrowPart, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
     # the part's y axis stands a quarter turn ahead in its own sense of rotation
     c, s = math.cos(part.bank), math.sin(part.bank)
     return c * x - part.sense * s * y, s * x + part.sense * c * y
 
 
-def kinematics(all_parts: list[Part], call: Call, names: tuple[str, ...]) -> Outputs:
+def kinematics(all_parts: list[ThrowPart], call: Call, names: tuple[str, ...]) -> Outputs:
     """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
 
     Parameters
     ----------
     call : callable
-        Part to the outputs of the derived throw
+        ThrowPart to the outputs of the derived throw
     names : tuple of str
         Names of the coordinates; one name stands for all throws
 
@@ -47,13 +43,13 @@ def kinematics(all_parts: list[Part], call: Call, names: tuple[str, ...]) -> Out
     return outputs
 
 
-def reactions(all_parts: list[Part], call: Call) -> Outputs:
+def reactions(all_parts: list[ThrowPart], call: Call) -> Outputs:
     """Joint forces of every cylinder and the load on the main bearings of every throw.
 
     Parameters
     ----------
     call : callable
-        Part to the outputs of the derived throw
+        ThrowPart to the outputs of the derived throw
 
     Returns
     -------
@@ -77,13 +73,13 @@ def reactions(all_parts: list[Part], call: Call) -> Outputs:
     return outputs | bearings
 
 
-def momentum(all_parts: list[Part], call: Call) -> Outputs:
+def momentum(all_parts: list[ThrowPart], call: Call) -> Outputs:
     """Rates of momentum of all moving parts in the common frame, without the flywheel.
 
     Parameters
     ----------
     call : callable
-        Part to the outputs of the derived throw
+        ThrowPart to the outputs of the derived throw
 
     Returns
     -------

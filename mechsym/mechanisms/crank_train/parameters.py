@@ -12,14 +12,10 @@ One throw is derived (derivations/crank_throw.py) and instantiated; `build` has 
 throws may be given once.
 """
 
-import dataclasses
 import math
-from collections.abc import Mapping
-from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import refuse_short_rod
-from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import quantity, record
 
 Numbers = float | tuple[float, ...]
@@ -122,76 +118,3 @@ def dead_centre(parameters: CrankTrainParameters) -> tuple[float, ...]:
     """
     lengths = (each(parameters, name) for name in ("r", "l1", "l2", "offset"))
     return tuple(math.asin(offset / (r + l1 + l2)) for r, l1, l2, offset in zip(*lengths, strict=True))
-
-
-def build(parameters: CrankTrainParameters) -> Mechanism:
-    """The crank train on its elastic shaft.
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Coordinates phi1..phiN, phi_f; inputs F1.. (gas force of each cylinder), M (load torque, opposing)
-    """
-    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
-
-    return crank_train_assembly.elastic(parameters)
-
-
-def build_rigid(parameters: CrankTrainParameters) -> Mechanism:
-    """The crank train on a rigid shaft.
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Coordinate phi; inputs F1.. (gas force of each cylinder), M (load torque, opposing)
-    """
-    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
-
-    return crank_train_assembly.rigid(parameters)
-
-
-def build_driven(parameters: CrankTrainParameters) -> Mechanism:
-    """The crank train on its elastic shaft, turned by a torque at the free end.
-
-    Returns
-    -------
-    mechanism : Mechanism
-        As of `build`, with the further input M_drive (torque on throw 1, forward)
-    """
-    from mechsym.mechanisms.crank_train import parts as crank_train_assembly
-
-    return crank_train_assembly.driven(parameters)
-
-
-def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
-    """Letters and units, like the stored listing of a generated mechanism.
-
-    Parameters
-    ----------
-    mechanism : Mechanism, optional
-        Of `build`; without it the letters stand for any number of throws
-
-    Returns
-    -------
-    listing : mapping
-        Keys name, about, source, coordinates, parameters, inputs, outputs, equations
-    """
-    coordinates = mechanism.coordinates if mechanism else ("phi1..phiN", "phi_f")
-    inputs = mechanism.inputs if mechanism else ("F1..", "M")
-    names = ("x_1", "psi_1", "pin_force_x_1", "side_force_1", "main_bearing_force_x_1", "shaft_torque_1", "..")
-    outputs = names if mechanism is None else _outputs(mechanism)
-    fields = dataclasses.fields(CrankTrainParameters)
-    return {
-        "name": "crank_train",
-        "about": "N throws on an elastic shaft with a flywheel.",
-        "source": "002_d7297926d6c52225",
-        "coordinates": dict.fromkeys(coordinates, "rad"),
-        "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
-        "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
-        "outputs": dict.fromkeys(outputs, ""),
-        "equations": [],
-    }
-
-
-def _outputs(mechanism: Mechanism) -> list[str]:
-    return [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]

@@ -30,7 +30,7 @@ class CylinderCycle:
 
 
 @record
-class Gas:
+class GasState:
     """Where one cylinder is in its cycle."""
 
     phase: int  #: 0 before, 1 during, 2 after combustion, 3 open
@@ -43,7 +43,7 @@ class Gas:
     whole: bool  #: Whether the run has seen the inlet close
 
 
-def first_state(loop: Loop, omega: float) -> tuple[list[Gas], np.ndarray]:
+def first_state(loop: Loop, omega: float) -> tuple[list[GasState], np.ndarray]:
     """Cylinders as they stand at angle 0 in steady running, and the state of the equations.
 
     Parameters
@@ -64,7 +64,7 @@ def first_state(loop: Loop, omega: float) -> tuple[list[Gas], np.ndarray]:
         ends = (loop.engine.cycle.inlet_closes, start, start + duration, loop.engine.cycle.exhaust_opens)
         passed = int(np.searchsorted(ends, phi, side="right"))  # 0: before the inlet closes, 4: the exhaust is open
         gases.append(
-            Gas(
+            GasState(
                 phase=(passed - 1) % (OPEN + 1),
                 start=start,
                 duration=duration,
@@ -79,7 +79,7 @@ def first_state(loop: Loop, omega: float) -> tuple[list[Gas], np.ndarray]:
     return gases, np.array([*[0.0] * n, *[omega] * n, *cylinders, 0.0, 0.0])
 
 
-def gap(loop: Loop, gas: Gas, k: int, y: np.ndarray) -> float:
+def gap(loop: Loop, gas: GasState, k: int, y: np.ndarray) -> float:
     """How far a cylinder is past its next event.
 
     Parameters
@@ -114,8 +114,8 @@ def ledger(loop: Loop) -> ca.Function:
 
 
 def pass_event(
-    loop: Loop, books: ca.Function, gas: Gas, k: int, now: tuple[float, np.ndarray]
-) -> tuple[Gas, np.ndarray, CylinderCycle | None]:
+    loop: Loop, books: ca.Function, gas: GasState, k: int, now: tuple[float, np.ndarray]
+) -> tuple[GasState, np.ndarray, CylinderCycle | None]:
     """Bring a cylinder into its next phase.
 
     Parameters
@@ -142,12 +142,12 @@ def pass_event(
         y = y.copy()
         y[own : own + len(PER_CYLINDER)] = loop.engine.cycle.intake_temperature, 0.0, 0.0
         centre = gas.dead_centre
-        return Gas(phase=0, start=start, duration=duration, dead_centre=centre, speed=speed, whole=True), y, None
+        return GasState(phase=0, start=start, duration=duration, dead_centre=centre, speed=speed, whole=True), y, None
     then = dataclasses.replace(gas, phase=OPEN, dead_centre=gas.dead_centre + CYCLE)
     return then, y, _closed(books, gas, k, t, y[own : own + len(PER_CYLINDER)]) if gas.whole else None
 
 
-def _closed(books: ca.Function, gas: Gas, k: int, t: float, own: np.ndarray) -> CylinderCycle:
+def _closed(books: ca.Function, gas: GasState, k: int, t: float, own: np.ndarray) -> CylinderCycle:
     temperature, work, wall_heat = (float(v) for v in own)
     found = dict(zip(SCALARS, np.asarray(books(gas.speed, temperature)).ravel(), strict=True))
     gain = found["energy_end"] - found["energy_start"] + work + wall_heat

@@ -26,7 +26,7 @@ PER_CYLINDER = ("t", "work", "wall_heat")
 
 
 @record
-class Cylinder:
+class LoopCylinder:
     """Where a cylinder sits on the mechanism."""
 
     input: str  #: The mechanism's input that its piston force acts on
@@ -40,7 +40,7 @@ class Loop:
 
     engine: ClosedEngine
     mechanism: Mechanism
-    cylinders: tuple[Cylinder, ...]
+    cylinders: tuple[LoopCylinder, ...]
     load: ConstantLoad | PropellerLoad
     #: Input that takes the load torque, and the coordinate whose speed decides it
     load_input: str

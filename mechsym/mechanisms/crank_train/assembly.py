@@ -1,66 +1,15 @@
 """Putting derived throws on a shaft: every function of the crank train is a sum over instances of one throw."""
 
 import dataclasses
-import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import casadi as ca
 
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, local_shift
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.throws import ThrowPart, parts
 from mechsym.mechanisms.record import Mechanism, bind, generated
 from mechsym.quantities import record
-
-_CRANK = ("I0", "m0", "u0")
-_CYLINDER = ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")
-
-
-@record
-class Part:
-    """One instance of the derived throw: the crank of a throw alone, or a cylinder on it."""
-
-    cylinder: int  #: Number of the cylinder, 0 for a crank alone
-    throw: int  #: Index of its throw from 0
-    shift: float  #: Its own crank angle at shaft angle 0 [rad]
-    #: Angle of its x axis [rad], and its sense of rotation
-    bank: float
-    sense: float
-    axis: tuple[float, float]  #: Place of the shaft axis [m]
-    z: float  #: Position along the shaft [m]
-    letters: Mapping[str, float]
-
-
-def parts(p: CrankTrainParameters) -> list[Part]:
-    """The instances that a crank train consists of, cranks first.
-
-    Returns
-    -------
-    parts : list of Part
-        One a throw, then one a cylinder
-    """
-    nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
-    found = []
-    for k in range(max(p.throw)):
-        # a throw without rod and piston; its lengths do not matter
-        letters = nothing | {"r": 1.0, "l1": 1.0, "l2": 1.0} | {n: each(p, n)[k] for n in _CRANK}
-        found.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
-    for i, k in enumerate(p.throw):
-        letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
-        found.append(_part(p, i + 1, k - 1, local_shift(p)[i], each(p, "bank")[i], letters))
-    return found
-
-
-def _part(p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: float, letters: dict) -> Part:
-    sense, tilt = each(p, "sense")[k], p.axis_tilt + bank
-    return Part(
-        cylinder=cylinder,
-        throw=k,
-        shift=shift,
-        bank=bank,
-        sense=sense,
-        axis=(each(p, "axis_x")[k], each(p, "axis_y")[k]),
-        z=each(p, "z")[k] + (each(p, "z_rod")[cylinder - 1] if cylinder else 0.0),
-        letters=letters | {"g": p.g, "axis_tilt": tilt if sense > 0 else math.pi - tilt},  # mirrored, so is gravity
-    )
 
 
 @record
@@ -74,7 +23,7 @@ class _Symbols:
     load: ca.SX
 
 
-def elastic(p: CrankTrainParameters) -> Mechanism:
+def build(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate a throw and one of the flywheel."""
     names = (*(f"phi{k + 1}" for k in range(max(p.throw))), "phi_f")
     s = _symbols(names, names, len(p.throw))
@@ -94,7 +43,7 @@ def elastic(p: CrankTrainParameters) -> Mechanism:
     return _mechanism(p, s, outputs, torques, strain)
 
 
-def driven(p: CrankTrainParameters) -> Mechanism:
+def build_driven(p: CrankTrainParameters) -> Mechanism:
     """The elastic train with a torque on its first throw as a further input.
 
     Returns
@@ -102,7 +51,7 @@ def driven(p: CrankTrainParameters) -> Mechanism:
     mechanism : Mechanism
         Named CasADi functions; reactions take the input too, though none of them feels it at given accelerations
     """
-    plain, torque = elastic(p), ca.SX.sym("M_drive")
+    plain, torque = build(p), ca.SX.sym("M_drive")
     functions = dict(plain.functions)
     for group in ("dynamics", "reactions"):
         function = plain.functions[group]
@@ -116,7 +65,7 @@ def driven(p: CrankTrainParameters) -> Mechanism:
     return dataclasses.replace(plain, inputs=(*plain.inputs, "M_drive"), functions=functions)
 
 
-def rigid(p: CrankTrainParameters) -> Mechanism:
+def build_rigid(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before."""
     s = _symbols(("phi",), ("phi",) * (max(p.throw) + 1), len(p.throw))
     pieces = _dynamics(p, s)
@@ -141,11 +90,11 @@ def _symbols(names: tuple[str, ...], per_throw: tuple[str, ...], cylinders: int)
     )
 
 
-def _caller(s: _Symbols) -> Callable[[str, Part], dict[str, ca.SX]]:
+def _caller(s: _Symbols) -> Callable[[str, ThrowPart], dict[str, ca.SX]]:
     letters = generated("crank_throw").PARAMETERS
     throw = bind("crank_throw", {n: ca.SX.sym(n) for n in letters}).functions
 
-    def call(group: str, part: Part) -> dict[str, ca.SX]:
+    def call(group: str, part: ThrowPart) -> dict[str, ca.SX]:
         k = part.throw
         force = s.forces[part.cylinder - 1] if part.cylinder else 0
         given = {"phi": s.q[k] + part.shift, "phid": s.u[k], "phidd": s.a[k], "F": force, "M": 0, **part.letters}
@@ -198,3 +147,37 @@ def _mechanism(
 
 def _function(name: str, inputs: list[ca.SX], outputs: dict[str, ca.SX]) -> ca.Function:
     return ca.Function(name, inputs, list(outputs.values()), [str(v) for v in inputs], list(outputs))
+
+
+def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
+    """Letters and units, like the stored listing of a generated mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism, optional
+        Of `build`; without it the letters stand for any number of throws
+
+    Returns
+    -------
+    listing : mapping
+        Keys name, about, source, coordinates, parameters, inputs, outputs, equations
+    """
+    coordinates = mechanism.coordinates if mechanism else ("phi1..phiN", "phi_f")
+    inputs = mechanism.inputs if mechanism else ("F1..", "M")
+    names = ("x_1", "psi_1", "pin_force_x_1", "side_force_1", "main_bearing_force_x_1", "shaft_torque_1", "..")
+    outputs = names if mechanism is None else _outputs(mechanism)
+    fields = dataclasses.fields(CrankTrainParameters)
+    return {
+        "name": "crank_train",
+        "about": "N throws on an elastic shaft with a flywheel.",
+        "source": "002_d7297926d6c52225",
+        "coordinates": dict.fromkeys(coordinates, "rad"),
+        "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
+        "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
+        "outputs": dict.fromkeys(outputs, ""),
+        "equations": [],
+    }
+
+
+def _outputs(mechanism: Mechanism) -> list[str]:
+    return [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]

@@ -1,0 +1,59 @@
+"""The derived throw, instantiated: the crank of every throw alone, and one instance for every cylinder."""
+
+import math
+from collections.abc import Mapping
+
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, local_shift
+from mechsym.quantities import record
+
+_CRANK = ("I0", "m0", "u0")
+_CYLINDER = ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")
+
+
+@record
+class ThrowPart:
+    """One instance of the derived throw: the crank of a throw alone, or a cylinder on it."""
+
+    cylinder: int  #: Number of the cylinder, 0 for a crank alone
+    throw: int  #: Index of its throw from 0
+    shift: float  #: Its own crank angle at shaft angle 0 [rad]
+    #: Angle of its x axis [rad], and its sense of rotation
+    bank: float
+    sense: float
+    axis: tuple[float, float]  #: Place of the shaft axis [m]
+    z: float  #: Position along the shaft [m]
+    letters: Mapping[str, float]
+
+
+def parts(p: CrankTrainParameters) -> list[ThrowPart]:
+    """The instances that a crank train consists of, cranks first.
+
+    Returns
+    -------
+    parts : list of ThrowPart
+        One a throw, then one a cylinder
+    """
+    nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
+    found = []
+    for k in range(max(p.throw)):
+        # a throw without rod and piston; its lengths do not matter
+        letters = nothing | {"r": 1.0, "l1": 1.0, "l2": 1.0} | {n: each(p, n)[k] for n in _CRANK}
+        found.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
+    for i, k in enumerate(p.throw):
+        letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
+        found.append(_part(p, i + 1, k - 1, local_shift(p)[i], each(p, "bank")[i], letters))
+    return found
+
+
+def _part(p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: float, letters: dict) -> ThrowPart:
+    sense, tilt = each(p, "sense")[k], p.axis_tilt + bank
+    return ThrowPart(
+        cylinder=cylinder,
+        throw=k,
+        shift=shift,
+        bank=bank,
+        sense=sense,
+        axis=(each(p, "axis_x")[k], each(p, "axis_y")[k]),
+        z=each(p, "z")[k] + (each(p, "z_rod")[cylinder - 1] if cylinder else 0.0),
+        letters=letters | {"g": p.g, "axis_tilt": tilt if sense > 0 else math.pi - tilt},  # mirrored, so is gravity
+    )
