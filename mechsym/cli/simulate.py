@@ -13,7 +13,7 @@ from mechsym.files import write_text
 from mechsym.quantities import ranges
 
 if TYPE_CHECKING:
-    pass
+    from mechsym.jobs.run import FinishedRun
 
 
 @click.command(short_help="Simulate over time, with an energy audit.")
