@@ -8,6 +8,7 @@ The public interface is the modules that `__all__` names. Each is imported on fi
 """
 
 import importlib
+from pathlib import Path
 from typing import Any
 
 __all__ = [
@@ -23,6 +24,10 @@ __all__ = [
     "audit", "papers",
 ]  # fmt: skip
 
+# in a clone generated/ and derivations/ stand beside the package; what is installed has them inside
+if not (Path(__file__).parent / "generated").is_dir():
+    __path__.append(str(Path(__file__).parents[1]))
+
 
 def __getattr__(name: str) -> Any:
     if name in __all__:
@@ -35,4 +40,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__, "__version__"])
+    return sorted([*__all__, "__version__"])

@@ -5,7 +5,6 @@ import sys
 import click
 
 from mechsym.cli.common import emit, json_option, progress
-from mechsym.errors import MissingExtra
 
 
 @click.command()
@@ -18,10 +17,8 @@ def derive(names: tuple[str, ...], check: bool, as_json: bool) -> None:
     \b
     Example: mechsym derive crosshead
     """
-    try:
-        from mechsym.derive import build
-    except ModuleNotFoundError:
-        raise MissingExtra("deriving needs sympy; install it with: pip install 'mechsym[derive]'") from None
+    from mechsym.derive import build
+
     differs: dict[str, str] = {}
     written: list[str] = []
     chosen = names or tuple(build.scripts())
