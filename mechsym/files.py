@@ -36,15 +36,12 @@ def make_folder(path: Path) -> Path:
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write `text` to a temporary name beside `path` and move it into place.
+    """Write `text` as UTF-8 with newline line ends to a temporary name beside `path` and move it into place."""
+    return write_bytes(path, text.encode("utf-8"))
 
-    Parameters
-    ----------
-    path : Path
-        File to write; its folder is made when it is missing
-    text : str
-        Contents, stored as UTF-8 with newline line ends
-    """
+
+def write_bytes(path: Path, data: bytes) -> Path:
+    """Write bytes to a temporary name beside `path` and move it into place; its folder is made when it is missing."""
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -52,8 +49,8 @@ def write_text(path: Path, text: str) -> Path:
     except OSError as error:
         raise _unwritable(path, error) from error
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
         os.chmod(name, 0o644)
         os.replace(name, path)
     except BaseException:

@@ -1,0 +1,221 @@
+r"""A machine as a block with ports: what an FMU, a page and a text export are written from.
+
+    u (added to the inputs) --->|  x' = rates(t, x, u, p, w, s)       |---> y (kinematics, forces, reactions)
+    p (tunable)             --->|  w: curves over a state, value and  |
+                                |     slope; s: switches, 0 or 1      |
+
+x holds coordinates and velocities. A curve is a piecewise polynomial, so its derivatives are exact; a switch goes from
+0 to 1 at a time that is itself a parameter. `kinks` and `stops` are those of the problem.
+"""
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import casadi as ca
+from scipy.interpolate import PPoly
+
+from mechsym.errors import BadInput
+from mechsym.mechanisms import listing
+from mechsym.mechanisms.record import Mechanism, acceleration_function, accelerations, bind, velocities
+from mechsym.simulate import Formula, Kinks, Part, Periodic, Problem, Steps, Stop
+from mechsym.simulate.equations import fitted
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Port:
+    """A named scalar of a block, in SI."""
+
+    name: str
+    unit: str  #: of value and start
+    start: float = 0.0  #: value at the start [unit]
+    about: str = ""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Curve:
+    """A piecewise polynomial over ratio times a state: periodic, or held beyond its ends."""
+
+    name: str
+    state: int  #: index in x
+    ratio: float = 1.0  #: argument per unit of the state [-]
+    poly: PPoly
+    periodic: bool = True
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Law:
+    """How a part of a problem depends on tunable parameters, where the part itself has only numbers.
+
+    `value` takes (t, q, u, letters, curves): symbols, parameters by name, and (value, slope) of each curve; `outputs`
+    takes the same and gives what else is of interest, by name, with units in `units`.
+    """
+
+    part: str
+    parameters: tuple[Port, ...] = ()
+    curves: tuple[Curve, ...] = ()
+    switches: tuple[str, ...] = ()  #: parameters that hold the times of its switches
+    value: Callable[..., Any]
+    outputs: Callable[..., Mapping[str, Any]] | None = None
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Block:
+    """A machine with its ports; functions take (t, x, u, p, w, s), w holds value and slope of each curve."""
+
+    name: str
+    about: str
+    states: tuple[Port, ...]
+    inputs: tuple[Port, ...]
+    parameters: tuple[Port, ...]
+    outputs: tuple[Port, ...]
+    curves: tuple[Curve, ...]
+    switches: tuple[str, ...]  #: parameters that hold the times of the switches
+    kinks: tuple[Kinks, ...]
+    stops: tuple[Stop, ...]
+    t_end: float  #: of the run it was made from [s]
+    rates: ca.Function
+    observed: ca.Function
+
+
+def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> Block:
+    """The block of a problem; `laws` say how its parts depend on parameters."""
+    given = {law.part: law for law in laws}
+    chosen = [given.get(part.name) or law_of(problem, part) for part in problem.parts]
+    mechanism, own = _tunable(problem.mechanism)
+    ports = (*own, *(port for law in chosen for port in law.parameters))
+    _refuse_twins([p.name for p in ports])
+    symbols = _symbols(problem, ports, chosen)
+    rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols)
+    units = _units(problem.mechanism) | {u: v for law in chosen for u, v in law.units.items()}
+    arguments = [symbols[k] for k in ("t", "x", "u", "p", "w", "s")]
+    q, u = problem.mechanism.coordinates, velocities(problem.mechanism)
+    starts = zip((*q, *u), (*problem.q0, *problem.u0), strict=True)
+    return Block(
+        name=name, about=about,
+        states=tuple(Port(name=n, unit=units[n], start=float(start)) for n, start in starts),
+        inputs=tuple(_input(n, units[n]) for n in problem.mechanism.inputs),
+        parameters=ports,
+        outputs=tuple(Port(name=n, unit=units.get(n, "")) for n in outputs),
+        curves=tuple(c for law in chosen for c in law.curves),
+        switches=tuple(s for law in chosen for s in law.switches),
+        kinks=problem.kinks, stops=problem.stops, t_end=problem.t_end,
+        rates=ca.Function("rates", arguments, [ca.densify(rates)]),
+        observed=ca.Function("observed", arguments, [ca.densify(ca.vertcat(*outputs.values()))]),
+    )  # fmt: skip
+
+
+def _input(name: str, unit: str) -> Port:
+    return Port(name=name, unit=unit, about=f"added to what acts on {name}")
+
+
+def law_of(problem: Problem, part: Part) -> Law:
+    """A part as it stands: a formula, a curve with a scale, or steps whose values and times are parameters."""
+    value = part.value
+    match value:
+        case Formula():
+            return Law(part=part.name, value=lambda t, q, u, letters, curves, s: value.function(t, q, u))
+        case Periodic():
+            return _curve_law(problem, part, value)
+        case Steps():
+            return _steps_law(problem, part, value)
+    raise BadInput(f"part {part.name} is a plain function, which cannot be exported; give it as a formula or a table")
+
+
+def _curve_law(problem: Problem, part: Part, value: Periodic) -> Law:
+    scale = Port(name=f"{part.name}_scale", unit="-", start=1.0, about=f"factor on {part.name}")
+    index = problem.mechanism.coordinates.index(value.coordinate)
+    curve = Curve(name=part.name, state=index, poly=fitted(value))
+    return Law(
+        part=part.name, parameters=(scale,), curves=(curve,),
+        value=lambda t, q, u, letters, curves, s: letters[scale.name] * curves[0][0],
+    )  # fmt: skip
+
+
+def _steps_law(problem: Problem, part: Part, value: Steps) -> Law:
+    unit = _units(problem.mechanism)[part.input]
+    levels = [
+        Port(name=f"{part.name}_{i}", unit=unit, start=v, about=f"{part.name} after jump {i}" if i else "before any jump")
+        for i, v in enumerate(value.values)
+    ]
+    times = [
+        Port(name=f"{part.name}_time_{i}", unit="s", start=v, about=f"time of jump {i} of {part.name}")
+        for i, v in enumerate(value.times, 1)
+    ]
+
+    def total(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> Any:
+        values = [letters[level.name] for level in levels]
+        return values[0] + sum((s[i] * (values[i + 1] - values[i]) for i in range(len(times))), ca.SX(0))
+
+    return Law(part=part.name, parameters=(*levels, *times), switches=tuple(p.name for p in times), value=total)
+
+
+def _tunable(mechanism: Mechanism) -> tuple[Mechanism, tuple[Port, ...]]:
+    """The mechanism with symbols for its parameters, where it has letters of its own."""
+    try:
+        units = listing(mechanism.name)["parameters"]
+        symbols = {name: ca.SX.sym(name) for name in mechanism.parameters}
+        bound = bind(mechanism.name, symbols)
+    except (BadInput, ModuleNotFoundError, KeyError):
+        # a crank train is put together from many instances of one throw; its numbers are bound
+        return mechanism, ()
+    if bound.inputs != mechanism.inputs or bound.coordinates != mechanism.coordinates:
+        return mechanism, ()
+    ports = [Port(name=n, unit=units[n], start=float(v)) for n, v in mechanism.parameters.items()]
+    return bound, tuple(ports)
+
+
+def _units(mechanism: Mechanism) -> dict[str, str]:
+    known = listing(mechanism.name, mechanism)
+    units = {n: unit for key in ("coordinates", "inputs", "outputs") for n, unit in known[key].items()}
+    q = mechanism.coordinates
+    units |= {n: f"{units[c]}/s" for n, c in zip(velocities(mechanism), q, strict=True)}
+    return units | {n: f"{units[c]}/s^2" for n, c in zip(accelerations(mechanism), q, strict=True)}
+
+
+def _symbols(problem: Problem, ports: Sequence[Port], laws: Sequence[Law]) -> dict[str, Any]:
+    curves, switches = sum(len(law.curves) for law in laws), sum(len(law.switches) for law in laws)
+    n = len(problem.mechanism.coordinates)
+    sizes = {"x": 2 * n, "u": len(problem.mechanism.inputs), "p": len(ports), "w": 2 * curves, "s": switches}
+    return {"t": ca.SX.sym("t"), **{name: ca.SX.sym(name, size) for name, size in sizes.items()}}
+
+
+def _expressions(
+    problem: Problem, mechanism: Mechanism, own: int, laws: Sequence[Law], symbols: Mapping[str, Any]
+) -> tuple[Any, dict[str, Any]]:
+    n = len(mechanism.coordinates)
+    x, p = ca.vertsplit(symbols["x"]), ca.vertsplit(symbols["p"])
+    q, u = x[:n], x[n:]
+    totals = dict(zip(mechanism.inputs, ca.vertsplit(symbols["u"]), strict=True))
+    outputs: dict[str, Any] = {}
+    letters, further = p[:own], {}
+    w, s, done = ca.vertsplit(symbols["w"]), ca.vertsplit(symbols["s"]), own
+    for part, law in zip(problem.parts, laws, strict=True):
+        named = {port.name: p[done + i] for i, port in enumerate(law.parameters)}
+        curves = [(w[2 * i], w[2 * i + 1]) for i in range(len(law.curves))]
+        arguments = (symbols["t"], q, u, named, curves, s)
+        value = law.value(*arguments)
+        totals[part.input] = totals[part.input] + value
+        outputs[f"{part.name}_on_{part.input}"] = value
+        further |= law.outputs(*arguments) if law.outputs else {}
+        done, w, s = done + len(law.parameters), w[2 * len(law.curves) :], s[len(law.switches) :]
+    forces = list(totals.values())
+    qdd = acceleration_function(mechanism)(*q, *u, *forces, *letters)
+    outputs |= dict(zip(accelerations(mechanism), ca.vertsplit(qdd), strict=True)) | further
+    outputs |= _observed(mechanism, "kinematics", [*q, *letters])
+    if "reactions" in mechanism.functions:
+        outputs |= _observed(mechanism, "reactions", [*q, *u, *ca.vertsplit(qdd), *forces, *letters])
+    return ca.vertcat(*u, qdd), outputs
+
+
+def _observed(mechanism: Mechanism, group: str, arguments: Sequence[Any]) -> dict[str, Any]:
+    function = mechanism.functions[group]
+    values = function.call(list(arguments[: function.n_in()]))
+    return dict(zip(function.name_out(), values, strict=True))
+
+
+def _refuse_twins(names: Sequence[str]) -> None:
+    twins = sorted({n for n in names if list(names).count(n) > 1})
+    if twins:
+        raise BadInput(f"two parameters have the name {', '.join(twins)}; rename a part")

@@ -1,0 +1,141 @@
+"""The file of an FMU: description, sources, and binaries for the platforms that a compiler is there for.
+
+The token is made from the sources: the same model gives the same token and, without binaries, the same file.
+"""
+
+import dataclasses
+import importlib.metadata
+import importlib.util
+import platform
+import subprocess
+import sys
+import tempfile
+import uuid
+import zipfile
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from io import BytesIO
+from pathlib import Path
+
+from mechsym.errors import BadInput
+from mechsym.files import write_bytes
+from mechsym.native import compiler
+from mechsym.native.integrators import dop853_numbers
+from mechsym.out.block import Block
+from mechsym.out.fmi.describe import build_description, description, identifier
+from mechsym.out.text.c import model
+
+PLATFORMS = ("linux64", "win64")
+_NAMESPACE = uuid.UUID("5a1d7bb4-93b8-5b2c-9d3c-0d7e60f2a1c5")
+_OPTIONS = ("-std=c99", "-O2", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
+_FOLDERS = {2: {"linux64": "linux64", "win64": "win64"}, 3: {"linux64": "x86_64-linux", "win64": "x86_64-windows"}}
+_ENDINGS = {"linux64": "so", "win64": "dll"}
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Unit:
+    """An FMU: its bytes, and what is inside or missing."""
+
+    name: str
+    version: int
+    token: str
+    data: bytes
+    binaries: tuple[str, ...]
+    missing: Mapping[str, str]  #: platform: why it has no binary
+
+
+def fmu(block: Block, version: int = 2, platforms: Sequence[str] = ("linux64",)) -> Unit:
+    """The functional mock-up unit of a block, for FMI 2.0 or 3.0."""
+    if version not in (2, 3):
+        raise BadInput(f"--fmi {version} is not allowed; allowed are 2, 3")
+    for name in platforms:
+        if name not in PLATFORMS:
+            raise BadInput(f"--platforms {name!r} is not known; allowed are {', '.join(PLATFORMS)}")
+    sources = _sources(block, version)
+    token = "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(f"{k}\n{v}" for k, v in sources.items()))) + "}"
+    sources["identity.h"] = _identity(block, token, version)
+    files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
+    main = [f"fmi{version}.c"]
+    tool = f"mechsym {importlib.metadata.version('mechsym')}"
+    files["modelDescription.xml"] = description(block, version, token, main, tool)
+    if version == 3:
+        files["sources/buildDescription.xml"] = build_description(block, main)
+    binaries, missing = _binaries(block, version, sources, platforms)
+    return Unit(
+        name=block.name, version=version, token=token, data=_packed(files | binaries), binaries=tuple(binaries),
+        missing=missing,
+    )  # fmt: skip
+
+
+def write(unit: Unit, path: Path) -> Path:
+    """Write an FMU to a file, under a temporary name first."""
+    return write_bytes(path, unit.data)
+
+
+def _sources(block: Block, version: int) -> dict[str, str]:
+    room = resources.files("mechsym.out")
+    texts = {
+        f"fmi{version}.c": (room / "fmi" / f"fmi{version}.c").read_text(encoding="utf-8"),
+        "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
+        "model.h": model(block),
+        "method.h": dop853_numbers() + "\n",
+    }
+    for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
+        if header.startswith(f"fmi{version}"):
+            texts[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")
+    return texts
+
+
+def _identity(block: Block, token: str, version: int) -> str:
+    name = identifier(block.name)
+    return f'#define TOKEN "{token}"\n#define FMI{version}_FUNCTION_PREFIX {name}_\n'
+
+
+def _binaries(
+    block: Block, version: int, sources: Mapping[str, str], platforms: Sequence[str]
+) -> tuple[dict[str, bytes], dict[str, str]]:
+    found, missing = {}, {}
+    for name in platforms:
+        try:
+            command = _compiler(name)
+            place = f"binaries/{_FOLDERS[version][name]}/{identifier(block.name)}.{_ENDINGS[name]}"
+            found[place] = _compiled(command, version, sources)
+        except compiler.NoCompiler as error:
+            missing[name] = str(error)
+    return found, missing
+
+
+def _compiler(name: str) -> tuple[str, ...]:
+    host = platform.system() == "Linux" and platform.machine().lower() in ("x86_64", "amd64")
+    if name == "linux64" and host:
+        return compiler.find().command
+    if importlib.util.find_spec("ziglang") is None:
+        raise compiler.NoCompiler(f"no compiler for {name}; install the extra web: pip install 'mechsym[web]'")
+    target = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}[name]
+    return (sys.executable, "-m", "ziglang", "cc", "-target", target, "-s")
+
+
+def _compiled(command: Sequence[str], version: int, sources: Mapping[str, str]) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in sources.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        target = Path(folder) / "unit.bin"
+        # file names are given relative to the folder, so that no path of this machine gets into the binary
+        words = [*command, *_OPTIONS, f"-DFMI{version}_OVERRIDE_FUNCTION_PREFIX", f"fmi{version}.c", "-o", target.name]
+        done = subprocess.run([*words, "-lm"], cwd=folder, capture_output=True, text=True, check=False)
+        if done.returncode:
+            said = [line for line in done.stderr.splitlines() if "error" in line] or ["no word"]
+            raise compiler.NoCompiler(f"{command[0]} failed on the sources: {said[0].strip()}")
+        return target.read_bytes()
+
+
+def _packed(files: Mapping[str, str | bytes]) -> bytes:
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(files):
+            # a fixed date, so that the same model gives the same file
+            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, files[name])
+    return buffer.getvalue()

@@ -1,0 +1,116 @@
+"""An FMU against the simulation it was made from: `python -m mechsym.out.fmi.compare e.fmu zotov-89`.
+
+    me      its rates and event indicators, integrated here by DOP853 of scipy from event to event
+    cs      its own integrator, asked for the times of the results
+    cvode   model exchange as an importer does it, with CVode of fmpy
+"""
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from mechsym.out.fmi.drive import Driven, driven
+from mechsym.simulate import Problem, Settings, simulate
+
+TOLERANCE = 1e-12  # of all runs that are compared
+POINTS = 200
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How far an FMU is from the simulation."""
+
+    kind: str  #: me, cs or cvode
+    largest: float  #: over states and times, as a share of each state's largest value [-]
+    t_end: float  #: of both runs [s]
+    points: int
+
+
+def compare(path: Path, problem: Problem, kinds: tuple[str, ...] = ("me", "cs")) -> tuple[Difference, ...]:
+    """Run an FMU in each kind and compare its states with the simulation at even times."""
+    t_end = float(simulate(problem, Settings(check="none")).t[-1]) if problem.turns else problem.t_end
+    t = np.linspace(problem.t_start, t_end, POINTS + 1)
+    same = dataclasses.replace(problem, output=tuple(t[1:]), t_end=t_end, turns=None)
+    result = simulate(same, Settings(tolerance=TOLERANCE, check="none"))
+    q = problem.mechanism.coordinates
+    wanted = np.array([result.columns[n] for n in (*q, *(f"{c}d" for c in q))]).T
+    rows = {kind: _RUNS[kind](path, t, wanted.shape[1]) for kind in kinds}
+    return tuple(
+        Difference(kind=kind, largest=_largest(found, wanted), t_end=t_end, points=len(found))
+        for kind, found in rows.items()
+    )
+
+
+def _largest(found: np.ndarray, wanted: np.ndarray) -> float:
+    count = min(len(found), len(wanted))
+    return float(np.max(np.abs(found[:count] - wanted[:count]) / np.max(np.abs(wanted), axis=0)))
+
+
+def _exchange(path: Path, t: np.ndarray, states: int) -> np.ndarray:
+    with driven(path, "me") as unit:
+        now, x = float(t[0]), unit.states()
+        rows = [x]
+        # the last time may be an event itself, met a rounding error before
+        while t[-1] - now > 1e-12 * t[-1]:
+            jump = unit.next_event()
+            until = min(jump, float(t[-1])) if jump is not None and jump > now else float(t[-1])
+            run = _smooth(unit, now, x, until)
+            wanted = t[(t > now) & (t <= run.t[-1])]
+            rows += list(run.sol(wanted).T)
+            now, x = float(run.t[-1]), run.y[:, -1]
+            if unit.event(now, x):
+                break
+    return np.array(rows if len(rows) == len(t) else [*rows, x])
+
+
+def _smooth(unit: Driven, now: float, x: np.ndarray, until: float) -> Any:
+    events = [_indicator(unit, i, (now, x, z)) for i, z in enumerate(unit.indicators(now, x))]
+    return solve_ivp(unit.rates, (now, until), x, method="DOP853", events=events, rtol=TOLERANCE,
+                     atol=TOLERANCE, dense_output=True)  # fmt: skip
+
+
+def _indicator(unit: Driven, index: int, start: tuple[float, np.ndarray, float]) -> Callable[[float, np.ndarray], float]:
+    now, x, first = start
+    if abs(first) < 1e-9:
+        # just passed: the sign is that of the next moment
+        later = unit.indicators(now, x + 1e-6 * unit.rates(now, x))[index]
+        first = float(np.sign(later - first))
+
+    def event(s: float, z: np.ndarray) -> float:
+        return first if s == now else float(unit.indicators(s, z)[index])
+
+    event.terminal = True  # type: ignore[attr-defined]
+    return event
+
+
+def _steps(path: Path, t: np.ndarray, states: int) -> np.ndarray:
+    with driven(path, "cs") as unit:
+        rows = [unit.states()]
+        for start, end in zip(t[:-1], t[1:], strict=True):
+            ended = unit.step(float(start), float(end - start))
+            rows.append(unit.states())
+            if ended:
+                break
+    return np.array(rows)
+
+
+def _cvode(path: Path, t: np.ndarray, states: int) -> np.ndarray:
+    with driven(path, "me") as unit:
+        names = unit.state_names
+    import fmpy
+
+    run = fmpy.simulate_fmu(
+        str(path), fmi_type="ModelExchange", start_time=float(t[0]), stop_time=float(t[-1]), output=names,
+        relative_tolerance=TOLERANCE, output_interval=float(t[1] - t[0]),
+    )  # fmt: skip
+    last = np.append(np.diff(run["time"]) > 0, True)
+    times = run["time"][last]
+    nearest = np.abs(times[:, None] - t[None, :]).argmin(axis=0)
+    return np.array([run[n][last][nearest] for n in names]).T
+
+
+_RUNS: Mapping[str, Callable[[Path, np.ndarray, int], np.ndarray]] = {"me": _exchange, "cs": _steps, "cvode": _cvode}
