@@ -18,11 +18,12 @@ from scipy.interpolate import PPoly
 from mechsym.errors import BadInput
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.record import Mechanism, acceleration_function, accelerations, bind, velocities
+from mechsym.quantities import record
 from mechsym.simulate import Formula, Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.equations import fitted
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Port:
     """A named scalar of a block, in SI."""
 
@@ -32,7 +33,7 @@ class Port:
     about: str = ""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Curve:
     """A piecewise polynomial over ratio times a state: periodic, or held beyond its ends."""
 
@@ -43,7 +44,7 @@ class Curve:
     periodic: bool = True
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Law:
     """How a part of a problem depends on tunable parameters, where the part itself has only numbers.
 
@@ -60,7 +61,7 @@ class Law:
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Block:
     """A machine with its ports; functions take (t, x, u, p, w, s), w holds value and slope of each curve."""
 
@@ -136,7 +137,9 @@ def _curve_law(problem: Problem, part: Part, value: Periodic) -> Law:
 def _steps_law(problem: Problem, part: Part, value: Steps) -> Law:
     unit = _units(problem.mechanism)[part.input]
     levels = [
-        Port(name=f"{part.name}_{i}", unit=unit, start=v, about=f"{part.name} after jump {i}" if i else "before any jump")
+        Port(
+            name=f"{part.name}_{i}", unit=unit, start=v, about=f"{part.name} after jump {i}" if i else "before any jump"
+        )
         for i, v in enumerate(value.values)
     ]
     times = [
@@ -189,7 +192,8 @@ def _expressions(
     q, u = x[:n], x[n:]
     totals = dict(zip(mechanism.inputs, ca.vertsplit(symbols["u"]), strict=True))
     outputs: dict[str, Any] = {}
-    letters, further = p[:own], {}
+    letters = p[:own]
+    further: dict[str, Any] = {}
     w, s, done = ca.vertsplit(symbols["w"]), ca.vertsplit(symbols["s"]), own
     for part, law in zip(problem.parts, laws, strict=True):
         named = {port.name: p[done + i] for i, port in enumerate(law.parameters)}

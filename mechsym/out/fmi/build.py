@@ -3,7 +3,6 @@
 The token is made from the sources: the same model gives the same token and, without binaries, the same file.
 """
 
-import dataclasses
 import importlib.metadata
 import importlib.util
 import platform
@@ -24,6 +23,7 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block
 from mechsym.out.fmi.describe import build_description, description, identifier
 from mechsym.out.text.c import model
+from mechsym.quantities import record
 
 PLATFORMS = ("linux64", "win64")
 _NAMESPACE = uuid.UUID("5a1d7bb4-93b8-5b2c-9d3c-0d7e60f2a1c5")
@@ -32,7 +32,7 @@ _FOLDERS = {2: {"linux64": "linux64", "win64": "win64"}, 3: {"linux64": "x86_64-
 _ENDINGS = {"linux64": "so", "win64": "dll"}
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Unit:
     """An FMU: its bytes, and what is inside or missing."""
 

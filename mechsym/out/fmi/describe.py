@@ -3,16 +3,15 @@
 Value references run through time, states, rates, inputs, parameters, outputs and event indicators, as in c/core.h.
 """
 
-import dataclasses
 from xml.etree import ElementTree as xml
 
 from mechsym.out.block import Block, Port
-from mechsym.quantities import dimension
+from mechsym.quantities import dimension, record
 
 _LICENSE = "sources: as mechsym (MIT); FMI headers: 2-Clause BSD"
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Variable:
     """A variable of the description; `kind` is one of time, state, rate, input, parameter, output, indicator."""
 
@@ -42,7 +41,8 @@ def _rate(port: Port) -> Port:
 def _indicators(block: Block) -> list[Port]:
     kinks = [(k.coordinate, a) for k in block.kinks for a in k.angles]
     found = [
-        Port(name=f"kink_{i}", unit="-", about=f"0 where {q} stands at {a:.6g} rad") for i, (q, a) in enumerate(kinks, 1)
+        Port(name=f"kink_{i}", unit="-", about=f"0 where {q} stands at {a:.6g} rad")
+        for i, (q, a) in enumerate(kinks, 1)
     ]
     units = {s.name: s.unit for s in block.states}
     return found + [Port(name=f"to_{s.name}", unit=units[s.of], about=f"ends the run: {s.name}") for s in block.stops]
@@ -69,9 +69,7 @@ def _units(root: xml.Element, rows: list[Variable]) -> None:
         powers = dict(zip(("kg", "m", "s", "K"), dimension(unit.replace("(", "").replace("*rad)", "/rad)").strip(")")),
                           strict=True))  # fmt: skip
         powers["rad"] = int(unit in ("rad", "rad/s", "rad/s^2"))
-        xml.SubElement(
-            xml.SubElement(box, "Unit", name=unit), "BaseUnit", {k: str(v) for k, v in powers.items() if v}
-        )
+        xml.SubElement(xml.SubElement(box, "Unit", name=unit), "BaseUnit", {k: str(v) for k, v in powers.items() if v})
 
 
 def _experiment(root: xml.Element, block: Block) -> None:
@@ -119,9 +117,12 @@ def _structure_2(root: xml.Element, rows: list[Variable]) -> None:
     structure = xml.SubElement(root, "ModelStructure")
     moving = " ".join(str(v.reference + 1) for v in rows if v.kind in ("state", "input"))
     given = " ".join(str(v.reference + 1) for v in rows if v.kind in ("state", "input", "parameter"))
-    for title, kinds, known in (
-        ("Outputs", ("output",), moving), ("Derivatives", ("rate",), moving), ("InitialUnknowns", ("output", "rate"), given)
-    ):  # fmt: skip
+    boxes = (
+        ("Outputs", ("output",), moving),
+        ("Derivatives", ("rate",), moving),
+        ("InitialUnknowns", ("output", "rate"), given),
+    )
+    for title, kinds, known in boxes:
         found = sorted((v for v in rows if v.kind in kinds), key=lambda v: v.reference)
         box = xml.SubElement(structure, title)
         for v in found:

@@ -26,11 +26,11 @@ class Driven:
         self.indicator_count = description.numberOfEventIndicators or len(description.eventIndicators or ())
 
     def get(self, references: list[int]) -> list[float]:
-        """Values by reference."""
+        """Values by reference [SI]."""
         return (self.unit.getReal if self.second else self.unit.getFloat64)(references)
 
     def set(self, references: list[int], values: list[float]) -> None:
-        """Set values by reference."""
+        """Set values by reference [SI]."""
         (self.unit.setReal if self.second else self.unit.setFloat64)(references, values)
 
     def states(self) -> np.ndarray:
@@ -43,7 +43,7 @@ class Driven:
         self.unit.setContinuousStates(_pointer(x), len(x))
 
     def rates(self, t: float, x: np.ndarray) -> np.ndarray:
-        """Rates of the states in continuous time, shape (n,) [SI/s]."""
+        """Rates, shape (n,) [SI/s], at a time [s] and a state [SI]."""
         self._at(t, x)
         out = np.zeros(len(x))
         read = self.unit.getDerivatives if self.second else self.unit.getContinuousStateDerivatives
@@ -51,7 +51,7 @@ class Driven:
         return out
 
     def indicators(self, t: float, x: np.ndarray) -> np.ndarray:
-        """Event indicators, shape (k,) [-]."""
+        """Event indicators, shape (k,) [-], at a time [s] and a state [SI]."""
         if not self.indicator_count:
             return np.zeros(0)
         self._at(t, x)
@@ -60,7 +60,7 @@ class Driven:
         return out
 
     def event(self, t: float, x: np.ndarray) -> bool:
-        """Handle an event; whether it ends the run."""
+        """Handle an event at a time [s] and a state [SI]; whether it ends the run."""
         self._at(t, x)
         self.unit.enterEventMode()
         ends = self._update()[1]
@@ -78,14 +78,14 @@ class Driven:
         return float(found[5]) if found[4] else None
 
     def step(self, t: float, length: float) -> bool:
-        """A step of co-simulation; whether the run has ended."""
+        """A step of co-simulation from a time over a length [s]; whether the run has ended."""
         if not self.second:
             return bool(self.unit.doStep(t, length)[1])
-        from fmpy.fmi1 import FMICallException
+        import fmpy.fmi1
 
         try:
             self.unit.doStep(t, length)
-        except FMICallException:
+        except fmpy.fmi1.FMICallException:
             return True
         return False
 

@@ -56,7 +56,7 @@ def forward(function: ca.Function) -> ca.Function:
 
 
 def array(name: str, values: Sequence[float], kind: str = "double") -> str:
-    """A constant array; one entry more where it would be empty, which C does not allow."""
+    """A constant array [any unit]; one entry where it would be empty, which C does not allow."""
     texts = [str(v) if kind == "int" else number(C99, v) for v in values] or ["0"]
     rows = [", ".join(texts[i : i + 6]) for i in range(0, len(texts), 6)]
     return f"static const {kind} {name}[{len(texts)}] = {{\n    " + ",\n    ".join(rows) + "};"
@@ -91,8 +91,8 @@ def _kinks(block: Block) -> str:
 
 def _stops(block: Block) -> str:
     x, sense = [s.name for s in block.states], {"falling": -1, "rising": 1, "either": 0}
-    rows = [
-        f'{{{x.index(s.of)}, {sense[s.direction]}, {number(C99, s.level)}, "{s.name}"}}' for s in block.stops
-    ] or ['{0, 0, 0.0, ""}']
+    rows = [f'{{{x.index(s.of)}, {sense[s.direction]}, {number(C99, s.level)}, "{s.name}"}}' for s in block.stops] or [
+        '{0, 0, 0.0, ""}'
+    ]
     head = "struct stop { int state, sense; double level; const char *name; };"
     return f"{head}\nstatic const struct stop stops[] = {{{', '.join(rows)}}};"

@@ -1,10 +1,10 @@
 """How each language writes an operator, a statement and a number."""
 
-import dataclasses
 import math
 from collections.abc import Mapping
 
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 _COMMON = {
     "add": "{0} + {1}", "sub": "{0} - {1}", "mul": "{0} * {1}", "div": "{0} / {1}", "neg": "-{0}", "inv": "1.0 / {0}",
@@ -18,7 +18,7 @@ def _calls(prefix: str = "", **other: str) -> dict[str, str]:
     return {name: f"{prefix}{other.get(name, name)}({{0}})" for name in _CALLED}
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Dialect:
     """A language: operators with places for operands, a pattern for a statement (name, value), and its infinity."""
 
@@ -47,7 +47,8 @@ JULIA = Dialect(
         "fabs": "abs({0})", "pow": "{0}^{1}", "atan2": "atan({0}, {1})", "hypot": "hypot({0}, {1})",
         "fmin": "min({0}, {1})", "fmax": "max({0}, {1})", "fmod": "rem({0}, {1})", "copysign": "copysign({0}, {1})",
         "lt": "ifelse({0} < {1}, 1.0, 0.0)", "le": "ifelse({0} <= {1}, 1.0, 0.0)",
-        "eq": "ifelse({0} == {1}, 1.0, 0.0)", "ne": "ifelse({0} != {1}, 1.0, 0.0)", "not": "ifelse({0} == 0.0, 1.0, 0.0)",
+        "eq": "ifelse({0} == {1}, 1.0, 0.0)", "ne": "ifelse({0} != {1}, 1.0, 0.0)", 
+        "not": "ifelse({0} == 0.0, 1.0, 0.0)",
         "and": "ifelse(({0} != 0.0) & ({1} != 0.0), 1.0, 0.0)", "or": "ifelse(({0} != 0.0) | ({1} != 0.0), 1.0, 0.0)",
         "if_else_zero": "ifelse({0} != 0.0, {1}, 0.0)", "sign": "sign({0})",
     },
@@ -97,7 +98,7 @@ MODELICA = Dialect(
 
 
 def number(dialect: Dialect, value: float) -> str:
-    """A constant in a language, to the last digit."""
+    """A constant in a language, to the last digit [any unit]."""
     if math.isnan(value):
         raise BadInput("the function holds a constant that is not a number; check the parameters")
     if math.isinf(value):
