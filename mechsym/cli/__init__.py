@@ -15,6 +15,7 @@ COMMANDS = {
     "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "fmu": "mechsym.cli.fmu:fmu",
     "forces": "mechsym.cli.forces:forces",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",

@@ -77,6 +77,89 @@ def law(spring: AirGauge | AirAbsolute | Coil) -> SpringLaw:
             return coil(spring)
 
 
+def gauge_pressure(z: Any, H: Any, p0: Any, n: Any) -> Any:
+    r"""Excess pressure of the paper's air spring, for numbers and symbols alike.
+
+    .. math:: p = p_0 \left(\frac{H}{H - z}\right)^n
+
+    Parameters
+    ----------
+    z, H : float, ndarray or casadi.SX
+        Closing and free height [m]
+    p0 : float or casadi.SX
+        Excess pressure at free height [Pa]
+    n : float or casadi.SX
+        Polytropic index [-]
+
+    Returns
+    -------
+    p : same kind as z
+        Excess pressure [Pa]
+
+    Notes
+    -----
+    Source: Zotov et al. (2024), eq. (9).
+
+    Examples
+    --------
+    >>> gauge_pressure(0.5, 1.0, 5e6, 1.0)
+    10000000.0
+    """
+    return p0 * (H / (H - z)) ** n
+
+
+def absolute_pressure(z: Any, H: Any, p0: Any, n: Any, pa: Any) -> Any:
+    r"""Excess pressure of a real gas spring, for numbers and symbols alike.
+
+    .. math:: p = (p_0 + p_a) \left(\frac{H}{H - z}\right)^n - p_a
+
+    Parameters
+    ----------
+    z, H : float, ndarray or casadi.SX
+        Closing and free height [m]
+    p0, pa : float or casadi.SX
+        Excess pressure at free height, and the pressure outside [Pa]
+    n : float or casadi.SX
+        Polytropic index [-]
+
+    Returns
+    -------
+    p : same kind as z
+        Excess pressure [Pa]
+
+    Examples
+    --------
+    >>> absolute_pressure(0.5, 1.0, 5e6, 1.0, 1e5)
+    10100000.0
+    """
+    return (p0 + pa) * (H / (H - z)) ** n - pa
+
+
+def coil_force(z: Any, k: Any, F0: Any) -> Any:
+    r"""Force of a linear spring, for numbers and symbols alike.
+
+    .. math:: F = F_0 + k z
+
+    Parameters
+    ----------
+    z : float, ndarray or casadi.SX
+        Closing [m]
+    k, F0 : float or casadi.SX
+        Stiffness [N/m] and preload [N]
+
+    Returns
+    -------
+    F : same kind as z
+        Force outwards [N]
+
+    Examples
+    --------
+    >>> coil_force(0.5, 10.0, 2.0)
+    7.0
+    """
+    return F0 + k * z
+
+
 def air_gauge(spring: AirGauge) -> SpringLaw:
     r"""Law of the paper: only the excess pressure counts.
 
@@ -102,10 +185,10 @@ def air_gauge(spring: AirGauge) -> SpringLaw:
         return -H * np.expm1(-_inverse_power_integral(np.asarray(U) / full, n - 1))
 
     return SpringLaw(
-        force=lambda z: A * p0 * (H / (H - z)) ** n,
+        force=lambda z: A * gauge_pressure(z, H, p0, n),
         energy=energy,
         closing=closing,
-        pressure=lambda z: p0 * (H / (H - z)) ** n,
+        pressure=lambda z: gauge_pressure(z, H, p0, n),
         z_low=-math.inf,
         z_high=H,
         energy_low=-full / (n - 1) if n > 1 else -math.inf,
@@ -149,10 +232,10 @@ def air_absolute(spring: AirAbsolute) -> SpringLaw:
         return -H * np.expm1(-s)
 
     return SpringLaw(
-        force=lambda z: A * ((p0 + pa) * (H / (H - z)) ** n - pa),
+        force=lambda z: A * absolute_pressure(z, H, p0, n, pa),
         energy=lambda z: energy_of(-np.log1p(-np.asarray(z) / H)),
         closing=closing,
-        pressure=lambda z: (p0 + pa) * (H / (H - z)) ** n - pa,
+        pressure=lambda z: absolute_pressure(z, H, p0, n, pa),
         z_low=-H * math.expm1(-s_low),
         z_high=H,
         energy_low=float(energy_of(s_low)),
@@ -178,7 +261,7 @@ def coil(spring: Coil) -> SpringLaw:
         return (root - F0) / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
 
     return SpringLaw(
-        force=lambda z: F0 + k * z,
+        force=lambda z: coil_force(z, k, F0),
         energy=lambda z: F0 * z + k * z**2 / 2,
         closing=closing,
         pressure=None,

@@ -108,7 +108,7 @@ def load_torque(load: Load, omega: Any) -> Any:
         case ConstantLoad():
             return _constant(load) + 0 * omega
         case PropellerLoad():
-            return _square_law(load) * omega * abs(omega)
+            return propeller_torque(omega, *_reference(load))
         case TableLoad():
             return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
 
@@ -119,10 +119,35 @@ def _constant(load: ConstantLoad) -> float:
     return load.torque
 
 
-def _square_law(load: PropellerLoad) -> float:
+def propeller_torque(omega: Any, torque: Any, speed: Any) -> Any:
+    r"""Torque of a propeller, for numbers and symbols alike.
+
+    .. math:: M_r = M \frac{\omega |\omega|}{\omega_0^2}
+
+    Parameters
+    ----------
+    omega, speed : float, ndarray or casadi.SX
+        Shaft speed, and the speed of reference [rad/s]
+    torque : float or casadi.SX
+        Torque at the speed of reference [N*m]
+
+    Returns
+    -------
+    torque : same kind as omega
+        Against forward motion [N*m]
+
+    Examples
+    --------
+    >>> propeller_torque(-2.0, 3.0, 1.0)
+    -12.0
+    """
+    return torque / speed**2 * omega * abs(omega)
+
+
+def _reference(load: PropellerLoad) -> tuple[float, float]:
     if load.torque is None or load.speed is None:
         raise BadInput("propeller load without torque or speed; give both, or settle it with the engine's own")
-    return load.torque / load.speed**2
+    return load.torque, load.speed
 
 
 def load_slope(load: Load, omega: Any) -> Any:
@@ -144,7 +169,7 @@ def load_slope(load: Load, omega: Any) -> Any:
         case ConstantLoad():
             return 0 * omega
         case PropellerLoad():
-            return 2 * _square_law(load) * abs(omega)
+            return 2 * propeller_torque(1.0, *_reference(load)) * abs(omega)
         case TableLoad():
             inside = (omega >= load.speeds[0]) & (omega <= load.speeds[-1])
             return np.where(inside, _curve(load.speeds, load.torques)(omega, 1), 0.0)

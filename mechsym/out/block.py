@@ -118,18 +118,21 @@ def law_of(problem: Problem, part: Part) -> Law:
         case Formula():
             return Law(part=part.name, value=lambda t, q, u, letters, curves, s: value.function(t, q, u))
         case Periodic():
-            return _curve_law(problem, part, value)
+            return curve_law(part.name, _curve_of(problem, value, part.name))
         case Steps():
             return _steps_law(problem, part, value)
     raise BadInput(f"part {part.name} is a plain function, which cannot be exported; give it as a formula or a table")
 
 
-def _curve_law(problem: Problem, part: Part, value: Periodic) -> Law:
-    scale = Port(name=f"{part.name}_scale", unit="-", start=1.0, about=f"factor on {part.name}")
-    index = problem.mechanism.coordinates.index(value.coordinate)
-    curve = Curve(name=part.name, state=index, poly=fitted(value))
+def _curve_of(problem: Problem, value: Periodic, name: str) -> Curve:
+    return Curve(name=name, state=problem.mechanism.coordinates.index(value.coordinate), poly=fitted(value))
+
+
+def curve_law(part: str, curve: Curve) -> Law:
+    """A part that is a curve, with a factor on it as its parameter."""
+    scale = Port(name=f"{part}_scale", unit="-", start=1.0, about=f"factor on {part}")
     return Law(
-        part=part.name, parameters=(scale,), curves=(curve,),
+        part=part, parameters=(scale,), curves=(curve,),
         value=lambda t, q, u, letters, curves, s: letters[scale.name] * curves[0][0],
     )  # fmt: skip
 

@@ -257,7 +257,8 @@ static int core_advance(machine *m, double t_end)
             return 0;
         const double error = core_try(m, h, next), grow = 0.9 * pow(error > 1e-12 ? error : 1e-12, -0.125);
         if (!(error <= 1.0)) {
-            m->h = h * (grow > 0.2 ? grow : 0.2);
+            /* an error that is no number: the step left the range of the functions */
+            m->h = h * (error > 1.0 && grow > 0.2 ? grow : 0.2);
             continue;
         }
         const double proposed = h * (grow < 6.0 ? grow : 6.0);

@@ -10,7 +10,7 @@ import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
 
-_TOLERANCE = 1e-12  # asked of co-simulation
+_TOLERANCE = 1e-13  # asked of co-simulation
 
 
 class Driven:
@@ -23,7 +23,13 @@ class Driven:
         rates = [v for v in description.modelVariables if v.derivative is not None]
         self.state_names = [v.derivative.name for v in rates]
         self.rate_references = [v.valueReference for v in rates]
+        self.inputs = self._with(description, "input")
+        self.parameters = self._with(description, "parameter")
+        self.outputs = [r for r in self._with(description, "output") if r > max(self.rate_references)]
         self.indicator_count = description.numberOfEventIndicators or len(description.eventIndicators or ())
+
+    def _with(self, description: Any, causality: str) -> list[int]:
+        return [v.valueReference for v in description.modelVariables if v.causality == causality]
 
     def get(self, references: list[int]) -> list[float]:
         """Values by reference [SI]."""

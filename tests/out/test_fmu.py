@@ -1,0 +1,226 @@
+"""FMUs: what the standard wants, numbers against `simulate`, derivatives, state, sources, and other importers."""
+
+import io
+import json
+import subprocess
+import sys
+import zipfile
+
+import casadi as ca
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from mechsym import cases
+from mechsym.cli import mechsym
+from mechsym.jobs.export import ready
+from mechsym.out.fmi import fmu
+from mechsym.out.laws import block_of
+from mechsym.simulate import Settings, simulate
+
+fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
+validation = pytest.importorskip("fmpy.validation")
+
+from mechsym.out.fmi.compare import compare  # noqa: E402
+from mechsym.out.fmi.drive import driven  # noqa: E402
+
+VERSIONS = (2, 3)
+ALL = [pytest.param(name, marks=() if name == "zotov-89" else pytest.mark.slow) for name in cases.names()]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", ALL)
+def test_the_standard_is_kept(unit, name, version):
+    assert validation.validate_fmu(str(unit(name, version))) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", cases.names())
+def test_fmutool_finds_no_error(unit, name, version):
+    pytest.importorskip("fmu_manipulation_toolbox", reason="fmu-manipulation-toolbox is not installed")
+    command = [
+        sys.executable,
+        "-m",
+        "fmu_manipulation_toolbox.cli.fmutool",
+        "-input",
+        str(unit(name, version)),
+        "-check",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    said = done.stdout + done.stderr
+    assert "seems to be compliant" in said and "No semantic error" in said, said
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", ALL)
+def test_numbers_are_those_of_simulate(unit, exported, name, version):
+    for found in compare(unit(name, version), exported(name)[0].problem):
+        assert found.points == 201
+        assert found.largest < 1e-9, f"{found.kind}: {found.largest:.2g}"
+
+
+def test_an_importer_with_its_own_solver_gets_the_same(unit, exported):
+    (found,) = compare(unit("zotov-89", 2), exported("zotov-89")[0].problem, kinds=("cvode",))
+    assert found.largest < 1e-7  # CVode at 1e-13 keeps about that much over twenty turns
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", ALL)
+def test_directional_derivatives_equal_differences(unit, name, version):
+    random = np.random.default_rng(7)
+    with driven(unit(name, version), "me") as run:
+        # away from the kinks, where a difference would see both sides
+        run.event(0.0, run.states() + random.uniform(0.05, 0.1, len(run.state_names)))
+        unknown = [*run.rate_references, *run.outputs]
+        states = [run.references[n] for n in run.state_names]
+        for known in [*states, *run.inputs, *run.parameters]:
+            exact = np.array(run.unit.getDirectionalDerivative(unknown, [known], [1.0]))
+            (start,) = run.get([known])
+            size, (low, high) = max(abs(start), 0.1), _around(run, unknown, known, start)
+            scale = np.maximum(np.abs(exact), np.abs(run.get(unknown)) / size)
+            assert np.all(np.abs(exact - (high - low) / (2e-6 * size)) <= 1e-6 * scale + 1e-9), known
+
+
+def _around(run, unknown, known, start):
+    values = []
+    for sign in (-1, 1):
+        run.set([known], [start + sign * 1e-6 * max(abs(start), 0.1)])
+        values.append(np.array(run.get(unknown)))
+    run.set([known], [start])
+    return values
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_restored_state_goes_on_to_the_last_digit(unit, version):
+    with driven(unit("zotov-89", version), "cs") as run:
+        run.step(0.0, 0.4)
+        kept = run.unit.getFMUState()
+        stored = run.unit.serializeFMUState(kept)
+        run.step(0.4, 0.5)
+        first = run.states()
+        run.unit.setFMUState(run.unit.deserializeFMUState(stored))
+        run.step(0.4, 0.5)
+        np.testing.assert_array_equal(run.states(), first)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_tunable_pressure_does_what_another_case_does(unit, version):
+    run = ready(cases.load("zotov-89"))
+    detuned = simulate(run.problem, Settings(tolerance=1e-12, check="none"))
+    with driven(unit("zotov-89", version), "cs") as own:
+        (p0,) = own.get([own.references["p0"]])
+        own.set([own.references["p0"]], [1.01 * p0])
+        own.step(0.0, 1.0)
+        off = own.states()
+    at = np.searchsorted(detuned.t, 1.0)
+    # one per cent of pressure is five per cent of ripple: far from what the design runs
+    assert abs(off[1] - detuned.columns["phid"][at]) > 1e-3 * off[1]
+
+
+def test_a_stall_ends_the_run_where_simulate_ends_it(tmp_path):
+    case = cases.load("zotov-89", {"load.law": "constant", "load.torque": "100 kN*m"})
+    run = ready(case)
+    wanted = simulate(run.problem, Settings(tolerance=1e-12, check="none"))
+    assert wanted.event.name == "stall"
+    for version in VERSIONS:
+        path = tmp_path / f"stall{version}.fmu"
+        path.write_bytes(fmu(block_of(case.name, case.about, run), version).data)
+        with driven(path, "cs") as own:
+            assert own.step(0.0, 100.0)
+            assert own.get([0])[0] == pytest.approx(wanted.event.t, rel=1e-10)
+            assert own.states()[1] == 0.0
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_time_of_a_switched_torque_can_be_moved(exported, tmp_path, version):
+    path = tmp_path / "start.fmu"
+    path.write_bytes(fmu(exported("chmielewski")[1], version).data)
+    with driven(path, "cs") as run:
+        run.set([run.references["drive_time_1"]], [0.25])
+        run.step(0.0, 0.25)
+        assert np.all(run.states() == 0)
+        run.step(0.25, 0.01)
+        assert run.states()[1 if version else 0] != 0
+    with driven(path, "me") as run:
+        assert run.next_event() == 1.0
+
+
+def test_the_same_model_gives_the_same_file(exported):
+    block = exported("zotov-89")[1]
+    first, again = fmu(block, 3, ()), fmu(block, 3, ())
+    assert first.data == again.data
+    assert fmu(exported("chmielewski")[1], 3, ()).token != first.token
+
+
+def test_sources_are_inside_and_no_path_of_this_machine(unit):
+    for version in VERSIONS:
+        with zipfile.ZipFile(io.BytesIO(unit("zotov-89", version).read_bytes())) as archive:
+            names = archive.namelist()
+            assert {f"sources/fmi{version}.c", "sources/core.h", "sources/model.h"} <= set(names)
+            assert not any(b"/work" in archive.read(n) or b"/tmp" in archive.read(n) for n in names)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_shipped_sources_compile_to_the_same_numbers(unit, tmp_path, version):
+    import shutil
+
+    if shutil.which("cmake") is None:
+        pytest.skip("cmake is not installed")
+    path = tmp_path / "again.fmu"
+    with zipfile.ZipFile(unit("zotov-89", version)) as old, zipfile.ZipFile(path, "w") as new:
+        for name in old.namelist():
+            if not name.startswith("binaries"):
+                new.writestr(name, old.read(name))
+    subprocess.run([sys.executable, "-m", "fmpy", "compile", str(path)], check=True, capture_output=True)
+    with driven(path, "cs") as run, driven(unit("zotov-89", version), "cs") as other:
+        run.step(0.0, 1.0)
+        other.step(0.0, 1.0)
+        np.testing.assert_allclose(run.states(), other.states(), rtol=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("version", VERSIONS)
+def test_casadi_reads_it_and_has_the_same_jacobian(unit, exported, version):
+    block = exported("zotov-89")[1]
+    dae = ca.DaeBuilder("machine", str(unit("zotov-89", version)))
+    x = np.array([0.3, 9.0])
+    kept = {"x": dae.x(), "u": dae.u()}
+    assert kept["x"] == [s.name for s in block.states]
+    f = dae.create("f", ["x", "u"], ["ode"])
+    jacobian = f.factory("jacobian", ["x", "u"], ["jac:ode:x"])
+    found = np.array(jacobian(x, np.zeros(len(kept["u"]))))
+    np.testing.assert_allclose(found, _jacobian(block, x), rtol=1e-12, atol=1e-12)
+
+
+def _jacobian(block, x):
+    """By the chain rule: the function by x and by w, and w by x from the polynomials."""
+    t, xs, u, p, w, s = (ca.SX.sym(n, block.rates.size1_in(i)) for i, n in enumerate("txupws"))
+    rates = block.rates(t, xs, u, p, w, s)
+    both = ca.Function("both", [t, xs, u, p, w, s], [ca.jacobian(rates, xs), ca.jacobian(rates, w)])
+    values = [c.poly(c.ratio * x[c.state], k) for c in block.curves for k in (0, 1)]
+    slopes = np.zeros((len(values), len(x)))
+    for i, c in enumerate(block.curves):
+        for k in (0, 1):
+            slopes[2 * i + k, c.state] = c.ratio * c.poly(c.ratio * x[c.state], k + 1)
+    starts = [port.start for port in block.parameters]
+    by_x, by_w = both(0, x, np.zeros(len(block.inputs)), starts, values, [])
+    return np.array(by_x) + np.array(by_w) @ slopes
+
+
+def test_the_command_says_what_it_wrote(tmp_path):
+    path = tmp_path / "e.fmu"
+    done = CliRunner().invoke(mechsym, ["fmu", "zotov-89", "--fmi", "3", "--out", str(path), "--json"])
+    assert done.exit_code == 0, done.output
+    answer = json.loads(done.output)
+    assert answer["written"] == [str(path)] and path.stat().st_size < 100_000
+    assert answer["checks"]["binaries"] == ["binaries/x86_64-linux/zotov_89.so"]
+
+
+def test_without_the_extra_one_line_names_it(tmp_path):
+    code = "import sys; sys.modules['fmpy'] = None; from mechsym.cli import main; main()"
+    words = ["fmu", "zotov-89", "--compare", "--platforms", "none", "--out", str(tmp_path / "e.fmu")]
+    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.strip() == "mechsym: running an FMU needs the extra fmu: pip install 'mechsym[fmu]'"
