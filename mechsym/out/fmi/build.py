@@ -88,7 +88,9 @@ def _sources(block: Block, version: int) -> dict[str, str]:
 
 def _identity(block: Block, token: str, version: int) -> str:
     name = identifier(block.name)
-    return f'#define TOKEN "{token}"\n#define FMI{version}_FUNCTION_PREFIX {name}_\n'
+    prefix = f"#ifndef FMI{version}_FUNCTION_PREFIX\n#define FMI{version}_FUNCTION_PREFIX {name}_\n#endif\n"
+    # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
+    return f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
 
 
 def _binaries(
