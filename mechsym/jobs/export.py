@@ -1,4 +1,4 @@
-"""From a case to what leaves the tool: its run, with what the parts of it are made of."""
+"""Case -> what leaves the tool: its run, with what the parts of it are made of."""
 
 import dataclasses
 import math
@@ -11,21 +11,26 @@ from scipy.interpolate import PPoly, make_lsq_spline
 from mechsym import periodic
 from mechsym.cases import Case
 from mechsym.cycle.closed.model import closed_period
+from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-from mechsym.cycle.on_pistons import one_cylinder
 from mechsym.errors import BadInput
-from mechsym.forces.turn import Turn, at, one_coordinate, turn
-from mechsym.hinge import balance, guide
-from mechsym.hinge import torque as hinge
-from mechsym.hinge.guide import Guide
-from mechsym.jobs.cycle import engine as closed_engine
-from mechsym.jobs.machine import assemble, load_of, running
-from mechsym.jobs.run import Simulation, problem_of
+from mechsym.forces.turn import Turn, at
+from mechsym.hinge.balance import balance
+from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.torque import Hinge, torque
+from mechsym.jobs.gas import engine_with, one_cylinder
+from mechsym.jobs.machine import load, machine
+from mechsym.jobs.problem import problem_of
+from mechsym.jobs.turn import turn
 from mechsym.machine.loads import Load, settle
+from mechsym.machine.record import Machine
 from mechsym.quantities import record
-from mechsym.simulate import Kinks, Part, Problem, Stop
+from mechsym.simulate import Part, Problem
 from mechsym.simulate import engine as engines
 from mechsym.simulate.engine import load_value
+from mechsym.simulate.problem import Kinks, Stop
+from mechsym.simulate.settings import Simulation
 
 TURNS = 10  # of a run where the case says nothing
 _PIECE = math.radians(3.0)  # of a gas that is known as a table
@@ -49,7 +54,22 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
         return Ready(problem=problem_of(_running(case)))
     if case.mechanism == "crosshead" and not isinstance(case.sections.get("cycle"), SparkIgnition):
         return _engine(case, diagram)
+    if diagram is not None:
+        raise BadInput(f"{case.file}: --diagram needs an engine with crosshead, a case of kind generator")
     return _at_speed(case)
+
+
+def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide | None]:
+    """Engine, wanted torque and guide of a case with a hinge; None without `[spring]` and `[guide]`."""
+    engine = machine(case, diagram)
+    wanted = torque(engine)
+    if not {"spring", "guide"} <= set(case.sections):
+        return engine, wanted, None
+    choices = case.need("guide")
+    guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)
+    if guide.rho is None:
+        raise BadInput(f"{case.file}: no guide can be cut ({guide.reason}); change [spring] or [guide]")
+    return engine, wanted, guide
 
 
 def _running(case: Case) -> Case:
@@ -57,37 +77,27 @@ def _running(case: Case) -> Case:
     return dataclasses.replace(case, sections={**case.sections, "simulation": wanted})
 
 
-def guide_of(case: Case, diagram: str | None = None) -> tuple[Any, Any, Guide | None]:
-    """Engine, wanted torque and guide of a case with a hinge; None without `[spring]` and `[guide]`."""
-    engine = assemble(case, diagram)
-    wanted = hinge.build(engine.torques, engine.omega)
-    if not {"spring", "guide"} <= set(case.sections):
-        return engine, wanted, None
-    choices = case.need("guide")
-    cut = guide.build(balance.build(wanted, choices.balance), case.need("spring"), choices)
-    if cut.rho is None:
-        raise BadInput(f"{case.file}: no guide can be cut ({cut.reason}); change [spring] or [guide]")
-    return engine, wanted, cut
-
-
 def _engine(case: Case, diagram: str | None) -> Ready:
-    engine, wanted, cut = guide_of(case, diagram)
-    engine_ready = running(engine, wanted, load_of(case), cut)
-    section = case.sections.get("simulation")
-    speed = getattr(section, "speed_start", None) or engine.omega
-    turns = getattr(section, "turns", None) or TURNS
-    problem = engines.problem(engine_ready, speed, turns, getattr(section, "phi_start", 0.0))
-    return Ready(problem=problem, guide=cut, load=engine_ready.load)
+    wanted: Simulation = _running(case).need("simulation")
+    engine, hinge, guide = guide_of(case, diagram)
+    guide = None if wanted.hinge == "none" else guide
+    built = fitted(engine, hinge, guide)
+    speed = engine.omega if wanted.speed_start is None else wanted.speed_start
+    if wanted.turns is None or speed <= 0:
+        raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
+    problem = engines.problem(built, speed, wanted.turns, wanted.phi_start)
+    return Ready(problem=problem, guide=guide, load=built.load)
 
 
 def _at_speed(case: Case) -> Ready:
     """A mechanism with gas on its pistons at the speed of operation, against the mean torque or the case's load."""
-    mechanism, omega, once = one_coordinate(case), case.need("operation").speed, turn(case)
-    load_input = next(n for n in ("M_r", "M") if n in mechanism.inputs)
+    once = turn(case)
+    mechanism, omega = once.drive.mechanism, once.omega
     (q,) = mechanism.coordinates
     kinks = _kinks(case, once)
-    tables = {f"gas_{name}": _table(case, once, name, kinks) for name in once.inputs}
-    law = settle(load_of(case), float(np.mean(once.torque)), omega)
+    tables = {f"gas_{name}": _table(once, name, kinks) for name in once.inputs}
+    law = settle(load(case), float(np.mean(once.torque)), omega)
+    load_input = next(n for n in ("M_r", "M") if n in mechanism.inputs)
     parts = [Part(name=n, input=n.removeprefix("gas_"), value=_callable(poly)) for n, poly in tables.items()]
     parts.append(Part(name="load", input=load_input, role="load", value=load_value(law)))
     turn_time = 2 * math.pi / omega
@@ -99,22 +109,22 @@ def _at_speed(case: Case) -> Ready:
     return Ready(problem=problem, load=law, tables=tables)
 
 
-def _table(case: Case, once: Turn, name: str, kinks: tuple[float, ...]) -> PPoly:
+def _table(once: Turn, name: str, kinks: tuple[float, ...]) -> PPoly:
     """A gas force as splines between its kinks: the cycle behind it is a table too."""
     edges = np.unique([0.0, *kinks, once.period])
-    pieces = [_spline(case, once, name, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    pieces = [_spline(once, name, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
     rows = np.concatenate([p.c for p in pieces], axis=1)
     breaks = np.concatenate([*(p.x[:-1] for p in pieces), [once.period]])
     return PPoly(rows, breaks, extrapolate="periodic")
 
 
-def _spline(case: Case, once: Turn, name: str, first: float, last: float) -> PPoly:
+def _spline(once: Turn, name: str, first: float, last: float) -> PPoly:
     """A smooth curve through a piece of the table: of degree 7, so that an integrator of order 8 keeps its order."""
     pieces = max(round((last - first) / _PIECE), 1)
     phi = np.linspace(first, last, _SAMPLES * pieces + 1)
     asked = phi.copy()
     asked[[0, -1]] += np.array([_INSIDE, -_INSIDE])  # the force may jump at an edge
-    force = at(case, once.mechanism, once.gas, once.omega, asked).inputs[name]
+    force = at(once.drive, once.gas, once.omega, asked).inputs[name]
     knots = np.concatenate([[first] * 7, np.linspace(first, last, pieces + 1), [last] * 7])
     poly = PPoly.from_spline(make_lsq_spline(phi, force, knots, k=7))
     return PPoly(poly.c[:, 7:-7], poly.x[7:-7])
@@ -124,7 +134,7 @@ def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
     """Angles in a period where a gas force is not smooth [rad]: ends of the closed period and of its combustion."""
     angles = list(once.gas.kinks if once.gas else ())
     if isinstance(case.sections.get("cycle"), SparkIgnition):
-        closed = closed_period(closed_engine(one_cylinder(case)), {"omega": once.omega})
+        closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
         angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
     firing = getattr(case.sections.get("faces"), "firing", (0.0,))
     return tuple(sorted({float(a + f) % once.period for a in angles for f in firing}))

@@ -19,8 +19,9 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.record import Mechanism, acceleration_function, accelerations, bind, velocities
 from mechsym.quantities import record
-from mechsym.simulate import Formula, Kinks, Part, Periodic, Problem, Steps, Stop
+from mechsym.simulate import Part, Problem
 from mechsym.simulate.equations import fitted
+from mechsym.simulate.problem import Formula, Kinks, Periodic, Steps, Stop
 
 
 @record
