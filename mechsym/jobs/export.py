@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PPoly, make_lsq_spline
 
-from mechsym import periodic
+from mechsym import cases, periodic
 from mechsym.cases import Case
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.friction import NoFriction
@@ -57,6 +57,11 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
     if diagram is not None:
         raise BadInput(f"{case.file}: --diagram needs an engine with crosshead, a case of kind generator")
     return _at_speed(case)
+
+
+def named(name: str, settings: Mapping[str, str]) -> Ready:
+    """The run of a case by its name or file, with values replaced by dotted key."""
+    return ready(cases.load(name, settings))
 
 
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide | None]:

@@ -21,7 +21,7 @@ from mechsym.mechanisms.record import Mechanism, acceleration_function, accelera
 from mechsym.quantities import record
 from mechsym.simulate import Part, Problem
 from mechsym.simulate.equations import fitted
-from mechsym.simulate.problem import Formula, Kinks, Periodic, Steps, Stop
+from mechsym.simulate.problem import FormulaForce, Kinks, Periodic, Steps, Stop
 
 
 @record
@@ -116,7 +116,7 @@ def law_of(problem: Problem, part: Part) -> Law:
     """A part as it stands: a formula, a curve with a scale, or steps whose values and times are parameters."""
     value = part.value
     match value:
-        case Formula():
+        case FormulaForce():
             return Law(part=part.name, value=lambda t, q, u, letters, curves, s: value.function(t, q, u))
         case Periodic():
             return curve_law(part.name, _curve_of(problem, value, part.name))

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from mechsym.jobs.export import named
 from mechsym.out.fmi.drive import Driven, driven
 from mechsym.quantities import record
 from mechsym.simulate import Problem, Settings, simulate
@@ -129,12 +130,9 @@ _RUNS: Mapping[str, Callable[[Path, np.ndarray, int], np.ndarray]] = {"me": _exc
 
 def main(arguments: list[str]) -> int:
     """Compare the FMU of the first argument with the case of the second; KEY=VALUE behind them override the case."""
-    from mechsym import cases
-    from mechsym.jobs.export import ready
-
     path, name, *settings = arguments
-    case = cases.load(name, dict(text.split("=", 1) for text in settings))
-    found = compare(Path(path), ready(case).problem)
+    run = named(name, dict(text.split("=", 1) for text in settings))
+    found = compare(Path(path), run.problem)
     for d in found:
         print(
             f"{d.kind}: largest difference {d.largest:.2g} of the largest value, {d.points} points to {d.t_end:.6g} s"
