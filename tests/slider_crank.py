@@ -1,17 +1,15 @@
 """A slider crank written down by hand, so that the engine's tests need no mechanism."""
 
-import numpy as np
+import casadi as ca
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber, chamber_over
 
 
-def slider_crank(r: float, l: float, bore: float, compression_ratio: float) -> Cylinder:
+def slider_crank(r: float, l: float, bore: float, compression_ratio: float) -> Chamber:
     """Crank radius r and rod l, x = 0 at top dead centre."""
-
-    def x(phi):
-        return r * (1 - np.cos(phi)) + l - np.sqrt(l**2 - (r * np.sin(phi)) ** 2)
-
-    def dx_dphi(phi):
-        return r * np.sin(phi) + r**2 * np.sin(phi) * np.cos(phi) / np.sqrt(l**2 - (r * np.sin(phi)) ** 2)
-
-    return Cylinder(bore=bore, stroke=2 * r, compression_ratio=compression_ratio, x=x, dx_dphi=dx_dphi)
+    phi = ca.SX.sym("phi")
+    rod = ca.sqrt(l**2 - (r * ca.sin(phi)) ** 2)
+    x = r * (1 - ca.cos(phi)) + l - rod
+    dx_dphi = r * ca.sin(phi) + r**2 * ca.sin(phi) * ca.cos(phi) / rod
+    kinematics = ca.Function("kinematics", [phi], [x, dx_dphi], ["phi"], ["x", "dx_dphi"])
+    return chamber_over(kinematics, bore, compression_ratio)

@@ -2,9 +2,12 @@
 
 import math
 
+import casadi as ca
 import numpy as np
 
+from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.gas import Gas
+from mechsym.cycle.pressure import pressure_over
 from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive
 
 
@@ -15,16 +18,12 @@ def machine(mechanism, parameters, speed=20.0, **given) -> tuple[CrankDrive, flo
 
 def smooth_gas(stroke, bore=0.2, level=30e5, swing=20e5) -> Gas:
     """Pressure level + swing (cos phi + sin phi / 3): smooth, of period 2 pi, and it does work."""
-    return Gas(
-        absolute=lambda phi: level + swing * (np.cos(phi) + np.sin(phi) / 3),
-        p_back=1e5,
-        period=2 * math.pi,
-        bore=bore,
-        area=math.pi / 4 * bore**2,
-        stroke=stroke,
-        compression_ratio=12.0,
-        facts=(),
-    )
+    phi = ca.SX.sym("phi")
+    x = stroke / 2 * (1 - ca.cos(phi))
+    kinematics = ca.Function("kinematics", [phi], [x, ca.jacobian(x, phi)], ["phi"], ["x", "dx_dphi"])
+    room = chamber_over(kinematics, bore, 12.0, 1e5)
+    pressure = pressure_over("test", lambda a: level + swing * (np.cos(a) + np.sin(a) / 3), 2 * math.pi, (), room)
+    return Gas(pressure=pressure, chamber=room)
 
 
 def turn_of(machine, gas, n=720) -> Turn:

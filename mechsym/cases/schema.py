@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from mechsym.cycle.kinds import KINDS
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.quantities import load
 
@@ -21,16 +22,7 @@ _SECTIONS: dict[str, Any] = {
     "speeds": "mechsym.cases.settings:Speeds",
     "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
-    "cycle": (
-        "kind",
-        {
-            "two-stroke-marine": "mechsym.cycle.kinds.two_stroke:TwoStrokeMarine",
-            "two-stroke-zone": "mechsym.cycle.kinds.two_stroke_zone:TwoStrokeZone",
-            "diagram": "mechsym.cycle.measured.diagram:Diagram",
-            "spark-ignition": "mechsym.cycle.kinds.spark_ignition:SparkIgnition",
-            "schmidt": "mechsym.cycle.kinds.schmidt:Schmidt",
-        },
-    ),
+    "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
     "combustion": "mechsym.cycle.measured.combustion:Analysis",
     "gas": (
         "model",

@@ -37,9 +37,10 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
     """
     from mechsym.cases import load
     from mechsym.cli import cycle_loop, cycle_measured
+    from mechsym.cycle.kinds import kind_of
 
     loaded = load(case, pairs(overrides))
-    if diagram or hasattr(loaded.need("cycle"), "alignment"):
+    if diagram or kind_of(loaded.need("cycle")).measured:
         cycle_measured.show(loaded, diagram, as_json, out)
     elif loop:
         cycle_loop.show(loaded, loop, as_json, out)
@@ -49,12 +50,12 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
 
 
 def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
-    from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+    from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import columns_of_cylinder, engine
     from mechsym.jobs.gas import one_cylinder
 
     as_json, out = output
-    if isinstance(case.need("cycle"), SparkIgnition):
+    if kind_of(case.need("cycle")).given == "engine":
         machine = engine(one_cylinder(case))
         found = _map(machine, omega, over)
     elif over:

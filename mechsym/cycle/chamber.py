@@ -68,6 +68,7 @@ class Chamber:
     #: Smallest volume, and swept volume of all pistons together [m^3]
     clearance: Any
     displacement: Any
+    compression_ratio: Any  #: Largest volume by smallest volume [-]
     back_pressure: Any  #: Absolute pressure on the other side of the piston [Pa]
 
 
@@ -81,14 +82,78 @@ def chamber(parameters: Any, motion: Motion) -> Chamber:
     parameters : ChamberParameters
         Bore, compression ratio, pistons; or any object with these attributes, which may be CasADi expressions
     """
-    area = np.pi / 4 * parameters.bore**2
+    area = piston_area(parameters.bore)
     stroke = travel(motion, motion.bottom)[0]
     displacement = parameters.pistons * area * stroke
     clearance = displacement / (parameters.compression_ratio - 1)
     return Chamber(
         motion=motion, pistons=parameters.pistons, bore=parameters.bore, area=area, stroke=stroke,
         clearance=clearance, displacement=displacement, back_pressure=parameters.back_pressure,
+        compression_ratio=parameters.compression_ratio,
     )  # fmt: skip
+
+
+def chamber_over(kinematics: ca.Function, bore: float, compression_ratio: float, back_pressure: float = 0.0) -> Chamber:
+    """The chamber under a head, over a mechanism with one coordinate.
+
+    Parameters
+    ----------
+    kinematics : casadi.Function
+        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
+    bore : float
+        Diameter of the piston [m]
+    compression_ratio : float
+        Largest volume by smallest volume [-]
+    back_pressure : float
+        Absolute pressure on the other side of the piston [Pa]
+
+    Returns
+    -------
+    chamber : Chamber
+        Its stroke is x at phi = pi
+
+    Notes
+    -----
+    Valid: dead centres at 0 and pi, as in every mechanism whose crank axis lies on the cylinder axis.
+    """
+    motion = motion_over(kinematics)
+    stroke, area = travel(motion, np.pi)[0], piston_area(bore)
+    ranges = (("bore", bore, 0.0), ("compression_ratio", compression_ratio, 1.0), ("stroke", stroke, 0.0))
+    for name, value, least in ranges:
+        if not value > least:
+            raise BadInput(f"{name} = {value:g} is out of range; it must be > {least:g}")
+    return Chamber(
+        motion=motion, pistons=1, bore=bore, area=area, stroke=stroke, displacement=area * stroke,
+        clearance=area * stroke / (compression_ratio - 1), back_pressure=back_pressure,
+        compression_ratio=compression_ratio,
+    )  # fmt: skip
+
+
+def motion_over(kinematics: ca.Function) -> Motion:
+    """The motion of a piston without mass; argument as for `chamber_over`."""
+    phi, none = ca.SX.sym("phi"), ca.SX.sym("none", 0)
+    found = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
+    x, dx = found["x"], found["dx_dphi"]
+    function = ca.Function("travel", [phi, none], [x, dx, ca.jacobian(dx, phi)])
+    return Motion(name="piston", function=function, parameters={}, masses=())
+
+
+def piston_area(bore: Any) -> Any:
+    r"""Area of a piston.
+
+    .. math:: A = \pi B^2/4
+
+    Parameters
+    ----------
+    bore : float or CasADi expression
+        Diameter [m]
+
+    Returns
+    -------
+    area : same kind as `bore`
+        Area [m^2]
+    """
+    return np.pi / 4 * bore**2
 
 
 def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
@@ -118,10 +183,10 @@ def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
     return (x, dx, d2x) if angles.ndim else (float(x), float(dx), float(d2x))
 
 
-def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
-    r"""Volume of the chamber and its derivative with respect to the crank angle.
+def volume(chamber: Chamber, phi: Any) -> Any:
+    r"""Volume of the chamber.
 
-    .. math:: V = V_c + n A x(\varphi), \quad V' = n A x'(\varphi)
+    .. math:: V = V_c + n A x(\varphi)
 
     Parameters
     ----------
@@ -132,9 +197,30 @@ def volume(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
     -------
     v : same kind as `phi`
         Volume [m^3]
+    """
+    return volume_and_slope(chamber, phi)[0]
+
+
+def dvolume_dphi(chamber: Chamber, phi: Any) -> Any:
+    r"""Slope of the volume.
+
+    .. math:: V' = n A x'(\varphi)
+
+    Parameters
+    ----------
+    phi : float, ndarray or CasADi scalar
+        Crank angle from top dead centre [rad]
+
+    Returns
+    -------
     dv_dphi : same kind as `phi`
         Derivative [m^3/rad]
     """
+    return volume_and_slope(chamber, phi)[1]
+
+
+def volume_and_slope(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
+    """Both at once: `volume` [m^3] and `dvolume_dphi` [m^3/rad]."""
     x, dx, _ = travel(chamber.motion, phi)
     return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx
 

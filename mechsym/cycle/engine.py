@@ -13,8 +13,8 @@ from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.errors import BadInput
+from mechsym.quantities import RPM
 
-RPM = np.pi / 30
 Progress = Callable[[int], Any]
 _BLOCK = 1000
 
@@ -126,7 +126,7 @@ def curves(engine: ClosedEngine, omega: float, step: float = np.radians(0.5)) ->
         "phi_deg": np.degrees(phi),
         "p_pa": p,
         "t_k": t,
-        "v_m3": volume(room, phi)[0],
+        "v_m3": volume(room, phi),
         "force_n": force,
         "torque_nm": force * travel(room.motion, phi)[1],
     }

@@ -1,32 +1,30 @@
-"""Figures of the two-stroke cycles, algebraic and integrated, under the names of `mechsym cycle`."""
+"""Figures of cycles that need nothing but a cylinder, under the names of `mechsym cycle`."""
 
 import dataclasses
 import math
 from typing import Any
 
-import casadi as ca
 import numpy as np
 
-from mechsym.cycle.chamber import Motion, moving_mass, travel
-from mechsym.cycle.cylinder import piston_area, swept_volume
-from mechsym.cycle.engine import RPM
-from mechsym.cycle.kinds import back_pressure, cylinder_pressure
-from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
-from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, shares, two_stroke_zone
+from mechsym.cycle.chamber import Chamber, chamber_over, piston_force, travel
+from mechsym.cycle.kinds import KINDS, back_pressure, kind_of
 from mechsym.cycle.motion import motion, piston_travel
+from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
+from mechsym.quantities import RPM, load
 
 _SHARES = ("heat", "work", "exhaust", "unburnt")
+_UNKNOWN = ("sfc_g_kwh", "efficiency", "energy_residual", *_SHARES)  # without fuel
 _POINTS = 1441
 
 
 def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) -> dict[str, Any]:
-    """Figures of a two-stroke cycle over the speeds.
+    """Figures of a cycle that needs nothing but a cylinder, over the speeds.
 
     Parameters
     ----------
-    cycle : TwoStrokeMarine or TwoStrokeZone
-        Of another kind it is refused
+    cycle : record
+        Of a kind with figures over the speed; another is refused
     name : str
         Name of a mechanism with one piston, which `parameters` belong to
     omega : ndarray, shape (n,)
@@ -38,43 +36,30 @@ def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) 
         As `engine.columns`, of one cylinder; consumption, efficiency and shares are nan for the algebraic cycle, which
         knows no fuel
     """
-    if not isinstance(cycle, (TwoStrokeMarine, TwoStrokeZone)):
+    figures = kind_of(cycle).figures
+    if not figures:
+        known = sorted(name for name, kind in KINDS.items() if kind.figures or kind.given == "engine")
         raise BadInput(
-            "[cycle] is of no kind with figures over the speed; kinds are spark-ignition, "
-            "two-stroke-marine, two-stroke-zone and, with --diagram, diagram"
+            f"[cycle] is of no kind with figures over the speed; kinds are {', '.join(known)} and, with --diagram, "
+            "diagram"
         )
-    kinematics, moves = piston_travel(name, parameters), motion(name, dataclasses.asdict(parameters))
-    rows = [_at(cycle, kinematics, moves, float(speed)) for speed in omega]
+    room = chamber_over(piston_travel(name, parameters), cycle.bore, cycle.compression_ratio, back_pressure(cycle))
+    # the same chamber over a piston with its mass, for the largest force
+    heavy = dataclasses.replace(room, motion=motion(name, dataclasses.asdict(parameters)))
+    found = ((*load(figures)(cycle, room, float(speed)), float(speed)) for speed in omega)
+    rows = [_at(pressure, fuel, heavy, speed) for pressure, fuel, speed in found]
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     fractions = {name: columns.pop(name) for name in _SHARES}
     return {"speed_rpm": omega / RPM} | columns | {"fractions": fractions, "loads": {}}
 
 
-def _at(cycle: Any, kinematics: ca.Function, moves: Motion, omega: float) -> dict[str, float]:
-    cycle = dataclasses.replace(cycle, speed=omega) if isinstance(cycle, TwoStrokeZone) else cycle
-    pressure, cylinder = cylinder_pressure(cycle, kinematics)
-    work = pressure.mean_indicated * swept_volume(cylinder)
-    torque, force = _extremes(moves, pressure, (piston_area(cylinder.bore), back_pressure(cycle)), omega)
-    return {
-        "torque_avg": work / (2 * math.pi), "torque_max": torque, "power_kw": work * omega / (2 * math.pi) / 1e3,
-        "mep_kpa": pressure.mean_indicated / 1e3, "p_max_mpa": pressure.p_max / 1e6,
-        "p_max_angle_deg": math.degrees(pressure.phi_p_max), "force_max": force, **_fuel(cycle, kinematics),
-    }  # fmt: skip
-
-
-def _extremes(moves: Motion, pressure: Any, piston: tuple[float, float], omega: float) -> tuple[float, float]:
+def _at(pressure: Pressure, fuel: dict[str, float], room: Chamber, omega: float) -> dict[str, float]:
+    work = pressure.mean_indicated * room.displacement
     phi = np.linspace(-math.pi, math.pi, _POINTS)
-    _, dx, d2x = travel(moves, phi)
-    force = (pressure.absolute(phi) - piston[1]) * piston[0] - moving_mass(moves) * d2x * omega**2
-    return float(np.max(force * dx)), float(np.max(force))
-
-
-def _fuel(cycle: Any, kinematics: ca.Function) -> dict[str, float]:
-    if not isinstance(cycle, TwoStrokeZone):
-        return dict.fromkeys(("sfc_g_kwh", "efficiency", "energy_residual", *_SHARES), math.nan)
-    zone = two_stroke_zone(cycle, kinematics)
-    found = shares(cycle, zone)
-    sfc = 3.6e9 / (found["work"] * cycle.lhv)
+    force = piston_force(room, phi, omega, pressure.absolute(phi))
     return {
-        "sfc_g_kwh": sfc, "efficiency": found["work"], "energy_residual": float(zone.result.residual[0])
-    } | found  # fmt: skip
+        "torque_avg": work / (2 * math.pi), "torque_max": float(np.max(force * travel(room.motion, phi)[1])),
+        "power_kw": work * omega / (2 * math.pi) / 1e3, "mep_kpa": pressure.mean_indicated / 1e3,
+        "p_max_mpa": pressure.p_max / 1e6, "p_max_angle_deg": math.degrees(pressure.phi_p_max),
+        "force_max": float(np.max(force)),
+    } | (fuel or dict.fromkeys(_UNKNOWN, math.nan))  # fmt: skip

@@ -1,4 +1,4 @@
-"""Gas pressure on the pistons, whatever kind of cycle it comes from."""
+"""The gas of an engine: pressure over the angle, and the chamber it acts in, whatever kind of cycle it comes from."""
 
 import dataclasses
 import math
@@ -8,15 +8,13 @@ from typing import Any
 import casadi as ca
 import numpy as np
 from numpy.polynomial import Chebyshev
-from scipy.integrate import trapezoid
 
-from mechsym.cycle.chamber import chamber, travel
+from mechsym.cycle.chamber import Chamber, chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.cylinder import piston_area
 from mechsym.cycle.engine import curves
-from mechsym.cycle.kinds import back_pressure, cylinder_pressure
+from mechsym.cycle.kinds import cylinder_pressure
 from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_pressure
-from mechsym.cycle.pressure import Pressure, periodic, piston_force
+from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train import build_rigid
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
@@ -28,55 +26,24 @@ _DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 @record
 class Gas:
-    """Pressure on one piston over the angle from its firing dead centre, the cylinder it acts in, the other side."""
+    """Gas on a piston, over the angle from its firing dead centre."""
 
     pressure: Pressure
-    p_back: float  #: Absolute pressure on the other side of the piston [Pa]
-    bore: float  #: Of one piston [m]
-    stroke: float  #: [m]
-    compression_ratio: float  #: Largest over smallest volume of one cylinder [-]
+    chamber: Chamber
     shared: bool = False  #: Whether all pistons of a machine share it, over the angle of the shaft
 
     # a gas is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
 
     @property
-    def area(self) -> float:
-        """Area of one piston [m^2]."""
-        return piston_area(self.bore)
-
-    @property
-    def period(self) -> float:
-        """Period of the pressure, 2 pi or 4 pi [rad]."""
-        return self.pressure.period
-
-    @property
-    def kinks(self) -> tuple[float, ...]:
-        """Angles in [0, period) where the pressure is not smooth; empty where none are known [rad]."""
-        return self.pressure.kinks
-
-    @property
-    def facts(self) -> tuple[str, ...]:
-        """What was assumed, one sentence each."""
-        return self.pressure.facts
-
-    def absolute(self, phi: Any) -> Any:
-        """Absolute pressure.
-
-        Parameters
-        ----------
-        phi : float or ndarray
-            Angle from firing dead centre [rad]
-
-        Returns
-        -------
-        p : float or ndarray
-            Shape of phi [Pa]
-        """
-        return self.pressure.absolute(phi)
+    def p_back(self) -> float:
+        """Absolute pressure on the other side of the piston [Pa]."""
+        return self.chamber.back_pressure
 
     def force(self, phi: Any) -> Any:
-        """Net force on the piston, positive away from the head.
+        r"""Net force on the piston, positive away from the head.
+
+        .. math:: F = (p(\varphi) - p_\mathrm{back})\,A
 
         Parameters
         ----------
@@ -86,9 +53,9 @@ class Gas:
         Returns
         -------
         F : float or ndarray
-            Shape of phi [N]
+            Force, shape of phi [N]
         """
-        return piston_force(self.pressure, self.p_back, self.area, phi)
+        return (self.pressure.absolute(phi) - self.p_back) * self.chamber.area
 
 
 def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
@@ -99,14 +66,8 @@ def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
     kinematics : casadi.Function
         One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
     """
-    pressure, cylinder = cylinder_pressure(cycle, kinematics)
-    return Gas(
-        pressure=pressure,
-        p_back=back_pressure(cycle),
-        bore=cylinder.bore,
-        stroke=cylinder.stroke,
-        compression_ratio=cylinder.compression_ratio,
-    )
+    pressure, room = cylinder_pressure(cycle, kinematics)
+    return Gas(pressure=pressure, chamber=room)
 
 
 def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
@@ -123,46 +84,26 @@ def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
     def closed_or_open(angle: np.ndarray) -> np.ndarray:
         return np.interp(angle, phi, found["p_pa"], left=charge.intake_pressure, right=charge.intake_pressure)
 
-    # gas exchange at intake pressure gives back what the closed period took at that pressure
-    work = trapezoid(found["p_pa"] - charge.intake_pressure, np.asarray(travel(engine.motion, phi)[0]).ravel())
-    top = int(np.argmax(found["p_pa"]))
-    pressure = Pressure(
-        kind="spark-ignition",
-        period=4 * math.pi,
-        kinks=(),
-        absolute=periodic(closed_or_open, 4 * math.pi, -2 * math.pi),
-        p_max=float(found["p_pa"][top]),
-        phi_p_max=float(phi[top]),
-        mean_indicated=float(work / room.stroke),
-        facts=("gas exchange takes place at intake pressure: assumed, the cycle models the closed period only",),
-    )
-    return Gas(
-        pressure=pressure,
-        p_back=room.back_pressure,
-        bore=room.bore,
-        stroke=float(room.stroke),
-        compression_ratio=engine.chamber.compression_ratio,
-    )
+    facts = ("gas exchange takes place at intake pressure: assumed, the cycle models the closed period only",)
+    absolute = periodic(closed_or_open, 4 * math.pi, -2 * math.pi)
+    return Gas(pressure=pressure_over("spark-ignition", absolute, 4 * math.pi, (), room, facts=facts), chamber=room)
 
 
 def gas_of_train(cycle: Schmidt, train: CrankTrainParameters) -> Gas:
-    """Gas that the two cylinders of a crank train share, hot and cold."""
+    """Gas that the two cylinders of a crank train share, hot and cold; its chamber is the hot one."""
     if not isinstance(train, CrankTrainParameters) or len(train.throw) != 2:
         raise BadInput("[cycle] of kind 'schmidt' needs a crank_train with two cylinders, hot and cold")
     kinematics, phi = build_rigid(train).functions["kinematics"], ca.SX.sym("phi")
     found = dict(zip(kinematics.name_out(), kinematics(phi), strict=True))
     travels = [_vectorised(ca.Function("x", [phi], [found[f"x_{i}"]])) for i in (1, 2)]
-    pressure = schmidt_pressure(cycle, *travels)
-    stroke = 2 * each(train, "r")[0]
-    area = piston_area(cycle.bore)
-    return Gas(
-        pressure=pressure,
-        p_back=cycle.p_back,
-        bore=cycle.bore,
-        stroke=stroke,
+    hot = ca.Function("hot", [phi], [found["x_1"], found["dx_1_dphi"]], ["phi"], ["x", "dx_dphi"])
+    area, stroke = piston_area(cycle.bore), 2 * each(train, "r")[0]
+    room = Chamber(
+        motion=motion_over(hot), pistons=1, bore=cycle.bore, area=area, stroke=stroke, clearance=cycle.dead_hot,
+        displacement=area * stroke, back_pressure=cycle.p_back,
         compression_ratio=1 + area * stroke / cycle.dead_hot if cycle.dead_hot else math.inf,
-        shared=True,
-    )
+    )  # fmt: skip
+    return Gas(pressure=schmidt_pressure(cycle, *travels), chamber=room, shared=True)
 
 
 def _vectorised(function: ca.Function) -> Callable[[np.ndarray], np.ndarray]:
@@ -192,9 +133,12 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         theta = np.asarray(theta, dtype=float)
         half = np.ceil(theta / math.pi) - 1  # a valve that opens at the dead centre opens after it
         angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
-        return found.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
+        return found.pressure.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
-    return dataclasses.replace(found, pressure=dataclasses.replace(found.pressure, absolute=absolute, kinks=()))
+    p_max, angle = peak(absolute, found.pressure.period, ())
+    pressure = dataclasses.replace(found.pressure, absolute=absolute, kinks=(), p_max=p_max, phi_p_max=angle, phases={})
+    room = dataclasses.replace(found.chamber, motion=motion_over(other))
+    return dataclasses.replace(found, pressure=pressure, chamber=room)
 
 
 def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:

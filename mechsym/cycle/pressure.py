@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber, travel
 from mechsym.quantities import record
 
 ATMOSPHERE = 101325.0
@@ -43,28 +43,6 @@ class Pressure:
     phases: Mapping[str, float] = dataclasses.field(default_factory=dict)
     facts: tuple[str, ...] = ()  #: What was assumed and what came out, one sentence each
     doubts: tuple[str, ...] = ()  #: What looks physically implausible, one sentence each; empty if nothing does
-
-
-def piston_force(pressure: Pressure, p_back: float, area: float, phi: Any) -> Any:
-    r"""Net gas force on the piston, positive away from the head.
-
-    .. math:: F = (p(\varphi) - p_\mathrm{back})\,A
-
-    Parameters
-    ----------
-    p_back : float
-        Absolute pressure on the crank side [Pa]
-    area : float
-        Area of the piston [m^2]
-    phi : float or ndarray
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    F : float or ndarray
-        Force, shape of phi [N]
-    """
-    return (pressure.absolute(phi) - p_back) * area
 
 
 def periodic(function: Callable[[Any], Any], period: float, start: float = 0.0) -> Callable[[Any], Any]:
@@ -134,7 +112,7 @@ def quadrature(period: float, kinks: tuple[float, ...]) -> tuple[np.ndarray, np.
 
 
 def mean_indicated_pressure(
-    absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...], cylinder: Cylinder
+    absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...], cylinder: Chamber
 ) -> float:
     r"""Work of the gas over one period, by swept volume.
 
@@ -155,7 +133,31 @@ def mean_indicated_pressure(
         Mean indicated pressure [Pa]
     """
     phi, weights = quadrature(period, kinks)
-    return float(np.sum(weights * absolute(phi) * cylinder.dx_dphi(phi)) / cylinder.stroke)
+    return float(np.sum(weights * absolute(phi) * travel(cylinder.motion, phi)[1]) / cylinder.stroke)
+
+
+def pressure_over(
+    kind: str, absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...], cylinder: Chamber, **rest: Any
+) -> Pressure:
+    """The record of a pressure, with its peak and its work.
+
+    Parameters
+    ----------
+    absolute : callable
+        Pressure of the crank angle [Pa]
+    period : float
+        2 pi or 4 pi [rad]
+    kinks : tuple of float
+        Angles in [0, period) where the pressure is not smooth [rad]
+    rest : keyword arguments
+        `phases`, `facts`, `doubts`
+    """
+    p_max, phi_p_max = peak(absolute, period, kinks)
+    mean = mean_indicated_pressure(absolute, period, kinks, cylinder)
+    return Pressure(
+        kind=kind, period=period, kinks=kinks, absolute=absolute, p_max=p_max, phi_p_max=phi_p_max,
+        mean_indicated=mean, **rest,
+    )  # fmt: skip
 
 
 def peak(absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...]) -> tuple[float, float]:

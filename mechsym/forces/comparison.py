@@ -82,14 +82,14 @@ def reciprocating_mass(turn: Turn) -> float:
 
 
 def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, CrankDrive]:
-    s, m = gas.stroke, reciprocating_mass(turn)
+    s, m = gas.chamber.stroke, reciprocating_mass(turn)
     l = s / 2 / settings.lam
     nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
     crosshead = CrossheadParameters(**nothing, r2=s / 2, m5=m, I01=_INERTIA)
     planet = HypocycloidParameters(e=s / 4, I1=_INERTIA, m2=0, I2=0, m3=m, alpha_n=settings.alpha_n)
     one = RodlessParameters(r=s / 4, I1=_INERTIA, m_link=0, I_link=0, m_a=m, m_b=0)
     four = dataclasses.replace(one, m_a=2 * m, m_b=2 * m)
-    single = RodlessFaces(sides=("a+",), areas=(gas.area,), firing=(0.0,))
+    single = RodlessFaces(sides=("a+",), areas=(gas.chamber.area,), firing=(0.0,))
     machines = {"slider crank": crank_drive("crosshead", crosshead), "hypocycloid": crank_drive("hypocycloid", planet)}
     for rule_name, rule in (("crank free radially", CrankFreeRadially()), ("equal stiffnesses", _EQUAL)):
         for count, parameters, faces in (("one piston", one, single), ("four pistons", four, _four_faces(gas))):
@@ -99,9 +99,13 @@ def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, C
 
 def _four_faces(gas: Gas) -> RodlessFaces:
     # a four-stroke star of four dead centres a quarter turn apart fires as evenly as it can: gaps 270, 180, 90, 180
-    late = {"a+": 0, "b-": 270, "b+": 450, "a-": 540} if gas.period > 7 else {"a+": 0, "b+": 90, "a-": 180, "b-": 270}
+    late = (
+        {"a+": 0, "b-": 270, "b+": 450, "a-": 540}
+        if gas.pressure.period > 7
+        else {"a+": 0, "b+": 90, "a-": 180, "b-": 270}
+    )
     firing = tuple(math.radians(d) for d in late.values())
-    return RodlessFaces(sides=tuple(late), areas=(gas.area,) * 4, firing=firing)
+    return RodlessFaces(sides=tuple(late), areas=(gas.chamber.area,) * 4, firing=firing)
 
 
 def _row(name: str, turn: Turn, drive: CrankDrive, friction: Friction | None, rings: Rings) -> dict[str, Any]:

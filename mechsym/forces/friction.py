@@ -100,8 +100,8 @@ def swept_volume(turn: Turn) -> float:
     """
     assert turn.gas is not None
     if turn.drive.name == "rodless":
-        return sum(faces_of(turn.drive).areas) * turn.gas.stroke
-    return turn.gas.area * turn.gas.stroke * len(pistons(turn))
+        return sum(faces_of(turn.drive).areas) * turn.gas.chamber.stroke
+    return turn.gas.chamber.area * turn.gas.chamber.stroke * len(pistons(turn))
 
 
 def _rings(turn: Turn, law: Rings) -> np.ndarray:

@@ -49,8 +49,8 @@ def fit(turns: Sequence[Turn], friction: Friction, rings: Rings) -> FittedLaw:
     """
     omega = np.array([one.omega for one in turns])
     computed = np.array([_mean_pressure(one, friction, rings) for one in turns])
-    p_max = np.array([one.gas.absolute(one.phi).max() for one in turns if one.gas])
-    piston_speed = np.array([one.gas.stroke * one.omega / math.pi for one in turns if one.gas])
+    p_max = np.array([one.gas.pressure.absolute(one.phi).max() for one in turns if one.gas])
+    piston_speed = np.array([one.gas.chamber.stroke * one.omega / math.pi for one in turns if one.gas])
     columns = np.array([np.ones_like(p_max), p_max, piston_speed, piston_speed**2])
     columns = columns if len(turns) > 1 else columns * [[1], [0], [0], [0]]
     scale = np.maximum(columns.max(axis=1), 1e-300)

@@ -65,11 +65,11 @@ def ring_power(law: Rings, gas: Gas, phi: np.ndarray, speed: np.ndarray, omega: 
     if isinstance(law, NoRings):
         return np.zeros_like(phi)
     if isinstance(law, ContactPressure):
-        excess = np.maximum(gas.absolute(phi) - gas.p_back, 0.0)
+        excess = np.maximum(gas.pressure.absolute(phi) - gas.p_back, 0.0)
         rows = zip(law.heights, law.gas_shares, strict=True)
         press = sum((h * (law.elastic + share * excess) for h, share in rows), np.zeros_like(phi))
-        return law.mu * np.pi * gas.bore * press * np.abs(speed)
-    mean = patton_pressure(law, gas, omega) * gas.area * gas.stroke * omega / gas.period
+        return law.mu * np.pi * gas.chamber.bore * press * np.abs(speed)
+    mean = patton_pressure(law, gas, omega) * gas.chamber.area * gas.chamber.stroke * omega / gas.pressure.period
     return mean * np.abs(speed) / np.abs(speed).mean()
 
 
@@ -90,9 +90,9 @@ def patton_pressure(law: Patton1989, gas: Gas, omega: float) -> float:
     --------
     A bore of 80 mm at 3000 rpm: ring tension alone costs 7.4 kPa.
     """
-    rpm, bore = omega * 30 / np.pi, gas.bore * 1e3
-    mean_speed = gas.stroke * omega / np.pi
+    rpm, bore = omega * 30 / np.pi, gas.chamber.bore * 1e3
+    mean_speed = gas.chamber.stroke * omega / np.pi
     tension = 4.06e4 * (1 + 500 / rpm) / bore**2
-    ratio = gas.compression_ratio
+    ratio = gas.chamber.compression_ratio
     loading = 6.89 * law.intake_ratio * (0.088 * ratio + 0.182 * ratio ** (1.33 - 0.0238 * mean_speed))
     return float(1e3 * (tension + loading))

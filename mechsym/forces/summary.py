@@ -96,7 +96,7 @@ def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
 
 def _facts(found: Forces) -> list[str]:
     gas, lost = found.turn.gas, found.losses
-    facts = list(gas.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    facts = list(gas.pressure.facts) if gas else ["no gas acts: the case has no [cycle]"]
     if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
         share = 100 * (1 - lost.mechanical_efficiency)
         facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")

@@ -24,7 +24,7 @@ def columns(turn: Turn, found: Loads) -> dict[str, np.ndarray]:
     """
     table: dict[str, np.ndarray] = {"phi_deg": np.degrees(turn.phi)}
     if turn.gas is not None:
-        table["p"] = turn.gas.absolute(turn.phi)
+        table["p"] = turn.gas.pressure.absolute(turn.phi)
     table |= dict(turn.inputs) | {n: v for n, v in turn.kinematics.items() if n.startswith(("x", "psi"))}
     for pin in found.pins:
         table |= {f"{pin.name}_radial": radial(pin), f"{pin.name}_tangential": tangential(pin)}

@@ -70,7 +70,7 @@ def turn(drive: CrankDrive, gas: Gas | None, omega: float) -> Turn:
     omega : float
         Crank speed [rad/s]
     """
-    period = gas.period if gas else 2 * math.pi
+    period = gas.pressure.period if gas else 2 * math.pi
     steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
     return at(drive, gas, omega, np.arange(steps) * period / steps)
 
@@ -122,7 +122,7 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
         drive=drive,
         gas=gas,
         omega=omega,
-        period=gas.period if gas else 2 * math.pi,
+        period=gas.pressure.period if gas else 2 * math.pi,
         phi=phi,
         inputs=inputs,
         kinematics=kinematics,
@@ -144,16 +144,16 @@ def _inputs(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np
         return {}
 
     def net(angle: np.ndarray) -> np.ndarray:
-        return gas.absolute(angle) - gas.p_back
+        return gas.pressure.absolute(angle) - gas.p_back
 
     if drive.name == "rodless":
         return dict(zip(("F_a", "F_b"), axis_forces(faces_of(drive), net, phi), strict=True))
     if gas.shared:
-        return {f"F{i + 1}": net(phi) * gas.area for i in range(len(drive.parameters.throw))}
+        return {f"F{i + 1}": net(phi) * gas.chamber.area for i in range(len(drive.parameters.throw))}
     if drive.name == "crank_train":
-        forces = gas_forces(drive.parameters, net, gas.area, phi)
+        forces = gas_forces(drive.parameters, net, gas.chamber.area, phi)
         return {f"F{i + 1}": force for i, force in enumerate(forces)}
-    return {"F": net(phi) * gas.area}
+    return {"F": net(phi) * gas.chamber.area}
 
 
 def faces_of(drive: CrankDrive) -> RodlessFaces:

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from mechsym.cycle.chamber import volume
 from mechsym.hinge.contact import Contact
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.machine.record import gas_of
-from mechsym.mechanisms.record import curves, velocities
+from mechsym.mechanisms.record import velocities
 
 BLUE, RED, GREEN, GREY, ORANGE = "#1f5fa8", "#b5342b", "#2f7d4f", "#8a8f98", "#c77c11"
 _DEG = 180 / np.pi
@@ -79,8 +80,7 @@ def pressure(design: Design) -> Figure:
     left.set_xlabel("crank angle [deg]")
     left.set_ylabel("absolute pressure [bar]")
     _angle_axis(left, gas.period)
-    volume = room.area * (room.stroke / (room.compression_ratio - 1) + curves(design.machine.mechanism, phi)["x"])
-    right.plot(1e3 * volume, p, color=BLUE)
+    right.plot(1e3 * volume(room.chamber, phi), p, color=BLUE)
     right.set_xlabel("volume [L]")
     right.set_ylabel("absolute pressure [bar]")
     return figure

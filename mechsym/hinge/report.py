@@ -109,7 +109,7 @@ def _motion(design: Design) -> dict[str, Any]:
     phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
     found, digits = curves(design.machine.mechanism, phi), 5 - int(np.floor(np.log10(l)))
     factor, unit = plots.unit_of(max(design.hinge.torque_max, -design.hinge.torque_min), "N m")
-    bore = gas_of(design.machine).bore
+    bore = gas_of(design.machine).chamber.bore
     motion = {
         "torque_unit": unit, "r": r, "l": l, "bore": bore, "phi": np.round(phi, 5).tolist(),
         "crosshead": np.round(r + l - found["x"], digits).tolist(),

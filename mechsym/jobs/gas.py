@@ -8,9 +8,7 @@ from mechsym.cases import Case
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
 from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
-from mechsym.cycle.kinds import with_diagram
-from mechsym.cycle.kinds.schmidt import Schmidt
-from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.cycle.motion import motion, piston_travel
@@ -38,11 +36,12 @@ def gas(case: Case) -> Gas | None:
     if "cycle" not in case.sections:
         return None
     cycle = case.sections["cycle"]
-    if isinstance(cycle, Schmidt):
+    given = kind_of(cycle).given
+    if given == "train":
         with of(case):
             return gas_of_train(cycle, case.need("parameters"))
     seen = one_cylinder(case)
-    if isinstance(cycle, SparkIgnition):
+    if given == "engine":
         return gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"))
@@ -77,7 +76,7 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
         A section is missing, or the cycle is of another kind
     """
     cycle = case.need("cycle")
-    if not isinstance(cycle, SparkIgnition):
+    if kind_of(cycle).given != "engine":
         raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
     return ClosedEngine(
         chamber=case.need("chamber"),
@@ -98,7 +97,7 @@ def measured(case: Case, file: str) -> Case:
         With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
     """
     cycle = case.need("cycle")
-    if isinstance(cycle, SparkIgnition):
+    if kind_of(cycle).given == "engine":
         room = case.need("chamber")
         cycle = Diagram(
             bore=room.bore,

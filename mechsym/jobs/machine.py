@@ -6,8 +6,7 @@ from typing import Any
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cycle.gas import Gas, gas_in_cylinder
-from mechsym.cycle.kinds import with_diagram
-from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
@@ -37,7 +36,7 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
         cycle = with_diagram(cycle, diagram)
     parameters = with_flywheel(case.need("parameters"), kept_flywheel(case))
     # a diagram is read from a file, which may have changed since
-    make = _parts.__wrapped__ if isinstance(cycle, Diagram) else _parts
+    make = _parts.__wrapped__ if kind_of(cycle).measured else _parts
     mechanism, gas = make(case.mechanism, parameters, cycle)
     return Machine(mechanism=mechanism, gas=gas, load=load(case), omega=case.need("operation").speed)
 

@@ -5,7 +5,7 @@ from dataclasses import asdict
 from typing import Any
 
 from mechsym.cases import Case
-from mechsym.cycle.cylinder import cylinder_of
+from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
 from mechsym.cycle.measured.fits import Fit
@@ -40,7 +40,7 @@ def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustio
     seen = one_cylinder(case)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"))
-    cylinder = cylinder_of(travel, cycle.bore, cycle.compression_ratio)
+    cylinder = chamber_over(travel, cycle.bore, cycle.compression_ratio)
     return diagram_combustion(measured_cycles(cycle, cylinder), cylinder, case.sections.get("combustion", Analysis()))
 
 

@@ -13,8 +13,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cycle.gas import Gas
-from mechsym.cycle.kinds.schmidt import Schmidt
-from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import gas
 from mechsym.jobs.turn import turn
@@ -55,20 +54,20 @@ def cylinders(case: Case) -> Cylinders:
     """
     if "cycle" not in case.sections:
         return Cylinders()
-    if isinstance(case.sections["cycle"], SparkIgnition):
+    if kind_of(case.sections["cycle"]).given == "engine":
         raise BadInput(f"{case.file}: spark ignition follows the motion; use 'mechsym cycle CASE --loop CYCLES'")
     found, parameters = gas(case), case.need("parameters")
     assert found is not None
-    starts = _starts(case, parameters)
+    starts = _starts(case, found, parameters)
     rows = enumerate(zip(parameters.throw, starts, strict=True))
     parts = [_part(found, i, throw, start) for i, (throw, start) in rows]
     mean = float(np.mean(turn(case).torque))
     return Cylinders(parts=tuple(parts), kinks=_kinks(found, parameters, starts), torque=mean)
 
 
-def _starts(case: Case, parameters: CrankTrainParameters) -> tuple[float, ...]:
+def _starts(case: Case, found: Gas, parameters: CrankTrainParameters) -> tuple[float, ...]:
     """Shaft angle at which each cylinder's pressure has its angle 0."""
-    if not isinstance(case.sections["cycle"], Schmidt):
+    if not found.shared:
         refuse_wrong_firing(parameters)
         return each(parameters, "firing")
     if len(set(parameters.throw)) > 1:
@@ -81,10 +80,10 @@ def _starts(case: Case, parameters: CrankTrainParameters) -> tuple[float, ...]:
 
 def _part(found: Gas, index: int, throw: int, start: float) -> Part:
     def force(phi: np.ndarray) -> np.ndarray:
-        return (found.absolute(phi - start) - found.p_back) * found.area
+        return found.force(phi - start)
 
-    kinks = tuple(sorted((k + start) % found.period for k in found.kinks))
-    value = Periodic(coordinate=f"phi{throw}", value=force, period=found.period, kinks=kinks)
+    kinks = tuple(sorted((k + start) % found.pressure.period for k in found.pressure.kinks))
+    value = Periodic(coordinate=f"phi{throw}", value=force, period=found.pressure.period, kinks=kinks)
     return Part(name=f"gas_{index + 1}", input=f"F{index + 1}", value=value)
 
 
@@ -92,9 +91,9 @@ def _kinks(found: Gas, parameters: CrankTrainParameters, starts: tuple[float, ..
     rows = []
     for throw in range(1, max(parameters.throw) + 1):
         own = [s for t, s in zip(parameters.throw, starts, strict=True) if t == throw]
-        angles = sorted({(k + start) % found.period for start in own for k in found.kinks})
+        angles = sorted({(k + start) % found.pressure.period for start in own for k in found.pressure.kinks})
         if angles:
-            rows.append(Kinks(coordinate=f"phi{throw}", angles=tuple(angles), period=found.period))
+            rows.append(Kinks(coordinate=f"phi{throw}", angles=tuple(angles), period=found.pressure.period))
     return tuple(rows)
 
 

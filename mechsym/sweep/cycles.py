@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.kinds import kind_of
 from mechsym.sweep.outcomes import Gap, Outcome
 
 BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
@@ -28,7 +28,7 @@ def mapped(case: Case) -> bool:
     mapped : bool
         False for cycles that are solved one by one
     """
-    return isinstance(case.need("cycle"), SparkIgnition)
+    return kind_of(case.need("cycle")).given == "engine"
 
 
 def single(case: Case) -> dict[str, Any]:

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from slider_crank import slider_crank
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber
 from mechsym.files import write_csv
 
 
 @pytest.fixture
-def marine() -> Cylinder:
+def marine() -> Chamber:
     return slider_crank(0.5, 1.55, 0.3, 17.0)
 
 

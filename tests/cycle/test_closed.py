@@ -14,12 +14,12 @@ from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.phases import closed_function, closed_map
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.closed.runge_kutta import ORDER
-from mechsym.cycle.engine import RPM
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Woschni
 from mechsym.cycle.kinds.ideal import otto_efficiency
 from mechsym.cycle.mixture import NasaMixture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
+from mechsym.quantities import RPM
 
 SPEEDS = np.array([100.0, 1000.0, 4000.0, 8000.0]) * RPM
 

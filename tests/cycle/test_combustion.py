@@ -11,11 +11,9 @@ from click.testing import CliRunner
 
 from mechsym.cases import load
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.chamber import travel
+from mechsym.cycle.chamber import chamber, travel
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
-from mechsym.cycle.cylinder import Cylinder
-from mechsym.cycle.engine import RPM
 from mechsym.cycle.measured.fits import compression_line, fit_double_wiebe, fit_wiebe, least_squares_fit, trapped_mass
 from mechsym.cycle.measured.heat_release import (
     Walls,
@@ -30,6 +28,7 @@ from mechsym.cycle.measured.identify import identify
 from mechsym.cycle.wiebe import double_wiebe, wiebe
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
+from mechsym.quantities import RPM
 
 DEG = math.pi / 180
 OMEGA = 3000 * RPM
@@ -43,14 +42,7 @@ def one_piston(**changes):
 
 
 def cylinder_of(machine):
-    motion = machine.motion
-    return Cylinder(
-        bore=machine.chamber.bore,
-        stroke=travel(motion, math.pi)[0],
-        compression_ratio=machine.chamber.compression_ratio,
-        x=lambda phi: travel(motion, phi)[0],
-        dx_dphi=lambda phi: travel(motion, phi)[1],
-    )
+    return chamber(machine.chamber, machine.motion)
 
 
 @pytest.fixture(scope="module")
@@ -130,7 +122,7 @@ def test_angles_outside_the_closed_period_are_refused(synthetic):
 def test_compression_line_of_a_polytrope(synthetic, rng):
     cylinder = cylinder_of(synthetic[0])
     phi = np.arange(-150.0, -15.0, 0.25) * DEG
-    v = np.pi / 4 * cylinder.bore**2 * (cylinder.stroke / 9 + cylinder.x(phi - TDC_ERROR))
+    v = np.pi / 4 * cylinder.bore**2 * (cylinder.stroke / 9 + travel(cylinder.motion, phi - TDC_ERROR)[0])
     p = 1e5 * (v / v[0]) ** -1.31
     exact = compression_line(phi, p, cylinder, phi[0], phi[-1])
     assert exact.values[:2] == (pytest.approx(1.31, abs=1e-6), pytest.approx(TDC_ERROR, abs=1e-7))

@@ -11,11 +11,12 @@ from mechsym.cli.compare import compare
 from mechsym.cli.cycle import cycle
 from mechsym.cli.speeds import parse_speeds
 from mechsym.cycle.closed.model import at_design, design_names
-from mechsym.cycle.engine import RPM, curves, over_speeds
+from mechsym.cycle.engine import curves, over_speeds
 from mechsym.cycle.motion import motion
 from mechsym.errors import BadInput
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
+from mechsym.quantities import RPM
 
 KEYS = {"speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa",
         "fractions", "energy_residual"}  # fmt: skip

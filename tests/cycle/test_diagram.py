@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from slider_crank import slider_crank
 
-from mechsym.cycle.cylinder import clearance_volume, volume
+from mechsym.cycle.chamber import travel, volume
 from mechsym.cycle.measured.compression_line import Window, find_dead_centre, fit_line, polytropic_exponent
 from mechsym.cycle.measured.diagram import Diagram, window
 from mechsym.cycle.measured.facts import cycle_work, weak_cycles, work_per_angle
@@ -27,7 +27,7 @@ def four_stroke(phi, n_c=1.30, heat=2.2, start=-8 * DEG):
     """Absolute pressure of a plain four-stroke cycle: inlet 0.6 bar, exhaust 1.05 bar, both blended over 40 degrees."""
     # from the middle of the exhaust stroke, where nothing is blended
     phi = np.remainder(np.asarray(phi) + 450 * DEG, 4 * math.pi) - 450 * DEG
-    v = volume(SMALL, phi) / (clearance_volume(SMALL) * SMALL.compression_ratio)
+    v = volume(SMALL, phi) / (SMALL.clearance * SMALL.compression_ratio)
     closed = 0.6 * BAR * v**-n_c * (1 + heat * wiebe((phi - start) / (60 * DEG), 5.0, 2.0))
 
     def blend(angle):
@@ -126,7 +126,7 @@ def test_any_spacing(diagram_file, step):
 
 def reference_work():
     phi = np.linspace(-2 * math.pi, 2 * math.pi, 14400, endpoint=False)
-    return float(np.mean(four_stroke(phi) * SMALL.dx_dphi(phi))) * 4 * math.pi / SMALL.stroke
+    return float(np.mean(four_stroke(phi) * travel(SMALL.motion, phi)[1])) * 4 * math.pi / SMALL.stroke
 
 
 def test_uneven_spacing_is_interpolated(diagram_file):
@@ -204,7 +204,7 @@ def test_a_degree_of_dead_centre_is_worth_per_cents_of_work(diagram_file):
 )
 def test_exact_line_gives_back_its_dead_centre(tdc, offset, gain, n, end):
     phi = np.arange(-200, 40, 1.0) * DEG
-    v = volume(SMALL, phi - tdc * DEG) / (clearance_volume(SMALL) * SMALL.compression_ratio)
+    v = volume(SMALL, phi - tdc * DEG) / (SMALL.clearance * SMALL.compression_ratio)
     pressure = offset * BAR + gain * 0.6 * BAR * v**-n
     line_window = Window(fit_from=-95 * DEG, fit_to=end * DEG, n=n)
     shift = find_dead_centre(phi, pressure, SMALL, line_window)

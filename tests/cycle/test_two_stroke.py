@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from slider_crank import slider_crank
 
-from mechsym.cycle.cylinder import clearance_volume, dvolume_dphi, piston_area, swept_volume, volume
+from mechsym.cycle.chamber import dvolume_dphi, piston_area, volume
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine, back_pressure, events, kinks, scavenging_pressure
 from mechsym.cycle.kinds.two_stroke_solve import solve, two_stroke_pressure
-from mechsym.cycle.pressure import piston_force, quadrature
+from mechsym.cycle.pressure import quadrature
 from mechsym.cycle.wiebe import SHEN_2020, double_wiebe
 from mechsym.errors import BadInput
 
@@ -45,7 +46,7 @@ def test_wanted_mean_pressure_is_met(load, marine):
         quad(lambda phi: float(pressure.absolute(phi) * dvolume_dphi(marine, phi)), a, b, epsabs=1e-9, epsrel=1e-13)[0]
         for a, b in pieces
     )
-    assert work / swept_volume(marine) == pytest.approx(cycle.mean_indicated_pressure, rel=1e-10)
+    assert work / marine.displacement == pytest.approx(cycle.mean_indicated_pressure, rel=1e-10)
     assert pressure.mean_indicated == pytest.approx(cycle.mean_indicated_pressure, rel=1e-13)
 
 
@@ -91,7 +92,7 @@ def test_compression_and_expansion_are_polytropic(marine):
 
 def test_combustion_interpolates_between_the_two_polytropes(marine):
     cycle, phi = LOADS["high"], 20 * DEG
-    state, v = solve(cycle, marine), volume(marine, 20 * DEG) / clearance_volume(marine)
+    state, v = solve(cycle, marine), volume(marine, 20 * DEG) / marine.clearance
     f = double_wiebe(phi / cycle.duration, **SHEN_2020[3])
     expected = (1 - f) * state.p_comp * v**-1.40 + f * state.p_ref * v**-1.30
     assert two_stroke_pressure(cycle, marine).absolute(phi) == pytest.approx(expected, rel=1e-14)
@@ -149,7 +150,8 @@ def test_peaks_of_the_fitted_sets_rise_with_load_like_the_published_ones():
 def test_force_and_back_pressure(marine):
     pressure, area = two_stroke_pressure(LOADS["low"], marine), piston_area(0.3)
     phi = np.linspace(0, 7, 50)
-    force = piston_force(pressure, back_pressure(LOADS["low"]), area, phi)
+    room = dataclasses.replace(marine, back_pressure=back_pressure(LOADS["low"]))
+    force = Gas(pressure=pressure, chamber=room).force(phi)
     assert np.allclose(force, (pressure.absolute(phi) - 101325.0) * area, rtol=1e-15)
     assert back_pressure(dataclasses.replace(LOADS["low"], crank_side="scavenge")) == 1.6e5
 

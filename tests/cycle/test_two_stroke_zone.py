@@ -11,9 +11,14 @@ from click.testing import CliRunner
 from mechsym import mechanisms
 from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
+from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, shares, two_stroke_zone
 from mechsym.errors import BadInput
+
+
+def room(cycle, case):
+    return chamber_over(kinematics(case), cycle.bore, cycle.compression_ratio)
 
 
 def kinematics(case):
@@ -45,7 +50,7 @@ def test_it_meets_the_algebraic_cycle(name):
 @pytest.mark.parametrize("gas", ["nasa", "constant_gamma"])
 def test_energy_is_accounted_for(law, gas):
     cycle, case = zone_of("zotov-142", heat_transfer=law, properties=gas)
-    zone = two_stroke_zone(cycle, kinematics(case))
+    zone = two_stroke_zone(cycle, room(cycle, case))
     found = shares(cycle, zone)
     assert abs(zone.result.residual[0]) < 1e-10
     assert sum(found.values()) == pytest.approx(1.0, abs=1e-12)
@@ -57,7 +62,7 @@ def test_heat_to_the_walls_costs_fuel():
     fuel = {}
     for law in ("none", "woschni"):
         cycle, case = zone_of("zotov-89", heat_transfer=law)
-        fuel[law] = two_stroke_zone(cycle, kinematics(case)).fuel
+        fuel[law] = two_stroke_zone(cycle, room(cycle, case)).fuel
     assert fuel["woschni"] > 1.1 * fuel["none"]
 
 
@@ -71,7 +76,7 @@ def test_pressure_is_continuous_but_for_nothing():
 def test_a_mean_pressure_beyond_the_air_is_refused():
     cycle, case = zone_of("zotov-89", mean_indicated_pressure=30e5)
     with pytest.raises(BadInput, match="with all the air burnt"):
-        two_stroke_zone(cycle, kinematics(case))
+        two_stroke_zone(cycle, room(cycle, case))
 
 
 def test_events_out_of_order_are_refused():

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from mechsym import cases
-from mechsym.cycle.cylinder import piston_area
-from mechsym.cycle.kinds import back_pressure, cylinder_pressure, with_diagram
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.kinds import cylinder_pressure, with_diagram
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.pressure import piston_force
 from mechsym.mechanisms import crosshead
 
 PHI = np.linspace(0, 2 * math.pi, 7200, endpoint=False)
@@ -23,7 +22,7 @@ def hinge_torque(name, **overrides):
     kinematics = crosshead.build(parameters).functions["kinematics"]
     at = {key: np.asarray(value).ravel() for key, value in kinematics(phi=PHI.reshape(1, -1)).items()}
     pressure, cylinder = cylinder_pressure(cycle, kinematics)
-    gas = piston_force(pressure, back_pressure(cycle), piston_area(cylinder.bore), PHI) * at["dx_dphi"]
+    gas = Gas(pressure=pressure, chamber=cylinder).force(PHI) * at["dx_dphi"]
     # gravity across the cylinder axis: m1 r1 cos phi + m2 l2 cos psi psi'
     lam = (parameters.r1 + parameters.r2) / (parameters.l1 + parameters.l2)
     gravity = parameters.g * (parameters.m1 * parameters.r1 + parameters.m2 * parameters.l2 * lam) * np.cos(PHI)

@@ -113,7 +113,7 @@ def test_work_of_a_turn_is_that_of_the_gas():
     gas = smooth_gas(0.2)
     one = turn_of(case, gas)
     # integral of p A x' with x' = 2 e sin: only the sine of the pressure, 20e5 / 3, gives work
-    work = math.pi * 20e5 / 3 * gas.area * 2 * PLANET.e
+    work = math.pi * 20e5 / 3 * gas.chamber.area * 2 * PLANET.e
     assert one.torque.mean() * 2 * math.pi == pytest.approx(work, rel=1e-12)
     assert one.gas_power.mean() / one.omega * 2 * math.pi == pytest.approx(work, rel=1e-12)
 

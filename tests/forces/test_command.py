@@ -113,7 +113,7 @@ def recorded(tmp_path_factory):
     """The pressure of moroianu's own cycle as a recording: every half degree, in bar."""
     found = gas(cases.load("moroianu"))
     degrees = np.arange(0, 360, 0.5)
-    rows = [f"{a},{p / 1e5:.7g}" for a, p in zip(degrees, found.absolute(np.radians(degrees)), strict=True)]
+    rows = [f"{a},{p / 1e5:.7g}" for a, p in zip(degrees, found.pressure.absolute(np.radians(degrees)), strict=True)]
     path = tmp_path_factory.mktemp("diagram") / "recorded.csv"
     path.write_text("\n".join(["crank_angle_deg,pressure_bar", *rows]) + "\n")
     return str(path)

@@ -76,17 +76,23 @@ def test_efficiency_and_mean_pressure_follow_from_the_lost_power(slider):
 
 
 def test_ring_rules(slider):
-    gas = dataclasses.replace(slider.gas, bore=0.08, stroke=0.08, area=math.pi / 4 * 0.08**2, compression_ratio=9.0)
+    room = dataclasses.replace(
+        slider.gas.chamber, bore=0.08, stroke=0.08, area=math.pi / 4 * 0.08**2, compression_ratio=9.0
+    )
+    gas = dataclasses.replace(slider.gas, chamber=room)
     omega = 3000 * math.pi / 30
     tension = 4.06e4 * (1 + 500 / 3000) / 80**2
     loading = 6.89 * (0.088 * 9 + 0.182 * 9 ** (1.33 - 0.0238 * 8))
     assert patton_pressure(Patton1989(), gas, omega) == pytest.approx(1e3 * (tension + loading), rel=1e-12)
     speed = np.abs(np.sin(slider.phi))
     spread = ring_power(Patton1989(), gas, slider.phi, speed, omega)
-    work = spread.mean() * gas.period / omega
-    assert work == pytest.approx(patton_pressure(Patton1989(), gas, omega) * gas.area * gas.stroke, rel=1e-12)
+    work = spread.mean() * gas.pressure.period / omega
+    assert work == pytest.approx(
+        patton_pressure(Patton1989(), gas, omega) * gas.chamber.area * gas.chamber.stroke, rel=1e-12
+    )
     law = ContactPressure(mu=0.1, heights=(2e-3, 2e-3), gas_shares=(0.5, 0.0), elastic=1e5)
-    at_rest = dataclasses.replace(gas, absolute=lambda phi: np.full(np.shape(phi), gas.p_back + 1e6))
+    held = dataclasses.replace(gas.pressure, absolute=lambda phi: np.full(np.shape(phi), gas.p_back + 1e6))
+    at_rest = dataclasses.replace(gas, pressure=held)
     power = ring_power(law, at_rest, slider.phi, np.ones_like(slider.phi), omega)
     assert power[0] == pytest.approx(0.1 * math.pi * 0.08 * 2e-3 * (1e5 + 1e5 + 5e5), rel=1e-12)
 

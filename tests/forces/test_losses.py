@@ -73,7 +73,7 @@ def test_losses_of_a_slider_crank_by_hand():
     speed = (r * s + r**2 * s * c / (l * np.cos(psi))) * w
     F = one.inputs["F"] - 9 * one.kinematics["d2x_dphi2"] * w**2
     rod = np.abs(F) / np.cos(psi)
-    p = smooth_gas(0.6).absolute(one.phi) - 1e5
+    p = smooth_gas(0.6).pressure.absolute(one.phi) - 1e5
     wanted = {
         "guides": 0.04 * np.abs(F * np.tan(psi) * speed),
         "piston_pins": 0.01 * 0.05 * rod * np.abs(swing),
@@ -109,7 +109,9 @@ def test_ring_rules():
     assert not ring_power(NoRings(), gas, phi, speed, 20.0).any()
     law = Patton1989()
     power = ring_power(law, gas, phi, speed, 20.0)
-    assert power.mean() == pytest.approx(patton_pressure(law, gas, 20.0) * gas.area * gas.stroke * 20 / (2 * math.pi))
+    assert power.mean() == pytest.approx(
+        patton_pressure(law, gas, 20.0) * gas.chamber.area * gas.chamber.stroke * 20 / (2 * math.pi)
+    )
     with pytest.raises(BadInput, match="mu"):
         dataclasses.replace(RINGS, mu=-0.1)
 
@@ -126,7 +128,7 @@ def test_same_travel_means_same_work(own, other):
     assert work[0] == pytest.approx(work[1], rel=1e-5)
     theta = np.linspace(-7, 14, 50)
     if own == other:
-        assert moved.absolute(theta) == pytest.approx(gas.absolute(theta), rel=1e-7)
+        assert moved.pressure.absolute(theta) == pytest.approx(gas.pressure.absolute(theta), rel=1e-7)
 
 
 def rows(name):

@@ -12,11 +12,11 @@ from mechsym.cases import load, text
 from mechsym.cli.optimise import optimise
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.performance import performance
-from mechsym.cycle.engine import RPM
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.optimise.problem import Optimise, problem
 from mechsym.optimise.solver import pareto, solve
+from mechsym.quantities import RPM
 
 NAMES = ["omega", "cycle.ignition", "chamber.compression_ratio", "parameters.e", "chamber.bore"]
 POINT = np.array([4000 * RPM, np.radians(-9.07), 10.0, 0.013, 0.06])

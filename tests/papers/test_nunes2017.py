@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.cycle.engine import RPM, columns, over_speeds
+from mechsym.cycle.engine import columns, over_speeds
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.nunes2017.errata import errata
@@ -12,6 +12,7 @@ from mechsym.papers.nunes2017.figures import figures
 from mechsym.papers.nunes2017.numbers import Item, verdict
 from mechsym.papers.nunes2017.rows import engine_rows
 from mechsym.papers.rows import last_digit
+from mechsym.quantities import RPM
 
 UNSETTLED = {"speed of the smallest difference in exhaust [rpm]"}  # the curve is flat to 3e-5 from 2350 to 2730 rpm
 

@@ -14,13 +14,13 @@ from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.run import run
-from mechsym.cycle.engine import RPM
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import cut
 from mechsym.hinge.torque import torque
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.hinge import at_loads, design_load
 from mechsym.jobs.loop import loop
+from mechsym.quantities import RPM
 from mechsym.simulate.loop.run import run_loop
 from mechsym.simulate.loop.summary import series, summary
 

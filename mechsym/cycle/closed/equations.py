@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-from mechsym.cycle.chamber import Chamber, volume, wall_area
+from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
@@ -108,7 +108,7 @@ def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
         Absolute pressure [Pa]
     """
     now = contents(closed, phase, phi)
-    return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)[0]
+    return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)
 
 
 def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
@@ -130,7 +130,7 @@ def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
     dq_dphi : CasADi scalar
         Heat to the walls [J/rad]
     """
-    v, dv = volume(closed.chamber, phi)
+    v, dv = volume_and_slope(closed.chamber, phi)
     now = contents(closed, phase, phi)
     gas = properties(closed.gas, t, now.burnt)
     p = now.mass * gas.gas_constant * t / v
@@ -155,7 +155,7 @@ def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
         In the order and the units of `SCALARS` [-]
     """
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
-    v_closes, v_opens = (volume(closed.chamber, angle)[0] for angle in (closed.closes, closed.opens))
+    v_closes, v_opens = (volume(closed.chamber, angle) for angle in (closed.closes, closed.opens))
     values = {
         "heat_released": closed.heat * last.burnt,
         "fuel_heat": closed.fuel_heat,
@@ -181,7 +181,7 @@ def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant:
     chamber = closed.chamber
     swirl: Any = 0.0
     if phase != "before":
-        v_ref = volume(chamber, closed.closes)[0]
+        v_ref = volume(chamber, closed.closes)
         motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
         scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
         swirl = motored_swirl(closed.law, p, motored, scale)

@@ -1,40 +1,66 @@
-"""Which record of `[cycle]` becomes which pressure. A new kind adds one line to each table."""
+"""Kinds of cycle: one table, kind -> record, pressure, back pressure, figures, and what the kind has to be given.
+
+A new kind is one file with its record and functions, and one row here: commands, sweeps, force chain and case files
+follow from the row.
+"""
 
 import dataclasses
-import math
-from collections.abc import Callable
+from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
 
-from mechsym.cycle.cylinder import Cylinder, cylinder_of
-from mechsym.cycle.kinds import two_stroke
-from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
-from mechsym.cycle.kinds.two_stroke_solve import two_stroke_pressure
-from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, two_stroke_zone_pressure
+from mechsym.cycle.chamber import Chamber, chamber_over
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.pressure import diagram_pressure
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
-
-_PRESSURES: dict[type, Callable[[Any, Cylinder], Pressure]] = {
-    TwoStrokeMarine: two_stroke_pressure,
-    Diagram: diagram_pressure,
-}
-_BACK_PRESSURES: dict[type, Callable[[Any], float]] = {
-    TwoStrokeMarine: two_stroke.back_pressure,
-    Diagram: lambda diagram: diagram.p_back,
-    TwoStrokeZone: lambda cycle: cycle.p_back,
-}
+from mechsym.quantities import choice, load, record
 
 
-def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cylinder]:
+@record
+class Kind:
+    """One kind of cycle; functions are texts "module:name", imported when they are wanted."""
+
+    cycle: str  #: Record of its data
+    #: What gives a pressure beside the data: the chamber alone, a whole engine at a speed, or a train of cylinders
+    given: str = choice("chamber", "engine", "train", default="chamber")
+    pressure: str = ""  #: (cycle, chamber) -> Pressure, of kinds that are given a chamber
+    back: str = ""  #: cycle -> absolute pressure behind the piston [Pa], of the same kinds; empty: its field p_back
+    figures: str = ""  #: (cycle, chamber, omega) -> Pressure and figures of the fuel; empty: no figures over the speed
+    as_diagram: str = ""  #: cycle -> fields of a `Diagram` in its place; empty: a diagram needs more than the cycle
+    measured: bool = False  #: Whether it is read from a file, which may have changed since
+
+
+_TWO_STROKE, _SOLVE = "mechsym.cycle.kinds.two_stroke", "mechsym.cycle.kinds.two_stroke_solve"
+_ZONE, _MEASURED = "mechsym.cycle.kinds.two_stroke_zone", "mechsym.cycle.measured"
+KINDS: Mapping[str, Kind] = {
+    "two-stroke-marine": Kind(
+        cycle=f"{_TWO_STROKE}:TwoStrokeMarine", pressure=f"{_SOLVE}:two_stroke_pressure",
+        back=f"{_TWO_STROKE}:back_pressure", figures=f"{_SOLVE}:at_speed", as_diagram=f"{_TWO_STROKE}:as_diagram",
+    ),
+    "two-stroke-zone": Kind(
+        cycle=f"{_ZONE}:TwoStrokeZone", pressure=f"{_ZONE}:two_stroke_zone_pressure", figures=f"{_ZONE}:at_speed",
+        as_diagram=f"{_ZONE}:as_diagram",
+    ),
+    "diagram": Kind(
+        cycle=f"{_MEASURED}.diagram:Diagram", pressure=f"{_MEASURED}.pressure:diagram_pressure", measured=True
+    ),
+    "spark-ignition": Kind(cycle="mechsym.cycle.kinds.spark_ignition:SparkIgnition", given="engine"),
+    "schmidt": Kind(cycle="mechsym.cycle.kinds.schmidt:Schmidt", given="train"),
+}  # fmt: skip
+
+
+def kind_of(cycle: Any) -> Kind:
+    """The row of a cycle's record."""
+    name = f"{type(cycle).__module__}:{type(cycle).__name__}"
+    return next(kind for kind in KINDS.values() if kind.cycle == name)
+
+
+def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Chamber]:
     """Pressure in the cylinder of a mechanism.
 
     Parameters
     ----------
-    cycle : record
-        `[cycle]` of a case, of any kind
     kinematics : casadi.Function
         One input, the crank angle; outputs `x` and `dx_dphi`
 
@@ -43,15 +69,16 @@ def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Cy
     BadInput
         The cycle cannot be made, or depends on more than the angle
     """
-    if type(cycle) not in _BACK_PRESSURES:
+    kind = kind_of(cycle)
+    if kind.given != "chamber":
+        *first, last = (name for name, row in KINDS.items() if row.given == "chamber")
+        others = " or ".join(name for name, row in KINDS.items() if row.given != "chamber")
         raise BadInput(
-            "[cycle] of kind spark-ignition or schmidt gives no indicator diagram here; take kind two-stroke-marine, "
-            "two-stroke-zone or diagram (spark ignition in motion: 'mechsym cycle CASE --loop 10')"
+            f"[cycle] of kind {others} gives no indicator diagram here; take kind {', '.join(first)} or {last} "
+            "(spark ignition in motion: 'mechsym cycle CASE --loop 10')"
         )
-    cylinder = cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
-    if isinstance(cycle, TwoStrokeZone):  # integrated, so it needs the travel as a CasADi function
-        return two_stroke_zone_pressure(cycle, kinematics), cylinder
-    return _PRESSURES[type(cycle)](cycle, cylinder), cylinder
+    room = chamber_over(kinematics, cycle.bore, cycle.compression_ratio, back_pressure(cycle))
+    return load(kind.pressure)(cycle, room), room
 
 
 def back_pressure(cycle: Any) -> float:
@@ -60,37 +87,39 @@ def back_pressure(cycle: Any) -> float:
     Parameters
     ----------
     cycle : record
-        `[cycle]` of a case, of any kind
+        Of a kind that is given a chamber
 
     Returns
     -------
     p_back : float
-        For `piston_force` [Pa]
+        Absolute pressure [Pa]
     """
-    return _BACK_PRESSURES[type(cycle)](cycle)
+    back = kind_of(cycle).back
+    return load(back)(cycle) if back else cycle.p_back
 
 
 def with_diagram(cycle: Any, file: str) -> Diagram:
-    """The cycle of a case with a measured diagram in its place.
+    """The cycle with a measured diagram in its place.
 
     Parameters
     ----------
     cycle : record
-        `[cycle]` of a case; of a `diagram` all methods are kept, of another kind what it knows of the engine
+        Of a `diagram` all methods are kept, of another kind what it knows of the engine
 
     Raises
     ------
     BadInput
         A cycle of another kind, whose cylinder is not known
     """
-    if isinstance(cycle, Diagram):
+    kind = kind_of(cycle)
+    if kind.measured:
         return dataclasses.replace(cycle, file=file)
-    if not isinstance(cycle, TwoStrokeMarine | TwoStrokeZone):
+    if not kind.as_diagram:
         raise BadInput(
             f"{file}: a measured diagram has no cylinder in this case; give [cycle] kind = 'diagram' with bore, "
             "compression_ratio and working_cycle"
         )
-    known = _two_stroke_line(cycle) if isinstance(cycle, TwoStrokeMarine) else {"working_cycle": "two-stroke"}
+    known = load(kind.as_diagram)(cycle)
     return Diagram(
         bore=cycle.bore,
         compression_ratio=cycle.compression_ratio,
@@ -98,14 +127,3 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
         file=file,
         **known,
     )
-
-
-def _two_stroke_line(cycle: TwoStrokeMarine) -> dict[str, Any]:
-    # the compression line stands between the exhaust's closing and the start of combustion, with a margin
-    return {
-        "working_cycle": "two-stroke",
-        "n_c": cycle.n_c,
-        "inlet_pressure": two_stroke.scavenging_pressure(cycle.p_s),
-        "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
-        "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
-    }

@@ -63,7 +63,7 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
     Source: Nunes (2017), eqs. (3.5) to (3.14).
     """
     theta = np.arange(_CLOSES, _OPENS + 1)
-    v = volume(chamber, np.radians(theta - _FIRING))[0]
+    v = volume(chamber, np.radians(theta - _FIRING))
     held = charge(chamber, cycle, gas.gas_constant)
     start = np.array([[cycle.intake_pressure], [cycle.intake_temperature], [held.gas], [0.0]]) + 0.0 * omega
     stages = np.stack([theta[1:], v[:-1], v[1:]], axis=1)

@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechsym.cycle.cylinder import piston_area
+from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record

@@ -109,7 +109,7 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
     The clearance holds air at intake state too, but only the swept part is fuelled: Nunes (2017), eqs. (2.4), (2.5).
     """
     density = cycle.intake_pressure / (gas_constant * cycle.intake_temperature)
-    v_closed = volume(chamber, cycle.inlet_closes)[0]
+    v_closed = volume(chamber, cycle.inlet_closes)
     fuel = density * (v_closed - chamber.clearance) / cycle.air_fuel_ratio
     return Charge(density * v_closed, fuel, combustion_efficiency(cycle) * fuel * cycle.heating_value)
 

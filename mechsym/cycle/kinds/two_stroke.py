@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder, clearance_volume, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.pressure import ATMOSPHERE, periodic, wrapped
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
@@ -144,7 +144,7 @@ def kinks(cycle: TwoStrokeMarine) -> tuple[float, ...]:
     return tuple(sorted(float(wrapped(a, 2 * math.pi)) for a in (cycle.evc, cycle.soc, cycle.evo, cycle.spo)))
 
 
-def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) -> Callable[[Any], Any]:
+def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> Callable[[Any], Any]:
     r"""The cycle's pressure for a given temperature ratio.
 
     .. math:: p = (1-f)\,p_{comp} + f\,\rho\,p_{comp}(0)\,(V_c/V)^{n_e}
@@ -161,7 +161,7 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) 
     absolute : callable
         ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
     """
-    v_c, p_evc = clearance_volume(cylinder), scavenging_pressure(cycle.p_s)
+    v_c, p_evc = cylinder.clearance, scavenging_pressure(cycle.p_s)
     p_comp = p_evc * (float(volume(cylinder, cycle.evc)) / v_c) ** cycle.n_c
     shape = (cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
 
@@ -178,3 +178,15 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) 
         return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
 
     return periodic(one_turn, 2 * math.pi, start=cycle.evc)
+
+
+def as_diagram(cycle: TwoStrokeMarine) -> dict[str, Any]:
+    """What the cycle knows of an engine whose measured diagram takes its place: fields of `Diagram`."""
+    # the compression line stands between the exhaust's closing and the start of combustion, with a margin
+    return {
+        "working_cycle": "two-stroke",
+        "n_c": cycle.n_c,
+        "inlet_pressure": scavenging_pressure(cycle.p_s),
+        "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
+        "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
+    }

@@ -7,7 +7,7 @@ The phases and their formulas stand in `two_stroke`.
 
 import math
 
-from mechsym.cycle.cylinder import Cylinder, clearance_volume, swept_volume, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
     absolute_pressure,
@@ -16,7 +16,7 @@ from mechsym.cycle.kinds.two_stroke import (
     kinks,
     scavenging_pressure,
 )
-from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak
+from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, pressure_over
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -41,14 +41,14 @@ class TwoStrokeState:
     efficiency: float  #: Indicated work by the heat of that fuel [-]
 
 
-def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
+def solve(cycle: TwoStrokeMarine, cylinder: Chamber) -> TwoStrokeState:
     r"""Close the cycle: the temperature rise that gives the wanted mean indicated pressure.
 
     .. math:: p_{mi}(\rho) = p_{mi}(1) + (\rho - 1)\,[p_{mi}(2) - p_{mi}(1)],\quad \rho = T_{ref}/T_{comp}
 
     Parameters
     ----------
-    cylinder : Cylinder
+    cylinder : Chamber
         Geometry, with the same bore and compression ratio
 
     Returns
@@ -80,9 +80,9 @@ def solve(cycle: TwoStrokeMarine, cylinder: Cylinder) -> TwoStrokeState:
     return _state(cycle, cylinder, ratio)
 
 
-def _state(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) -> TwoStrokeState:
+def _state(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> TwoStrokeState:
     p_evc, v_evc = scavenging_pressure(cycle.p_s), float(volume(cylinder, cycle.evc))
-    squeeze = v_evc / clearance_volume(cylinder)
+    squeeze = v_evc / cylinder.clearance
     T_comp = cycle.T_evc * squeeze ** (cycle.n_c - 1)
     dT = T_comp * (ratio - 1)
     mass = p_evc * v_evc / (cycle.R * cycle.T_evc)
@@ -97,11 +97,11 @@ def _state(cycle: TwoStrokeMarine, cylinder: Cylinder, ratio: float) -> TwoStrok
         dT=dT,
         mass=mass,
         excess_air=mass / fuel / _AIR_BY_FUEL,
-        efficiency=cycle.mean_indicated_pressure * swept_volume(cylinder) / (fuel * cycle.lhv),
+        efficiency=cycle.mean_indicated_pressure * cylinder.displacement / (fuel * cycle.lhv),
     )
 
 
-def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder) -> Pressure:
+def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     """Pressure of the two-stroke marine cycle.
 
     Returns
@@ -110,24 +110,15 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Cylinder) -> Pressure:
         Evaluated by formulas in every phase, so to round-off
     """
     state = solve(cycle, cylinder)
-    absolute, corners = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp), kinks(cycle)
-    p_max, phi_p_max = peak(absolute, 2 * math.pi, corners)
-    return Pressure(
-        kind="two-stroke-marine",
-        period=2 * math.pi,
-        kinks=corners,
-        absolute=absolute,
-        p_max=p_max,
-        phi_p_max=phi_p_max,
-        mean_indicated=mean_indicated_pressure(absolute, 2 * math.pi, corners, cylinder),
-        phases=events(cycle),
-        facts=_facts(cycle, cylinder, state),
-        doubts=_doubts(cycle, state),
-    )
+    absolute = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp)
+    return pressure_over(
+        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder,
+        phases=events(cycle), facts=_facts(cycle, cylinder, state), doubts=_doubts(cycle, state),
+    )  # fmt: skip
 
 
-def _facts(cycle: TwoStrokeMarine, cylinder: Cylinder, state: TwoStrokeState) -> tuple[str, ...]:
-    trapped = float(volume(cylinder, cycle.evc)) / clearance_volume(cylinder)
+def _facts(cycle: TwoStrokeMarine, cylinder: Chamber, state: TwoStrokeState) -> tuple[str, ...]:
+    trapped = float(volume(cylinder, cycle.evc)) / cylinder.clearance
     burnt = double_wiebe(1.0, cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
     return (
         f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
@@ -153,3 +144,14 @@ def _doubts(cycle: TwoStrokeMarine, state: TwoStrokeState) -> tuple[str, ...]:
     if state.p_evo < state.p_evc:
         found.append("the pressure is below the scavenge pressure when the exhaust opens")
     return tuple(found)
+
+
+def at_speed(cycle: TwoStrokeMarine, cylinder: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+    """Pressure and what is known of the fuel: nothing; no formula of the cycle knows the speed.
+
+    Parameters
+    ----------
+    omega : float
+        Crank speed [rad/s]
+    """
+    return two_stroke_pressure(cycle, cylinder), {}

@@ -9,20 +9,19 @@ a law for the heat that goes into the walls. The fuel is found for the wanted me
 function stops at its nominal end; what it leaves unburnt there (1 to 3 % for the sets of Shen et al.) stays unburnt.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-import casadi as ca
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
-from mechsym.cycle.chamber import ChamberParameters, Motion, chamber, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import Run, run
-from mechsym.cycle.cylinder import Cylinder, cylinder_of, swept_volume
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Law, Woschni
 from mechsym.cycle.kinds.two_stroke import scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
@@ -46,7 +45,7 @@ class TwoStrokeZone:
     """Inputs: `[cycle]` with `kind = "two-stroke-zone"`."""
 
     bore: float = quantity("m", above=0, about="diameter of the piston")
-    compression_ratio: float = quantity("-", above=1, about="geometric compression ratio")
+    compression_ratio: float = quantity("-", above=1, high=60, about="geometric compression ratio")
     mean_indicated_pressure: float = quantity("Pa", above=0, about="wanted mean indicated pressure")
     p_s: float = quantity("Pa", above=0.5e5, below=20e5, about="absolute scavenge pressure")
     T_evc: float = quantity("K", above=200, below=800, about="temperature when the exhaust closes")
@@ -88,21 +87,14 @@ class Zone:
     absolute: Callable[[Any], Any]  #: Crank angle [rad] to absolute pressure over the whole turn [Pa]
     kinks: tuple[float, ...]  #: Where it is not smooth, in [0, 2 pi) [rad]
     mean_indicated: float  #: Mean indicated pressure [Pa]
-    cylinder: Cylinder
+    cylinder: Chamber
 
 
-def two_stroke_zone(cycle: TwoStrokeZone, kinematics: ca.Function) -> Zone:
-    """Integrate the cycle and find its fuel.
-
-    Parameters
-    ----------
-    kinematics : casadi.Function
-        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
-    """
-    motion, cylinder = _motion(kinematics), cylinder_of(kinematics, cycle.bore, cycle.compression_ratio)
+def two_stroke_zone(cycle: TwoStrokeZone, cylinder: Chamber) -> Zone:
+    """Integrate the cycle and find its fuel."""
     events = (cycle.evc, cycle.soc, cycle.soc + cycle.duration, cycle.evo, cycle.spo)
     kinks = tuple(sorted(float(wrapped(a, _TURN)) for a in events))
-    build = partial(closed_period, cycle, motion)
+    build = partial(closed_period, cycle, cylinder)
 
     def made(fuel: float) -> Zone:
         result = run(build, {"omega": cycle.speed, "fuel": fuel})
@@ -112,23 +104,45 @@ def two_stroke_zone(cycle: TwoStrokeZone, kinematics: ca.Function) -> Zone:
             result=result, fuel=fuel, absolute=absolute, kinks=kinks, mean_indicated=mean, cylinder=cylinder
         )  # fmt: skip
 
-    return made(_fuel(cycle, motion, lambda fuel: made(fuel).mean_indicated))
+    return made(_fuel(cycle, cylinder, lambda fuel: made(fuel).mean_indicated))
 
 
-def two_stroke_zone_pressure(cycle: TwoStrokeZone, kinematics: ca.Function) -> Pressure:
+def two_stroke_zone_pressure(cycle: TwoStrokeZone, cylinder: Chamber) -> Pressure:
     """Pressure of the integrated cycle.
-
-    Parameters
-    ----------
-    kinematics : casadi.Function
-        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
 
     Returns
     -------
     pressure : Pressure
         With the fuel that gives the wanted mean pressure, heat shares and the first-law residual among its facts
     """
-    zone = two_stroke_zone(cycle, kinematics)
+    return _pressure(cycle, two_stroke_zone(cycle, cylinder))
+
+
+def at_speed(cycle: TwoStrokeZone, cylinder: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+    """Pressure at a speed, and figures of the fuel under the names of the command line.
+
+    Parameters
+    ----------
+    omega : float
+        Crank speed [rad/s]
+    """
+    cycle = dataclasses.replace(cycle, speed=omega)
+    zone = two_stroke_zone(cycle, cylinder)
+    found = shares(cycle, zone)
+    sfc, residual = 3.6e9 / (found["work"] * cycle.lhv), float(zone.result.residual[0])
+    return _pressure(cycle, zone), {
+        "sfc_g_kwh": sfc,
+        "efficiency": found["work"],
+        "energy_residual": residual,
+    } | found
+
+
+def as_diagram(cycle: TwoStrokeZone) -> dict[str, Any]:
+    """What the cycle knows of an engine whose measured diagram takes its place: fields of `Diagram`."""
+    return {"working_cycle": "two-stroke"}
+
+
+def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
     return Pressure(
         kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
@@ -138,7 +152,7 @@ def two_stroke_zone_pressure(cycle: TwoStrokeZone, kinematics: ca.Function) -> P
     )  # fmt: skip
 
 
-def closed_period(cycle: TwoStrokeZone, motion: Motion, design: Any) -> Closed:
+def closed_period(cycle: TwoStrokeZone, cylinder: Chamber, design: Any) -> Closed:
     """The closed period at a speed and an amount of fuel.
 
     Parameters
@@ -147,13 +161,12 @@ def closed_period(cycle: TwoStrokeZone, motion: Motion, design: Any) -> Closed:
         `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols
     """
     gas = NasaMixture() if cycle.properties == "nasa" else ConstantGamma(gamma=1.35)
-    room = chamber(ChamberParameters(bore=cycle.bore, compression_ratio=cycle.compression_ratio), motion)
     pressure, fuel = scavenging_pressure(cycle.p_s), design["fuel"]
     gas_constant = properties(gas, cycle.T_evc, 0.0).gas_constant
     return Closed(
-        chamber=room, gas=gas, law=_LAWS[cycle.heat_transfer](cycle.wall_temperature), omega=design["omega"],
+        chamber=cylinder, gas=gas, law=_LAWS[cycle.heat_transfer](cycle.wall_temperature), omega=design["omega"],
         closes=cycle.evc, starts=cycle.soc, duration=cycle.duration, opens=cycle.evo, pressure=pressure,
-        temperature=cycle.T_evc, mass=pressure * volume(room, cycle.evc)[0] / (gas_constant * cycle.T_evc), fuel=fuel,
+        temperature=cycle.T_evc, mass=pressure * volume(cylinder, cycle.evc) / (gas_constant * cycle.T_evc), fuel=fuel,
         heat=fuel * cycle.lhv, fuel_heat=fuel * cycle.lhv, latent_heat=0.0, fuel_entry="injected",
         # the heating value is counted at the reference temperature, so the fuel comes in with the energy of gas there
         fuel_energy=properties(gas, T_REFERENCE, 0.0).energy,
@@ -161,16 +174,8 @@ def closed_period(cycle: TwoStrokeZone, motion: Motion, design: Any) -> Closed:
     )  # fmt: skip
 
 
-def _motion(kinematics: ca.Function) -> Motion:
-    phi, none = ca.SX.sym("phi"), ca.SX.sym("none", 0)
-    found = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
-    x, dx = found["x"], found["dx_dphi"]
-    travel = ca.Function("travel", [phi, none], [x, dx, ca.jacobian(dx, phi)])
-    return Motion(name="piston", function=travel, parameters={}, masses=())
-
-
-def _fuel(cycle: TwoStrokeZone, motion: Motion, mean: Callable[[float], float]) -> float:
-    most = float(closed_period(cycle, motion, {"omega": cycle.speed, "fuel": 0.0}).mass) / _STOICHIOMETRIC
+def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float]) -> float:
+    most = float(closed_period(cycle, cylinder, {"omega": cycle.speed, "fuel": 0.0}).mass) / _STOICHIOMETRIC
     wanted, least = cycle.mean_indicated_pressure, 1e-4 * most
     low, high = mean(least), mean(most)
     if not low < wanted < high:
@@ -203,7 +208,7 @@ def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, float]:
         heat (walls), work (of the turn), exhaust (what is left), unburnt; of the fuel's heating value [-]
     """
     heat, scalars = zone.fuel * cycle.lhv, zone.result.scalars
-    work = zone.mean_indicated * swept_volume(zone.cylinder) / heat
+    work = zone.mean_indicated * zone.cylinder.displacement / heat
     lost, unburnt = float(scalars["wall_heat"][0]) / heat, 1 - float(scalars["heat_released"][0]) / heat
     return {"heat": lost, "work": work, "exhaust": 1 - lost - work - unburnt, "unburnt": unburnt}
 

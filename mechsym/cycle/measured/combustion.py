@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.measured.facts import weak_cycles
 from mechsym.cycle.measured.fits import Fit, compression_line, fit_double_wiebe, fit_wiebe, trapped_mass
 from mechsym.cycle.measured.heat_release import Combustion, burnt_fraction, combustion, heat_release
@@ -52,7 +52,7 @@ class DiagramCombustion:
     uncertainty: dict[str, float | None]  #: The same for the uncertainty of the dead centre
 
 
-def diagram_combustion(measured: MeasuredCycles, cylinder: Cylinder, analysis: Analysis) -> DiagramCombustion:
+def diagram_combustion(measured: MeasuredCycles, cylinder: Chamber, analysis: Analysis) -> DiagramCombustion:
     """Take the measured cycles apart.
 
     Returns
@@ -86,7 +86,7 @@ def diagram_combustion(measured: MeasuredCycles, cylinder: Cylinder, analysis: A
     )
 
 
-def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, analysis: Analysis) -> dict[str, float]:
+def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, analysis: Analysis) -> dict[str, float]:
     """What a dead centre that lies one degree later changes.
 
     Parameters

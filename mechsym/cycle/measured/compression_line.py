@@ -18,7 +18,7 @@ import math
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from mechsym.cycle.cylinder import Cylinder, clearance_volume, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.quantities import record
 
 # How far each assumption is moved to see what the dead centre owes to it
@@ -48,7 +48,7 @@ class Line:
     rms: float  #: Root mean square of what the fit leaves [Pa]
 
 
-def fit_line(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> Line:
+def fit_line(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window) -> Line:
     r"""Offset and level of the compression line at a known dead centre.
 
     .. math:: \min_{p_{off},\,C} \sum_i w_i\,[p_i - p_{off} - C\,(V_i / V_{bdc})^{-n}]^2
@@ -65,7 +65,7 @@ def fit_line(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: 
     return _fit(phi, pressure, cylinder, window, shift=0.0)
 
 
-def find_dead_centre(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> float:
+def find_dead_centre(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window) -> float:
     """The dead centre that makes the compression line straight.
 
     Parameters
@@ -98,7 +98,7 @@ def find_dead_centre(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, 
     return math.nan
 
 
-def dead_centre_uncertainty(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> float:
+def dead_centre_uncertainty(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window) -> float:
     """How far the dead centre moves when its assumptions do.
 
     Parameters
@@ -129,7 +129,7 @@ def dead_centre_uncertainty(phi: np.ndarray, pressure: np.ndarray, cylinder: Cyl
     return math.sqrt(total) if math.isfinite(total) else math.inf
 
 
-def polytropic_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> float:
+def polytropic_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window) -> float:
     r"""Exponent of an absolute pressure trace between two angles.
 
     .. math:: n = -\frac{d \log p}{d \log V}
@@ -152,7 +152,7 @@ def polytropic_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinde
     return -float(np.polyfit(np.log(volume(cylinder, phi[inside])), np.log(pressure[inside]), 1)[0])
 
 
-def free_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window) -> float:
+def free_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window) -> float:
     """The exponent that the fit with a free offset likes best, at a known dead centre.
 
     Parameters
@@ -177,13 +177,13 @@ def free_exponent(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, win
     return float(found.x)
 
 
-def _fit(phi: np.ndarray, pressure: np.ndarray, cylinder: Cylinder, window: Window, shift: float) -> Line:
+def _fit(phi: np.ndarray, pressure: np.ndarray, cylinder: Chamber, window: Window, shift: float) -> Line:
     # the window stays where it is while the dead centre moves by `shift`: all fits see the same samples
     inside = _near(phi, window)
     at, p = phi[inside], pressure[inside]
     edge = np.minimum(at - window.fit_from, window.fit_to - at)
     weight = np.clip(0.5 + edge / (2 * _RAMP), 0.0, 1.0)
-    v = volume(cylinder, at - shift) / (clearance_volume(cylinder) * cylinder.compression_ratio)
+    v = volume(cylinder, at - shift) / (cylinder.clearance * cylinder.compression_ratio)
     shape = v**-window.n
     total = weight.sum()
     p_mean, shape_mean = (weight @ p) / total, (weight @ shape) / total

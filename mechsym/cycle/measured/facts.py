@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber, travel
 from mechsym.cycle.measured.compression_line import free_exponent, polytropic_exponent
 from mechsym.cycle.measured.diagram import Diagram, window
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
@@ -13,7 +13,7 @@ from mechsym.cycle.measured.smoothing import noise
 _WEAK = 0.7
 
 
-def cycle_work(measured: MeasuredCycles, cylinder: Cylinder) -> np.ndarray:
+def cycle_work(measured: MeasuredCycles, cylinder: Chamber) -> np.ndarray:
     r"""Mean indicated pressure of every cycle, net over the period.
 
     .. math:: p_{mi,k} = \frac{1}{s} \sum_i p_{k,i}\,x'(\varphi_i)\,\Delta\varphi
@@ -24,10 +24,10 @@ def cycle_work(measured: MeasuredCycles, cylinder: Cylinder) -> np.ndarray:
         Mean indicated pressure [Pa]
     """
     step = measured.period / measured.phi.size
-    return measured.cycles @ cylinder.dx_dphi(measured.phi) * step / cylinder.stroke
+    return measured.cycles @ travel(cylinder.motion, measured.phi)[1] * step / cylinder.stroke
 
 
-def work_per_angle(measured: MeasuredCycles, cylinder: Cylinder) -> float:
+def work_per_angle(measured: MeasuredCycles, cylinder: Chamber) -> float:
     r"""How much the mean cycle's work changes when the dead centre moves.
 
     .. math:: \frac{1}{p_{mi}} \frac{d p_{mi}}{d \varphi_{tdc}}
@@ -39,7 +39,7 @@ def work_per_angle(measured: MeasuredCycles, cylinder: Cylinder) -> float:
     """
     by = math.radians(0.5)
     mean = measured.cycles.mean(axis=0)
-    later, here, earlier = (float(mean @ cylinder.dx_dphi(measured.phi + s)) for s in (-by, 0.0, by))
+    later, here, earlier = (float(mean @ travel(cylinder.motion, measured.phi + s)[1]) for s in (-by, 0.0, by))
     return (later - earlier) / (2 * by) / here
 
 
@@ -54,7 +54,7 @@ def weak_cycles(p_mi: np.ndarray) -> tuple[int, ...]:
     return tuple(int(k) for k in np.flatnonzero(p_mi < _WEAK * np.median(p_mi)))
 
 
-def diagram_facts(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycles, residual: float) -> tuple[str, ...]:
+def diagram_facts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, residual: float) -> tuple[str, ...]:
     """What was assumed on the way from the file to the mean cycle, and what came out.
 
     Parameters
@@ -126,7 +126,7 @@ def _drift(measured: MeasuredCycles) -> float:
     return float(mean[np.abs(phi + math.pi) < 0.1].mean() / (measured.scale * measured.line.p_bdc))
 
 
-def _exponent_fact(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycles) -> str:
+def _exponent_fact(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> str:
     line = window(diagram)
     found = polytropic_exponent(measured.phi, measured.cycles.mean(axis=0), cylinder, line)
     free = free_exponent(measured.phi, measured.raw_mean, cylinder, line)
@@ -141,7 +141,7 @@ def _weak_fact(p_mi: np.ndarray) -> str:
     return f"nearly misfired (less than {_WEAK:g} of the median work), kept in the mean: cycle {named}"
 
 
-def diagram_doubts(diagram: Diagram, cylinder: Cylinder, measured: MeasuredCycles, phi_p_max: float) -> tuple[str, ...]:
+def diagram_doubts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: float) -> tuple[str, ...]:
     """What looks physically implausible in a measured diagram.
 
     Parameters

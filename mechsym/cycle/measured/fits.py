@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from mechsym.cycle.cylinder import Cylinder, volume
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.wiebe import wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -68,7 +68,7 @@ def least_squares_fit(
     )  # fmt: skip
 
 
-def compression_line(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: float, last: float) -> Fit:
+def compression_line(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, first: float, last: float) -> Fit:
     r"""Exponent, dead-centre error and level of the compression line of a pegged diagram.
 
     .. math:: p = p_1\,(V(\varphi - \delta)/V(\varphi_1))^{-n}

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder, dvolume_dphi, piston_area, swept_volume, volume
+from mechsym.cycle.chamber import Chamber, dvolume_dphi, piston_area, volume
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.quantities import record
 
@@ -50,7 +50,7 @@ class Walls:
 
 
 def heat_release(
-    phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, gamma: float, walls: Walls | None = None
+    phi: np.ndarray, p: np.ndarray, cylinder: Chamber, gamma: float, walls: Walls | None = None
 ) -> np.ndarray:
     r"""Cumulative heat release.
 
@@ -128,7 +128,7 @@ def burn_angles(phi: np.ndarray, burnt: np.ndarray, levels: Sequence[float] = LE
     return tuple(angles)
 
 
-def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: float, last: float) -> float:
+def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, first: float, last: float) -> float:
     r"""Exponent of the line log p over log V between two crank angles.
 
     .. math:: n = -d\log p/d\log V
@@ -152,7 +152,7 @@ def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, first: fl
 
 
 def combustion(
-    phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, gamma: float, closed: tuple[float, float],
+    phi: np.ndarray, p: np.ndarray, cylinder: Chamber, gamma: float, closed: tuple[float, float],
     walls: Walls | None = None,
 ) -> Combustion:  # fmt: skip
     """Work, peak, heat release, burn points and exponents of one cycle.
@@ -176,7 +176,7 @@ def combustion(
     first = min(int(np.searchsorted(at, _EARLIEST)), top)
     return Combustion(
         work=work,
-        mean_indicated=work / swept_volume(cylinder),
+        mean_indicated=work / cylinder.displacement,
         p_max=float(pressure.max()),
         phi_p_max=float(at[int(np.argmax(pressure))]),
         heat=float(q[top] - q[first : top + 1].min()),
@@ -204,7 +204,7 @@ def cumulative(phi: np.ndarray, rate: np.ndarray) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(np.diff(phi) * (rate[1:] + rate[:-1]) / 2)])
 
 
-def _wall_rate(phi: np.ndarray, p: np.ndarray, cylinder: Cylinder, walls: Walls) -> np.ndarray:
+def _wall_rate(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, walls: Walls) -> np.ndarray:
     v = volume(cylinder, phi)
     t = p * v / (walls.mass * walls.gas_constant)
     speed = cylinder.stroke * walls.omega / math.pi

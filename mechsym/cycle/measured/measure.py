@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.compression_line import Line, dead_centre_uncertainty, find_dead_centre, fit_line
 from mechsym.cycle.measured.cycles import cut_cycles
 from mechsym.cycle.measured.diagram import Diagram, period_of, window
@@ -40,7 +40,7 @@ class MeasuredCycles:
     comments: tuple[str, ...]
 
 
-def measured_cycles(diagram: Diagram, cylinder: Cylinder) -> MeasuredCycles:
+def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
     """Read a diagram file and make absolute pressure over the crank angle of it."""
     if not diagram.file:
         raise BadInput(
@@ -83,7 +83,7 @@ def _refuse_negative(file: str, cycles: np.ndarray) -> None:
 
 
 def _dead_centre(
-    diagram: Diagram, cylinder: Cylinder, angle: np.ndarray, mean: np.ndarray
+    diagram: Diagram, cylinder: Chamber, angle: np.ndarray, mean: np.ndarray
 ) -> tuple[float, float | None]:
     if diagram.alignment == "given":
         return diagram.tdc_offset, None
@@ -138,7 +138,7 @@ def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tu
     return centred[order], values[..., order]
 
 
-def _offsets(diagram: Diagram, cylinder: Cylinder, phi: np.ndarray, raw: np.ndarray) -> np.ndarray:
+def _offsets(diagram: Diagram, cylinder: Chamber, phi: np.ndarray, raw: np.ndarray) -> np.ndarray:
     if diagram.pegging == "none":
         return np.zeros(len(raw))
     if diagram.pegging == "gauge":

@@ -7,7 +7,7 @@ The spline leaves out as much as the noise of the mean cycle; both are reported,
 
 import numpy as np
 
-from mechsym.cycle.cylinder import Cylinder
+from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.facts import diagram_doubts, diagram_facts
 from mechsym.cycle.measured.measure import measured_cycles
@@ -15,7 +15,7 @@ from mechsym.cycle.measured.smoothing import smooth
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, periodic
 
 
-def diagram_pressure(diagram: Diagram, cylinder: Cylinder) -> Pressure:
+def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
     """Pressure of a measured diagram.
 
     Returns

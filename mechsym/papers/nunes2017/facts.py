@@ -7,10 +7,10 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cycle.chamber import Chamber, chamber, travel
-from mechsym.cycle.engine import RPM
 from mechsym.cycle.kinds.ideal import otto_efficiency
 from mechsym.jobs.cycle import engine
 from mechsym.papers.nunes2017.numbers import Item
+from mechsym.quantities import RPM
 
 _TOP_SPEED = 8000 * RPM
 _G = 9.81

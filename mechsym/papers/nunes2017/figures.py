@@ -11,13 +11,13 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber as make_chamber
 from mechsym.cycle.chamber import travel, volume
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.engine import RPM
 from mechsym.cycle.kinds.march import crank_torque
 from mechsym.cycle.kinds.printed import marched
 from mechsym.hinge.plots import BLUE, GREEN, ORANGE, RED
 from mechsym.jobs.cycle import engine
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.nunes2017.computed import over_printed_speeds
+from mechsym.quantities import RPM
 
 _TOP_SPEED = 8000 * RPM
 _SPEEDS_RPM = (2000, 4000, 6000, 8000)
@@ -45,7 +45,7 @@ def _kinematics(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     moved = {name: travel(room.motion, theta) for name, room in rooms.items()}
     rate = (1e3, _TOP_SPEED, _TOP_SPEED**2)
     both = {name: [np.asarray(y) * k for y, k in zip(m, rate, strict=True)] for name, m in moved.items()}
-    volumes = {name: 1e6 * volume(room, theta)[0] for name, room in rooms.items()}
+    volumes = {name: 1e6 * volume(room, theta) for name, room in rooms.items()}
     found = {"3.1": _over_turn("3.1", {n: m[0] for n, m in both.items()}, "piston position [mm]")}
     for order, label in ((1, "piston velocity [m/s]"), (2, "piston acceleration [m/s$^2$]")):
         for k, name in enumerate(both):
