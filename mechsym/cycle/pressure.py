@@ -150,7 +150,7 @@ def pressure_over(
     kinks : tuple of float
         Angles in [0, period) where the pressure is not smooth [rad]
     rest : keyword arguments
-        `phases`, `facts`, `doubts`
+        Fields `phases`, `facts` and `doubts` of the record, as far as there are any
     """
     p_max, phi_p_max = peak(absolute, period, kinks)
     mean = mean_indicated_pressure(absolute, period, kinks, cylinder)
