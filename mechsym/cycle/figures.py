@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, chamber_over, piston_force, travel
 from mechsym.cycle.kinds import KINDS, back_pressure, kind_of
-from mechsym.cycle.motion import motion, piston_travel
+from mechsym.cycle.motion import piston_motion, piston_travel
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, load
@@ -45,7 +45,7 @@ def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) 
         )
     room = chamber_over(piston_travel(name, parameters), cycle.bore, cycle.compression_ratio, back_pressure(cycle))
     # the same chamber over a piston with its mass, for the largest force
-    heavy = dataclasses.replace(room, motion=motion(name, dataclasses.asdict(parameters)))
+    heavy = dataclasses.replace(room, motion=piston_motion(name, dataclasses.asdict(parameters)))
     found = ((*load(figures)(cycle, room, float(speed)), float(speed)) for speed in omega)
     rows = [_at(pressure, fuel, heavy, speed) for pressure, fuel, speed in found]
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}

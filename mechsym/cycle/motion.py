@@ -27,7 +27,7 @@ _PISTONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 
 
-def motion(name: str, parameters: Mapping[str, float]) -> Motion:
+def piston_motion(name: str, parameters: Mapping[str, float]) -> Motion:
     """The motion of a mechanism's piston, with the mechanism's parameters still free.
 
     Parameters

@@ -11,8 +11,8 @@ from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.mixture import ConstantGamma
-from mechsym.cycle.motion import motion, piston_travel
 from mechsym.cycle.motion import one_cylinder as seen_by_one
+from mechsym.cycle.motion import piston_motion, piston_travel
 from mechsym.errors import BadInput
 
 
@@ -80,7 +80,7 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
         raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
     return ClosedEngine(
         chamber=case.need("chamber"),
-        motion=motion(case.mechanism, asdict(case.need("parameters"))),
+        motion=piston_motion(case.mechanism, asdict(case.need("parameters"))),
         cycle=cycle,
         gas=case.sections.get("gas", ConstantGamma()),
         heat_transfer=case.need("heat_transfer"),

@@ -12,7 +12,7 @@ from mechsym.cli.cycle import cycle
 from mechsym.cli.speeds import parse_speeds
 from mechsym.cycle.closed.model import at_design, design_names
 from mechsym.cycle.engine import curves, over_speeds
-from mechsym.cycle.motion import motion
+from mechsym.cycle.motion import piston_motion
 from mechsym.errors import BadInput
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
@@ -109,7 +109,7 @@ def test_a_case_without_a_spark_ignition_cycle_is_refused():
 
 def test_a_mechanism_without_a_piston_is_refused():
     with pytest.raises(BadInput, match="no piston"):
-        motion("crankshaft_flywheel", {})
+        piston_motion("crankshaft_flywheel", {})
 
 
 def test_designs_know_the_engine_s_names():

@@ -22,7 +22,7 @@ TOLERANCE = 1e-10  # first-law residual of a cycle over the fuel's energy
 
 
 @record
-class Run:
+class ClosedRun:
     """The closed period at n operating points."""
 
     #: shape (n, k): crank angle from firing top dead centre [rad]; angles where the equations change stand twice
@@ -35,7 +35,7 @@ class Run:
     residual: np.ndarray  #: shape (n,): First law: (change of energy - heat + losses + work)/heat released [-]
 
 
-def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = _STEPS) -> Run:
+def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = _STEPS) -> ClosedRun:
     """Integrate the closed period at every operating point.
 
     Parameters
@@ -49,7 +49,7 @@ def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = 
 
     Returns
     -------
-    run : Run
+    run : ClosedRun
         All points with one number of steps, the smallest that closes the first law everywhere
     """
     names = list(design)
@@ -132,12 +132,12 @@ def _phase_faults(scalars: Mapping[str, np.ndarray]) -> dict[int, str]:
     return faults
 
 
-def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def dense(result: ClosedRun, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pressure and temperature at the nodes and between them, by cubic Hermite polynomials; every angle stands once.
 
     Parameters
     ----------
-    result : Run
+    result : ClosedRun
         The closed period at n points
     parts : int
         Parts that each step is cut into
@@ -159,7 +159,7 @@ def dense(result: Run, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return phi[:, once], p[:, once], t[:, once]
 
 
-def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def at_angles(result: ClosedRun, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pressure and temperature of the first point on even angles.
 
     Parameters
@@ -186,12 +186,12 @@ def at_angles(result: Run, step: float) -> tuple[np.ndarray, np.ndarray, np.ndar
     return phi, p, t
 
 
-def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> Run:
+def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> ClosedRun:
     found = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
     scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
     residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
-    return Run(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
+    return ClosedRun(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
 
 
 def _called(
@@ -212,7 +212,7 @@ def _function(build: Callable[[Any], Closed], names: tuple[str, ...], steps: int
     return closed_function(build, names, steps)
 
 
-def _not_closed(result: Run, names: list[str], values: np.ndarray, k: int) -> str:
+def _not_closed(result: ClosedRun, names: list[str], values: np.ndarray, k: int) -> str:
     point = ", ".join(f"{name} = {value:.5g}" for name, value in zip(names, values[:, k], strict=True))
     return (f"the cycle does not converge at {point}: first-law residual {result.residual[k]:.2g} of the heat released "
             f"with {_MOST_STEPS} steps; very low speeds lose all heat to the walls, raise the speed")  # fmt: skip

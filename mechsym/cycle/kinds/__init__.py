@@ -31,23 +31,28 @@ class Kind:
     measured: bool = False  #: Whether it is read from a file, which may have changed since
 
 
-_TWO_STROKE, _SOLVE = "mechsym.cycle.kinds.two_stroke", "mechsym.cycle.kinds.two_stroke_solve"
-_ZONE, _MEASURED = "mechsym.cycle.kinds.two_stroke_zone", "mechsym.cycle.measured"
 KINDS: Mapping[str, Kind] = {
     "two-stroke-marine": Kind(
-        cycle=f"{_TWO_STROKE}:TwoStrokeMarine", pressure=f"{_SOLVE}:two_stroke_pressure",
-        back=f"{_TWO_STROKE}:back_pressure", figures=f"{_SOLVE}:at_speed", as_diagram=f"{_TWO_STROKE}:as_diagram",
+        cycle="mechsym.cycle.kinds.two_stroke:TwoStrokeMarine",
+        pressure="mechsym.cycle.kinds.two_stroke_solve:two_stroke_pressure",
+        back="mechsym.cycle.kinds.two_stroke:back_pressure",
+        figures="mechsym.cycle.kinds.two_stroke_solve:at_speed",
+        as_diagram="mechsym.cycle.kinds.two_stroke:as_diagram",
     ),
     "two-stroke-zone": Kind(
-        cycle=f"{_ZONE}:TwoStrokeZone", pressure=f"{_ZONE}:two_stroke_zone_pressure", figures=f"{_ZONE}:at_speed",
-        as_diagram=f"{_ZONE}:as_diagram",
+        cycle="mechsym.cycle.kinds.two_stroke_zone:TwoStrokeZone",
+        pressure="mechsym.cycle.kinds.two_stroke_zone:two_stroke_zone_pressure",
+        figures="mechsym.cycle.kinds.two_stroke_zone:at_speed",
+        as_diagram="mechsym.cycle.kinds.two_stroke_zone:as_diagram",
     ),
     "diagram": Kind(
-        cycle=f"{_MEASURED}.diagram:Diagram", pressure=f"{_MEASURED}.pressure:diagram_pressure", measured=True
+        cycle="mechsym.cycle.measured.diagram:Diagram",
+        pressure="mechsym.cycle.measured.pressure:diagram_pressure",
+        measured=True,
     ),
     "spark-ignition": Kind(cycle="mechsym.cycle.kinds.spark_ignition:SparkIgnition", given="engine"),
     "schmidt": Kind(cycle="mechsym.cycle.kinds.schmidt:Schmidt", given="train"),
-}  # fmt: skip
+}
 
 
 def kind_of(cycle: Any) -> Kind:

@@ -21,7 +21,7 @@ from scipy.optimize import brentq
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
-from mechsym.cycle.closed.run import Run, run
+from mechsym.cycle.closed.run import ClosedRun, run
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Law, Woschni
 from mechsym.cycle.kinds.two_stroke import scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
@@ -82,7 +82,7 @@ class TwoStrokeZone:
 class Zone:
     """The integrated cycle with the fuel that gives the wanted mean pressure."""
 
-    result: Run
+    result: ClosedRun
     fuel: float  #: Fuel of a cycle [kg]
     absolute: Callable[[Any], Any]  #: Crank angle [rad] to absolute pressure over the whole turn [Pa]
     kinks: tuple[float, ...]  #: Where it is not smooth, in [0, 2 pi) [rad]
@@ -186,7 +186,7 @@ def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float
     return float(brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
 
 
-def _absolute(cycle: TwoStrokeZone, result: Run) -> Callable[[Any], Any]:
+def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Any], Any]:
     once = np.append(np.diff(result.phi[0]) > 1e-12, True)
     nodes, p = result.phi[0, once], result.p[0, once]
     closed = CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
