@@ -137,7 +137,7 @@ def _spline(once: Turn, name: str, first: float, last: float) -> PPoly:
 
 def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
     """Angles in a period where a gas force is not smooth [rad]: ends of the closed period and of its combustion."""
-    angles = list(once.gas.kinks if once.gas else ())
+    angles = list(once.gas.pressure.kinks if once.gas else ())
     if isinstance(case.sections.get("cycle"), SparkIgnition):
         closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
         angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
