@@ -1,6 +1,7 @@
 """One turn of the guide in numbers: path, spring, contact and torque at many angles."""
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -80,7 +81,7 @@ def columns(contact: Contact) -> dict[str, np.ndarray]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, values: list) -> Contact:
+def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, values: Sequence[np.ndarray]) -> Contact:
     rho, drho, d2rho = values
     functions, chosen = law(guide.spring), guide.parameters
     z = closing(guide, rho)

@@ -58,6 +58,3 @@ class Design:
     retuned: Retuned | None  #: The same guide at the other speed of the case
     flywheel_kept: float  #: Flywheel of the case [kg*m^2]
     loads: tuple[AtLoad, ...] = ()  #: The same guide at other loads, as far as they were asked for
-
-    def __repr__(self) -> str:
-        return f"Design({self.origin.name}: {self.verdict.reason})"

@@ -13,6 +13,8 @@ from mechsym import mechanisms
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import quantity, record
 
+Symbols = dict[str, ca.SX]
+
 
 @record
 class RodlessParameters:
@@ -93,7 +95,9 @@ def _radial_force(rule: CrankFreeRadially | Stiffnesses, X_a: ca.SX, X_b: ca.SX,
     return (X_a * s / rule.k_a + X_b * c / rule.k_b) / (1 / rule.k_c + s**2 / rule.k_a + c**2 / rule.k_b)
 
 
-def _journals(mechanism: Mechanism, letters: dict, kinematic: dict, guides: tuple[ca.SX, ca.SX]) -> dict[str, ca.SX]:
+def _journals(
+    mechanism: Mechanism, letters: Symbols, kinematic: Symbols, guides: tuple[ca.SX, ca.SX]
+) -> dict[str, ca.SX]:
     found: dict[str, ca.SX] = {}
     rate, acceleration = letters["alphad"], letters["alphadd"]
     for axis, guide in zip("ab", guides, strict=True):
@@ -104,7 +108,9 @@ def _journals(mechanism: Mechanism, letters: dict, kinematic: dict, guides: tupl
     return found
 
 
-def _main_bearing(mechanism: Mechanism, letters: dict, kinematic: dict, pin: tuple[ca.SX, ca.SX]) -> dict[str, ca.SX]:
+def _main_bearing(
+    mechanism: Mechanism, letters: Symbols, kinematic: Symbols, pin: tuple[ca.SX, ca.SX]
+) -> dict[str, ca.SX]:
     # the crank pin moves half as far as the sliders
     rate, acceleration = letters["alphad"], letters["alphadd"]
     half = mechanism.parameters["u1"] / mechanism.parameters["r"] / 2

@@ -68,6 +68,7 @@ def allowed(metadata: Any) -> str:
 
 
 Record = TypeVar("Record")
+_LONGEST, _LONG_VALUE = 400, 60  # characters of a record and of one value where a record is shown
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, dataclasses.field))
@@ -98,7 +99,31 @@ def record(cls: type[Record]) -> type[Record]:
 
     if any(isinstance(value, dataclasses.Field) and value.metadata for value in vars(cls).values()):
         cls.__post_init__ = checked  # type: ignore[attr-defined]
-    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+    if "__repr__" not in vars(cls):
+        cls.__repr__ = _in_short  # type: ignore[method-assign]
+    return dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
+
+
+def _in_short(self: Any) -> str:
+    """Class and fields on one line; what is long is named by its kind, the end is cut."""
+    pairs = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self) if f.repr)
+    text = f"{type(self).__name__}({', '.join(f'{name}={_value_in_short(value)}' for name, value in pairs)})"
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 5]} ...)"
+
+
+def _value_in_short(value: Any) -> str:
+    if dataclasses.is_dataclass(value):
+        return f"{type(value).__name__}(..)"
+    if hasattr(value, "shape"):
+        return f"array{value.shape}"
+    if callable(value):
+        return "function"
+    text, kind = repr(value), type(value).__name__
+    if len(text) <= _LONG_VALUE:
+        return text
+    if isinstance(value, str):
+        return f"{text[:_LONG_VALUE]}..'"
+    return f"{kind} of {len(value)}" if hasattr(value, "__len__") else kind
 
 
 def check(record: Any) -> None:

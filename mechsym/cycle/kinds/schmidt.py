@@ -9,6 +9,7 @@ C follows from the wanted mean pressure over a turn. Losses of real machines are
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ class Schmidt:
             raise BadInput(f"T_e = {self.T_e:g} K must be above T_c = {self.T_c:g} K; else the machine is a heat pump")
 
 
-def schmidt_pressure(cycle: Schmidt, x_hot: Callable, x_cold: Callable) -> Pressure:
+def schmidt_pressure(cycle: Schmidt, x_hot: Callable[[Any], Any], x_cold: Callable[[Any], Any]) -> Pressure:
     """Pressure over the shaft angle.
 
     Parameters

@@ -45,7 +45,9 @@ def parts(p: CrankTrainParameters) -> list[ThrowPart]:
     return found
 
 
-def _part(p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: float, letters: dict) -> ThrowPart:
+def _part(
+    p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: float, letters: dict[str, float]
+) -> ThrowPart:
     sense, tilt = each(p, "sense")[k], p.axis_tilt + bank
     return ThrowPart(
         cylinder=cylinder,
