@@ -1,0 +1,72 @@
+r"""The steady motion of one point as constraints of the programme, exact under propeller and constant load.
+
+.. math:: u^2 = (\dot\varphi/\omega)^2 = 1 + \frac{2 (g - w)}{I_t \omega^2}, \qquad g' = a (w - g), \qquad
+          a = \frac{2 M_r}{I_t \omega^2}
+
+with w the missing work. Propeller: g is periodic, and the mean of u^2 over the angle is 1 of itself. Constant load:
+a = 0, g is a number, and a governor holds the mean speed in time, mean(1/u) = 1.
+"""
+
+import dataclasses
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.codesign.points import Point, Samples
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Block:
+    """Unknowns and constraints of one motion, scaled to the order of one."""
+
+    unknowns: Any  #: g by its scale, then the lowest and the highest u [-]
+    start: np.ndarray  #: where the unknowns start [-]
+    ripple: Any  #: (max - min) / mean over the angles; the programme bounds it from above [-]
+    rows: tuple[Any, ...]  #: constraints in pieces: low <= rows <= high [-]
+    low: tuple[float, ...]  #: of each piece [-]
+    high: tuple[float, ...]  #: of each piece [-]
+
+
+def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any, start: np.ndarray) -> Block:
+    """The motion of a point that keeps a ripple.
+
+    Parameters
+    ----------
+    k : int
+        Which of the sampled points
+    missing : casadi.SX, shape (n,)
+        Work that is wanted and missing [J]
+    inertia : casadi.SX, shape (n,)
+        All inertia that turns [kg*m^2]
+    ripple : casadi.SX
+        Largest (max - min) / mean of the speed [-]
+    start : ndarray, shape (n,)
+        Missing work at the start, for g [J]
+    """
+    n = samples.phi.size
+    scale = 0.1 * float(np.ptp(samples.work[k]))
+    propeller = point.law == "propeller"
+    g = ca.SX.sym(f"g{k}", n if propeller else 1)
+    u_low, u_high = ca.SX.sym(f"u_low{k}"), ca.SX.sym(f"u_high{k}")
+    lag = g - missing / scale
+    squares = 1 + 2 * scale * lag / (inertia * point.omega**2)
+    # outside of sensible speeds the square root would leave the programme without a number
+    inverse = 1 / ca.sqrt(ca.fmax(squares, 1e-3))
+    mean = ca.dot(ca.DM(samples.weights), inverse)
+    rows = [squares - u_low**2, squares - u_high**2, (u_high - u_low) * mean - ripple]
+    if propeller:
+        rate = -2 * point.load_torque / (inertia * point.omega**2) * lag
+        after = ca.vertcat(rate[1:], rate[0])
+        rows.append(ca.vertcat(g[1:], g[0]) - g - ca.DM(samples.step) / 2 * (rate + after))
+    else:
+        rows.append(mean - 1)
+    middle = float(np.mean(start)) / scale
+    return Block(
+        unknowns=ca.vertcat(g, u_low, u_high),
+        start=np.concatenate([np.full(g.numel(), middle), [0.9, 1.1]]),
+        ripple=(ca.mmax(1 / inverse) - ca.mmin(1 / inverse)) * mean,
+        rows=tuple(rows),
+        low=(0.0, -np.inf, -np.inf, 0.0),
+        high=(np.inf, 0.0, 0.0, 0.0),
+    )

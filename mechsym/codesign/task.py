@@ -1,0 +1,77 @@
+"""What is asked of a co-design, and what it gives."""
+
+import dataclasses
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from mechsym.codesign.hardware import Bounds, Hardware
+from mechsym.codesign.points import Point
+from mechsym.errors import BadInput
+from mechsym.quantities import check, choice, quantity
+
+#: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
+FREE = {"A": (0.5, 4.0), "H": (0.5, 4.0), "rho0": (0.5, 4.0), "radius": (0.5, 4.0), "width": (0.5, 4.0)}
+MOST_MASS = 1000.0  # largest mass on each roller where it is free [kg]
+_MOST_POINTS = 60
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Task:
+    """A machine, its points, the hardware of its guides, and the ripple that is allowed."""
+
+    points: tuple[Point, ...]
+    hardware: Hardware
+    bounds: Bounds
+    ripple: float = quantity("-", above=0, below=2, about="largest (max - min) / mean of the speed at every point")
+    springs: int = 1  #: guides on the shaft, each with a spring and a pressure of its own
+    schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
+    robust: float = quantity("-", default=0.0, low=0, high=0.2, about="error of every p0 that the ripple must bear")
+    free: tuple[str, ...] = ()  #: names of `FREE`, and `moving_mass`, that are chosen too
+    knots: int = 60  #: of the spline of each guide
+    angles: int = 180  #: of the programme over a turn of the crank
+
+    def __post_init__(self) -> None:
+        check(self)
+        if not 1 <= len(self.points) <= _MOST_POINTS:
+            raise BadInput(f"{len(self.points)} operating points; give 1 to {_MOST_POINTS}")
+        if not 1 <= self.springs <= 3:
+            raise BadInput(f"springs = {self.springs} is out of range; it must be 1, 2 or 3")
+        for name in self.free:
+            if name not in (*FREE, "moving_mass"):
+                raise BadInput(f"free {name!r} is not an option; options are {', '.join((*FREE, 'moving_mass'))}")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Track:
+    """One guide of a co-design with its spring."""
+
+    hardware: Hardware  #: with the values that were chosen; p0 is the largest of the schedule [Pa]
+    z: PPoly  #: closing of the spring over the crank angle [m]
+    p0: np.ndarray  #: shape (k,), excess pressure at free height for each point [Pa]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Active:
+    """A limit that the design meets, and what it costs."""
+
+    limit: str  #: key of `[limits]`, `z_margin` or `ripple`
+    multiplier: float  #: change of the flywheel for one unit more of the limit [kg*m^2 by that unit]
+    unit: str  #: of the limit
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CoDesign:
+    """Guides, schedule of pressures and flywheel, as the programme found them."""
+
+    task: Task
+    status: str  #: `optimal`, `infeasible` or `not converged`
+    reason: str  #: the solver's own words
+    flywheel: float = quantity("kg*m^2", low=0, about="inertia added to the engine's own")
+    tracks: tuple[Track, ...]
+    ripple: np.ndarray  #: shape (k,), as the programme sees it, at the worst corner of `robust` [-]
+    active: tuple[Active, ...]
+    iterations: int
+    wall: float = quantity("s", low=0, about="time of building and solving")
+    solution: Mapping[str, np.ndarray]  #: unknowns and multipliers as scaled, for the start of another solve [-]
