@@ -1,0 +1,104 @@
+"""The same task at several ripples, and what a guide that is cut for one point alone would need instead."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.points import Point
+from mechsym.codesign.programme import programme, solve
+from mechsym.codesign.start import closing
+from mechsym.codesign.task import CoDesign, Task
+from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
+from mechsym.quantities import quantity
+
+_EVEN = 720
+_STOPPED = 10.0
+_FAR = (0.5, 2.0)  # pressures that are tried, by the ratio of the works
+
+
+def front(task: Task, ripples: Sequence[float], progress: Callable[[], Any] = lambda: None) -> list[CoDesign]:
+    """The best flywheel for each ripple, smallest ripple first; one programme, each solve starts from the one before.
+
+    Parameters
+    ----------
+    task : Task
+        Of any ripple
+    ripples : sequence of float
+        Allowed (max - min) / mean of the speed [-]
+    progress : callable, optional
+        Called after each solve
+
+    Returns
+    -------
+    designs : list of CoDesign
+        One for each ripple, in ascending order
+    """
+    ready, found = programme(task), []
+    for wanted in sorted(ripples):
+        asked = dataclasses.replace(task, ripple=wanted)
+        near = found[-1] if found and found[-1].status == "optimal" else None
+        made = solve(asked, ready, near)
+        if near is not None and made.status != "optimal":
+            made = solve(asked, ready)
+        found.append(made)
+        progress()
+    return found
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CutForOne:
+    """A guide cut exactly for one point, its pressure set anew at each of the others."""
+
+    at: int  #: the point that it is cut for
+    flywheel: float | None = quantity("kg*m^2", about="that keeps the ripple at all points; None where none does")
+    p0: np.ndarray  #: shape (k,), pressures with the least ripple [Pa]
+    ripple: np.ndarray  #: shape (k,), with that flywheel [-]
+
+
+def cut_for_one(task: Task, at: int) -> CutForOne:
+    """What the guide of one point needs at all points; rollers without mass, as the exact guide has them."""
+    hardware, points = task.hardware, task.points
+    phi = np.arange(_EVEN) * points[0].period / _EVEN
+    work = np.array([p.work(phi) for p in points])
+    pa = outside(hardware)
+    least = hardware.A * gas_energy(hardware.z_margin, hardware.p0, hardware.H, hardware.n, pa)
+    z = closing(hardware, float(least) + work[at].max() - work[at], hardware.p0, hardware.H * (1 - 1e-6))
+    # energy is affine in the pressure
+    fixed = hardware.A * gas_energy(z, 0.0, hardware.H, hardware.n, pa)
+    by_p0 = hardware.A * (gas_energy(z, 1.0, hardware.H, hardware.n, pa)) - fixed
+    own = points[0].inertia(phi)
+    guess = hardware.p0 * np.ptp(work, axis=1) / np.ptp(work[at])
+
+    def best(k: int, flywheel: float) -> tuple[float, float]:
+        def at_pressure(p0: float) -> float:
+            missing = work[k] + fixed + p0 * by_p0
+            return _ripple(points[k], missing - missing.mean(), own + flywheel)
+
+        found = minimize_scalar(at_pressure, bounds=(_FAR[0] * guess[k], _FAR[1] * guess[k]), method="bounded",
+                                options={"xatol": 1e-5 * guess[k]})  # fmt: skip
+        return float(found.x), float(found.fun)
+
+    def excess(flywheel: float) -> float:
+        return max(best(k, flywheel)[1] for k in range(len(points))) - task.ripple
+
+    high = 1e3
+    while excess(high) > 0 and high < 1e7:
+        high *= 3
+    flywheel = 0.0 if excess(0.0) <= 0 else float(brentq(excess, 0.0, high, xtol=1e-3)) if high < 1e7 else None
+    rows = [best(k, flywheel or high) for k in range(len(points))]
+    return CutForOne(at=at, flywheel=flywheel, p0=np.array([r[0] for r in rows]),
+                     ripple=np.array([r[1] for r in rows]))  # fmt: skip
+
+
+def _ripple(point: Point, missing: np.ndarray, inertia: np.ndarray) -> float:
+    """Ripple [-]; where the shaft stops a number that is larger than any and grows with the missing work."""
+    if point.law == "constant":
+        speed = constant_load_speed(missing, inertia, point.omega)
+    else:
+        speed = propeller_load_speed(missing, inertia, point.omega, point.load_torque, point.period)
+    found = ripple(speed)
+    return _STOPPED + float(np.ptp(missing)) / (float(inertia.max()) * point.omega**2) if found is None else found

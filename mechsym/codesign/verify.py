@@ -1,0 +1,180 @@
+"""Is it true? Every number of a co-design found again by other ways, at all points and at finer angles.
+
+Ripple: by the programme, by collocation over the angle (`mechsym.simulate.steady`), and by a run in time. Contact: the
+limits that the programme kept at its angles and hardest point, at half a degree and at every point.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from mechsym.codesign import running
+from mechsym.codesign.contact_block import Path, contact_force, curvature
+from mechsym.codesign.hardware import Hardware, gas_pressure, outside
+from mechsym.codesign.points import Point
+from mechsym.codesign.task import CoDesign, Track
+from mechsym.simulate.steady import Steady
+
+TURNS = 4.0  # of each run in time
+_FINE = 720  # angles of a turn for contact
+_SLACK = 5e-3  # a limit between the angles of the programme may be passed by this share
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Contact:
+    """What one guide asks of its rollers at each point, arrays of shape (k,)."""
+
+    reaction_max: np.ndarray  #: [N]
+    reaction_min: np.ndarray  #: a roller leaves its track where this is not positive [N]
+    pressure_max: np.ndarray  #: excess pressure in the spring [Pa]
+    hertz_max: np.ndarray  #: [Pa]
+    side_force_max: np.ndarray  #: of a piston on its guide [N]
+    pressure_angle_max: float = dataclasses.field(metadata={"unit": "rad"})
+    curvature_min: float = dataclasses.field(metadata={"unit": "1/m", "about": "negative where the path bends inwards"})
+    z_min: float = dataclasses.field(metadata={"unit": "m"})
+    z_max: float = dataclasses.field(metadata={"unit": "m"})
+    rho_min: float = dataclasses.field(metadata={"unit": "m"})
+    rho_max: float = dataclasses.field(metadata={"unit": "m"})
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Verified:
+    """The ripple of each point by three ways, arrays of shape (k,), and what the contact asks."""
+
+    steady: tuple[Steady, ...]  #: motions, or why there is none
+    programme_ripple: np.ndarray  #: [-]
+    steady_ripple: np.ndarray  #: nan where there is no steady motion [-]
+    time_ripple: np.ndarray  #: nan after a stall [-]
+    energy_residual: np.ndarray  #: of the runs in time [-]
+    contacts: tuple[Contact, ...]  #: one for each guide
+    broken: tuple[str, ...]  #: limits that are passed, in words
+
+    @property
+    def difference(self) -> float:
+        """Largest difference of the three ripples, by the largest ripple [-]."""
+        three = np.array([self.programme_ripple, self.steady_ripple, self.time_ripple])
+        return float(np.max(np.ptp(three, axis=0)) / max(float(np.max(three)), 1e-12))
+
+
+def verify(found: CoDesign) -> Verified:
+    """Run a co-design as built at all its points.
+
+    Parameters
+    ----------
+    found : CoDesign
+        With guides; optimal or not
+
+    Returns
+    -------
+    verified : Verified
+        Ripples, residuals, contact, limits that are passed
+    """
+    corner = [0.0] * len(found.tracks)
+    steady, time_ripple, residual = [], [], []
+    for k, point in enumerate(found.task.points):
+        machine = running.running(point, found.tracks, k, found.flywheel, corner)
+        motion = running.steady(machine)
+        steady.append(motion)
+        if motion.speed_mean is None:
+            time_ripple.append(np.nan)
+            residual.append(np.nan)
+            continue
+        run = running.run(machine, float(motion.omega[0]), TURNS * point.period / (2 * np.pi))
+        ripple = running.ripple_of_last_turn(run, point.period)
+        time_ripple.append(np.nan if ripple is None else ripple)
+        residual.append(run.energy_residual)
+    contacts = tuple(contact(track, found.task.points) for track in found.tracks)
+    return Verified(
+        steady=tuple(steady),
+        programme_ripple=found.ripple,
+        steady_ripple=np.array([np.nan if s.speed_ripple is None else s.speed_ripple for s in steady]),
+        time_ripple=np.array(time_ripple),
+        energy_residual=np.array(residual),
+        contacts=contacts,
+        broken=tuple(words for c, t in zip(contacts, found.tracks, strict=True) for words in _broken(c, t, found)),
+    )
+
+
+def fine_path(track: Track, period: float) -> tuple[np.ndarray, Path]:
+    """Even angles [rad] of a turn and the path of a guide there."""
+    phi = np.arange(round(_FINE * period / (2 * np.pi))) * 2 * np.pi / _FINE
+    z, h = track.z(phi), track.hardware
+    dz, d2z = track.z.derivative()(phi), track.z.derivative(2)(phi)
+    return phi, Path(z=z, rho=h.rho0 - z / h.count, drho=-dz / h.count, d2rho=-d2z / h.count)
+
+
+def contact(track: Track, points: Sequence[Point]) -> Contact:
+    """What a guide asks of its rollers at each point."""
+    h, path = track.hardware, fine_path(track, points[0].period)[1]
+    kappa = curvature(path)
+    pressures = [gas_pressure(path.z, p0, h.H, h.n, outside(h)) for p0 in track.p0]
+    N = [contact_force(path, h.A * p, h.moving_mass, q.omega) for p, q in zip(pressures, points, strict=True)]
+    side = [side_force(h, path, h.A * p, q.omega) for p, q in zip(pressures, points, strict=True)]
+    return Contact(
+        reaction_max=np.array([n.max() for n in N]),
+        reaction_min=np.array([n.min() for n in N]),
+        pressure_max=np.array([p.max() for p in pressures]),
+        hertz_max=np.array([hertz(h, n, kappa).max() for n in N]),
+        side_force_max=np.array([np.abs(s).max() for s in side]),
+        pressure_angle_max=float(np.arctan(np.abs(path.drho / path.rho).max())),
+        curvature_min=float(kappa.min()),
+        z_min=float(path.z.min()), z_max=float(path.z.max()),
+        rho_min=float(path.rho.min()), rho_max=float(path.rho.max()),
+    )  # fmt: skip
+
+
+def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
+    """Contact pressure [Pa] for contact forces [N] and curvatures of the path [1/m]; see `mechsym.hinge.rollers`."""
+    modulus = hardware.E / (2 * (1 - hardware.nu**2))
+    relative = hardware.radius * np.maximum(1 + hardware.radius * kappa, 1e-12)
+    return np.sqrt(np.maximum(N, 0.0) * modulus / (np.pi * hardware.width * relative))
+
+
+def side_force(hardware: Hardware, path: Path, force: np.ndarray, omega: float) -> np.ndarray:
+    r"""Force of the spring's piston on its guide, which carries the torque into the shaft.
+
+    .. math:: S = \left[F + m_h \omega^2 (\rho - \rho'')\right] \frac{\rho'}{\rho} - 2 m_h \omega^2 \rho'
+
+    Parameters
+    ----------
+    hardware : Hardware
+        For the mass of each roller
+    path : Path
+        Arrays of shape (n,)
+    force : ndarray, shape (n,)
+        Of the spring on each roller [N]
+    omega : float
+        Speed of the shaft [rad/s]
+
+    Returns
+    -------
+    S : ndarray, shape (n,)
+        Signed [N]
+
+    Notes
+    -----
+    Source: the tangential part of the track's force on the roller, less the Coriolis force of the mass on it.
+    """
+    mass = hardware.moving_mass * omega**2
+    return np.asarray((force + mass * (path.rho - path.d2rho)) * path.drho / path.rho - 2 * mass * path.drho)
+
+
+def _broken(c: Contact, track: Track, found: CoDesign) -> list[str]:
+    b, h = found.task.bounds, track.hardware
+    rows = [
+        ("spring pressure", c.pressure_max.max() / 1e6, b.spring_pressure / 1e6, "MPa"),
+        ("closing z/H", c.z_max / h.H, b.closing_share, ""),
+        ("pressure angle", np.degrees(c.pressure_angle_max), np.degrees(b.pressure_angle), "deg"),
+        ("roller reaction", c.reaction_max.max() / 1e3, b.roller_reaction / 1e3, "kN"),
+        ("contact pressure", c.hertz_max.max() / 1e6, b.hertz_stress / 1e6, "MPa"),
+        ("roller radius in the smallest rho", h.radius, c.rho_min, "m"),
+        ("bend inwards", -c.curvature_min * (h.radius + b.profile_radius), 1.0, "of what the roller allows"),
+    ]
+    words = [f"{name} {value:.4g} of at most {most:.4g} {unit}".rstrip()
+             for name, value, most, unit in rows if value > (1 + _SLACK) * most]  # fmt: skip
+    if c.reaction_min.min() <= 0:
+        words.append(f"a roller leaves its track (contact force {c.reaction_min.min() / 1e3:.4g} kN)")
+    if c.z_min < h.z_margin - _SLACK * h.H:
+        words.append(f"smallest closing {c.z_min * 1e3:.4g} mm, at least {h.z_margin * 1e3:.4g} mm")
+    return words
