@@ -1,18 +1,17 @@
 """Periodic cubic B-splines for the path of a guide, with a knot at every kink of the torque, as sparse matrices."""
 
-import dataclasses
 from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
 from scipy.interpolate import BSpline, PPoly
 
-from mechsym.quantities import quantity
+from mechsym.quantities import quantity, record
 
 _DEGREE = 3
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Basis:
     """Knots of one period; a spline has as many coefficients as there are knots."""
 

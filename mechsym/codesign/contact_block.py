@@ -6,7 +6,6 @@ r"""What spring, track and rollers allow, as constraints of the programme: each 
 Rollers that turn with the shaft inside the track are pressed outwards by their own mass too.
 """
 
-import dataclasses
 import math
 from typing import Any
 
@@ -14,9 +13,10 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign.hardware import Bounds, Hardware, gas_pressure, outside
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Path:
     """Path of the roller centres on the angles of the programme, symbols or arrays of shape (n,)."""
 

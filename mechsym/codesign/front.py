@@ -13,7 +13,7 @@ from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.start import closing
 from mechsym.codesign.task import CoDesign, Task
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
-from mechsym.quantities import quantity
+from mechsym.quantities import quantity, record
 
 _EVEN = 720
 _STOPPED = 10.0
@@ -49,7 +49,7 @@ def front(task: Task, ripples: Sequence[float], progress: Callable[[], Any] = la
     return found
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CutForOne:
     """A guide cut exactly for one point, its pressure set anew at each of the others."""
 

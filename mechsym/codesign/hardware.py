@@ -1,17 +1,16 @@
 """What a co-designed hinge is made of: gas spring, tracks and rollers, and what they may be asked.
 
-    z = c (rho0 - rho)      closing of the spring, moved by c rollers on tracks that turn with the shaft
-    F, U                    force of the spring on each roller and the energy it stores
-    m_h                     mass that moves with each roller: roller, pin, half of the spring's piston
+z = c (rho0 - rho)      closing of the spring, moved by c rollers on tracks that turn with the shaft
+F, U                    force of the spring on each roller and the energy it stores
+m_h                     mass that moves with each roller: roller, pin, half of the spring's piston
 """
 
-import dataclasses
 from typing import Any
 
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Hardware:
     """One guide with its spring and rollers; a second spring has a second one like it."""
 
@@ -31,11 +30,8 @@ class Hardware:
     moving_mass: float = quantity("kg", default=0.0, low=0, about="mass that moves with each roller")
     roller_inertia: float = quantity("kg*m^2", default=0.0, low=0, about="inertia of a roller about its pin")
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Bounds:
     """What spring, track and rollers may be asked, as `[limits]` of a case says."""
 
@@ -45,9 +41,6 @@ class Bounds:
     profile_radius: float = quantity("m", low=0, about="radius of the profile where it bulges towards the roller")
     roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
     hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
-
-    def __post_init__(self) -> None:
-        check(self)
 
 
 def outside(hardware: Hardware) -> float:

@@ -7,16 +7,16 @@ with w the missing work. Propeller: g is periodic, and the mean of u^2 over the 
 a = 0, g is a number, and a governor holds the mean speed in time, mean(1/u) = 1.
 """
 
-import dataclasses
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from mechsym.codesign.points import Point, Samples
+from mechsym.quantities import record
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Block:
     """Unknowns and constraints of one motion, scaled to the order of one."""
 

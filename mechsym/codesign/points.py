@@ -6,7 +6,6 @@ r"""Operating points of a machine: the work that each speed and load wants from 
 phi = 0 at top dead centre, positive in the sense of rotation; pressures of springs are excess pressures.
 """
 
-import dataclasses
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -15,7 +14,7 @@ from scipy.optimize import brentq
 
 from mechsym.errors import BadInput
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 _STOPPED = 10.0  # stands for the ripple of a shaft that stops
 _EVEN = 1440  # angles for the closed forms of the motion
@@ -23,7 +22,7 @@ _EVEN = 1440  # angles for the closed forms of the motion
 Function = Callable[[np.ndarray], np.ndarray]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Point:
     """One speed and load at which the machine has to turn evenly."""
 
@@ -39,11 +38,8 @@ class Point:
     misfire: Function | None = None  #: the same for a turn without combustion [N*m]
     kinks: tuple[float, ...] = ()  #: angles where the torque is not smooth [rad]
 
-    def __post_init__(self) -> None:
-        check(self)
 
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Samples:
     """Points on angles that contain the kinks, for the programme."""
 

@@ -25,6 +25,7 @@ from mechsym.codesign.hardware import Hardware, gas_energy, outside, roller_iner
 from mechsym.codesign.points import Samples, sample
 from mechsym.codesign.start import shapes, start_pressures
 from mechsym.codesign.task import FREE, MOST_MASS, Active, CoDesign, Task, Track
+from mechsym.quantities import quantity, record
 
 _STATUS = {
     "Solve_Succeeded": "optimal",
@@ -46,7 +47,7 @@ _UNITS = {"spring_pressure": "Pa", "closing_share": "-", "pressure_angle": "rad"
           "roller_reaction": "N", "hertz_stress": "Pa"}  # fmt: skip
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Programme:
     """A task as IPOPT takes it; ripple and limits are parameters, so that a front is one programme."""
 
@@ -57,7 +58,7 @@ class Programme:
     read: ca.Function  #: unknowns to coefficients, pressures, hardware, flywheel and ripples in SI
     start: np.ndarray  #: [-]
     bounds: dict[str, np.ndarray]  #: lbx, ubx, lbg, ubg [-]
-    wall: float = dataclasses.field(metadata={"unit": "s", "about": "time of building"})
+    wall: float = quantity("s", about="time of building")
 
 
 @dataclasses.dataclass

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from mechsym.codesign.points import Point, Samples, sample
+from mechsym.quantities import quantity, record
 
 _ANGLES = 180
 _MOST = 3  # springs that are asked about
@@ -26,25 +27,25 @@ _OPTIONS: dict[str, Any] = {
 }
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Shapes:
     """The best r shapes of work for all points."""
 
     springs: int
-    swing: float = dataclasses.field(metadata={"unit": "kg*m^2", "about": "D_r"})
+    swing: float = quantity("kg*m^2", about="D_r")
     shapes: np.ndarray  #: shape (r, n), S_j in units of the wanted work by omega^2 [kg*m^2]
     shares: np.ndarray  #: shape (k, r), c_kj / omega_k^2 [-]
     status: str  #: of the solver; where it failed the singular vectors stand
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Bound:
     """What no guide can do better than, for 1, 2 and 3 springs."""
 
     phi: np.ndarray  #: shape (n,) [rad]
     wanted: np.ndarray  #: shape (k, n), W_k / omega_k^2 about their means [kg*m^2]
     singular_values: np.ndarray  #: shape (k,), by the first [-]
-    bare: float = dataclasses.field(metadata={"unit": "kg*m^2", "about": "swing without a spring"})
+    bare: float = quantity("kg*m^2", about="swing without a spring")
     best: tuple[Shapes, ...]
     pays: int  #: springs up to which each one more at least halves the swing
 

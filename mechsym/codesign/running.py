@@ -20,7 +20,7 @@ from mechsym.codesign.hardware import gas_energy, gas_pressure, outside, roller_
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, load_torque
-from mechsym.quantities import quantity
+from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import Machine, Panels, tabulate
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
@@ -28,7 +28,7 @@ _TOLERANCE = 1e-10
 _PER_TURN = 1440  # angles at which a run is read
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Running:
     """A machine at one point, ready to turn."""
 
@@ -40,7 +40,7 @@ class Running:
     torque: Function  #: gas and gravity over the angle [N*m]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class TimeRun:
     """A run in time."""
 

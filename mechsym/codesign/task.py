@@ -1,6 +1,5 @@
 """What is asked of a co-design, and what it gives."""
 
-import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
@@ -9,7 +8,7 @@ from scipy.interpolate import PPoly
 from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.points import Point
 from mechsym.errors import BadInput
-from mechsym.quantities import check, choice, quantity
+from mechsym.quantities import choice, quantity, record
 
 #: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
 FREE = {"A": (0.5, 4.0), "H": (0.5, 4.0), "rho0": (0.5, 4.0), "radius": (0.5, 4.0), "width": (0.5, 4.0)}
@@ -17,7 +16,7 @@ MOST_MASS = 1000.0  # largest mass on each roller where it is free [kg]
 _MOST_POINTS = 60
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Task:
     """A machine, its points, the hardware of its guides, and the ripple that is allowed."""
 
@@ -33,7 +32,6 @@ class Task:
     angles: int = 180  #: of the programme over a turn of the crank
 
     def __post_init__(self) -> None:
-        check(self)
         if not 1 <= len(self.points) <= _MOST_POINTS:
             raise BadInput(f"{len(self.points)} operating points; give 1 to {_MOST_POINTS}")
         if not 1 <= self.springs <= 3:
@@ -43,7 +41,7 @@ class Task:
                 raise BadInput(f"free {name!r} is not an option; options are {', '.join((*FREE, 'moving_mass'))}")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Track:
     """One guide of a co-design with its spring."""
 
@@ -52,7 +50,7 @@ class Track:
     p0: np.ndarray  #: shape (k,), excess pressure at free height for each point [Pa]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Active:
     """A limit that the design meets, and what it costs."""
 
@@ -61,7 +59,7 @@ class Active:
     unit: str  #: of the limit
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class CoDesign:
     """Guides, schedule of pressures and flywheel, as the programme found them."""
 

@@ -4,7 +4,6 @@ Ripple: by the programme, by collocation over the angle (`mechsym.simulate.stead
 limits that the programme kept at its angles and hardest point, at half a degree and at every point.
 """
 
-import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +13,7 @@ from mechsym.codesign.contact_block import Path, contact_force, curvature
 from mechsym.codesign.hardware import Hardware, gas_pressure, outside
 from mechsym.codesign.points import Point
 from mechsym.codesign.task import CoDesign, Track
+from mechsym.quantities import quantity, record
 from mechsym.simulate.steady import Steady
 
 TURNS = 4.0  # of each run in time
@@ -21,7 +21,7 @@ _FINE = 720  # angles of a turn for contact
 _SLACK = 5e-3  # a limit between the angles of the programme may be passed by this share
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Contact:
     """What one guide asks of its rollers at each point, arrays of shape (k,)."""
 
@@ -30,15 +30,15 @@ class Contact:
     pressure_max: np.ndarray  #: excess pressure in the spring [Pa]
     hertz_max: np.ndarray  #: [Pa]
     side_force_max: np.ndarray  #: of a piston on its guide [N]
-    pressure_angle_max: float = dataclasses.field(metadata={"unit": "rad"})
-    curvature_min: float = dataclasses.field(metadata={"unit": "1/m", "about": "negative where the path bends inwards"})
-    z_min: float = dataclasses.field(metadata={"unit": "m"})
-    z_max: float = dataclasses.field(metadata={"unit": "m"})
-    rho_min: float = dataclasses.field(metadata={"unit": "m"})
-    rho_max: float = dataclasses.field(metadata={"unit": "m"})
+    pressure_angle_max: float = quantity("rad")
+    curvature_min: float = quantity("1/m", about="negative where the path bends inwards")
+    z_min: float = quantity("m")
+    z_max: float = quantity("m")
+    rho_min: float = quantity("m")
+    rho_max: float = quantity("m")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@record
 class Verified:
     """The ripple of each point by three ways, arrays of shape (k,), and what the contact asks."""
 
