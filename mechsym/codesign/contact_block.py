@@ -22,8 +22,14 @@ class Path:
 
     z: Any  #: closing of the spring [m]
     rho: Any  #: shaft axis to roller centre [m]
-    drho: Any  #: its derivative [m/rad]
+    drho: Any  #: its derivative by the angle of the guide's shaft [m/rad]
     d2rho: Any  #: and the second [m/rad^2]
+
+
+def path_of(hardware: Hardware, rho0: Any, z: Any, dz: Any, d2z: Any) -> Path:
+    """Path of the rollers of a closing z [m] and its derivatives by the crank angle [m/rad, m/rad^2]; rho0 in [m]."""
+    c, ratio = hardware.count, hardware.shaft_ratio
+    return Path(z=z, rho=rho0 - z / c, drho=-dz / (c * ratio), d2rho=-d2z / (c * ratio**2))
 
 
 def curvature(path: Path) -> Any:
@@ -63,7 +69,7 @@ def contact_force(path: Path, force: Any, mass: Any, omega: float) -> Any:
     mass : float or casadi.SX
         m_h [kg]
     omega : float
-        Speed of the shaft [rad/s]
+        Speed of the guide's shaft [rad/s]
 
     Returns
     -------
@@ -86,7 +92,7 @@ def ratios(path: Path, hardware: Hardware, bounds: Bounds, p0: Any, omega: float
     p0 : float or casadi.SX
         Excess pressure at free height [Pa]
     omega : float
-        Speed of the shaft [rad/s]
+        Speed of the guide's shaft [rad/s]
     free : dict
         Numbers or symbols of the hardware: A [m^2], H [m], radius [m], width [m], moving_mass [kg]
     """

@@ -23,6 +23,7 @@ class Hardware:
     rho0: float = quantity("m", above=0, about="roller centre to shaft axis at free height")
     z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing")
     count: int = 2  #: rollers c that move the spring
+    shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
     radius: float = quantity("m", above=0, about="roller radius")
     width: float = quantity("m", above=0, about="width of contact")
     E: float = quantity("Pa", default=2.06e11, above=0, about="Young's modulus of roller and track")
@@ -114,8 +115,8 @@ def gas_energy(z: Any, p0: Any, H: Any, n: float, pa: float) -> Any:
     return (p0 + pa) * H / (n - 1) * ((H / (H - z)) ** (n - 1) - 1) - pa * z
 
 
-def roller_inertia(rho: Any, drho: Any, mass: Any, inertia: float, radius: float, count: int) -> Any:
-    r"""Inertia that the rollers add to the shaft.
+def roller_inertia(rho: Any, drho: Any, mass: Any, inertia: float, radius: Any, count: int) -> Any:
+    r"""Inertia that the rollers add to the shaft of the guide.
 
     .. math:: I_h = c\,(\rho^2 + \rho'^2)\left(m_h + \frac{J_r}{r^2}\right)
 
@@ -127,15 +128,13 @@ def roller_inertia(rho: Any, drho: Any, mass: Any, inertia: float, radius: float
         m_h of each roller [kg]
     inertia : float
         J_r of each roller about its pin [kg*m^2]
-    radius : float
+    radius : float or casadi.SX
         Of a roller [m]
-    count : int
-        Rollers c
 
     Returns
     -------
     I_h : same kind as rho
-        About the shaft axis [kg*m^2]
+        About the axis of the guide's shaft [kg*m^2]
 
     Notes
     -----

@@ -16,15 +16,16 @@ def at_point(track: Track, k: int, point: Point, given: Losses) -> LossTorques:
     """Mean torques that one guide takes at its k-th point."""
     h, (phi, path) = track.hardware, fine_path(track, point.period)
     force = h.A * gas_pressure(path.z, track.p0[k], h.H, h.n, outside(h))
-    N = contact_force(path, force, h.moving_mass, point.omega)
-    side = law.side_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, point.omega)
+    omega = h.shaft_ratio * point.omega
+    N = contact_force(path, force, h.moving_mass, omega)
+    side = law.side_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, omega)
     r_b = given.bearing_radius or h.radius / 2
     means = [
         law.bearing_torque(N, path.rho, path.drho, given.bearing_mu, r_b, h.radius, h.count),
         law.seal_torque(force, path.drho, given.seal_mu, h.count),
         law.guide_torque(side, path.drho, given.guide_mu, h.count),
     ]
-    bearing, seal, guide = (max(0.0, float(np.mean(m))) for m in means)
+    bearing, seal, guide = (h.shaft_ratio * float(np.mean(m)) for m in means)
     gas = gas_turn(track, k, point, given).loss / point.period
     return LossTorques(bearing=bearing, seal=seal, guide=guide, rolling=0.0, gas=max(0.0, gas))
 

@@ -28,7 +28,7 @@ class Block:
     high: tuple[float, ...]  #: of each piece [-]
 
 
-def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any, start: np.ndarray) -> Block:
+def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any) -> Block:
     """The motion of a point that keeps a ripple.
 
     Parameters
@@ -41,8 +41,6 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
         All inertia that turns [kg*m^2]
     ripple : casadi.SX
         Largest (max - min) / mean of the speed [-]
-    start : ndarray, shape (n,)
-        Missing work at the start, for g [J]
     """
     n = samples.phi.size
     scale = 0.1 * float(np.ptp(samples.work[k]))
@@ -61,10 +59,9 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
         rows.append(ca.vertcat(g[1:], g[0]) - g - ca.DM(samples.step) / 2 * (rate + after))
     else:
         rows.append(mean - 1)
-    middle = float(np.mean(start)) / scale
     return Block(
         unknowns=ca.vertcat(g, u_low, u_high),
-        start=np.concatenate([np.full(g.numel(), middle), [0.9, 1.1]]),
+        start=np.concatenate([np.zeros(g.numel()), [0.9, 1.1]]),
         ripple=(ca.mmax(1 / inverse) - ca.mmin(1 / inverse)) * mean,
         rows=tuple(rows),
         low=(0.0, -np.inf, -np.inf, 0.0),

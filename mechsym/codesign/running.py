@@ -16,6 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mechsym import periodic
+from mechsym.codesign.contact_block import path_of
 from mechsym.codesign.hardware import gas_energy, gas_pressure, outside, roller_inertia
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
@@ -81,9 +82,9 @@ def spring_energy(track: Track, p0: float, phi: Any) -> np.ndarray:
 
 def added_inertia(track: Track, phi: Any) -> np.ndarray:
     """Inertia of the rollers of one guide about the shaft [kg*m^2] at phi [rad]."""
-    h = track.hardware
-    rho, drho = h.rho0 - track.z(phi) / h.count, -track.z.derivative()(phi) / h.count
-    return roller_inertia(rho, drho, h.moving_mass, h.roller_inertia, h.radius, h.count)
+    h, dz = track.hardware, track.z.derivative()(phi)
+    path = path_of(h, h.rho0, track.z(phi), dz, 0 * dz)
+    return h.shaft_ratio**2 * roller_inertia(path.rho, path.drho, h.moving_mass, h.roller_inertia, h.radius, h.count)
 
 
 def inertia(machine: Running, phi: Any) -> np.ndarray:
@@ -186,13 +187,15 @@ def _rates(machine: Running) -> Callable[[Any], list[float]]:
 def _spring_rates(track: Track, p0: float) -> Callable[[float], tuple[float, float, float]]:
     """Added inertia [kg*m^2], its derivative [kg*m^2/rad] and the torque [N*m] of one guide at an angle [rad]."""
     h, value, slope = track.hardware, periodic.scalar(track.z), periodic.scalar(track.z.derivative())
-    mass, pa = h.count * (h.moving_mass + h.roller_inertia / h.radius**2), outside(h)
+    ratio, pa = h.shaft_ratio, outside(h)
+    mass = h.count * (h.moving_mass + h.roller_inertia / h.radius**2)
 
     def rates(phi: float) -> tuple[float, float, float]:
         z, dz = value(phi)
         d2z = slope(phi)[1]
-        rho, drho, d2rho = h.rho0 - z / h.count, -dz / h.count, -d2z / h.count
+        # radial and tangential velocity of a roller by the crank's speed
+        across, along = ratio * (h.rho0 - z / h.count), -dz / h.count
         push = -h.A * gas_pressure(z, p0, h.H, h.n, pa) * dz
-        return mass * (rho**2 + drho**2), 2 * mass * (rho * drho + drho * d2rho), push
+        return mass * (across**2 + along**2), 2 * mass * (across * ratio * along - along * d2z / h.count), push
 
     return rates

@@ -9,10 +9,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import Path, contact_force, curvature
+from mechsym.codesign.contact_block import Path, contact_force, curvature, path_of
 from mechsym.codesign.hardware import Hardware, gas_pressure, outside
 from mechsym.codesign.points import Point
 from mechsym.codesign.task import CoDesign, Track
+from mechsym.hinge.losses import side_force
 from mechsym.quantities import quantity, record
 from mechsym.simulate.steady import Steady
 
@@ -100,8 +101,7 @@ def fine_path(track: Track, period: float) -> tuple[np.ndarray, Path]:
     """Even angles [rad] of a turn and the path of a guide there."""
     phi = np.arange(round(_FINE * period / (2 * np.pi))) * 2 * np.pi / _FINE
     z, h = track.z(phi), track.hardware
-    dz, d2z = track.z.derivative()(phi), track.z.derivative(2)(phi)
-    return phi, Path(z=z, rho=h.rho0 - z / h.count, drho=-dz / h.count, d2rho=-d2z / h.count)
+    return phi, path_of(h, h.rho0, z, track.z.derivative()(phi), track.z.derivative(2)(phi))
 
 
 def contact(track: Track, points: Sequence[Point]) -> Contact:
@@ -109,8 +109,9 @@ def contact(track: Track, points: Sequence[Point]) -> Contact:
     h, path = track.hardware, fine_path(track, points[0].period)[1]
     kappa = curvature(path)
     pressures = [gas_pressure(path.z, p0, h.H, h.n, outside(h)) for p0 in track.p0]
-    N = [contact_force(path, h.A * p, h.moving_mass, q.omega) for p, q in zip(pressures, points, strict=True)]
-    side = [side_force(h, path, h.A * p, q.omega) for p, q in zip(pressures, points, strict=True)]
+    asked = [(h.A * p, h.moving_mass, h.shaft_ratio * q.omega) for p, q in zip(pressures, points, strict=True)]
+    N = [contact_force(path, *a) for a in asked]
+    side = [side_force(force, path.rho, path.drho, path.d2rho, mass, omega) for force, mass, omega in asked]
     return Contact(
         reaction_max=np.array([n.max() for n in N]),
         reaction_min=np.array([n.min() for n in N]),
@@ -129,35 +130,6 @@ def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
     modulus = hardware.E / (2 * (1 - hardware.nu**2))
     relative = hardware.radius * np.maximum(1 + hardware.radius * kappa, 1e-12)
     return np.sqrt(np.maximum(N, 0.0) * modulus / (np.pi * hardware.width * relative))
-
-
-def side_force(hardware: Hardware, path: Path, force: np.ndarray, omega: float) -> np.ndarray:
-    r"""Force of the spring's piston on its guide, which carries the torque into the shaft.
-
-    .. math:: S = \left[F + m_h \omega^2 (\rho - \rho'')\right] \frac{\rho'}{\rho} - 2 m_h \omega^2 \rho'
-
-    Parameters
-    ----------
-    hardware : Hardware
-        For the mass of each roller
-    path : Path
-        Arrays of shape (n,)
-    force : ndarray, shape (n,)
-        Of the spring on each roller [N]
-    omega : float
-        Speed of the shaft [rad/s]
-
-    Returns
-    -------
-    S : ndarray, shape (n,)
-        Signed [N]
-
-    Notes
-    -----
-    Source: the tangential part of the track's force on the roller, less the Coriolis force of the mass on it.
-    """
-    mass = hardware.moving_mass * omega**2
-    return np.asarray((force + mass * (path.rho - path.d2rho)) * path.drho / path.rho - 2 * mass * path.drho)
 
 
 def _broken(c: Contact, track: Track, found: CoDesign) -> list[str]:
