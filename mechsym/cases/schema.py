@@ -67,6 +67,8 @@ _SECTIONS: dict[str, Any] = {
     ),
     "guide": "mechsym.hinge.guide:GuideParameters",
     "rollers": "mechsym.hinge.rollers:RollerParameters",
+    "losses": "mechsym.hinge.losses:Losses",
+    "codesign": "mechsym.codesign.settings:CoDesignSettings",
     "limits": "mechsym.hinge.limits:Limits",
     "friction": "mechsym.forces.friction:Friction",
     "rings": (

@@ -11,6 +11,7 @@ from mechsym.quantities import load
 COMMANDS = {
     "audit": "mechsym.cli.audit:audit",
     "cases": "mechsym.cli.catalogue:cases",
+    "codesign": "mechsym.cli.codesign:codesign",
     "compare": "mechsym.cli.compare:compare",
     "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",

@@ -1,0 +1,24 @@
+"""Guide, pressures of springs and a small flywheel designed together, for a range of speeds and loads.
+
+    points      speeds and loads: the work that each wants from the hinge      family, misfire: where they come from
+    rank        a bound that knows no guide: how many springs pay
+    programme   the design: task -> basis, unknowns, motion_block, contact_block, derivatives -> co-design
+    front       the same for many ripples; a guide cut for one point
+    verify      every number by two other ways: running (over the angle, in time)
+    loss, scenarios, control, realise, cylinders, schedule    what it costs, what kills it, how it is kept, sized, used
+
+Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesign.md for the formulas.
+"""
+
+from mechsym.codesign.front import front
+from mechsym.codesign.hardware import Bounds, Hardware
+from mechsym.codesign.points import Point, bare_flywheel
+from mechsym.codesign.programme import solve
+from mechsym.codesign.rank import rank
+from mechsym.codesign.scenarios import misfire
+from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.verify import verify
+
+__all__ = [
+    "Bounds", "CoDesign", "Hardware", "Point", "Task", "bare_flywheel", "front", "misfire", "rank", "solve", "verify",
+]  # fmt: skip

@@ -37,14 +37,9 @@ def curvature(path: Path) -> Any:
 
     .. math:: \kappa = \frac{\rho^2 + 2\rho'^2 - \rho\rho''}{(\rho^2 + \rho'^2)^{3/2}}
 
-    Parameters
-    ----------
-    path : Path
-        Symbols or arrays
-
     Returns
     -------
-    kappa : same kind
+    kappa : same kind as the path
         [1/m]
 
     Notes
@@ -62,8 +57,6 @@ def contact_force(path: Path, force: Any, mass: Any, omega: float) -> Any:
 
     Parameters
     ----------
-    path : Path
-        Symbols or arrays
     force : same kind
         Of the spring on each roller [N]
     mass : float or casadi.SX

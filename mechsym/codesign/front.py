@@ -9,7 +9,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Point
-from mechsym.codesign.programme import programme, solve
+from mechsym.codesign.programme import Programme, programme, solve
 from mechsym.codesign.start import closing
 from mechsym.codesign.task import CoDesign, Task
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
@@ -20,24 +20,26 @@ _STOPPED = 10.0
 _FAR = (0.5, 2.0)  # pressures that are tried, by the ratio of the works
 
 
-def front(task: Task, ripples: Sequence[float], progress: Callable[[], Any] = lambda: None) -> list[CoDesign]:
+def front(
+    task: Task, ripples: Sequence[float], ready: Programme | None = None, progress: Callable[[], Any] = lambda: None
+) -> list[CoDesign]:
     """The best flywheel for each ripple, smallest ripple first; one programme, each solve starts from the one before.
 
     Parameters
     ----------
-    task : Task
-        Of any ripple
     ripples : sequence of float
         Allowed (max - min) / mean of the speed [-]
-    progress : callable, optional
-        Called after each solve
+    ready : Programme, optional
+        Of the same task but for ripple and limits
 
     Returns
     -------
     designs : list of CoDesign
         One for each ripple, in ascending order
     """
-    ready, found = programme(task), []
+    found: list[CoDesign] = []
+    if ripples:
+        ready = ready or programme(task)
     for wanted in sorted(ripples):
         asked = dataclasses.replace(task, ripple=wanted)
         near = found[-1] if found and found[-1].status == "optimal" else None

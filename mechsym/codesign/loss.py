@@ -14,7 +14,7 @@ from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
 
 def at_point(track: Track, k: int, point: Point, given: Losses) -> LossTorques:
     """Mean torques that one guide takes at its k-th point."""
-    h, (phi, path) = track.hardware, fine_path(track, point.period)
+    h, (_, path) = track.hardware, fine_path(track, point.period)
     force = h.A * gas_pressure(path.z, track.p0[k], h.H, h.n, outside(h))
     omega = h.shaft_ratio * point.omega
     N = contact_force(path, force, h.moving_mass, omega)
@@ -35,7 +35,7 @@ def gas_turn(track: Track, k: int, point: Point, given: Losses) -> GasTurn:
 
     Without a time of its own the exchange is what would show the index of the spring at this speed.
     """
-    h, (phi, path) = track.hardware, fine_path(track, point.period)
+    h, (_, path) = track.hardware, fine_path(track, point.period)
     step = np.full(phi.size, point.period / phi.size)
     spring = AirThermal(
         A=h.A, H=h.H, p0=float(track.p0[k]), pa=h.pa, tau=relaxation_time(h.n, point.omega, given),
@@ -45,7 +45,7 @@ def gas_turn(track: Track, k: int, point: Point, given: Losses) -> GasTurn:
 
 
 def relaxation_time(n: float, omega: float, given: Losses) -> float:
-    """Time [s] in which the gas takes the wall's temperature: as given, or such that the index n [-] shows at omega [rad/s].
+    """Time [s] of the gas to take the wall's temperature: given, or such that the index n [-] shows at omega [rad/s].
 
     An index at gamma or above leaves no exchange, one at 1 a very fast one.
     """

@@ -33,8 +33,6 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
 
     Parameters
     ----------
-    k : int
-        Which of the sampled points
     missing : casadi.SX, shape (n,)
         Work that is wanted and missing [J]
     inertia : casadi.SX, shape (n,)

@@ -37,6 +37,7 @@ class Point:
     torque: Function  #: gas and gravity over the angle [rad], as computed, not fitted [N*m]
     misfire: Function | None = None  #: the same for a turn without combustion [N*m]
     kinks: tuple[float, ...] = ()  #: angles where the torque is not smooth [rad]
+    misfire_kinks: tuple[float, ...] = ()  #: the same of the turn without combustion [rad]
 
 
 @record
@@ -111,8 +112,6 @@ def bare_flywheel(points: Sequence[Point], wanted: float) -> float:
 
     Parameters
     ----------
-    points : sequence of Point
-        Where the machine turns
     wanted : float
         Largest ripple, (max - min) / mean of the speed [-]
 

@@ -92,8 +92,6 @@ def solve(task: Task, ready: Programme | None = None, near: CoDesign | None = No
 
     Parameters
     ----------
-    task : Task
-        Points, hardware, limits, ripple
     ready : Programme, optional
         A programme of the same task but for ripple and limits, used again
     near : CoDesign, optional

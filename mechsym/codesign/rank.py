@@ -60,17 +60,10 @@ def rank(points: Sequence[Point], springs: int = _MOST) -> Bound:
 
     .. math:: D_r = \min_{S, c} \max_k \mathrm{ptp}(W_k - c_k S) / \omega_k^2
 
-    Parameters
-    ----------
-    points : sequence of Point
-        Where the machine turns
-    springs : int
-        Most springs to ask about
-
     Returns
     -------
     bound : Bound
-        D_r [kg*m^2], singular values, shapes, and how many springs pay
+        D_r [kg*m^2], singular values [-], shapes, and how many springs pay
 
     Notes
     -----
@@ -101,21 +94,19 @@ def flywheel_bound(points: Sequence[Point], bound: Bound, ripple: float, added: 
     Parameters
     ----------
     points : sequence of Point
-        For the engine's own inertia
-    bound : Bound
-        Of these points
+        The engine's own inertia is that of the first of them
     ripple : float
         Allowed (max - min) / mean of the speed [-]
     added : float
-        Mean inertia of the rollers, I_h [kg*m^2]
+        Mean inertia of the rollers of one guide, I_h [kg*m^2]
 
     Returns
     -------
     inertia : list of float
         Not below 0 [kg*m^2]
     """
-    own = float(np.mean(points[0].inertia(np.linspace(0, points[0].period, 361)[:-1]))) + added
-    return [max(0.0, d / ripple - own) for d in bound.swing]
+    own = float(np.mean(points[0].inertia(np.linspace(0, points[0].period, 361)[:-1])))
+    return [max(0.0, b.swing / ripple - own - b.springs * added) for b in bound.best]
 
 
 def _wanted(samples: Samples) -> np.ndarray:

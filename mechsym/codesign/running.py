@@ -20,7 +20,7 @@ from mechsym.codesign.contact_block import path_of
 from mechsym.codesign.hardware import gas_energy, gas_pressure, outside, roller_inertia
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
-from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, load_torque
+from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import Machine, Panels, tabulate
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
@@ -37,8 +37,9 @@ class Running:
     tracks: tuple[Track, ...]
     pressures: tuple[float, ...]  #: excess pressure of each spring at free height [Pa]
     flywheel: float = quantity("kg*m^2", about="inertia added to the engine's own")
-    load: Load
+    load: ConstantLoad | PropellerLoad
     torque: Function  #: gas and gravity over the angle [N*m]
+    kinks: tuple[float, ...]  #: of that torque [rad]
 
 
 @record
@@ -56,7 +57,7 @@ def running(
     point: Point, tracks: Sequence[Track], k: int, flywheel: float, errors: Sequence[float] | None = None
 ) -> Running:
     """A point of a co-design with its load law; `errors` [-] are shares that each pressure is off."""
-    law = (
+    law: ConstantLoad | PropellerLoad = (
         PropellerLoad(torque=point.load_torque, speed=point.omega)
         if point.law == "propeller"
         else ConstantLoad(torque=point.load_torque)
@@ -64,6 +65,7 @@ def running(
     factors = errors or [0.0] * len(tracks)
     return Running(
         point=point, tracks=tuple(tracks), flywheel=flywheel, load=law, torque=point.torque,
+        kinks=point.kinks,
         pressures=tuple(float(t.p0[k]) * (1 + e) for t, e in zip(tracks, factors, strict=True)),
     )  # fmt: skip
 
@@ -105,7 +107,7 @@ def panels(machine: Running) -> Panels:
     made = tabulate(
         Machine(
             inertia=lambda phi: inertia(machine, phi), torque=lambda phi: torque(machine, phi), load=machine.load,
-            period=point.period, kinks=tuple(sorted({*point.kinks, *knots})),
+            period=point.period, kinks=tuple(sorted({*machine.kinks, *knots})),
         )
     )  # fmt: skip
     if isinstance(machine.load, ConstantLoad):
@@ -164,8 +166,8 @@ def _event(value: Callable[[Any], float], direction: float) -> Any:
 
 def _rates(machine: Running) -> Callable[[Any], list[float]]:
     """Rates of angle, speed, work of gas and gravity, and work of the load, as fast functions of floats."""
-    point, kinks = machine.point, machine.point.kinks
-    gas = periodic.scalar(periodic.fit(machine.torque, kinks, point.period, 1e-10))
+    point = machine.point
+    gas = periodic.scalar(periodic.fit(machine.torque, machine.kinks, point.period, 1e-10))
     engine = periodic.scalar(point.inertia)
     springs = [_spring_rates(t, p0) for t, p0 in zip(machine.tracks, machine.pressures, strict=True)]
     load, flywheel = machine.load, machine.flywheel

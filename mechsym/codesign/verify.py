@@ -61,15 +61,10 @@ class Verified:
 def verify(found: CoDesign) -> Verified:
     """Run a co-design as built at all its points.
 
-    Parameters
-    ----------
-    found : CoDesign
-        With guides; optimal or not
-
     Returns
     -------
     verified : Verified
-        Ripples, residuals, contact, limits that are passed
+        Ripples and residuals [-], contact, limits that are passed
     """
     corner = [0.0] * len(found.tracks)
     steady, time_ripple, residual = [], [], []

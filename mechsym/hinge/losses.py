@@ -67,8 +67,6 @@ def bearing_torque(
         r_b, where it acts [m]
     radius : float
         r of the roller [m]
-    count : int
-        c
 
     Returns
     -------
@@ -101,8 +99,6 @@ def seal_torque(force: np.ndarray, drho: np.ndarray, mu: float, count: int) -> n
         Derivative of the path [m/rad]
     mu : float
         Friction force by spring force [-]
-    count : int
-        c
 
     Returns
     -------
@@ -172,8 +168,6 @@ def guide_torque(side: np.ndarray, drho: np.ndarray, mu: float, count: int) -> n
         Derivative of the path [m/rad]
     mu : float
         Friction of the guide [-]
-    count : int
-        c
 
     Returns
     -------

@@ -24,7 +24,7 @@ R_NITROGEN = 296.8  # [J/kg/K]
 
 @record
 class AirThermal:
-    """Gas spring with a wall of constant temperature; without leakage the fill stays, with it make-up keeps the fill."""
+    """Gas spring with a wall of constant temperature; what leaks, make-up brings back."""
 
     A: float = quantity("m^2", low=1e-8, high=100, about="piston area")
     H: float = quantity("m", low=1e-4, high=100, about="free height of the gas column")

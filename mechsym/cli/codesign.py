@@ -1,0 +1,132 @@
+"""`mechsym codesign`: guide, pressures and a small flywheel for a range of speeds and loads."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+
+
+@click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
+@click.argument("case_name", metavar="CASE")
+@click.option("--speeds", metavar="N,N..", help="Speeds in rpm: 60,75,89.")
+@click.option("--curve", help="propeller or constant_speed.")
+@click.option("--loads", metavar="A,B..", help="Shares of the full load, at each speed.")
+@click.option("--ripple", metavar="D", help="Allowed (max - min) / mean of the speed: 2%.")
+@click.option("--springs", type=click.IntRange(1, 3), help="Guides with a spring and a pressure of their own.")
+@click.option("--schedule", type=click.Choice(["each_point", "one"]), help="Pressures set at each point, or one.")
+@click.option("--robust", metavar="spring.p0=E", help="Error of every pressure that the ripple must bear: 1%.")
+@click.option("--misfire-speed", metavar="S", help="Share of the speed that a lost combustion must leave: 0.5.")
+@click.option("--free", metavar="KEY,KEY..", help="Chosen too: spring.A, spring.H, guide.rho0, rollers.radius, ..")
+@click.option("--pareto", metavar="D,D..", help="Ripples of a front: 1,2,5,8%.")
+@out_option
+@set_option
+@json_option
+def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:
+    """Design guide, pressures of the spring and a small flywheel together, for all speeds and loads of CASE.
+
+    Exit status 1 when there is no such design; the bound says what no guide with so many springs can do better than.
+
+    \b
+    Examples: mechsym codesign zotov-89 --ripple 5%
+              mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
+    """
+    from mechsym import cases
+    from mechsym.files import make_folder
+    from mechsym.jobs import codesign as job
+
+    case = cases.load(case_name, pairs(overrides))
+    settings, ripples = _settings(case.need("codesign"), options)
+    if out is not None:
+        make_folder(out)
+    with progress(job.STEPS + len(ripples) + bool(out), f"co-design of {case.name}") as bar:
+        found = job.codesign(case, settings, ripples, lambda: bar.update(1))
+        numbers, files = job.summary(found), []
+        if out is not None:
+            from mechsym.codesign.report import write
+
+            files = write(found, numbers, out)
+            bar.update(1)
+    emit(numbers, as_json, lambda: _text(numbers, files))
+    if not numbers["feasible"]:
+        sys.exit(1)
+
+
+def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]:
+    """The case's settings with the options in their place, and the ripples of a front."""
+    import dataclasses
+
+    from mechsym.errors import BadInput
+
+    changed: dict[str, Any] = {}
+    if options["speeds"] is not None:
+        changed["speeds"] = tuple(_list(options["speeds"], "rad/s", "--speeds", "rpm"))
+    if options["loads"] is not None:
+        changed["loads"] = tuple(_list(options["loads"], "-", "--loads"))
+    for name in ("curve", "springs", "schedule"):
+        if options[name] is not None:
+            changed[name] = options[name]
+    for name in ("ripple", "misfire_speed"):
+        if options[name] is not None:
+            changed[name] = _list(options[name], "-", "--" + name.replace("_", "-"))[0]
+    if options["robust"] is not None:
+        key, _, value = options["robust"].rpartition("=")
+        if key not in ("", "spring.p0", "p0"):
+            raise BadInput(f"--robust {options['robust']!r}: only spring.p0 can be made robust; write spring.p0=1%")
+        changed["robust"] = _list(value, "-", "--robust")[0]
+    if options["free"] is not None:
+        changed["free"] = tuple(name.strip() for name in options["free"].split(",") if name.strip())
+    ripples = _list(options["pareto"], "-", "--pareto") if options["pareto"] is not None else []
+    if any(not 0 < r < 1 for r in ripples) or len(set(ripples)) < len(ripples):
+        raise BadInput(f"--pareto {options['pareto']!r}: ripples between 0 and 1, each of them once, such as 1,2,5%")
+    return dataclasses.replace(settings, **changed), ripples
+
+
+def _list(text: str, unit: str, option: str, usual: str = "") -> list[float]:
+    """Numbers with commas in SI; one unit behind the last number holds for all, `usual` where there is none."""
+    import re
+
+    from mechsym.errors import BadInput
+    from mechsym.quantities import parse
+
+    parts = [part.strip() for part in text.split(",")]
+    if "" in parts:
+        raise BadInput(f"{option} {text!r}: write numbers with commas, such as 1,2,5")
+    tail = re.search(r"[A-Za-z%/^*0-9]*[A-Za-z%]$", parts[-1])
+    last = re.sub(r"^[-+0-9.eE]*", "", tail[0]) if tail else ""
+    last = last or usual
+    bare = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
+    return [parse(f"{part} {last}" if last and bare.match(part) else part, unit, option) for part in parts]
+
+
+def _text(numbers: dict[str, Any], files: list[Path]) -> str:
+    bound, found = numbers["bound"], numbers["verified"]
+    rows = [
+        {"rpm": n, "mep bar": load / 1e5, "p0 MPa": ", ".join(f"{p[k] / 1e6:.4g}" for p in numbers["p0"]),
+         "ripple": numbers["speed_ripple"][k], "steady": found["steady_ripple"][k], "in time": found["time_ripple"][k],
+         "losses": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
+        for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
+    ]  # fmt: skip
+    floors = ", ".join(f"{r + 1}: {j:.4g}" for r, j in enumerate(bound["flywheel"]))
+    lines = [
+        f"status           {numbers['status']} ({numbers['reason']}), {numbers['wall_s']:.2g} s",
+        f"flywheel         {numbers['flywheel_inertia']:.5g} kg*m^2 added; bare "
+        f"{numbers['flywheel_inertia_bare']:.5g}, guide cut for one speed "
+        f"{_number(numbers['flywheel_inertia_cut_for_one'])}",
+        f"no guide better  {floors} kg*m^2 by the number of springs; up to {bound['springs_that_pay']} pay",
+        f"three ways       differ by {found['difference']:.1%} of the largest ripple",
+        "",
+        table(rows, list(rows[0])),
+        "",
+        *(f"{a['limit']}: {a['multiplier']:.4g} kg*m^2 for one {a['unit']} more" for a in numbers["active"]),
+        *(f"limit passed: {words}" for words in found["broken"]),
+    ]
+    if numbers["pareto"]:
+        lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"])]
+    return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else f"{value:.5g}"

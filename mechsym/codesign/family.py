@@ -1,0 +1,108 @@
+"""The family of operating points that `[codesign]` describes: mean pressure, scavenge pressure, combustion, speed."""
+
+import ast
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mechsym.codesign.settings import CoDesignSettings
+from mechsym.errors import BadInput, shown
+from mechsym.quantities import quantity, record
+
+_COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
+_FUNCTIONS: dict[str, Callable[..., float]] = {"max": max, "min": min}
+
+
+@record
+class Place:
+    """One speed and load of a family."""
+
+    omega: float = quantity("rad/s", above=0, about="speed")
+    mep: float = quantity("Pa", above=0, about="mean indicated pressure")
+    weight: float = quantity("-", default=1.0, low=0, about="share of the time")
+
+
+def places(settings: CoDesignSettings) -> list[Place]:
+    """Speeds and loads of the curve `propeller` or `constant_speed`."""
+    if settings.curve == "propeller":
+        shares = [(s, (s / settings.full_speed) ** 2) for s in settings.speeds]
+        pairs = [(s, share * load) for s, share in shares for load in settings.loads]
+    else:
+        pairs = [(s, load) for s in settings.speeds for load in settings.loads]
+    return [Place(omega=s, mep=share * settings.full_load) for s, share in pairs]
+
+
+def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: float) -> Any:
+    """The cycle of a case at another mean indicated pressure [Pa]; what else follows it is in the settings.
+
+    Parameters
+    ----------
+    high : record, optional
+        Cycle at the upper end; combustion is linear in mep between the two and constant outside
+    """
+    if not hasattr(cycle, "mean_indicated_pressure"):
+        raise BadInput("[cycle] has no mean_indicated_pressure that could be changed; it has one load")
+    changed: dict[str, Any] = {"mean_indicated_pressure": mep}
+    if hasattr(cycle, "p_s") and settings.scavenge:
+        changed["p_s"] = scavenge_pressure(settings.scavenge, mep)
+    if high is not None:
+        low_mep, high_mep = cycle.mean_indicated_pressure, high.mean_indicated_pressure
+        share = float(np.clip((mep - low_mep) / (high_mep - low_mep), 0, 1)) if high_mep != low_mep else 0.0
+        for name in _COMBUSTION:
+            changed[name] = (1 - share) * getattr(cycle, name) + share * getattr(high, name)
+    return dataclasses.replace(cycle, **changed)
+
+
+def scavenge_pressure(text: str, mep: float) -> float:
+    """Absolute scavenge pressure [Pa] at a mean indicated pressure [Pa], from a text such as `1.6 + (mep-8)/6 bar`.
+
+    The text holds numbers, mep in bar, + - * / **, max and min; its value is in bar.
+    """
+    formula = text.rpartition("=")[2].strip().removesuffix("bar").strip()
+    try:
+        value = _value(ast.parse(formula, mode="eval").body, {"mep": mep / 1e5})
+    except (SyntaxError, ValueError, ZeroDivisionError, OverflowError, TypeError) as error:
+        raise BadInput(
+            f"codesign.scavenge = {shown(text)} cannot be read ({error}); write for example "
+            '"p_s = max(1.05, 1.6 + (mep-8)/6) bar", mep in bar'
+        ) from None
+    if not math.isfinite(value) or value <= 0:
+        raise BadInput(
+            f"codesign.scavenge = {shown(text)} gives {value:g} bar at mep = {mep / 1e5:g} bar; it must be > 0"
+        )
+    return 1e5 * value
+
+
+def _value(node: ast.AST, names: dict[str, float]) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+            return float(number)
+        case ast.Name(id=name) if name in names:
+            return names[name]
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_value(inner, names)
+        case ast.BinOp(left=left, op=op, right=right):
+            return _binary(op, _value(left, names), _value(right, names))
+        case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in _FUNCTIONS and args:
+            return float(
+                _FUNCTIONS[name](*(_value(a, names) for a in args)) if len(args) > 1 else _value(args[0], names)
+            )
+    raise ValueError("it may hold numbers, mep, + - * / **, max and min")
+
+
+def _binary(op: ast.operator, a: float, b: float) -> float:
+    match op:
+        case ast.Add():
+            return a + b
+        case ast.Sub():
+            return a - b
+        case ast.Mult():
+            return a * b
+        case ast.Div():
+            return a / b
+        case ast.Pow() if abs(b) <= 10:
+            return float(a**b)
+    raise ValueError("it may hold + - * / and small powers")

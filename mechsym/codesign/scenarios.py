@@ -1,0 +1,192 @@
+"""What happens to the machine: a lost combustion, a jump of the load, spread of the cycles, loss of pressure, start.
+
+Every row is a run in time of the machine as built, from its steady motion; speeds are shares of the mean speed.
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from mechsym.codesign import running
+from mechsym.codesign.points import Function, Point
+from mechsym.codesign.running import Running, TimeRun
+from mechsym.codesign.task import CoDesign
+from mechsym.quantities import quantity, record
+
+_SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
+
+
+@record
+class Scenario:
+    """One thing that happens at one point."""
+
+    name: str
+    about: str
+    point: int
+    speed_min: float | None = quantity("-", about="lowest speed by the mean speed before; None after a stall")
+    speed_max: float | None = quantity("-", about="highest speed by the mean speed before; None after a stall")
+    outcome: str  #: what came of it, in words
+    run: TimeRun | None  #: None where the shaft cannot even be started
+
+
+def misfire(found: CoDesign, k: int, flywheel: float | None = None) -> Scenario:
+    """One period without combustion from dead centre at a point; `flywheel` [kg*m^2] in place of the design's."""
+    point, inertia = found.task.points[k], found.flywheel if flywheel is None else flywheel
+    machine = running.running(point, found.tracks, k, inertia)
+    return _lost_combustion(machine, point, k)
+
+
+def misfire_shares(found: CoDesign, flywheel: float | None = None) -> list[float | None]:
+    """Lowest speed after a lost combustion by the mean speed at each point [-]; 0 for a stall, None if not known.
+
+    Parameters
+    ----------
+    flywheel : float, optional
+        In place of the design's [kg*m^2]
+    """
+    return [_share(found, k, flywheel) for k in range(len(found.task.points))]
+
+
+def misfire_flywheel(found: CoDesign, share: float) -> float | None:
+    """Flywheel with which a lost combustion leaves a share [-] of the speed at every point, guides unchanged [kg*m^2].
+
+    Returns
+    -------
+    inertia : float or None
+        At least the design's; None where a point does not know its misfire [kg*m^2]
+    """
+    if any(p.misfire is None for p in found.task.points):
+        return None
+
+    def short(flywheel: float) -> float:
+        return min(_share(found, k, flywheel) or 0.0 for k in range(len(found.task.points))) - share
+
+    if short(found.flywheel) >= 0:
+        return found.flywheel
+    high = max(2 * found.flywheel, 100.0)
+    while short(high) < 0:
+        high *= 2
+    return float(brentq(short, found.flywheel, high, xtol=1.0))
+
+
+def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
+    """All scenarios at some points, by default at the first and the last."""
+    rows = []
+    for k in ks if ks is not None else sorted({0, len(found.task.points) - 1}):
+        point = found.task.points[k]
+        machine = running.running(point, found.tracks, k, found.flywheel)
+        if point.misfire is not None:
+            rows.append(_lost_combustion(machine, point, k))
+        rows += [_load_step(machine, k), _scatter(machine, k, 0.01), _scatter(machine, k, 0.03), _vented(machine, k)]
+    return rows
+
+
+def _share(found: CoDesign, k: int, flywheel: float | None) -> float | None:
+    if found.task.points[k].misfire is None:
+        return None
+    return misfire(found, k, flywheel).speed_min or 0.0
+
+
+def _steady_speed(machine: Running) -> tuple[float, float] | None:
+    """Speed at dead centre and mean speed of the steady motion [rad/s]; None where there is none."""
+    motion = running.steady(machine)
+    return None if motion.speed_mean is None else (float(motion.omega[0]), motion.speed_mean)
+
+
+def _row(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callable[[TimeRun], str]) -> Scenario:
+    low, high = (None, None) if run.stalled else (float(run.omega.min()) / mean, float(run.omega.max()) / mean)
+    angle = np.degrees(run.phi[-1] - run.phi[0])
+    text = f"the shaft stops after {angle:.0f} deg" if run.stalled else words(run)
+    return Scenario(name=name, about=about, point=k, speed_min=low, speed_max=high, outcome=text, run=run)
+
+
+def _nothing(name: str, about: str, k: int) -> Scenario:
+    return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None,
+                    outcome="there is no steady motion to start from")  # fmt: skip
+
+
+def _lost_combustion(machine: Running, point: Point, k: int) -> Scenario:
+    name, about = "misfire", "one turn without combustion, propeller or constant load as before"
+    start = _steady_speed(machine)
+    if start is None or point.misfire is None:
+        return _nothing(name, about, k)
+    without = dataclasses.replace(machine, torque=point.misfire, kinks=point.misfire_kinks)
+    run = running.run(without, start[0], point.period / (2 * np.pi))
+    return _row(name, about, k, start[1], run, lambda r: f"lowest speed {r.omega.min() / start[1]:.3f} of the mean")
+
+
+def _load_step(machine: Running, k: int) -> Scenario:
+    """The load jumps up by a tenth of its torque and stays; the combustion stays too: where does the speed settle?"""
+    name, about = "load step", "load 10 % higher from dead centre on, fuel as before, no governor"
+    start = _steady_speed(machine)
+    if start is None:
+        return _nothing(name, about, k)
+    heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
+    run = running.run(heavier, start[0], 10.0)
+    return _row(name, about, k, start[1], run, lambda r: f"speed {r.omega[-1] / start[1]:.3f} of before after 10 turns")
+
+
+def _scatter(machine: Running, k: int, share: float) -> Scenario:
+    """Every turn another mean indicated pressure: 20 turns of one fixed sequence of normal numbers."""
+    name, about = f"scatter {share:.0%}", f"gas torque of each turn scattered by {share:.0%} (one sigma), 20 turns"
+    start = _steady_speed(machine)
+    if start is None:
+        return _nothing(name, about, k)
+    factors = 1 + share * np.random.default_rng(20).standard_normal(20)
+    run = _turn_by_turn(machine, start[0], factors)
+    return _row(
+        name, about, k, start[1], run, lambda r: f"speed over all turns {np.ptp(r.omega) / start[1]:.4f} of mean"
+    )
+
+
+def _vented(machine: Running, k: int) -> Scenario:
+    """The springs lose their pressure at speed and the fuel is cut: does the shaft coast down, or stop at once?"""
+    name, about = "burst", "springs without pressure and fuel cut from dead centre on"
+    start = _steady_speed(machine)
+    if start is None or machine.point.misfire is None:
+        return _nothing(name, about, k)
+    empty = dataclasses.replace(
+        machine, torque=machine.point.misfire, kinks=machine.point.misfire_kinks,
+        pressures=tuple(1e3 for _ in machine.pressures),
+    )  # fmt: skip
+    run = running.run(empty, start[0], _SETTLE)
+    return _row(name, about, k, start[1], run, lambda r: f"still {r.omega[-1] / start[1]:.2f} after {_SETTLE:g} turns")
+
+
+def _heavier(load: ConstantLoad | PropellerLoad, factor: float) -> ConstantLoad | PropellerLoad:
+    return dataclasses.replace(load, torque=factor * (load.torque or 0.0))
+
+
+def _turn_by_turn(machine: Running, speed: float, factors: Sequence[float] | np.ndarray) -> TimeRun:
+    legs: list[TimeRun] = []
+    for factor in factors:
+        torque = _scaled(machine.torque, float(factor))
+        leg = running.run(dataclasses.replace(machine, torque=torque), speed, machine.point.period / (2 * np.pi))
+        legs.append(leg)
+        speed = float(leg.omega[-1])
+        if leg.stalled:
+            break
+    return joined(legs)
+
+
+def joined(legs: Sequence[TimeRun]) -> TimeRun:
+    """Runs one behind the other as one."""
+    times = np.cumsum([0.0, *(leg.t[-1] for leg in legs[:-1])])
+    turned = np.cumsum([0.0, *(leg.phi[-1] - leg.phi[0] for leg in legs[:-1])])
+    return TimeRun(
+        t=np.concatenate([leg.t + t for leg, t in zip(legs, times, strict=True)]),
+        phi=np.concatenate([leg.phi + a for leg, a in zip(legs, turned, strict=True)]),
+        omega=np.concatenate([leg.omega for leg in legs]),
+        stalled=legs[-1].stalled,
+        energy_residual=max((leg.energy_residual for leg in legs), key=abs),
+    )
+
+
+def _scaled(torque: Function, factor: float) -> Function:
+    def scaled(phi: Any) -> Any:
+        return factor * torque(phi)
+
+    return scaled

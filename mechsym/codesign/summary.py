@@ -1,0 +1,106 @@
+"""A co-design in numbers: the keys of `mechsym codesign --json`, and its text."""
+
+from typing import Any
+
+import numpy as np
+
+from mechsym.codesign.front import CutForOne
+from mechsym.codesign.hardware import roller_inertia
+from mechsym.codesign.loss import relaxation_time
+from mechsym.codesign.rank import Bound, flywheel_bound
+from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.verify import Contact, Verified
+from mechsym.hinge.losses import Losses, LossTorques
+
+_RPM = 30 / np.pi
+_KINDS = ("bearing", "seal", "guide", "rolling", "gas")
+
+
+def summary(design: CoDesign, verified: Verified) -> dict[str, Any]:
+    """What was found, and by which ways it was checked."""
+    task = design.task
+    return {
+        "status": design.status,
+        "reason": design.reason,
+        "feasible": design.status == "optimal" and not verified.broken,
+        "flywheel_inertia": design.flywheel,
+        "speed_rpm": [p.omega * _RPM for p in task.points],
+        "load": [p.load for p in task.points],
+        "load_torque": [p.load_torque for p in task.points],
+        "speed_ripple": design.ripple.tolist(),
+        "p0": [track.p0.tolist() for track in design.tracks],
+        "active": [{"limit": a.limit, "multiplier": a.multiplier, "unit": a.unit} for a in design.active],
+        "verified": {
+            "steady_ripple": _numbers(verified.steady_ripple),
+            "time_ripple": _numbers(verified.time_ripple),
+            "energy_residual": _numbers(verified.energy_residual),
+            "difference": verified.difference,
+            "broken": list(verified.broken),
+        },
+        "guides": [guide(c, design, s) for s, c in enumerate(verified.contacts)],
+        "iterations": design.iterations,
+        "wall_s": design.wall,
+    }
+
+
+def guide(contact: Contact, design: CoDesign, s: int) -> dict[str, Any]:
+    """Dimensions of one guide, and what it asks of its rollers at all points together."""
+    h = design.tracks[s].hardware
+    return {
+        "A": h.A, "H": h.H, "rho0": h.rho0, "roller_radius": h.radius, "roller_width": h.width,
+        "moving_mass": h.moving_mass, "rho_min": contact.rho_min, "rho_max": contact.rho_max, "z_min": contact.z_min,
+        "z_max": contact.z_max, "pressure_angle_max": contact.pressure_angle_max,
+        "spring_pressure_max": float(contact.pressure_max.max()),
+        "roller_reaction_max": float(contact.reaction_max.max()),
+        "roller_reaction_min": float(contact.reaction_min.min()),
+        "hertz_stress_max": float(contact.hertz_max.max()), "side_force_max": float(contact.side_force_max.max()),
+    }  # fmt: skip
+
+
+def limits_of_any_guide(task: Task, bound: Bound, bare: float, cut: CutForOne) -> dict[str, Any]:
+    """The bound, and what stands beside a co-design: `bare` is the flywheel [kg*m^2] without a hinge."""
+    h = task.hardware
+    added = h.count * h.shaft_ratio**2 * float(
+        roller_inertia(h.rho0, 0.0, h.moving_mass, h.roller_inertia, h.radius, 1)
+    )  # fmt: skip
+    return {
+        "flywheel_inertia_bare": bare,
+        "flywheel_inertia_cut_for_one": cut.flywheel,
+        "bound": {
+            "singular_values": bound.singular_values.tolist(),
+            "swing": list(bound.swing),
+            "swing_bare": bound.bare,
+            "flywheel": flywheel_bound(task.points, bound, task.ripple, added),
+            "springs_that_pay": bound.pays,
+        },
+    }
+
+
+def what_it_costs(design: CoDesign, lost: tuple[LossTorques, ...], assumed: Losses) -> dict[str, Any]:
+    """Losses at each point, as torques and as shares of the load's torque, with what was assumed for them."""
+    loads = np.array([abs(p.load_torque) for p in design.task.points])
+    torques = {kind: np.array([getattr(at, kind) for at in lost]) for kind in _KINDS}
+    total = sum(torques.values())
+    return {
+        "losses": {
+            **{kind: value.tolist() for kind, value in torques.items()},
+            "share": (total / loads).tolist(),
+            "shaft_efficiency": (1 - total / loads).tolist(),
+            "extra_fuel": (total / np.maximum(loads - total, 1e-30)).tolist(),
+            "assumed": {
+                "bearing_mu": assumed.bearing_mu,
+                "bearing_radius": assumed.bearing_radius or design.tracks[0].hardware.radius / 2,
+                "seal_mu": assumed.seal_mu, "guide_mu": assumed.guide_mu,
+                "tau": [relaxation_time(design.tracks[0].hardware.n, p.omega, assumed) for p in design.task.points],
+            },
+        }
+    }  # fmt: skip
+
+
+def row(design: CoDesign) -> dict[str, Any]:
+    """One point of a front."""
+    return {"ripple": design.task.ripple, "flywheel_inertia": design.flywheel, "status": design.status}
+
+
+def _numbers(values: np.ndarray) -> list[float | None]:
+    return [float(v) if np.isfinite(v) else None for v in values]
