@@ -35,7 +35,7 @@ def gas_turn(track: Track, k: int, point: Point, given: Losses) -> GasTurn:
 
     Without a time of its own the exchange is what would show the index of the spring at this speed.
     """
-    h, (_, path) = track.hardware, fine_path(track, point.period)
+    h, (phi, path) = track.hardware, fine_path(track, point.period)
     step = np.full(phi.size, point.period / phi.size)
     spring = AirThermal(
         A=h.A, H=h.H, p0=float(track.p0[k]), pa=h.pa, tau=relaxation_time(h.n, point.omega, given),

@@ -14,6 +14,7 @@ from mechsym.codesign import running
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
+from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
 
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell

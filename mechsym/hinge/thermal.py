@@ -134,7 +134,7 @@ def turn(spring: AirThermal, z: np.ndarray, step: np.ndarray, omega: float) -> G
     filled = spring.p0 + spring.pa
     absolute = filled * spring.H / height * T / spring.wall_temperature
     weights = (step + np.roll(step, 1)) / 2
-    if x > 10 * step.max():
+    if x > 1:
         heat = filled * spring.A * spring.H / (spring.gamma - 1) * (T / spring.wall_temperature - 1) / x
         loss = float(heat @ weights)
     else:

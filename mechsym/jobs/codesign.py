@@ -8,18 +8,18 @@ import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
-from mechsym.codesign import family, front, loss, rank, scenarios, verify
+from mechsym.codesign import family, loss, scenarios
 from mechsym.codesign import summary as numbers
 from mechsym.codesign.family import Place
-from mechsym.codesign.front import CutForOne
+from mechsym.codesign.front import CutForOne, cut_for_one, front
 from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.misfire import unfired, unfired_kinks
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
-from mechsym.codesign.rank import Bound
+from mechsym.codesign.rank import Bound, rank
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, Task
-from mechsym.codesign.verify import Verified
+from mechsym.codesign.verify import Verified, verify
 from mechsym.errors import BadInput
 from mechsym.hinge import torque as hinge
 from mechsym.hinge.choices import ROLLERS
@@ -63,22 +63,22 @@ def codesign(
     """
     task = task_of(case, settings)
     progress()
-    bound = rank.rank(task.points)
+    bound = rank(task.points)
     bare = bare_flywheel(task.points, task.ripple)
     progress()
-    cut = front.cut_for_one(task, _middle(task))
+    cut = cut_for_one(task, _middle(task))
     progress()
     ready = programme(task)
     design = _heavy_enough(solve(task, ready), settings.misfire_speed)
     progress()
-    points = front.front(task, ripples, ready, progress)
-    verified = verify.verify(design)
+    designs = front(task, ripples, ready, progress)
+    verified = verify(design)
     progress()
     assumed = case.sections.get("losses", Losses())
     lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
     progress()
     return CoDesignResult(design=design, bound=bound, bare=bare, cut=cut, verified=verified, losses=lost,
-                          assumed=assumed, misfire=misfire, front=tuple(points))  # fmt: skip
+                          assumed=assumed, misfire=misfire, front=tuple(designs))  # fmt: skip
 
 
 def task_of(case: Case, settings: CoDesignSettings) -> Task:
@@ -98,20 +98,7 @@ def task_of(case: Case, settings: CoDesignSettings) -> Task:
 
 
 def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
-    """The operating points of a case.
-
-    Parameters
-    ----------
-    case : Case
-        With sections parameters, operation, cycle
-    settings : CoDesignSettings
-        The curve of speeds and loads
-
-    Returns
-    -------
-    points : tuple of Point
-        In the order of the settings
-    """
+    """The operating points of a case."""
     high = cases.load(settings.high_case).need("cycle") if settings.high_case else None
     law = "constant" if settings.curve == "constant_speed" else "propeller"
     found = []
