@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from codesigns import bound, cut, design, front, ready, task, verified
 
+from mechsym.codesign.front import cut_for_one
 from mechsym.codesign.points import bare_flywheel, sample
 from mechsym.codesign.programme import solve
 from mechsym.codesign.rank import flywheel_bound

@@ -1,0 +1,94 @@
+r"""Machines of several cylinders on one shaft: their works add up, and most of what a hinge would take cancels.
+
+.. math:: W_N(\varphi) = \sum_i W(\varphi + \varphi_i)
+
+One hinge on the shaft then works on what is left. A spread of the cylinders' pressures brings back the order one, which
+a guide with one shape cannot take where it changes from day to day.
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from mechsym import periodic
+from mechsym.codesign.points import Function, Point, bare_flywheel
+from mechsym.codesign.rank import flywheel_bound, rank
+from mechsym.quantities import quantity, record
+
+
+@record
+class Count:
+    """What one number of cylinders needs."""
+
+    cylinders: int
+    bare: float = quantity("kg*m^2", about="flywheel without a hinge")
+    hinge: float = quantity("kg*m^2", about="flywheel that one spring needs at least")
+    swing: float = quantity("kg*m^2", about="D_1")
+
+
+def even_firing(count: int, period: float) -> tuple[float, ...]:
+    """Crank angles [rad] of the cylinders of an evenly firing machine; `period` [rad] is that of one cylinder."""
+    return tuple(i * period / count for i in range(count))
+
+
+def together(point: Point, angles: Sequence[float], factors: Sequence[float] | None = None) -> Point:
+    """A point of a machine whose cylinders fire at some crank angles [rad].
+
+    Parameters
+    ----------
+    factors : sequence of float, optional
+        Gas work of each cylinder by that of the point, for a spread of their pressures [-]
+    """
+    shares = list(factors) if factors is not None else [1.0] * len(angles)
+    half = point.omega**2 / 2
+
+    def work(phi: np.ndarray) -> np.ndarray:
+        # a share of the gas alone: the masses of all cylinders are the same
+        inert = [half * point.inertia(phi + a) for a in angles]
+        gas = [point.work(phi + a) - i for a, i in zip(angles, inert, strict=True)]
+        return np.asarray(sum(i + s * g for i, s, g in zip(inert, shares, gas, strict=True)))
+
+    kinks = tuple(sorted({round(float((k - a) % point.period), 12) for k in point.kinks for a in angles}))
+    misfire = None if point.misfire is None else _one_missing(point, angles)
+    return dataclasses.replace(
+        point,
+        load_torque=point.load_torque * sum(shares),
+        work=periodic.fit(work, kinks, point.period, 1e-11),
+        inertia=periodic.fit(_sum(point.inertia, angles), kinks, point.period, 1e-11),
+        torque=_sum(point.torque, angles, shares),
+        misfire=misfire,
+        kinks=kinks,
+        misfire_kinks=tuple(sorted({*kinks, *point.misfire_kinks})),
+    )
+
+
+def counts(points: Sequence[Point], ripple: float, most: int = 12) -> list[Count]:
+    """Flywheels of 1 to `most` evenly firing cylinders for a ripple [-], without a hinge and with one."""
+    rows = []
+    for n in range(1, most + 1):
+        made = tuple(together(p, even_firing(n, p.period)) for p in points)
+        bound = rank(made, 1)
+        rows.append(Count(cylinders=n, bare=bare_flywheel(made, ripple), swing=bound.swing[0],
+                          hinge=flywheel_bound(made, bound, ripple)[0]))  # fmt: skip
+    return rows
+
+
+def _sum(function: Callable, angles: Sequence[float], shares: Sequence[float] | None = None) -> Function:
+    factors = shares or [1.0] * len(angles)
+
+    def summed(phi: np.ndarray) -> np.ndarray:
+        return np.asarray(sum(f * function(np.asarray(phi) + a) for a, f in zip(angles, factors, strict=True)))
+
+    return summed
+
+
+def _one_missing(point: Point, angles: Sequence[float]) -> Function:
+    """Torque of a turn in which the first cylinder does not fire [N*m]."""
+    others = _sum(point.torque, angles[1:]) if len(angles) > 1 else None
+
+    def torque(phi: np.ndarray) -> np.ndarray:
+        first = point.misfire(np.asarray(phi) + angles[0])  # type: ignore[misc]
+        return np.asarray(first if others is None else first + others(phi))
+
+    return torque

@@ -1,0 +1,78 @@
+"""How sure is the ripple? Small errors of pressure, index, mass and load drawn at random, and each by itself."""
+
+import dataclasses
+
+import numpy as np
+
+from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.points import Point, motion
+from mechsym.codesign.running import added_inertia
+from mechsym.codesign.task import CoDesign, Track
+from mechsym.hinge.ripple import ripple
+from mechsym.quantities import record
+
+#: what may be off, and by how much at one sigma: shares, and 0.01 for the index
+ERRORS = {"p0": 0.005, "n": 0.01, "load": 0.01, "moving_mass": 0.05, "flywheel": 0.01}
+_SEED = 12
+_STOPPED = 2.0  # ripple of a shaft that stops
+
+
+@record
+class Spread:
+    """Largest ripple of all points, under errors."""
+
+    samples: np.ndarray  #: shape (m,), ascending [-]
+    alone: dict[str, tuple[float, float]]  #: each error alone at minus and plus two sigma [-]
+    errors: dict[str, float]  #: one sigma of each, as `ERRORS` [-]
+
+    @property
+    def p95(self) -> float:
+        """Ripple that 19 of 20 keep [-]."""
+        return float(np.quantile(self.samples, 0.95))
+
+
+def spread(found: CoDesign, count: int = 200, errors: dict[str, float] | None = None) -> Spread:
+    """Ripple of a co-design whose pressures are set as designed, while the machine is a little off.
+
+    Parameters
+    ----------
+    errors : dict, optional
+        One sigma of some of `ERRORS` in place of theirs; pressures are off by one share for all springs [-]
+    """
+    sigma = ERRORS | (errors or {})
+    draws = np.random.default_rng(_SEED).standard_normal((count, len(sigma)))
+    samples = [worst(found, dict(zip(sigma, row * list(sigma.values()), strict=True))) for row in draws]
+    alone = {name: (worst(found, {name: -2 * s}), worst(found, {name: 2 * s})) for name, s in sigma.items()}
+    return Spread(samples=np.sort(samples), alone=alone, errors=sigma)
+
+
+def worst(found: CoDesign, off: dict[str, float]) -> float:
+    """Largest ripple of all points with errors by name [-]; 2 where the shaft stops."""
+    tracks = [_changed(track, off) for track in found.tracks]
+    flywheel = found.flywheel * (1 + off.get("flywheel", 0.0))
+    rows = [_ripple(point, tracks, k, flywheel, off) for k, point in enumerate(found.task.points)]
+    return max(_STOPPED if r is None else r for r in rows)
+
+
+def _ripple(point: Point, tracks: list[Track], k: int, flywheel: float, off: dict[str, float]) -> float | None:
+    half, load = point.omega**2 / 2, 1 + off.get("load", 0.0)
+
+    def missing(phi: np.ndarray) -> np.ndarray:
+        # more load is more work of the gas, not of the engine's masses
+        own = half * point.inertia(phi)
+        w = own + load * (point.work(phi) - own)
+        for track in tracks:
+            h, p0 = track.hardware, track.p0[k] * (1 + off.get("p0", 0.0))
+            w = w + h.A * gas_energy(track.z(phi), p0, h.H, h.n, outside(h)) + half * added_inertia(track, phi)
+        return np.asarray(w - w.mean())
+
+    def total(phi: np.ndarray) -> np.ndarray:
+        return np.asarray(point.inertia(phi) + flywheel + sum(added_inertia(t, phi) for t in tracks))
+
+    return ripple(motion(point, missing, total)[1])
+
+
+def _changed(track: Track, off: dict[str, float]) -> Track:
+    h = track.hardware
+    mass = h.moving_mass * (1 + off.get("moving_mass", 0.0))
+    return dataclasses.replace(track, hardware=dataclasses.replace(h, n=h.n + off.get("n", 0.0), moving_mass=mass))
