@@ -34,6 +34,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
               mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
     """
     from mechsym import cases
+    from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
     from mechsym.jobs import codesign as job
 
@@ -43,7 +44,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
         make_folder(out)
     with progress(job.STEPS + len(ripples) + bool(out), f"co-design of {case.name}") as bar:
         found = job.codesign(case, settings, ripples, lambda: bar.update(1))
-        numbers, files = job.summary(found), []
+        numbers, files = summary(found), []
         if out is not None:
             from mechsym.codesign.report import write
 

@@ -8,6 +8,7 @@ from mechsym.codesign.front import CutForOne
 from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.loss import relaxation_time
 from mechsym.codesign.rank import Bound, flywheel_bound
+from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import CoDesign, Task
 from mechsym.codesign.verify import Contact, Verified
 from mechsym.hinge.losses import Losses, LossTorques
@@ -16,7 +17,19 @@ _RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
 
-def summary(design: CoDesign, verified: Verified) -> dict[str, Any]:
+def summary(result: CoDesignResult) -> dict[str, Any]:
+    """The result as `mechsym codesign --json` prints it."""
+    return {
+        **found(result.design, result.verified),
+        **limits_of_any_guide(result.design.task, result.bound, result.bare, result.cut),
+        **what_it_costs(result.design, result.losses, result.assumed),
+        "misfire_speed_share": list(result.misfire),
+        "pareto": [row(design) for design in result.front],
+        "doubts": [],
+    }
+
+
+def found(design: CoDesign, verified: Verified) -> dict[str, Any]:
     """What was found, and by which ways it was checked."""
     task = design.task
     return {

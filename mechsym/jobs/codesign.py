@@ -9,41 +9,25 @@ import numpy as np
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.codesign import family, loss, scenarios
-from mechsym.codesign import summary as numbers
 from mechsym.codesign.family import Place
-from mechsym.codesign.front import CutForOne, cut_for_one, front
+from mechsym.codesign.front import cut_for_one, front
 from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.misfire import unfired, unfired_kinks
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
-from mechsym.codesign.rank import Bound, rank
+from mechsym.codesign.rank import rank
+from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, Task
-from mechsym.codesign.verify import Verified, verify
+from mechsym.codesign.verify import verify
 from mechsym.errors import BadInput
 from mechsym.hinge import torque as hinge
 from mechsym.hinge.choices import ROLLERS
-from mechsym.hinge.losses import Losses, LossTorques
+from mechsym.hinge.losses import Losses
 from mechsym.jobs.machine import Assembly, assemble
 from mechsym.mechanisms.record import curves
-from mechsym.quantities import quantity, record
 
 STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple of a front
-
-
-@record
-class CoDesignResult:
-    """Everything that the report of a co-design shows."""
-
-    design: CoDesign
-    bound: Bound
-    bare: float = quantity("kg*m^2", about="flywheel without a hinge")
-    cut: CutForOne  #: the guide of the middle point used for all
-    verified: Verified
-    losses: tuple[LossTorques, ...]  #: at each point
-    assumed: Losses  #: friction and heat that they were computed with
-    misfire: list[float | None]  #: lowest speed after a lost combustion by the mean, at each point; 0 for a stall [-]
-    front: tuple[CoDesign, ...]
 
 
 def codesign(
@@ -77,8 +61,10 @@ def codesign(
     assumed = case.sections.get("losses", Losses())
     lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
     progress()
-    return CoDesignResult(design=design, bound=bound, bare=bare, cut=cut, verified=verified, losses=lost,
-                          assumed=assumed, misfire=misfire, front=tuple(designs))  # fmt: skip
+    return CoDesignResult(
+        name=case.name, about=case.about, design=design, bound=bound, bare=bare, cut=cut, verified=verified,
+        losses=lost, assumed=assumed, misfire=tuple(misfire), front=tuple(designs),
+    )  # fmt: skip
 
 
 def task_of(case: Case, settings: CoDesignSettings) -> Task:
@@ -151,15 +137,3 @@ def _heavy_enough(design: CoDesign, misfire_speed: float) -> CoDesign:
         return design
     needed = scenarios.misfire_flywheel(design, misfire_speed)
     return design if needed is None else dataclasses.replace(design, flywheel=needed)
-
-
-def summary(found: CoDesignResult) -> dict[str, Any]:
-    """The result as `mechsym codesign --json` prints it."""
-    return {
-        **numbers.summary(found.design, found.verified),
-        **numbers.limits_of_any_guide(found.design.task, found.bound, found.bare, found.cut),
-        **numbers.what_it_costs(found.design, found.losses, found.assumed),
-        "misfire_speed_share": found.misfire,
-        "pareto": [numbers.row(d) for d in found.front],
-        "doubts": [],
-    }

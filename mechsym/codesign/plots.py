@@ -1,0 +1,166 @@
+"""Pictures of a co-design."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mechsym.codesign.cylinders import Count
+from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.verify import fine_path
+from mechsym.hinge.plots import BLUE, GREEN, GREY, ORANGE, RED
+
+_RPM = 30 / np.pi
+_KINDS = ("bearing", "seal", "guide", "rolling", "gas")
+_COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
+
+
+def works(result: CoDesignResult) -> Figure:
+    """The works that the points want, by their own pressures: nearly one curve; what one shape leaves."""
+    figure, (left, right) = _panels(2)
+    bound, best = result.bound, result.bound.best[0]
+    for k, point in enumerate(result.design.task.points):
+        color, name = _COLORS[k % len(_COLORS)], f"{point.omega * _RPM:.0f} rpm"
+        left.plot(np.degrees(bound.phi), bound.wanted[k], color=color, linewidth=1, label=name)
+        right.plot(np.degrees(bound.phi), bound.wanted[k] - best.shares[k] @ best.shapes, color=color, linewidth=1)
+    left.set(xlabel="crank angle [deg]", ylabel="W / omega² [kg m²]")
+    left.legend(fontsize=7)
+    right.set(xlabel="crank angle [deg]", ylabel=f"left by one shape, swing {best.swing:.3g} [kg m²]")
+    return figure
+
+
+def front(result: CoDesignResult) -> Figure:
+    """Flywheel over ripple: bare, guide cut for one speed, co-designed, the bound, and what a misfire asks."""
+    figure, (axis,) = _panels(1)
+    designs = sorted([*result.front, result.design], key=lambda d: d.task.ripple)
+    ripples = np.array([100 * d.task.ripple for d in designs])
+    words = {1: "one spring", 2: "two springs", 3: "three springs"}[result.design.task.springs]
+    axis.plot(ripples, [d.flywheel for d in designs], "o-", color=BLUE, markersize=4, label=f"co-designed, {words}")
+    wanted = 100 * result.design.task.ripple
+    axis.plot([wanted], [result.bare], "s", color=RED, label="without a hinge")
+    if result.cut.flywheel is not None:
+        axis.plot([wanted], [result.cut.flywheel], "D", color=ORANGE, label="guide cut for one speed")
+    swings = result.bound.swing[result.design.task.springs - 1]
+    own = float(np.mean(result.design.task.points[0].inertia(np.linspace(0, 2 * np.pi, 181))))
+    axis.plot(
+        ripples, np.maximum(100 * swings / ripples - own, 1e-3), ":", color=GREY, label="no guide better (massless)"
+    )
+    axis.set_yscale("symlog", linthresh=10)
+    axis.set_ylim(bottom=0)
+    axis.set(xlabel="speed ripple [%]", ylabel="added flywheel [kg m²]")
+    axis.legend(fontsize=7)
+    return figure
+
+
+def guides(result: CoDesignResult) -> Figure:
+    """Paths of the roller centres to scale, and contact force and closing around the turn at the hardest point."""
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    polar, force = figure.add_subplot(1, 2, 1, projection="polar"), figure.add_subplot(1, 2, 2)
+    for s, (track, contact) in enumerate(zip(result.design.tracks, result.verified.contacts, strict=True)):
+        phi, path = fine_path(track, result.design.task.points[0].period)
+        ratio = track.hardware.shaft_ratio
+        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, np.append(path.rho, path.rho[0]), color=_COLORS[s])
+        polar.set_title(f"path of the roller centres, {contact.rho_min:.3f} to {contact.rho_max:.3f} m", fontsize=8)
+        name = f"guide {s + 1}" if len(result.design.tracks) > 1 else "closing z"
+        force.plot(np.degrees(phi), 1e3 * path.z, color=_COLORS[s], label=name)
+    polar.set_ylim(0)
+    force.set(xlabel="crank angle [deg]", ylabel="closing z [mm]")
+    force.legend(fontsize=7)
+    _tidy(force)
+    return figure
+
+
+def points(result: CoDesignResult) -> Figure:
+    """Ripple by three ways, and the schedule of pressures, over the speed."""
+    figure, (left, right) = _panels(2)
+    design, found = result.design, result.verified
+    speeds = np.array([p.omega * _RPM for p in design.task.points])
+    left.plot(speeds, 100 * found.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none")
+    left.plot(speeds, 100 * found.steady_ripple, "x", color=RED, label="over the angle")
+    left.plot(speeds, 100 * found.time_ripple, "+", color="#1b2a41", label="run in time")
+    left.axhline(100 * design.task.ripple, color=GREY, linewidth=0.8)
+    left.set(xlabel="speed [rpm]", ylabel="speed ripple [%]")
+    left.set_ylim(bottom=0)
+    left.legend(fontsize=7)
+    for s, track in enumerate(design.tracks):
+        right.plot(speeds, track.p0 / 1e6, "o-", color=_COLORS[s], markersize=4, label=f"spring {s + 1}")
+    right.set(xlabel="speed [rpm]", ylabel="excess pressure p0 [MPa]")
+    right.set_ylim(bottom=0)
+    right.legend(fontsize=7)
+    return figure
+
+
+def losses(result: CoDesignResult) -> Figure:
+    """What friction and heat take at each point, as shares of the load's torque."""
+    figure, (axis,) = _panels(1)
+    task = result.design.task
+    names, below = [f"{p.omega * _RPM:.0f}" for p in task.points], np.zeros(len(task.points))
+    for kind, color in zip(_KINDS, _COLORS, strict=False):
+        values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
+                           for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
+        if values.any():
+            axis.bar(names, values, bottom=below, color=color, label=kind, width=0.6)
+        below = below + values
+    axis.set(xlabel="speed [rpm]", ylabel="losses of the hinge [% of the load's torque]")
+    axis.legend(fontsize=7)
+    return figure
+
+
+def misfires(result: CoDesignResult) -> Figure | None:
+    """Speed in the turn after a lost combustion; None where no point knows it."""
+    rows = [s for s in result.scenarios if s.name == "misfire" and s.run is not None]
+    if not rows:
+        return None
+    figure, (axis,) = _panels(1)
+    for s, color in zip(rows, _COLORS, strict=False):
+        point = result.design.task.points[s.point]
+        assert s.run is not None
+        axis.plot(np.degrees(s.run.phi), s.run.omega / point.omega, color=color, label=f"{point.omega * _RPM:.0f} rpm")
+    axis.axhline(1.0, color=GREY, linewidth=0.8)
+    axis.set(xlabel="crank angle [deg]", ylabel="speed by the mean before")
+    axis.set_ylim(bottom=0)
+    axis.legend(fontsize=7)
+    return figure
+
+
+def spread(result: CoDesignResult) -> Figure | None:
+    """Ripple under small errors: histogram and tornado; None where they were not drawn."""
+    if result.spread is None:
+        return None
+    figure, (left, right) = _panels(2)
+    left.hist(100 * result.spread.samples, bins=24, color=BLUE)
+    left.axvline(100 * result.spread.p95, color=RED, linewidth=1, label="19 of 20 keep this")
+    left.set(xlabel="largest speed ripple [%]", ylabel="number of machines")
+    left.legend(fontsize=7)
+    base = 100 * float(result.verified.programme_ripple.max())
+    rows = sorted(result.spread.alone.items(), key=lambda row: max(row[1]))
+    for y, (_, (low, high)) in enumerate(rows):
+        for value, color in ((low, ORANGE), (high, BLUE)):
+            right.plot([base, 100 * value], [y, y], color=color, linewidth=7, solid_capstyle="butt", alpha=0.6)
+    right.set_yticks(range(len(rows)), [f"{name} ± {200 * result.spread.errors[name]:g} %" for name, _ in rows])
+    right.set(xlabel="largest speed ripple [%]")
+    return figure
+
+
+def cylinders(rows: list[Count]) -> Figure:
+    """Flywheel over the number of cylinders, without a hinge and with one."""
+    figure, (axis,) = _panels(1)
+    numbers = np.array([r.cylinders for r in rows])
+    axis.bar(numbers - 0.2, [r.bare for r in rows], width=0.4, color=RED, label="without a hinge")
+    axis.bar(numbers + 0.2, [max(r.hinge, 0.0) for r in rows], width=0.4, color=BLUE, label="one hinge, at least")
+    axis.set_yscale("symlog", linthresh=10)
+    axis.set(xlabel="cylinders, even firing", ylabel="added flywheel [kg m²]", xticks=numbers)
+    axis.legend(fontsize=7)
+    return figure
+
+
+def _panels(count: int) -> tuple[Figure, list]:
+    figure = Figure(figsize=(9 if count == 2 else 6, 3.4), layout="constrained")
+    axes = list(np.atleast_1d(figure.subplots(1, count)))
+    for axis in axes:
+        _tidy(axis)
+    return figure, axes
+
+
+def _tidy(axis: object) -> None:
+    axis.grid(True, color="#e3e6ea", linewidth=0.7)  # type: ignore[attr-defined]
+    axis.set_axisbelow(True)  # type: ignore[attr-defined]
+    axis.spines[["top", "right"]].set_visible(False)  # type: ignore[attr-defined]
