@@ -48,7 +48,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
         if out is not None:
             from mechsym.codesign.report import write
 
-            files = write(found, numbers, out)
+            files = write(job.for_report(case, settings, found), numbers, out)
             bar.update(1)
     emit(numbers, as_json, lambda: _text(numbers, files))
     if not numbers["feasible"]:

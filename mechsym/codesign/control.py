@@ -37,8 +37,6 @@ def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
     ----------
     machine : Running
         As designed: its pressures are those wanted
-    turn : TimeRun
-        One period, as measured
     """
     phi, omega = turn.phi, turn.omega
     load = np.asarray(load_torque(machine.load, omega))

@@ -121,6 +121,30 @@ def misfires(result: CoDesignResult) -> Figure | None:
     return figure
 
 
+def ripple_map(result: CoDesignResult) -> Figure | None:
+    """Ripple and best pressure over speed and load; None where they were not computed."""
+    if result.map is None:
+        return None
+    figure, (left, right) = _panels(2)
+    speeds, loads = result.map.omega * _RPM, result.map.load / 1e5
+    shown = np.minimum(100 * result.map.ripple, 30.0)
+    drawn = left.contourf(speeds, loads, shown.T, levels=[0, 1, 2, 3, 5, 8, 12, 20, 30], cmap="viridis_r")
+    figure.colorbar(drawn, ax=left, label="speed ripple [%]")
+    drawn = right.contourf(speeds, loads, result.map.p0.T / 1e6, levels=12, cmap="cividis")
+    figure.colorbar(drawn, ax=right, label="p0 [MPa]")
+    for axis in (left, right):
+        axis.plot(
+            [p.omega * _RPM for p in result.design.task.points],
+            [p.load / 1e5 for p in result.design.task.points],
+            "o-",
+            color="white",
+            markersize=3,
+            linewidth=0.8,
+        )
+        axis.set(xlabel="speed [rpm]", ylabel="mean indicated pressure [bar]")
+    return figure
+
+
 def spread(result: CoDesignResult) -> Figure | None:
     """Ripple under small errors: histogram and tornado; None where they were not drawn."""
     if result.spread is None:

@@ -1,6 +1,5 @@
 """Files of a co-design: one HTML page for a builder that opens offline, tables of guides and points, pictures."""
 
-import dataclasses
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -11,23 +10,15 @@ from mechsym.codesign import plots
 from mechsym.codesign.contact_block import contact_force
 from mechsym.codesign.hardware import gas_pressure, outside
 from mechsym.codesign.result import CoDesignResult
-from mechsym.codesign.scenarios import table
 from mechsym.codesign.task import Track
-from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import fine_path
 from mechsym.files import to_json, write_csv, write_text
 from mechsym.hinge.plots import svg
 from mechsym.hinge.report import significant
 
 
-def with_dangers(result: CoDesignResult) -> CoDesignResult:
-    """The result with its scenarios at the first and the last point, and the spread under small errors."""
-    return dataclasses.replace(result, scenarios=tuple(table(result.design)), spread=spread(result.design))
-
-
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:
     """Write page, summary, tables and pictures into a folder, which is made when missing."""
-    result = with_dangers(result)
     pictures = figures(result)
     files = [
         write_text(folder / "report.html", html(result, numbers, pictures)),
@@ -60,6 +51,7 @@ def figures(result: CoDesignResult) -> dict[str, str]:
         "losses": plots.losses(result),
         "misfire": plots.misfires(result),
         "spread": plots.spread(result),
+        "map": plots.ripple_map(result),
     }
     return {name: svg(figure) for name, figure in made.items() if figure is not None}
 

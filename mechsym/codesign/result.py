@@ -1,8 +1,10 @@
 """What the job of a co-design gives: the design, its bound, what stands beside it, its checks, costs and dangers."""
 
 from mechsym.codesign.front import CutForOne
+from mechsym.codesign.loss import Lossy
 from mechsym.codesign.rank import Bound
 from mechsym.codesign.scenarios import Scenario
+from mechsym.codesign.schedule import RippleMap
 from mechsym.codesign.task import CoDesign
 from mechsym.codesign.uncertainty import Spread
 from mechsym.codesign.verify import Verified
@@ -23,7 +25,9 @@ class CoDesignResult:
     verified: Verified
     losses: tuple[LossTorques, ...]  #: at each point
     assumed: Losses  #: friction and heat that they were computed with
+    lossy: tuple[Lossy, ...]  #: each point with them, its springs filled anew
     misfire: tuple[float | None, ...]  #: lowest speed after a lost combustion by the mean, at each point; 0 stalls [-]
     front: tuple[CoDesign, ...]
     scenarios: tuple[Scenario, ...] = ()  #: computed for the report only
     spread: Spread | None = None  #: computed for the report only
+    map: RippleMap | None = None  #: computed for the report only

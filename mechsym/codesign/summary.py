@@ -11,7 +11,6 @@ from mechsym.codesign.rank import Bound, flywheel_bound
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import CoDesign, Task
 from mechsym.codesign.verify import Contact, Verified
-from mechsym.hinge.losses import Losses, LossTorques
 
 _RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
@@ -22,7 +21,7 @@ def summary(result: CoDesignResult) -> dict[str, Any]:
     return {
         **found(result.design, result.verified),
         **limits_of_any_guide(result.design.task, result.bound, result.bare, result.cut),
-        **what_it_costs(result.design, result.losses, result.assumed),
+        **what_it_costs(result),
         "misfire_speed_share": list(result.misfire),
         "pareto": [row(design) for design in result.front],
         "doubts": [],
@@ -89,8 +88,9 @@ def limits_of_any_guide(task: Task, bound: Bound, bare: float, cut: CutForOne) -
     }
 
 
-def what_it_costs(design: CoDesign, lost: tuple[LossTorques, ...], assumed: Losses) -> dict[str, Any]:
+def what_it_costs(result: CoDesignResult) -> dict[str, Any]:
     """Losses at each point, as torques and as shares of the load's torque, with what was assumed for them."""
+    design, lost, assumed = result.design, result.losses, result.assumed
     loads = np.array([abs(p.load_torque) for p in design.task.points])
     torques = {kind: np.array([getattr(at, kind) for at in lost]) for kind in _KINDS}
     total = sum(torques.values())
@@ -100,6 +100,8 @@ def what_it_costs(design: CoDesign, lost: tuple[LossTorques, ...], assumed: Loss
             "share": (total / loads).tolist(),
             "shaft_efficiency": (1 - total / loads).tolist(),
             "extra_fuel": (total / np.maximum(loads - total, 1e-30)).tolist(),
+            "speed_ripple": [at.ripple for at in result.lossy],
+            "fill": [at.fill for at in result.lossy],
             "assumed": {
                 "bearing_mu": assumed.bearing_mu,
                 "bearing_radius": assumed.bearing_radius or design.tracks[0].hardware.radius / 2,

@@ -17,8 +17,10 @@ from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.schedule import RippleMap, ripple_map
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import verify
 from mechsym.errors import BadInput
 from mechsym.hinge import torque as hinge
@@ -27,6 +29,9 @@ from mechsym.hinge.losses import Losses
 from mechsym.jobs.machine import Assembly, assemble
 from mechsym.mechanisms.record import curves
 
+_SHARES = (0.12, 1.1)  # loads of the map by the full load
+_LOADS = 12  # computed; those between are interpolated
+_MAP = 50  # speeds and loads of the map
 STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple of a front
 
 
@@ -60,11 +65,24 @@ def codesign(
     progress()
     assumed = case.sections.get("losses", Losses())
     lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
+    lossy = tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points)))
     progress()
     return CoDesignResult(
         name=case.name, about=case.about, design=design, bound=bound, bare=bare, cut=cut, verified=verified,
-        losses=lost, assumed=assumed, misfire=tuple(misfire), front=tuple(designs),
+        losses=lost, assumed=assumed, lossy=lossy, misfire=tuple(misfire), front=tuple(designs),
     )  # fmt: skip
+
+
+def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:
+    """The result with what only the report shows: scenarios, spread under small errors, map over speed and load."""
+    design, high = result.design, settings.full_speed
+    one = len(design.tracks) == 1 and settings.curve == "propeller"
+    return dataclasses.replace(
+        result,
+        scenarios=tuple(scenarios.table(design)),
+        spread=spread(design),
+        map=_map(case, settings, design, 1.05 * max(*settings.speeds, high)) if one else None,
+    )
 
 
 def task_of(case: Case, settings: CoDesignSettings) -> Task:
@@ -124,6 +142,14 @@ def hardware(case: Case, moving_mass: float) -> Hardware:
         z_margin=guide.z_margin, count=ROLLERS[guide.arrangement], shaft_ratio=guide.shaft_ratio,
         radius=rollers.radius, width=rollers.width, E=rollers.E, nu=rollers.nu, moving_mass=moving_mass,
     )  # fmt: skip
+
+
+def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: float) -> RippleMap:
+    shares = tuple(np.linspace(_SHARES[0], _SHARES[1], _LOADS).tolist())
+    family_ = dataclasses.replace(settings, curve="constant_speed", speeds=(settings.full_speed,), loads=shares)
+    loads = points(case, family_)
+    omega = np.linspace(0.9 * min(settings.speeds), fastest, _MAP)
+    return ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
 
 
 def _middle(task: Task) -> int:
