@@ -67,7 +67,7 @@ _SECTIONS: dict[str, Any] = {
     ),
     "guide": "mechsym.hinge.guide:GuideParameters",
     "rollers": "mechsym.hinge.rollers:RollerParameters",
-    "losses": "mechsym.hinge.losses:Losses",
+    "losses": "mechsym.hinge.losses:HingeLosses",
     "codesign": "mechsym.codesign.settings:CoDesignSettings",
     "limits": "mechsym.hinge.limits:Limits",
     "friction": "mechsym.forces.friction:Friction",

@@ -60,46 +60,36 @@ def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]
     import dataclasses
 
     from mechsym.errors import BadInput
+    from mechsym.quantities.ranges import values
 
     changed: dict[str, Any] = {}
     if options["speeds"] is not None:
-        changed["speeds"] = tuple(_list(options["speeds"], "rad/s", "--speeds", "rpm"))
+        changed["speeds"] = tuple(values(options["speeds"], "rad/s", "--speeds", "rpm"))
     if options["loads"] is not None:
-        changed["loads"] = tuple(_list(options["loads"], "-", "--loads"))
+        changed["loads"] = tuple(values(options["loads"], "-", "--loads"))
     for name in ("curve", "springs", "schedule"):
         if options[name] is not None:
             changed[name] = options[name]
     for name in ("ripple", "misfire_speed"):
         if options[name] is not None:
-            changed[name] = _list(options[name], "-", "--" + name.replace("_", "-"))[0]
+            changed[name] = _one(options[name], "--" + name.replace("_", "-"))
     if options["robust"] is not None:
         key, _, value = options["robust"].rpartition("=")
         if key not in ("", "spring.p0", "p0"):
             raise BadInput(f"--robust {options['robust']!r}: only spring.p0 can be made robust; write spring.p0=1%")
-        changed["robust"] = _list(value, "-", "--robust")[0]
+        changed["robust"] = _one(value, "--robust")
     if options["free"] is not None:
         changed["free"] = tuple(name.strip() for name in options["free"].split(",") if name.strip())
-    ripples = _list(options["pareto"], "-", "--pareto") if options["pareto"] is not None else []
+    ripples = values(options["pareto"], "-", "--pareto") if options["pareto"] is not None else []
     if any(not 0 < r < 1 for r in ripples) or len(set(ripples)) < len(ripples):
         raise BadInput(f"--pareto {options['pareto']!r}: ripples between 0 and 1, each of them once, such as 1,2,5%")
     return dataclasses.replace(settings, **changed), ripples
 
 
-def _list(text: str, unit: str, option: str, usual: str = "") -> list[float]:
-    """Numbers with commas in SI; one unit behind the last number holds for all, `usual` where there is none."""
-    import re
-
-    from mechsym.errors import BadInput
+def _one(text: str, option: str) -> float:
     from mechsym.quantities import parse
 
-    parts = [part.strip() for part in text.split(",")]
-    if "" in parts:
-        raise BadInput(f"{option} {text!r}: write numbers with commas, such as 1,2,5")
-    tail = re.search(r"[A-Za-z%/^*0-9]*[A-Za-z%]$", parts[-1])
-    last = re.sub(r"^[-+0-9.eE]*", "", tail[0]) if tail else ""
-    last = last or usual
-    bare = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
-    return [parse(f"{part} {last}" if last and bare.match(part) else part, unit, option) for part in parts]
+    return parse(text.strip(), "-", option)
 
 
 def _text(numbers: dict[str, Any], files: list[Path]) -> str:

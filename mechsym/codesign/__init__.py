@@ -16,9 +16,10 @@ from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.scenarios import misfire
-from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import verify
 
 __all__ = [
-    "Bounds", "CoDesign", "Hardware", "Point", "Task", "bare_flywheel", "front", "misfire", "rank", "solve", "verify",
+    "Bounds", "CoDesign", "CoDesignTask", "Hardware", "Point", "bare_flywheel", "front", "misfire", "rank", "solve",
+    "verify",
 ]  # fmt: skip

@@ -17,7 +17,7 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {"max": max, "min": min}
 
 
 @record
-class Place:
+class SpeedAndLoad:
     """One speed and load of a family."""
 
     omega: float = quantity("rad/s", above=0, about="speed")
@@ -25,14 +25,14 @@ class Place:
     weight: float = quantity("-", default=1.0, low=0, about="share of the time")
 
 
-def places(settings: CoDesignSettings) -> list[Place]:
+def places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
     """Speeds and loads of the curve `propeller` or `constant_speed`."""
     if settings.curve == "propeller":
         shares = [(s, (s / settings.full_speed) ** 2) for s in settings.speeds]
         pairs = [(s, share * load) for s, share in shares for load in settings.loads]
     else:
         pairs = [(s, load) for s in settings.speeds for load in settings.loads]
-    return [Place(omega=s, mep=share * settings.full_load) for s, share in pairs]
+    return [SpeedAndLoad(omega=s, mep=share * settings.full_load) for s, share in pairs]
 
 
 def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: float) -> Any:

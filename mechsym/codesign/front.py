@@ -9,9 +9,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Point
-from mechsym.codesign.programme import Programme, programme, solve
+from mechsym.codesign.programme import ReadyProgramme, programme, solve
 from mechsym.codesign.start import closing
-from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.quantities import quantity, record
 
@@ -21,7 +21,10 @@ _FAR = (0.5, 2.0)  # pressures that are tried, by the ratio of the works
 
 
 def front(
-    task: Task, ripples: Sequence[float], ready: Programme | None = None, progress: Callable[[], Any] = lambda: None
+    task: CoDesignTask,
+    ripples: Sequence[float],
+    ready: ReadyProgramme | None = None,
+    progress: Callable[[], Any] = lambda: None,
 ) -> list[CoDesign]:
     """The best flywheel for each ripple, smallest ripple first; one programme, each solve starts from the one before.
 
@@ -29,7 +32,7 @@ def front(
     ----------
     ripples : sequence of float
         Allowed (max - min) / mean of the speed [-]
-    ready : Programme, optional
+    ready : ReadyProgramme, optional
         Of the same task but for ripple and limits
 
     Returns
@@ -61,7 +64,7 @@ class CutForOne:
     ripple: np.ndarray  #: shape (k,), with that flywheel [-]
 
 
-def cut_for_one(task: Task, at: int) -> CutForOne:
+def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
     """What the guide of one point needs at all points; rollers without mass, as the exact guide has them."""
     hardware, points = task.hardware, task.points
     phi = np.arange(_EVEN) * points[0].period / _EVEN

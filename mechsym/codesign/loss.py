@@ -13,7 +13,7 @@ from mechsym.codesign.running import Running
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.codesign.verify import fine_path
 from mechsym.hinge import losses as law
-from mechsym.hinge.losses import Losses, LossTorques
+from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
 from mechsym.quantities import quantity, record
 
@@ -30,7 +30,7 @@ class Lossy:
     fill: float = quantity("-", about="fill of the springs by that of the schedule")
 
 
-def friction(track: Track, k: int, point: Point, given: Losses) -> dict[str, np.ndarray]:
+def friction(track: Track, k: int, point: Point, given: HingeLosses) -> dict[str, np.ndarray]:
     """Torques on the crank that bearings, seals and guides take at the k-th point, each of shape (n,) [N*m]."""
     h, path = track.hardware, fine_path(track, point.period)[1]
     force = h.A * gas_pressure(path.z, track.p0[k], h.H, h.n, outside(h))
@@ -46,7 +46,7 @@ def friction(track: Track, k: int, point: Point, given: Losses) -> dict[str, np.
     }
 
 
-def gas_turn(track: Track, k: int, point: Point, given: Losses, fill: float = 1.0) -> GasTurn:
+def gas_turn(track: Track, k: int, point: Point, given: HingeLosses, fill: float = 1.0) -> GasTurn:
     """The gas of one spring at its k-th point with a wall that exchanges heat; `fill` [-] is by that of the schedule.
 
     Without a time of its own the exchange is what would show the index of the spring at this speed.
@@ -59,7 +59,7 @@ def gas_turn(track: Track, k: int, point: Point, given: Losses, fill: float = 1.
     return turn(spring, path.z, np.full(phi.size, point.period / phi.size), point.omega)
 
 
-def relaxation_time(n: float, omega: float, given: Losses) -> float:
+def relaxation_time(n: float, omega: float, given: HingeLosses) -> float:
     """Time [s] of the gas to take the wall's temperature: given, or such that the index n [-] shows at omega [rad/s].
 
     An index at gamma or above leaves no exchange, one at 1 a very fast one.
@@ -70,12 +70,12 @@ def relaxation_time(n: float, omega: float, given: Losses) -> float:
     return x_of_index(inside, given.gamma) / omega
 
 
-def losses(found: CoDesign, given: Losses) -> tuple[LossTorques, ...]:
+def losses(found: CoDesign, given: HingeLosses) -> tuple[LossTorques, ...]:
     """All guides together, at each point."""
     return tuple(_at_point(found, k, point, given) for k, point in enumerate(found.task.points))
 
 
-def with_losses(found: CoDesign, k: int, given: Losses) -> Lossy:
+def with_losses(found: CoDesign, k: int, given: HingeLosses) -> Lossy:
     """Ripple of a point with friction and heat in its motion, the load lowered by what they take, the fill set anew."""
     point = found.task.points[k]
     machine = running.running(point, found.tracks, k, found.flywheel)
@@ -90,7 +90,7 @@ def with_losses(found: CoDesign, k: int, given: Losses) -> Lossy:
     return Lossy(ripple=None if best.fun >= _STOPPED else float(best.fun), fill=float(best.x))
 
 
-def _at_point(found: CoDesign, k: int, point: Point, given: Losses) -> LossTorques:
+def _at_point(found: CoDesign, k: int, point: Point, given: HingeLosses) -> LossTorques:
     taken = dict.fromkeys(_KINDS, 0.0)
     for track in found.tracks:
         for kind, torque in friction(track, k, point, given).items():
@@ -99,7 +99,7 @@ def _at_point(found: CoDesign, k: int, point: Point, given: Losses) -> LossTorqu
     return LossTorques(**taken)
 
 
-def _real(machine: Running, found: CoDesign, k: int, given: Losses, fill: float) -> Running:
+def _real(machine: Running, found: CoDesign, k: int, given: HingeLosses, fill: float) -> Running:
     """The machine with the torque of friction, and of the gas with heat in place of the polytrope."""
     point, extra = machine.point, 0.0
     for track in found.tracks:

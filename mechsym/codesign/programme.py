@@ -21,7 +21,7 @@ from mechsym.codesign.basis import Basis, basis, curve
 from mechsym.codesign.derivatives import solver
 from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Samples, sample
-from mechsym.codesign.task import FREE, Active, CoDesign, Task, Track
+from mechsym.codesign.task import FREE, Active, CoDesign, CoDesignTask, Track
 from mechsym.codesign.unknowns import Gathered, GuideSymbols, guides
 from mechsym.quantities import quantity, record
 
@@ -46,10 +46,10 @@ _HARDWARE = (*FREE, "moving_mass")
 
 
 @record
-class Programme:
+class ReadyProgramme:
     """A task as IPOPT takes it; ripple and limits are parameters, so that a front is one programme."""
 
-    task: Task
+    task: CoDesignTask
     basis: Basis
     solver: ca.Function
     read: ca.Function  #: unknowns to coefficients, pressures, hardware, flywheel and ripples in SI
@@ -58,7 +58,7 @@ class Programme:
     wall: float = quantity("s", about="time of building")
 
 
-def programme(task: Task) -> Programme:
+def programme(task: CoDesignTask) -> ReadyProgramme:
     """Put the programme of a task together."""
     begin, turns = time.perf_counter(), task.points[0].period / (2 * np.pi)
     samples = sample(task.points, round(task.angles * turns))
@@ -75,7 +75,7 @@ def programme(task: Task) -> Programme:
     values = [ca.vertcat(*(g.values[name] for name in _HARDWARE)) for g in found]
     read = [ca.horzcat(*(g.coefficients for g in found)), ca.horzcat(*(g.p0 for g in found)), ca.horzcat(*values),
             _FLYWHEEL * flywheel, ripples]  # fmt: skip
-    return Programme(
+    return ReadyProgramme(
         task=task, basis=splines,
         solver=solver(x, parameters, flywheel + _SMOOTH * (smooth + chosen), gathered.rows, _OPTIONS),
         read=ca.Function("read", [x], read), start=np.concatenate(gathered.start),
@@ -85,14 +85,14 @@ def programme(task: Task) -> Programme:
     )  # fmt: skip
 
 
-def solve(task: Task, ready: Programme | None = None, near: CoDesign | None = None) -> CoDesign:
+def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesign | None = None) -> CoDesign:
     r"""Guides, pressures and the smallest flywheel for a task.
 
     .. math:: \min J \quad \text{subject to} \quad \delta_k \le \delta, \; \text{limits}
 
     Parameters
     ----------
-    ready : Programme, optional
+    ready : ReadyProgramme, optional
         A programme of the same task but for ripple and limits, used again
     near : CoDesign, optional
         A solution of the same programme to start from
@@ -109,12 +109,12 @@ def solve(task: Task, ready: Programme | None = None, near: CoDesign | None = No
     return _result(task, made, found, wall)
 
 
-def _values(task: Task) -> list[float]:
+def _values(task: CoDesignTask) -> list[float]:
     return [task.ripple, *(getattr(task.bounds, key) for key in _UNITS)]
 
 
 def _motions(
-    task: Task, samples: Samples, found: list[GuideSymbols], flywheel: Any, ripple: Any, gathered: Gathered
+    task: CoDesignTask, samples: Samples, found: list[GuideSymbols], flywheel: Any, ripple: Any, gathered: Gathered
 ) -> Any:
     """Motion of each point at each corner of the errors; the ripple of each, shape (k * corners,) [-]."""
     rollers = sum(g.inertia for g in found)
@@ -133,13 +133,13 @@ def _motions(
     return ca.vertcat(*ripples)
 
 
-def _energy(task: Task, guide: GuideSymbols, k: int, error: float) -> Any:
+def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> Any:
     """Energy of a spring at a point [J], with its pressure off by a factor."""
     of, H = task.hardware, guide.values["H"]
     return guide.values["A"] * gas_energy(guide.path.z, error * guide.p0[k], H, of.n, outside(of))
 
 
-def _contacts(task: Task, found: list[GuideSymbols], parameters: Any, gathered: Gathered) -> None:
+def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: Any, gathered: Gathered) -> None:
     """Limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed."""
     bounds = dataclasses.make_dataclass("SymbolicBounds", list(_UNITS))(*ca.vertsplit(parameters[1:]))
     fastest = task.hardware.shaft_ratio * max(p.omega for p in task.points)
@@ -149,7 +149,7 @@ def _contacts(task: Task, found: list[GuideSymbols], parameters: Any, gathered: 
         gathered.group([*rows.values(), ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
 
 
-def _result(task: Task, made: Programme, found: Any, wall: float) -> CoDesign:
+def _result(task: CoDesignTask, made: ReadyProgramme, found: Any, wall: float) -> CoDesign:
     coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in made.read(found["x"]))
     tracks = []
     for s in range(task.springs):
@@ -173,7 +173,7 @@ def _result(task: Task, made: Programme, found: Any, wall: float) -> CoDesign:
     )  # fmt: skip
 
 
-def _active(task: Task, sensitivity: np.ndarray, flywheel: float) -> tuple[Active, ...]:
+def _active(task: CoDesignTask, sensitivity: np.ndarray, flywheel: float) -> tuple[Active, ...]:
     units = {"ripple": "-", **_UNITS}
     rows = zip(units.items(), _values(task), -_FLYWHEEL * sensitivity, strict=True)
     least = _ACTIVE * (flywheel + 1.0)

@@ -18,7 +18,7 @@ from mechsym.codesign.hardware import Hardware, gas_energy, gas_pressure, outsid
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.codesign.verify import hertz
 from mechsym.errors import BadInput, suggest
-from mechsym.hinge.losses import Losses, bearing_torque
+from mechsym.hinge.losses import HingeLosses, bearing_torque
 from mechsym.quantities import record
 
 _CHOSEN = ("A", "H", "p0", "rho0", "radius", "width")
@@ -38,7 +38,7 @@ class Realised:
 
 
 def _bearing_loss(h: Hardware, path: Path, pressure: np.ndarray, N: np.ndarray) -> float:
-    given = Losses()
+    given = HingeLosses()
     return float(np.mean(bearing_torque(N, path.rho, path.drho, given.bearing_mu, h.radius / 2, h.radius, h.count)))
 
 

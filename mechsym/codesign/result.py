@@ -8,7 +8,7 @@ from mechsym.codesign.schedule import RippleMap
 from mechsym.codesign.task import CoDesign
 from mechsym.codesign.uncertainty import Spread
 from mechsym.codesign.verify import Verified
-from mechsym.hinge.losses import Losses, LossTorques
+from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.quantities import quantity, record
 
 
@@ -24,7 +24,7 @@ class CoDesignResult:
     cut: CutForOne  #: the guide of the middle point used for all
     verified: Verified
     losses: tuple[LossTorques, ...]  #: at each point
-    assumed: Losses  #: friction and heat that they were computed with
+    assumed: HingeLosses  #: friction and heat that they were computed with
     lossy: tuple[Lossy, ...]  #: each point with them, its springs filled anew
     misfire: tuple[float | None, ...]  #: lowest speed after a lost combustion by the mean, at each point; 0 stalls [-]
     front: tuple[CoDesign, ...]

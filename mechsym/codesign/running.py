@@ -22,7 +22,7 @@ from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.quantities import quantity, record
-from mechsym.simulate.angle import Machine, Panels, tabulate
+from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
 _TOLERANCE = 1e-10
@@ -105,7 +105,7 @@ def panels(machine: Running) -> Panels:
     point = machine.point
     knots = {float(x) for t in machine.tracks for x in t.z.x[:-1] % point.period}
     made = tabulate(
-        Machine(
+        ReducedMachine(
             inertia=lambda phi: inertia(machine, phi), torque=lambda phi: torque(machine, phi), load=machine.load,
             period=point.period, kinks=tuple(sorted({*machine.kinks, *knots})),
         )

@@ -4,7 +4,7 @@ import numpy as np
 
 from mechsym.codesign.hardware import Hardware, gas_energy, outside
 from mechsym.codesign.points import Samples
-from mechsym.codesign.task import Task
+from mechsym.codesign.task import CoDesignTask
 
 _SECOND = (0.15, 0.05)  # closing of a second spring at the start and its swing, by the height of its column
 _DEEPEST = 0.98  # share of the allowed closing that the start may take
@@ -22,14 +22,14 @@ def middle(samples: Samples) -> int:
     return int(order[(len(order) - 1) // 2])
 
 
-def start_pressures(task: Task, samples: Samples) -> list[np.ndarray]:
+def start_pressures(task: CoDesignTask, samples: Samples) -> list[np.ndarray]:
     """Excess pressures for each spring and point [Pa]: in proportion to the swing of the work."""
     swing = np.ptp(samples.work, axis=1)
     p0 = task.hardware.p0 * swing / swing[middle(samples)]
     return [p0 if s == 0 else p0 / 4 for s in range(task.springs)]
 
 
-def shapes(task: Task, samples: Samples) -> list[np.ndarray]:
+def shapes(task: CoDesignTask, samples: Samples) -> list[np.ndarray]:
     """Closing of each spring over the angles [m]."""
     hardware, work = task.hardware, samples.work[middle(samples)]
     deepest = _DEEPEST * task.bounds.closing_share * hardware.H

@@ -9,8 +9,8 @@ from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.loss import relaxation_time
 from mechsym.codesign.rank import Bound, flywheel_bound
 from mechsym.codesign.result import CoDesignResult
-from mechsym.codesign.task import CoDesign, Task
-from mechsym.codesign.verify import Contact, Verified
+from mechsym.codesign.task import CoDesign, CoDesignTask
+from mechsym.codesign.verify import GuideLoads, Verified
 
 _RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
@@ -55,7 +55,7 @@ def found(design: CoDesign, verified: Verified) -> dict[str, Any]:
     }
 
 
-def guide(contact: Contact, design: CoDesign, s: int) -> dict[str, Any]:
+def guide(contact: GuideLoads, design: CoDesign, s: int) -> dict[str, Any]:
     """Dimensions of one guide, and what it asks of its rollers at all points together."""
     h = design.tracks[s].hardware
     return {
@@ -69,7 +69,7 @@ def guide(contact: Contact, design: CoDesign, s: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def limits_of_any_guide(task: Task, bound: Bound, bare: float, cut: CutForOne) -> dict[str, Any]:
+def limits_of_any_guide(task: CoDesignTask, bound: Bound, bare: float, cut: CutForOne) -> dict[str, Any]:
     """The bound, and what stands beside a co-design: `bare` is the flywheel [kg*m^2] without a hinge."""
     h = task.hardware
     added = h.count * h.shaft_ratio**2 * float(

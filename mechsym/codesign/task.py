@@ -17,7 +17,7 @@ _MOST_POINTS = 60
 
 
 @record
-class Task:
+class CoDesignTask:
     """A machine, its points, the hardware of its guides, and the ripple that is allowed."""
 
     points: tuple[Point, ...]
@@ -63,7 +63,7 @@ class Active:
 class CoDesign:
     """Guides, schedule of pressures and flywheel, as the programme found them."""
 
-    task: Task
+    task: CoDesignTask
     status: str  #: `optimal`, `infeasible` or `not converged`
     reason: str  #: the solver's own words
     flywheel: float = quantity("kg*m^2", low=0, about="inertia added to the engine's own")

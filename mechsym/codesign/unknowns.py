@@ -12,7 +12,7 @@ from mechsym.codesign.contact_block import Path, path_of
 from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.points import Samples
 from mechsym.codesign.start import shapes, start_pressures
-from mechsym.codesign.task import FREE, MOST_MASS, Task
+from mechsym.codesign.task import FREE, MOST_MASS, CoDesignTask
 from mechsym.quantities import quantity, record
 
 MASS = 100.0  # unit of a free mass [kg]
@@ -65,7 +65,7 @@ class Gathered:
             self.high.append(np.broadcast_to(high, rows.numel()))
 
 
-def guides(task: Task, samples: Samples, splines: Basis, gathered: Gathered) -> list[GuideSymbols]:
+def guides(task: CoDesignTask, samples: Samples, splines: Basis, gathered: Gathered) -> list[GuideSymbols]:
     """Symbols of each guide, with their start; the pressures of a guide stand below one bound."""
     B, B1, B2 = matrices(splines, samples.phi)
     pressures, found, given = start_pressures(task, samples), [], task.hardware
@@ -87,7 +87,7 @@ def guides(task: Task, samples: Samples, splines: Basis, gathered: Gathered) -> 
     return found
 
 
-def _hardware(task: Task, s: int, gathered: Gathered) -> tuple[dict[str, Any], list[Any]]:
+def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str, Any], list[Any]]:
     given = {name: getattr(task.hardware, name) for name in (*FREE, "moving_mass")}
     values: dict[str, Any] = {name: ca.SX(value) for name, value in given.items()}
     shares = []

@@ -23,7 +23,7 @@ _SLACK = 5e-3  # a limit between the angles of the programme may be passed by th
 
 
 @record
-class Contact:
+class GuideLoads:
     """What one guide asks of its rollers at each point, arrays of shape (k,)."""
 
     reaction_max: np.ndarray  #: [N]
@@ -48,7 +48,7 @@ class Verified:
     steady_ripple: np.ndarray  #: nan where there is no steady motion [-]
     time_ripple: np.ndarray  #: nan after a stall [-]
     energy_residual: np.ndarray  #: of the runs in time [-]
-    contacts: tuple[Contact, ...]  #: one for each guide
+    contacts: tuple[GuideLoads, ...]  #: one for each guide
     broken: tuple[str, ...]  #: limits that are passed, in words
 
     @property
@@ -99,7 +99,7 @@ def fine_path(track: Track, period: float) -> tuple[np.ndarray, Path]:
     return phi, path_of(h, h.rho0, z, track.z.derivative()(phi), track.z.derivative(2)(phi))
 
 
-def contact(track: Track, points: Sequence[Point]) -> Contact:
+def contact(track: Track, points: Sequence[Point]) -> GuideLoads:
     """What a guide asks of its rollers at each point."""
     h, path = track.hardware, fine_path(track, points[0].period)[1]
     kappa = curvature(path)
@@ -107,7 +107,7 @@ def contact(track: Track, points: Sequence[Point]) -> Contact:
     asked = [(h.A * p, h.moving_mass, h.shaft_ratio * q.omega) for p, q in zip(pressures, points, strict=True)]
     N = [contact_force(path, *a) for a in asked]
     side = [side_force(force, path.rho, path.drho, path.d2rho, mass, omega) for force, mass, omega in asked]
-    return Contact(
+    return GuideLoads(
         reaction_max=np.array([n.max() for n in N]),
         reaction_min=np.array([n.min() for n in N]),
         pressure_max=np.array([p.max() for p in pressures]),
@@ -127,7 +127,7 @@ def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(N, 0.0) * modulus / (np.pi * hardware.width * relative))
 
 
-def _broken(c: Contact, track: Track, found: CoDesign) -> list[str]:
+def _broken(c: GuideLoads, track: Track, found: CoDesign) -> list[str]:
     b, h = found.task.bounds, track.hardware
     rows = [
         ("spring pressure", c.pressure_max.max() / 1e6, b.spring_pressure / 1e6, "MPa"),

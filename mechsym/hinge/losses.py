@@ -16,7 +16,7 @@ from mechsym.quantities import quantity, record
 
 
 @record
-class Losses:
+class HingeLosses:
     """Friction of a hinge: `[losses]` of a case. The defaults are assumed, usual values."""
 
     bearing_mu: float = quantity("-", default=0.0018, low=0, high=0.1, about="friction of the rollers' bearings")

@@ -9,25 +9,20 @@ import numpy as np
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.codesign import family, loss, scenarios
-from mechsym.codesign.family import Place
 from mechsym.codesign.front import cut_for_one, front
-from mechsym.codesign.hardware import Bounds, Hardware
-from mechsym.codesign.misfire import unfired, unfired_kinks
+from mechsym.codesign.hardware import Bounds
+from mechsym.codesign.machines import hardware, point
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.schedule import RippleMap, ripple_map
 from mechsym.codesign.settings import CoDesignSettings
-from mechsym.codesign.task import CoDesign, Task
+from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import verify
-from mechsym.errors import BadInput
-from mechsym.hinge import torque as hinge
-from mechsym.hinge.choices import ROLLERS
-from mechsym.hinge.losses import Losses
-from mechsym.jobs.machine import Assembly, assemble
-from mechsym.mechanisms.record import curves
+from mechsym.hinge.losses import HingeLosses
+from mechsym.jobs.machine import machine
 
 _SHARES = (0.12, 1.1)  # loads of the map by the full load
 _LOADS = 12  # computed; those between are interpolated
@@ -63,7 +58,7 @@ def codesign(
     designs = front(task, ripples, ready, progress)
     verified = verify(design)
     progress()
-    assumed = case.sections.get("losses", Losses())
+    assumed = case.sections.get("losses", HingeLosses())
     lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
     lossy = tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points)))
     progress()
@@ -85,11 +80,11 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
     )
 
 
-def task_of(case: Case, settings: CoDesignSettings) -> Task:
+def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
     """Points, hardware and limits of a case."""
-    return Task(
+    return CoDesignTask(
         points=points(case, settings),
-        hardware=hardware(case, settings.moving_mass),
+        hardware=hardware(case.need("spring"), case.need("guide"), case.need("rollers"), settings.moving_mass),
         bounds=Bounds(**{f.name: getattr(case.need("limits"), f.name) for f in dataclasses.fields(Bounds)}),
         ripple=settings.ripple,
         springs=int(settings.springs),
@@ -110,38 +105,8 @@ def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
         cycle = family.cycle_at(case.need("cycle"), high, settings, place.mep)
         operation = dataclasses.replace(case.need("operation"), speed=place.omega)
         at = dataclasses.replace(case, sections={**case.sections, "cycle": cycle, "operation": operation})
-        found.append(point(assemble(at), place, law))
+        found.append(point(machine(at), place.mep, law, place.weight))
     return tuple(found)
-
-
-def point(engine: Assembly, place: Place, law: str) -> Point:
-    """An engine at one speed and load as a point of a co-design; `law` is `propeller` or `constant`."""
-    torques, wanted = engine.torques, hinge.build(engine.torques, engine.omega)
-    without = unfired(engine.force, torques.period)
-    (q,) = engine.mechanism.coordinates
-
-    def misfire(phi: np.ndarray) -> np.ndarray:
-        return np.asarray(without(phi) * curves(engine.mechanism, phi)[f"dx_d{q}"] + torques.gravity_torque(phi))
-
-    return Point(
-        omega=wanted.omega, load=place.mep, load_torque=wanted.load_torque, law=law, weight=place.weight,
-        period=wanted.period, work=wanted.work, inertia=wanted.inertia, misfire=misfire,
-        torque=lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi), kinks=tuple(torques.kinks),
-        misfire_kinks=unfired_kinks(torques.kinks, torques.period),
-    )  # fmt: skip
-
-
-def hardware(case: Case, moving_mass: float) -> Hardware:
-    """Spring, guide and rollers of a case, with a mass [kg] on each roller."""
-    spring, guide, rollers = case.need("spring"), case.need("guide"), case.need("rollers")
-    law = {"AirAbsolute": "air_absolute", "AirGauge": "air_gauge"}.get(type(spring).__name__)
-    if law is None:
-        raise BadInput(f'{case.file}: codesign takes a gas spring; write [spring] law = "air_absolute" or "air_gauge"')
-    return Hardware(
-        law=law, A=spring.A, H=spring.H, n=spring.n, pa=getattr(spring, "pa", 101325.0), p0=spring.p0, rho0=guide.rho0,
-        z_margin=guide.z_margin, count=ROLLERS[guide.arrangement], shaft_ratio=guide.shaft_ratio,
-        radius=rollers.radius, width=rollers.width, E=rollers.E, nu=rollers.nu, moving_mass=moving_mass,
-    )  # fmt: skip
 
 
 def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: float) -> RippleMap:
@@ -152,7 +117,7 @@ def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: floa
     return ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
 
 
-def _middle(task: Task) -> int:
+def _middle(task: CoDesignTask) -> int:
     swings = [float(np.ptp(p.work(np.linspace(0, p.period, 181)))) for p in task.points]
     return int(np.argsort(swings)[(len(swings) - 1) // 2])
 

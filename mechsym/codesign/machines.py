@@ -1,0 +1,94 @@
+"""A machine at one speed and load as a point of a co-design, the hardware of its hinge, a torque curve as a point."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.interpolate import CubicSpline, PPoly
+
+from mechsym import periodic
+from mechsym.codesign.hardware import Hardware
+from mechsym.codesign.misfire import unfired, unfired_kinks
+from mechsym.codesign.points import Point
+from mechsym.errors import BadInput
+from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.guide import Spring
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs import AirAbsolute, AirGauge
+from mechsym.hinge.torque import engine_torques, torque
+from mechsym.machine.record import Machine, gas_of
+from mechsym.mechanisms.record import curves
+
+
+def point(machine: Machine, load: float, law: str = "propeller", weight: float = 1.0) -> Point:
+    """An engine at its speed of operation as a point of a co-design.
+
+    Parameters
+    ----------
+    load : float
+        Mean indicated pressure, for the record [Pa]
+    law : str
+        How the load follows the speed: `propeller` or `constant`
+    weight : float
+        Share of the time at this point [-]
+    """
+    torques, wanted = engine_torques(machine), torque(machine)
+    without = unfired(gas_of(machine).force, torques.period)
+    (q,) = machine.mechanism.coordinates
+
+    def misfire(phi: np.ndarray) -> np.ndarray:
+        arm = curves(machine.mechanism, phi)[f"dx_d{q}"]
+        return np.asarray(without(phi) * arm + torques.gravity_torque(phi))
+
+    return Point(
+        omega=wanted.omega, load=load, load_torque=wanted.load_torque, law=law, weight=weight,
+        period=wanted.period, work=wanted.work, inertia=wanted.inertia, misfire=misfire,
+        torque=lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi), kinks=tuple(torques.kinks),
+        misfire_kinks=unfired_kinks(torques.kinks, torques.period),
+    )  # fmt: skip
+
+
+def from_curve(
+    phi: Sequence[float] | np.ndarray, torque: Sequence[float] | np.ndarray, inertia: float, omega: float,
+    period: float = 2 * np.pi,
+) -> Point:  # fmt: skip
+    """Any machine of one degree of freedom as a point: its torque over the angle, its mean inertia, a governor's speed.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending angles of one period [rad]
+    torque : ndarray, shape (n,)
+        On the shaft, positive driving: an engine's mean is positive, a compressor's negative [N*m]
+    inertia : float
+        Of all that turns [kg*m^2]
+    omega : float
+        Mean speed [rad/s]
+    period : float
+        Of the torque [rad]
+    """
+    angle, value = np.asarray(phi, dtype=float), np.asarray(torque, dtype=float)
+    if angle.ndim != 1 or angle.shape != value.shape or angle.size < 8 or np.any(np.diff(angle) <= 0):
+        raise BadInput("a torque curve needs ascending angles, at least eight, and as many torques")
+    if angle[-1] - angle[0] >= period:
+        raise BadInput(f"the angles span {np.degrees(angle[-1] - angle[0]):g} deg; leave the end of the period out")
+    spline = CubicSpline(np.append(angle, angle[0] + period), np.append(value, value[0]), bc_type="periodic")
+    driving = periodic.fit(lambda x: spline((x - angle[0]) % period + angle[0]), angle, period, 1e-10)
+    mean = periodic.mean(driving)
+    wanted = PPoly(-driving.c, driving.x, extrapolate="periodic")
+    wanted.c[-1] += mean
+    constant = PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
+    return Point(omega=omega, load_torque=mean, law="constant", period=period, work=periodic.antiderivative(wanted),
+                 inertia=constant, torque=driving, kinks=())  # fmt: skip
+
+
+def hardware(spring: Spring, guide: GuideParameters, rollers: RollerParameters, moving_mass: float) -> Hardware:
+    """Spring, guide and rollers as the sections of a case have them, with a mass [kg] on each roller."""
+    if not isinstance(spring, AirAbsolute | AirGauge):
+        raise BadInput('a co-design takes a gas spring; write [spring] law = "air_absolute" or "air_gauge"')
+    absolute = isinstance(spring, AirAbsolute)
+    return Hardware(
+        law="air_absolute" if absolute else "air_gauge", A=spring.A, H=spring.H, n=spring.n, p0=spring.p0,
+        pa=spring.pa if isinstance(spring, AirAbsolute) else 101325.0, rho0=guide.rho0, z_margin=guide.z_margin,
+        count=ROLLERS[guide.arrangement], shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width,
+        E=rollers.E, nu=rollers.nu, moving_mass=moving_mass,
+    )  # fmt: skip
