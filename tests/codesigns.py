@@ -9,14 +9,14 @@ from mechsym.codesign.front import cut_for_one
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.verify import verify
-from mechsym.jobs import codesign as job
+from mechsym.jobs.codesign import task_of
 
 
 @cache
 def task(**changes):
     """The built-in family: 60 to 142 rpm on the propeller curve, 2 %, one spring."""
     case = cases.load("zotov-89")
-    made = job.task_of(case, case.need("codesign"))
+    made = task_of(case, case.need("codesign"))
     hardware = {k: changes.pop(k) for k in ("moving_mass",) if k in changes}
     made = dataclasses.replace(made, hardware=dataclasses.replace(made.hardware, **hardware))
     if "at" in changes:

@@ -36,19 +36,20 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     from mechsym import cases
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
-    from mechsym.jobs import codesign as job
+    from mechsym.jobs.codesign import STEPS, for_report
+    from mechsym.jobs.codesign import codesign as design
 
     case = cases.load(case_name, pairs(overrides))
     settings, ripples = _settings(case.need("codesign"), options)
     if out is not None:
         make_folder(out)
-    with progress(job.STEPS + len(ripples) + bool(out), f"co-design of {case.name}") as bar:
-        found = job.codesign(case, settings, ripples, lambda: bar.update(1))
+    with progress(STEPS + len(ripples) + bool(out), f"co-design of {case.name}") as bar:
+        found = design(case, settings, ripples, lambda: bar.update(1))
         numbers, files = summary(found), []
         if out is not None:
             from mechsym.codesign.report import write
 
-            files = write(job.for_report(case, settings, found), numbers, out)
+            files = write(for_report(case, settings, found), numbers, out)
             bar.update(1)
     emit(numbers, as_json, lambda: _text(numbers, files))
     if not numbers["feasible"]:

@@ -23,3 +23,7 @@ __all__ = [
     "Bounds", "CoDesign", "CoDesignTask", "Hardware", "Point", "bare_flywheel", "front", "misfire", "rank", "solve",
     "verify",
 ]  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    return __all__

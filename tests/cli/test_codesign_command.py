@@ -1,0 +1,101 @@
+"""`mechsym codesign` on two speeds of the marine engine: its JSON, its exit status, its report, bad input."""
+
+import json
+import re
+
+import pytest
+
+from mechsym.cli import main
+
+KEYS = {
+    "status", "flywheel_inertia", "flywheel_inertia_bare", "speed_rpm", "load", "speed_ripple", "p0", "bound", "active",
+    "verified", "losses", "misfire_speed_share", "doubts",
+}  # fmt: skip
+
+
+def run(monkeypatch, *words):
+    monkeypatch.setattr("sys.argv", ["mechsym", "codesign", *words])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    return stop.value.code or 0
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """One run with files, its JSON."""
+    folder = tmp_path_factory.mktemp("codesign")
+    with pytest.MonkeyPatch.context() as patch, pytest.MonkeyPatch.context() as echo:
+        said = []
+        echo.setattr("click.echo", lambda text="", **_: said.append(str(text)))
+        code = run(patch, "zotov-89", "--speeds", "89,142", "--pareto", "2,5%", "--json", "--out", str(folder))
+    return code, json.loads(said[0]), folder
+
+
+def test_json_of_two_speeds(done):
+    code, numbers, _ = done
+    assert code == 0
+    assert set(numbers) >= KEYS
+    assert numbers["status"] == "optimal"
+    assert numbers["speed_rpm"] == pytest.approx([89, 142])
+    assert 0 < numbers["flywheel_inertia"] < numbers["flywheel_inertia_cut_for_one"] < numbers["flywheel_inertia_bare"]
+    assert len(numbers["p0"]) == 1 and len(numbers["p0"][0]) == 2
+    assert numbers["bound"]["swing"][1] == 0.0  # two springs are two guides for two speeds
+    for way in ("steady_ripple", "time_ripple"):
+        assert numbers["verified"][way] == pytest.approx(numbers["speed_ripple"], rel=5e-3)
+    assert {row["limit"] for row in numbers["active"]} >= {"ripple"}
+    assert [row["ripple"] for row in numbers["pareto"]] == [0.02, 0.05]
+    assert all(0.1 < share < 0.25 for share in numbers["losses"]["share"])
+    assert numbers["misfire_speed_share"] == [0.0, 0.0]  # so small a flywheel does not survive one
+    assert numbers["doubts"] == []
+
+
+def test_report_says_what_kills_it(done):
+    _, numbers, folder = done
+    page = (folder / "report.html").read_text()
+    assert "nan" not in re.sub(r"<svg.*?</svg>", "", page, flags=re.S).lower()
+    for words in ("What to make", "What it holds", "What it costs", "What kills it", "How sure", "the shaft stops"):
+        assert words in page
+    assert (folder / "guide.csv").read_text().splitlines()[0].startswith("theta [rad],rho [m]")
+    names = {p.name for p in folder.iterdir()}
+    assert names >= {"summary.json", "points.csv", "front.svg", "works.svg", "map.svg", "spread.svg", "misfire.svg"}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--free", "spring.n"), "free"),
+        (("--curve", "river"), "curve"),
+        (("--ripple", "2 kg"), "--ripple"),
+        (("--speeds", "60,60"), "speeds"),
+        (("--robust", "guide.rho0=1%"), "spring.p0"),
+        (("--set", "codesign.scavenge=mep)"), "scavenge"),
+        (("--pareto", "0,5%"), "--pareto"),
+    ],
+)
+def test_bad_input_is_one_line(monkeypatch, capsys, words, message):
+    assert run(monkeypatch, "zotov-89", *words) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert message in line
+
+
+def test_other_cases_say_what_is_missing(monkeypatch, capsys):
+    assert run(monkeypatch, "moroianu") == 2
+    assert "[codesign]" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--set", "limits.roller_reaction=10 kN"),  # the mass of the rollers alone asks for more
+        ("--set", "limits.roller_reaction=50 kN"),
+        ("--set", "limits.pressure_angle=1 deg"),
+        ("--set", "limits.spring_pressure=1 MPa"),
+        ("--ripple", "0.01%"),
+    ],
+)
+def test_hardly_possible_tasks_end_with_the_bound(monkeypatch, capsys, words):
+    code = run(monkeypatch, "zotov-89", "--speeds", "60,142", "--json", *words)
+    numbers = json.loads(capsys.readouterr().out)
+    assert code == (0 if numbers["feasible"] else 1)
+    assert numbers["bound"]["flywheel"][0] >= 0
