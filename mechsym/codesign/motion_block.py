@@ -17,7 +17,7 @@ from mechsym.quantities import record
 
 
 @record
-class Block:
+class MotionRows:
     """Unknowns and constraints of one motion, scaled to the order of one."""
 
     unknowns: Any  #: g by its scale, then the lowest and the highest u [-]
@@ -28,7 +28,7 @@ class Block:
     high: tuple[float, ...]  #: of each piece [-]
 
 
-def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any) -> Block:
+def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any) -> MotionRows:
     """The motion of a point that keeps a ripple.
 
     Parameters
@@ -57,7 +57,7 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
         rows.append(ca.vertcat(g[1:], g[0]) - g - ca.DM(samples.step) / 2 * (rate + after))
     else:
         rows.append(mean - 1)
-    return Block(
+    return MotionRows(
         unknowns=ca.vertcat(g, u_low, u_high),
         start=np.concatenate([np.zeros(g.numel()), [0.9, 1.1]]),
         ripple=(ca.mmax(1 / inverse) - ca.mmin(1 / inverse)) * mean,
