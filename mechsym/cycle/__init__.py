@@ -1,1 +1,42 @@
-"""cycle."""
+"""What the gas does: pressure on the pistons over the crank angle, and what an engine makes of it.
+
+chamber     volume over the travel of a piston        motion     travel and moving mass out of a mechanism
+pressure    pressure over the angle, peak, work       gas        pressure in its chamber: the force on a piston
+kinds       one table: every kind of cycle and what it can do
+mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
+closed      the closed period integrated, its figures, its derivatives
+measured    measured diagrams: read, aligned, taken apart
+engine, figures    figures over the speeds, of an engine and of a single cylinder        plots
+
+Names are imported on first use, so that a case file is read without any of the physics.
+"""
+
+from typing import Any
+
+from mechsym.quantities import load
+
+_NAMES = {
+    "ChamberParameters": "mechsym.cycle.chamber:ChamberParameters",
+    "ClosedEngine": "mechsym.cycle.closed.model:ClosedEngine",
+    "Gas": "mechsym.cycle.gas:Gas",
+    "KINDS": "mechsym.cycle.kinds:KINDS",
+    "Pressure": "mechsym.cycle.pressure:Pressure",
+    "columns": "mechsym.cycle.engine:columns",
+    "curves": "mechsym.cycle.engine:curves",
+    "gas_in_cylinder": "mechsym.cycle.gas:gas_in_cylinder",
+    "gas_of_engine": "mechsym.cycle.gas:gas_of_engine",
+    "over_speeds": "mechsym.cycle.engine:over_speeds",
+    "piston_motion": "mechsym.cycle.motion:piston_motion",
+    "piston_travel": "mechsym.cycle.motion:piston_travel",
+}
+__all__ = sorted(_NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _NAMES:
+        return load(_NAMES[name])
+    raise AttributeError(f"module 'mechsym.cycle' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

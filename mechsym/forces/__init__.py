@@ -13,3 +13,20 @@ claims.py       what the sources claim about friction and loads, judged by the c
 result.py       all of it in one record
 summary.py      the record in numbers
 """
+
+from mechsym.forces.comparison import compare
+from mechsym.forces.friction import Friction, losses
+from mechsym.forces.friction_law import fit
+from mechsym.forces.loads import loads
+from mechsym.forces.result import Forces, forces
+from mechsym.forces.shaking import BalanceWanted
+from mechsym.forces.turn import CrankDrive, Turn, crank_drive, turn
+
+__all__ = [
+    "BalanceWanted", "CrankDrive", "Forces", "Friction", "Turn", "compare", "crank_drive", "fit", "forces", "loads",
+    "losses", "turn",
+]  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    return __all__

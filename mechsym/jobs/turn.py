@@ -5,10 +5,10 @@ from dataclasses import replace
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.forces import turn as turns
 from mechsym.forces.friction_law import FittedLaw, fit
 from mechsym.forces.rings import NoRings
 from mechsym.forces.turn import CrankDrive, Turn, crank_drive
+from mechsym.forces.turn import turn as turn_of
 from mechsym.jobs.gas import gas, of
 
 
@@ -21,7 +21,7 @@ def turn(case: Case) -> Turn:
         With `[operation]`; `[cycle]` gives the gas, `[faces]` and `[closing]` belong to a rodless engine
     """
     drive, omega = drive_of(case), case.need("operation").speed
-    return turns.turn(drive, gas(case), omega)
+    return turn_of(drive, gas(case), omega)
 
 
 def drive_of(case: Case) -> CrankDrive:

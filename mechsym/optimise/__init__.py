@@ -1,1 +1,13 @@
-"""Design of an engine by optimisation: a problem from a case, solved with IPOPT, its limits explained."""
+"""Design of an engine by optimisation.
+
+problem   what may change and what must hold, as numbers      solver   solved with IPOPT, its limits explained
+"""
+
+from mechsym.optimise.problem import Limit, Optimise, Programme, problem
+from mechsym.optimise.solver import Optimum, pareto, solve
+
+__all__ = ["Limit", "Optimise", "Optimum", "Programme", "pareto", "problem", "solve"]
+
+
+def __dir__() -> list[str]:
+    return __all__

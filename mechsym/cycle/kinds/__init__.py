@@ -1,20 +1,22 @@
 """Kinds of cycle: one table, kind -> record, pressure, back pressure, figures, and what the kind has to be given.
 
 A new kind is one file with its record and functions, and one row here: commands, sweeps, force chain and case files
-follow from the row.
+follow from the row. Case files read this table, so nothing of the physics is imported with it.
 """
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import casadi as ca
-
-from mechsym.cycle.chamber import Chamber, chamber_over
-from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, load, record
+
+if TYPE_CHECKING:
+    import casadi as ca
+
+    from mechsym.cycle.chamber import Chamber
+    from mechsym.cycle.measured.diagram import Diagram
+    from mechsym.cycle.pressure import Pressure
 
 
 @record
@@ -61,7 +63,7 @@ def kind_of(cycle: Any) -> Kind:
     return next(kind for kind in KINDS.values() if kind.cycle == name)
 
 
-def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Chamber]:
+def cylinder_pressure(cycle: Any, kinematics: "ca.Function") -> "tuple[Pressure, Chamber]":
     """Pressure in the cylinder of a mechanism.
 
     Parameters
@@ -82,6 +84,7 @@ def cylinder_pressure(cycle: Any, kinematics: ca.Function) -> tuple[Pressure, Ch
             f"[cycle] of kind {others} gives no indicator diagram here; take kind {', '.join(first)} or {last} "
             "(spark ignition in motion: 'mechsym cycle CASE --loop 10')"
         )
+    chamber_over = load("mechsym.cycle.chamber:chamber_over")
     room = chamber_over(kinematics, cycle.bore, cycle.compression_ratio, back_pressure(cycle))
     return load(kind.pressure)(cycle, room), room
 
@@ -103,7 +106,7 @@ def back_pressure(cycle: Any) -> float:
     return load(back)(cycle) if back else cycle.p_back
 
 
-def with_diagram(cycle: Any, file: str) -> Diagram:
+def with_diagram(cycle: Any, file: str) -> "Diagram":
     """The cycle with a measured diagram in its place.
 
     Parameters
@@ -125,7 +128,7 @@ def with_diagram(cycle: Any, file: str) -> Diagram:
             "compression_ratio and working_cycle"
         )
     known = load(kind.as_diagram)(cycle)
-    return Diagram(
+    return load(KINDS["diagram"].cycle)(
         bore=cycle.bore,
         compression_ratio=cycle.compression_ratio,
         p_back=back_pressure(cycle),
