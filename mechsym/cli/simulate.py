@@ -79,8 +79,8 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
 
 
 def _write(run: "FinishedRun", out: Path) -> list[str]:
-    from mechsym.hinge.plots import svg
     from mechsym.simulate import write_netcdf, write_series
+    from mechsym.style import svg
     from mechsym.torsion import plots as plots_torsion
 
     result, shafts, starts = run.result, len(run.twist), run.start_ups

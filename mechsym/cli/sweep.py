@@ -56,7 +56,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
 def _write(found: Any, out: Path) -> list[Path]:
     from mechsym.files import write_text
-    from mechsym.hinge.plots import svg
+    from mechsym.style import svg
     from mechsym.sweep import plots as plots_sweep
     from mechsym.sweep import write_netcdf, write_table
 

@@ -1,6 +1,5 @@
 """Pictures of engine cycles: the closed period at one speed, and figures over the speeds."""
 
-import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from mechsym.files import write_text
+from mechsym.style import write_picture
 
 _MAP = (("torque_avg", "mean torque [N m]"), ("power_kw", "power [kW]"), ("sfc_g_kwh", "consumption [g/kWh]"),
         ("p_max_mpa", "peak pressure [MPa]"))  # fmt: skip
@@ -100,9 +99,6 @@ def _label(axis: Any, x: str, y: str) -> None:
 
 
 def _save(figure: Figure, path: Path) -> Path:
-    # a fixed salt and no date: the same result gives the same bytes
-    with matplotlib.rc_context({"svg.hashsalt": "mechsym"}):
-        buffer = io.StringIO()
-        figure.savefig(buffer, format="svg", metadata={"Date": None})
+    written = write_picture(path, figure)
     plt.close(figure)
-    return write_text(path, buffer.getvalue())
+    return written

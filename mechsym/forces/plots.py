@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 from mechsym.forces.loads import polar, radial, tangential
 from mechsym.forces.result import Forces
+from mechsym.style import INK, QUIET, bare
 
-_INK, _QUIET = "#1b2a41", "#8a94a6"
 _SERIES = ("#2f6690", "#c8553d", "#3a7d44", "#8d6a9f", "#b08900", "#5b6570")
 _MOST_CURVES = 6
 
@@ -29,7 +29,7 @@ def chain(found: Forces) -> Figure:
     _curves(axes[0], phi, {_label(n): v for n, v in gas.items()} or {"no gas force": np.zeros_like(phi)})
     _curves(axes[1], phi, {"radial, outwards": radial(pin), "tangential": tangential(pin)})
     if "two_mass_T" in table:
-        for name, color in (("two_mass", _INK), ("terskih", _SERIES[4])):
+        for name, color in (("two_mass", INK), ("terskih", _SERIES[4])):
             axes[1].plot(phi, -table[f"{name}_Z"] / 1e3, ":", color=color, lw=1.2, label=f"{_label(name)} rod")
             axes[1].plot(phi, table[f"{name}_T"] / 1e3, ":", color=color, lw=1.2)
     axes[1].legend(fontsize=7, ncols=4, frameon=False)
@@ -37,7 +37,7 @@ def chain(found: Forces) -> Figure:
     _curves(axes[2], phi, {_label(n): v for n, v in (teeth or found.loads.guides).items()})
     scale, unit = (1e3, "kN m") if np.abs(found.turn.torque).max() > 1e4 else (1.0, "N m")
     axes[3].plot(phi, found.turn.torque / scale, color=_SERIES[0])
-    axes[3].axhline(found.turn.torque.mean() / scale, color=_QUIET, lw=1, ls="--", label="mean")
+    axes[3].axhline(found.turn.torque.mean() / scale, color=QUIET, lw=1, ls="--", label="mean")
     axes[3].legend(fontsize=7, frameon=False)
     names = (
         "gas force [kN]",
@@ -47,7 +47,7 @@ def chain(found: Forces) -> Figure:
     )
     for axis, name in zip(axes, names, strict=True):
         axis.set_ylabel(name)
-        _bare(axis)
+        bare(axis)
     axes[3].set(xlabel="crank angle [deg]", xlim=(0, phi[-1] + phi[1]))
     axes[3].set_xticks(np.arange(0, phi[-1] + phi[1] + 1, 90))
     return figure
@@ -71,13 +71,13 @@ def polar_diagrams(found: Forces) -> Figure:
         for (name, (across, up)), color in zip(chosen, _SERIES, strict=False):
             axis.plot(_closed(across) / 1e3, _closed(up) / 1e3, color=color, lw=1.2, label=_label(name))
             _mark_angles(axis, found.turn.phi, across / 1e3, up / 1e3, color, named=len(chosen) == 1)
-        axis.plot(0, 0, "+", color=_INK)
+        axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=x, ylabel=y)
         axis.set_aspect("equal", adjustable="datalim")
         axis.set_title("crank pins, in the crank" if is_pin else "main bearings, in the frame", fontsize=10)
         if len(chosen) > 1:
             axis.legend(fontsize=7, frameon=False)
-        _bare(axis)
+        bare(axis)
     return figure
 
 
@@ -90,9 +90,9 @@ def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color
         return
     for i in range(0, len(phi), 2 * every):
         text = f"{round(np.degrees(phi[i]))}"
-        axis.annotate(text, (x[i], y[i]), (3, 3), textcoords="offset points", fontsize=7, color=_INK)
+        axis.annotate(text, (x[i], y[i]), (3, 3), textcoords="offset points", fontsize=7, color=INK)
     axis.annotate(f"numbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}", (0.02, 0.02), fontsize=7,
-                  xycoords="axes fraction", color=_QUIET)  # fmt: skip
+                  xycoords="axes fraction", color=QUIET)  # fmt: skip
 
 
 def orders(found: Forces) -> Figure:
@@ -113,10 +113,10 @@ def orders(found: Forces) -> Figure:
     right.set(xlabel="order", ylabel="amplitude on the frame [N or N m]")
     if right.get_ylim()[1] < 1:  # round-off of what is balanced is no picture
         right.set_ylim(0, 1)
-        right.text(0.5, 0.5, "balanced: below 1 N and 1 N m", transform=right.transAxes, ha="center", color=_QUIET)
+        right.text(0.5, 0.5, "balanced: below 1 N and 1 N m", transform=right.transAxes, ha="center", color=QUIET)
     right.legend(fontsize=7, frameon=False)
     for axis in (left, right):
-        _bare(axis)
+        bare(axis)
     return figure
 
 
@@ -133,7 +133,7 @@ def friction(found: Forces) -> Figure:
     axis.set(xlabel="crank angle [deg]", ylabel="friction power [W]", xlim=(0, phi[-1] + phi[1]))
     axis.set_xticks(np.arange(0, phi[-1] + phi[1] + 1, 90))
     axis.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    _bare(axis)
+    bare(axis)
     return figure
 
 
@@ -151,7 +151,7 @@ def comparison(rows: Sequence[dict[str, Any]]) -> Figure:
     left.legend(fontsize=7, frameon=False)
     _friction_bars(right, place, rows)
     for axis in (left, right):
-        _bare(axis)
+        bare(axis)
     return figure
 
 
@@ -183,9 +183,3 @@ def _closed(values: np.ndarray) -> np.ndarray:
 
 def _label(name: str) -> str:
     return name.replace("_", " ")
-
-
-def _bare(axis: Any) -> None:
-    axis.grid(color="#e3e6ea", linewidth=0.7)
-    axis.set_axisbelow(True)
-    axis.spines[["top", "right"]].set_visible(False)

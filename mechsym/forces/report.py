@@ -8,9 +8,8 @@ from mechsym.files import to_json, write_csv, write_text
 from mechsym.forces import plots as plots_forces
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import quantities
-from mechsym.hinge.plots import svg
-from mechsym.hinge.report import significant
 from mechsym.mechanisms import plots as plots_mechanism
+from mechsym.style import significant, svg
 
 
 def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, source: str) -> list[Path]:

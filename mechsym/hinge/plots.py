@@ -1,8 +1,5 @@
 """Figures of a hinge design. matplotlib is imported in plot modules only; a figure is never shown."""
 
-import io
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -12,36 +9,9 @@ from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import velocities
+from mechsym.style import BLUE, GREEN, GREY, ORANGE, RED, angle_axis, panels
 
-BLUE, RED, GREEN, GREY, ORANGE = "#1f5fa8", "#b5342b", "#2f7d4f", "#8a8f98", "#c77c11"
 _DEG = 180 / np.pi
-
-
-def svg(figure: Figure) -> str:
-    """A figure as SVG text without a date, so that equal data give equal text."""
-    import matplotlib
-
-    buffer = io.StringIO()
-    with matplotlib.rc_context({"svg.hashsalt": "mechsym", "svg.fonttype": "path"}):
-        figure.savefig(buffer, format="svg", metadata={"Date": None})
-    text = buffer.getvalue()
-    return text[text.index("<svg") :]
-
-
-def _axes(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, Any]:
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(rows, columns, **options)).ravel()
-    for axis in axes:
-        axis.grid(True, color="#e3e6ea", linewidth=0.7)
-        axis.set_axisbelow(True)
-        axis.spines[["top", "right"]].set_visible(False)
-    return figure, axes
-
-
-def _angle_axis(axis: Any, period: float) -> None:
-    degrees = period * _DEG
-    axis.set_xlim(0, degrees)
-    axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))
 
 
 def unit_of(peak: float, unit: str) -> tuple[float, str]:
@@ -68,7 +38,7 @@ def pressure(design: Design) -> Figure:
     """Cylinder pressure over the crank angle with the angles of its events, and over the volume."""
     room = gas_of(design.machine)
     gas = room.pressure
-    figure, (left, right) = _axes(9, 3.2, 1, 2)
+    figure, (left, right) = panels(9, 3.2, 1, 2)
     phi = np.unique(np.append(np.linspace(0, gas.period, 1441), gas.kinks))
     p = gas.absolute(phi) / 1e5
     left.plot(phi * _DEG, p, color=BLUE)
@@ -79,7 +49,7 @@ def pressure(design: Design) -> Figure:
         left.text(at * _DEG, 0.98 * p.max(), f" {label}", rotation=90, va="top", fontsize=7, color=GREY)
     left.set_xlabel("crank angle [deg]")
     left.set_ylabel("absolute pressure [bar]")
-    _angle_axis(left, gas.period)
+    angle_axis(left, gas.period * _DEG)
     right.plot(1e3 * volume(room.chamber, phi), p, color=BLUE)
     right.set_xlabel("volume [L]")
     right.set_ylabel("absolute pressure [bar]")
@@ -95,7 +65,7 @@ def torque(design: Design) -> Figure:
         Two panels over the crank angle
     """
     hinge = design.hinge
-    figure, (upper, lower) = _axes(9, 5.0, 2, 1, sharex=True, height_ratios=[2, 1])
+    figure, (upper, lower) = panels(9, 5.0, 2, 1, sharex=True, height_ratios=[2, 1])
     phi = np.linspace(0, hinge.period, 1441)
     factor, unit = unit_of(max(hinge.torque_max, -hinge.torque_min), "N m")
     work_factor, work_unit = unit_of(max(hinge.work_max, -hinge.work_min), "J")
@@ -113,7 +83,7 @@ def torque(design: Design) -> Figure:
     lower.plot(phi * _DEG, hinge.work(phi) * work_factor, color=BLUE)
     lower.set_ylabel(f"work $W$ [{work_unit}]")
     lower.set_xlabel("crank angle [deg]")
-    _angle_axis(lower, hinge.period)
+    angle_axis(lower, hinge.period * _DEG)
     return figure
 
 
@@ -127,7 +97,7 @@ def track(design: Design, turn: Contact, radius: float) -> Figure:
     radius : float
         Roller radius [m]
     """
-    figure, (axis,) = _axes(5.2, 5.2)
+    figure, (axis,) = panels(5.2, 5.2)
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
     circle = design.guide.parameters.rho0 * np.exp(1j * np.linspace(0, 2 * np.pi, 361))
     axis.plot(
@@ -160,7 +130,7 @@ def contact(turn: Contact) -> Figure:
     figure : Figure
         Four panels over the angle of the guide's shaft
     """
-    figure, axes = _axes(9, 5, 2, 2, sharex=True)
+    figure, axes = panels(9, 5, 2, 2, sharex=True)
     theta = turn.theta * _DEG
     axes[0].plot(theta, turn.reaction_1 / 1e3, color=BLUE, label="$N_1$")
     axes[0].plot(theta, turn.reaction_2 / 1e3, color=RED, linestyle="--", label="$N_2$")
@@ -178,7 +148,7 @@ def contact(turn: Contact) -> Figure:
     axes[3].set_ylabel("curvature of the path [1/m]")
     for axis in axes[2:]:
         axis.set_xlabel("angle of the guide's shaft [deg]")
-    _angle_axis(axes[3], 2 * np.pi)
+    angle_axis(axes[3], 2 * np.pi * _DEG)
     return figure
 
 
@@ -190,7 +160,7 @@ def speeds(design: Design) -> Figure:
     figure : Figure
         Two panels: with hinge, and all
     """
-    figure, (left, right) = _axes(9, 3.4, 1, 2)
+    figure, (left, right) = panels(9, 3.4, 1, 2)
     colors = {
         "without": GREY,
         "flywheel": "black",
@@ -222,7 +192,7 @@ def retuning(design: Design) -> Figure:
     again = design.retuned
     if again is None:
         raise ValueError("the design was not retuned")
-    figure, (left, right) = _axes(9, 3.2, 1, 2)
+    figure, (left, right) = panels(9, 3.2, 1, 2)
     phi = np.linspace(0, again.wanted.period, 1441)
     left.plot(phi * _DEG, design.hinge.torque(phi) / 1e3, color=GREY, label="wanted at the design speed")
     left.plot(phi * _DEG, again.wanted.torque(phi) / 1e3, color=BLUE, label="wanted at the other speed")
@@ -235,12 +205,12 @@ def retuning(design: Design) -> Figure:
     left.legend(fontsize=7)
     left.set_xlabel("crank angle [deg]")
     left.set_ylabel("hinge torque [kN m]")
-    _angle_axis(left, again.wanted.period)
+    angle_axis(left, again.wanted.period * _DEG)
     for steady, color, name in ((again.steady, RED, "best pressure"), (again.paper, GREY, "paper's factor 1.9")):
         if steady.speed_mean is not None:
             right.plot(steady.phi * _DEG, steady.omega / steady.speed_mean, color=color, label=name)
     right.legend(fontsize=7)
     right.set_xlabel("crank angle [deg]")
     right.set_ylabel("speed over its mean")
-    _angle_axis(right, again.wanted.period)
+    angle_axis(right, again.wanted.period * _DEG)
     return figure

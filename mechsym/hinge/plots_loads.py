@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from mechsym.hinge.plots import BLUE, GREY, RED
 from mechsym.hinge.result import AtLoad
 from mechsym.simulate.steady import Steady
+from mechsym.style import BLUE, GREY, RED, bare
 
 
 def loads(rows: Sequence[AtLoad]) -> Figure:
@@ -36,9 +36,7 @@ def loads(rows: Sequence[AtLoad]) -> Figure:
     right.axhline(1.0, color=GREY, linewidth=0.8)
     right.set(xlabel="load over that of the design [%]", ylabel="setting over that of the design")
     for axis in (left, right):
-        axis.grid(True, color="#e3e6ea", linewidth=0.7)
-        axis.set_axisbelow(True)
-        axis.spines[["top", "right"]].set_visible(False)
+        bare(axis)
     return figure
 
 

@@ -17,6 +17,7 @@ from mechsym.hinge.setting import setting_text
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
+from mechsym.style import significant, svg
 
 _FRAMES = 180
 
@@ -58,27 +59,6 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
     )
 
 
-def significant(value: float | None, digits: int = 4) -> str:
-    """A number with a few significant digits, or a dash.
-
-    Parameters
-    ----------
-    value : float or None
-        Number [-]
-
-    Returns
-    -------
-    text : str
-        Without an exponent between 1e-3 and 1e6
-    """
-    if value is None:
-        return "–"
-    if value != 0 and not 1e-3 <= abs(value) < 1e6:
-        return f"{value:.{digits - 1}e}"
-    text = f"{value:.{digits}g}"
-    return f"{float(text):.0f}" if "e" in text else text
-
-
 def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
     rows = []
     for section, record in design.origin.sections.items():
@@ -99,7 +79,7 @@ def _figures(design: Design) -> dict[str, str]:
         figures["retuning"] = plots.retuning(design)
     if design.loads:
         figures["loads"] = plots_loads.loads(design.loads)
-    return {name: plots.svg(figure) for name, figure in figures.items()}
+    return {name: svg(figure) for name, figure in figures.items()}
 
 
 def _motion(design: Design) -> dict[str, Any]:

@@ -9,16 +9,17 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.mechanisms.drawing import Circle, Line, extent, shapes
+from mechsym.style import INK, QUIET
 
 # role: colour of the line, line width in points, filled colour
 STYLES: dict[str, tuple[str, float, str]] = {
-    "frame": ("#8a94a6", 1.4, "none"),
+    "frame": (QUIET, 1.4, "none"),
     "flywheel": ("#b9c0cc", 1.4, "#f1f3f6"),
-    "piston": ("#1b2a41", 1.4, "#dfe5ee"),
+    "piston": (INK, 1.4, "#dfe5ee"),
     "planet": ("#3a7d44", 2.0, "none"),
     "rod": ("#2f6690", 3.0, "none"),
     "crank": ("#c8553d", 3.4, "none"),
-    "joint": ("#1b2a41", 1.2, "#ffffff"),
+    "joint": (INK, 1.2, "#ffffff"),
 }
 _FRAMES = 120
 
@@ -69,7 +70,7 @@ def figure(mechanism: str, parameters: Any, angle: float) -> Figure:
     step = 10 ** math.floor(math.log10(wide / 3))
     length = max(k * step for k in (1, 2, 5) if k * step <= wide / 3)
     y = low - 0.02 * max(wide, tall)
-    axes.plot([left, left + length], [y, y], color="#1b2a41", lw=1.5)
+    axes.plot([left, left + length], [y, y], color=INK, lw=1.5)
     axes.text(
         left + length, y, f"  {1e3 * length:g} mm, crank at {math.degrees(angle):.0f} deg", va="center", fontsize=8
     )

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from mechsym import style
+
 
 def panels(
     rows: int = 1, columns: int = 1, size: tuple[float, float] = (7.2, 4.2), **options: Any
@@ -19,8 +21,7 @@ def panels(
     figure = Figure(figsize=size, layout="constrained")
     axes = list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
     for axis in axes:
-        axis.grid(True, color="#e3e6ea", linewidth=0.7)
-        axis.set_axisbelow(True)
+        style.grid(axis)
     return figure, axes
 
 
@@ -32,6 +33,5 @@ def turn_axis(axis: Any, degrees: float = 360.0, label: str = "crank angle [deg]
     degrees : float
         Last angle [deg]
     """
-    axis.set_xlim(0, degrees)
-    axis.set_xticks(np.arange(0, degrees + 1, degrees / 8))
+    style.angle_axis(axis, degrees)
     axis.set_xlabel(label)

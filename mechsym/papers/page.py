@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.files import write_csv, write_text
-from mechsym.hinge.plots import svg
 from mechsym.papers.rows import KEYS, VERDICTS
 from mechsym.papers.sources import Source
+from mechsym.style import svg
 
 _DPI = 110
 

@@ -1,19 +1,17 @@
 """Section view of a sized engine to scale: cylinder axis across the page, crank axes upright. matplotlib lives here."""
 
-import io
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from mechsym.files import write_text
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
 from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import Choice
 from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
+from mechsym.style import RED, write_picture
 
 _COLOURS = {"piston and rod": "#8fb6d9", "cylinder": "#c9ced6", "crankshaft": "#b9a27c", "gears": "#d9b44a",
             "bearings": "#7a8b6f", "carrier": "#e6dff0", "output shaft": "#9a86b8", "bore": "#ffffff"}  # fmt: skip
@@ -38,9 +36,9 @@ def section_view(path: Path, parts: Parts | SliderParts, forces: PartForces | Sl
     axes.legend(handles=shown, loc="center", fontsize=8, frameon=False, bbox_to_anchor=(0.5, 0.93), ncols=4)
     for x, y, text in labels:
         axes.annotate(text, (x * 1e3, y * 1e3), ha="center", va="center", fontsize=7)
-    axes.axhline(0, color="#b5342b", linewidth=0.6, linestyle="-.")
+    axes.axhline(0, color=RED, linewidth=0.6, linestyle="-.")
     _frame(axes, boxes)
-    return _save(figure, path)
+    return write_picture(path, figure)
 
 
 def hypocycloid_boxes(
@@ -191,13 +189,6 @@ def _frame(axes: Any, boxes: list[Box]) -> None:
     axes.grid(True, color="#eef0f3", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
-
-
-def _save(figure: Figure, path: Path) -> Path:
-    buffer = io.StringIO()
-    with rc_context({"svg.hashsalt": "mechsym", "svg.fonttype": "path"}):
-        figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return write_text(path, buffer.getvalue())
 
 
 def total_width(boxes: list[Box]) -> float:

@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.hinge.plots import BLUE, GREEN, GREY, ORANGE, RED
+from mechsym.style import BLUE, GREEN, GREY, INK, ORANGE, RED, bare
 from mechsym.sweep import Axis, Sweep, failures, main_results
 from mechsym.sweep.units import unit_of
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
-_COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
+_COLORS = (BLUE, RED, GREEN, ORANGE, INK, "#7a4fa3", "#3a9ca6", "#a05a2c")
 
 
 def picture(result: Sweep) -> Figure | None:
@@ -59,9 +59,7 @@ def _panels(result: Sweep, shown: Mapping[str, Any], rows: int = 1) -> tuple[Fig
     figure = Figure(figsize=(max(4.4, 3.5 * columns), 3.0 * down + 0.4), layout="constrained")
     axes = np.atleast_1d(figure.subplots(down, columns)).ravel()
     for axis in axes:
-        axis.grid(True, color="#e3e6ea", linewidth=0.7)
-        axis.set_axisbelow(True)
-        axis.spines[["top", "right"]].set_visible(False)
+        bare(axis)
     for axis in axes[len(shown) * rows :]:
         axis.set_visible(False)
     return figure, axes

@@ -2,18 +2,16 @@
 
 from collections.abc import Sequence
 from itertools import cycle
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.hinge.plots import BLUE, GREEN, GREY, ORANGE, RED
 from mechsym.simulate import Result
+from mechsym.style import BLUE, GREEN, GREY, INK, ORANGE, RED, bare
 from mechsym.torsion.startup import StartUp
 from mechsym.torsion.twist import pairs
 
-_INK = "#1b2a41"
-_SERIES = (RED, BLUE, GREEN, ORANGE, _INK)
+_SERIES = (RED, BLUE, GREEN, ORANGE, INK)
 
 
 def campbell(found: StartUp) -> Figure:
@@ -22,22 +20,22 @@ def campbell(found: StartUp) -> Figure:
     axes = figure.add_subplot()
     top = 1.1 * max(c.speed for c in found.criticals)
     shown = [c for c in found.criticals if c.order <= 4]
-    axes.axhline(found.natural, color=_INK, lw=1.5)
+    axes.axhline(found.natural, color=INK, lw=1.5)
     label = f"natural frequency {found.natural:.1f} rad/s"
-    axes.text(0.84 * top, found.natural * 1.02, label, color=_INK, va="bottom", ha="right")
+    axes.text(0.84 * top, found.natural * 1.02, label, color=INK, va="bottom", ha="right")
     held = {c.critical.order for c in found.captures}
     for critical in shown:
         end = min(top, 1.3 * critical.speed)
         axes.plot([0, end], [0, critical.order * end], color=GREY, lw=1.0)
-        axes.text(end, critical.order * end, f" order {critical.order:g}", color=_INK, va="bottom")
+        axes.text(end, critical.order * end, f" order {critical.order:g}", color=INK, va="bottom")
         color = RED if critical.order in held else "white"
-        axes.plot(critical.speed, found.natural, "o", mec=_INK, mfc=color, ms=7)
+        axes.plot(critical.speed, found.natural, "o", mec=INK, mfc=color, ms=7)
         axes.annotate(
             f"{critical.speed:.1f}", (critical.speed, found.natural), (0, -16), textcoords="offset points", ha="center"
         )
     axes.set(xlim=(0, 1.08 * top), ylim=(0, 1.45 * found.natural), xlabel="crank speed [rad/s]")
     axes.set(ylabel="frequency [rad/s]", title="Orders of excitation and natural frequency")
-    _bare(axes)
+    bare(axes)
     return figure
 
 
@@ -58,18 +56,18 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
         speed.plot(run.t, run.speed_mean, color=color, lw=1.6, label=f"c1 = {run.c1:g} N m s/rad")
         twist.semilogy(run.t, np.maximum(run.twist_amplitude, 1e-5), color=color, lw=1.2)
     if claim_speed is not None:
-        speed.axhline(claim_speed, color=_INK, lw=0.8, ls="-.")
+        speed.axhline(claim_speed, color=INK, lw=0.8, ls="-.")
         speed.text(0.02 * end, claim_speed, f"printed: {claim_speed:g} rad/s", va="bottom", fontsize=8)
         speed.set_ylim(top=1.12 * claim_speed)
     for critical in first.criticals:
         if critical.order <= 4 and critical.speed < speed.get_ylim()[1]:
             speed.axhline(critical.speed, color=GREY, lw=0.7, ls=":")
-            speed.text(end, critical.speed, f" order {critical.order:g}", va="center", color=_INK, fontsize=8)
+            speed.text(end, critical.speed, f" order {critical.order:g}", va="center", color=INK, fontsize=8)
     speed.set(ylabel="mean crank speed [rad/s]", title="Start-up by a constant torque")
     speed.legend(loc="upper left", bbox_to_anchor=(0.0, 0.9), frameon=False, fontsize=8)
     twist.set(xlabel="t [s]", ylabel="twist amplitude [rad]")
     for axes in (speed, twist):
-        _bare(axes)
+        bare(axes)
     return figure
 
 
@@ -92,11 +90,5 @@ def twist(result: Result, shafts: int) -> Figure:
     twisted.set(xlabel="t [s]", ylabel="twist [rad]")
     for axes in (speed, twisted):
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
-        _bare(axes)
+        bare(axes)
     return figure
-
-
-def _bare(axes: Any) -> None:
-    axes.grid(True, color="#e3e6ea", linewidth=0.7)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)

@@ -16,7 +16,7 @@ from click.testing import CliRunner
 from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.hinge.plots import svg
+from mechsym.style import svg
 from mechsym.sweep import Plan, columns, dataset, failures, main_results, sweep, write_netcdf, write_table
 from mechsym.sweep import plots as plots_sweep
 from mechsym.sweep.outcomes import flat

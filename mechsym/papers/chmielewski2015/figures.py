@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.cases import load
-from mechsym.hinge.plots import BLUE, GREEN, GREY, RED
 from mechsym.papers.chmielewski2015.computed import (
     CASE,
     CLAIMED_SPEED,
@@ -21,6 +20,7 @@ from mechsym.papers.chmielewski2015.computed import (
 )
 from mechsym.papers.chmielewski2015.studies import TELLING_STEP
 from mechsym.papers.drawing import panels
+from mechsym.style import BLUE, GREEN, GREY, RED
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
 _FIGURES = (

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.hinge.plots import BLUE
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.moroianu2017.computed import FIGURES, curves
+from mechsym.style import BLUE
 
 
 def figures() -> dict[str, Figure]:

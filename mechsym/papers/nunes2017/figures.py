@@ -13,11 +13,11 @@ from mechsym.cycle.chamber import travel, volume
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.kinds.march import crank_torque
 from mechsym.cycle.kinds.printed import marched
-from mechsym.hinge.plots import BLUE, GREEN, ORANGE, RED
 from mechsym.jobs.cycle import engine
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.nunes2017.computed import over_printed_speeds
 from mechsym.quantities import RPM
+from mechsym.style import BLUE, GREEN, ORANGE, RED
 
 _TOP_SPEED = 8000 * RPM
 _SPEEDS_RPM = (2000, 4000, 6000, 8000)

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.hinge.plots import BLUE, GREEN, RED
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.prymak.computed import MASS, RADIUS, SPEED, inertia_resultant
+from mechsym.style import BLUE, GREEN, RED
 
 
 def figures() -> dict[str, Figure]:

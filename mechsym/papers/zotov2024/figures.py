@@ -4,7 +4,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.hinge import guide
-from mechsym.hinge.plots import BLUE, GREEN, GREY, RED
 from mechsym.hinge.setting import with_setting
 from mechsym.machine.record import gas_of
 from mechsym.papers.drawing import panels, turn_axis
@@ -17,6 +16,7 @@ from mechsym.papers.zotov2024.computed import (
     guides,
     printed_torque,
 )
+from mechsym.style import BLUE, GREEN, GREY, RED
 
 _PHI = np.linspace(0, 2 * np.pi, 1441)
 _DEG = np.degrees(_PHI)
