@@ -11,8 +11,7 @@ from mechsym.hinge.steady import RIPPLE
 from mechsym.hinge.ways import Offer
 from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import gas_of
-
-_RPM = 60 / (2 * np.pi)
+from mechsym.quantities import RPM
 
 
 def summary(design: Design) -> dict[str, Any]:
@@ -26,7 +25,7 @@ def summary(design: Design) -> dict[str, Any]:
     hinge, verdict, runs = design.hinge, design.verdict, {t.name: t for t in design.trials}
     check = runs.get(f"hinge_{_law(design)}")
     return {
-        "speed_rpm": design.machine.omega * _RPM,
+        "speed_rpm": design.machine.omega / RPM,
         "p_max_bar": gas_of(design.machine).pressure.p_max / 1e5,
         "mep_bar": gas_of(design.machine).pressure.mean_indicated / 1e5,
         "load_torque": hinge.load_torque,
@@ -105,7 +104,7 @@ def _retune(design: Design) -> dict[str, Any]:
     wanted, hinge = again.wanted, design.hinge
     peaks = [max(abs(h.torque_max), abs(h.torque_min)) for h in (wanted, hinge)]
     return {
-        "speed_rpm": again.other.omega * _RPM,
+        "speed_rpm": again.other.omega / RPM,
         "p0": again.setting,
         "p0_ratio": again.ratio,
         "speed_ripple": again.steady.speed_ripple,

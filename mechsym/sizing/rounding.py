@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from mechsym.quantities import RPM
+
 
 def round_up(size: float, step: float = 0.5e-3) -> float:
     """The next larger multiple of a step.
@@ -41,4 +43,4 @@ def at_speed(omega: np.ndarray, index: int) -> str:
     >>> at_speed(np.array([8000 * np.pi / 30]), 0)
     'worst at 8000 rpm'
     """
-    return f"worst at {float(omega[index]) * 30 / np.pi:.0f} rpm"
+    return f"worst at {float(omega[index]) / RPM:.0f} rpm"

@@ -13,7 +13,7 @@ import numpy as np
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.phases import NODES, Map, closed_function, closed_map
 from mechsym.errors import BadInput
-from mechsym.quantities import record
+from mechsym.quantities import RPM, record
 
 _STEPS, _MOST_STEPS = 120, 7680
 MANY = 100  # points for which it pays to compile, or to read what is compiled
@@ -127,7 +127,7 @@ def _phase_faults(scalars: Mapping[str, np.ndarray]) -> dict[int, str]:
             faults.setdefault(
                 int(k),
                 f"{reason}: {at:.2f} deg against {limit:.2f} deg from firing TDC at "
-                f"{scalars['omega'][k] * 30 / np.pi:.5g} rpm; change ignition or duration",
+                f"{scalars['omega'][k] / RPM:.5g} rpm; change ignition or duration",
             )
     return faults
 

@@ -7,6 +7,7 @@ from mechsym.audit.verdict import Decision
 from mechsym.papers.nunes2017 import gears as printed
 from mechsym.papers.nunes2017.claims_record import against, items, peaks, right
 from mechsym.papers.nunes2017.sizing_numbers import GEOMETRY
+from mechsym.quantities import RPM
 from mechsym.sizing.rules import gear_factors
 from mechsym.sizing.rules import gears as agma
 
@@ -64,7 +65,7 @@ def dynamic_constant() -> Decided:
 def mesh_speed_effect(verdict: Decision) -> str:
     """What the pinion's half speed costs in K_v and in the width of the pinion."""
     half, true = (float(printed.dynamic_printed(member, 8000, _FEET)) for member in (1, 2))
-    speed = float(agma.mesh_speed(printed.D_PINION, 8000 * np.pi / 30))
+    speed = float(agma.mesh_speed(printed.D_PINION, 8000 * RPM))
     return (
         f"at 8000 rpm the teeth meet with {speed:.2f} m/s and not with {speed / 2:.2f} m/s, K_v is {true:.4f} for "
         f"{half:.4f}; the pinion of table 4.12 needs {_pinion_contact():.2f} mm in contact for the 39 mm chosen"

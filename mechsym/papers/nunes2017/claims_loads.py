@@ -10,7 +10,7 @@ from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.size import check_printed
 from mechsym.papers.nunes2017 import errata as nunes2017_errata
 from mechsym.papers.nunes2017.claims_record import against, right
-from mechsym.quantities import dimension
+from mechsym.quantities import RPM, dimension
 from mechsym.sizing.loads import journal_load_massless, tooth_load_printed
 from mechsym.sizing.rules import bearing_data, bearings
 
@@ -103,7 +103,7 @@ def journal_load() -> Decided:
 
 def journal_speed() -> Decided:
     """Speed of the planet against its carrier, with the limit of table 4.16."""
-    speed, limit = 2 * 8000, bearing_data.catalogue()["HN 1516"].limiting * 30 / np.pi
+    speed, limit = 2 * 8000, bearing_data.catalogue()["HN 1516"].limiting / RPM
     return Decided(
         supported=speed <= limit,
         note=f"the planet turns against its carrier with twice the speed of the crank, {speed} rpm at 8000 rpm; the "

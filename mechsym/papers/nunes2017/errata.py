@@ -16,6 +16,7 @@ from mechsym.cycle.kinds.march import March
 from mechsym.cycle.kinds.printed import marched
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
+from mechsym.quantities import RPM
 
 _PRINTED = {"cycle.method": "nunes2017_printed"}
 _MAXIMA = np.array([5400.0, 6700.0])  # published speeds of the largest average torque [rpm]
@@ -155,7 +156,7 @@ def rod_length() -> dict[str, float]:
     for rod in (90, 74):
         half = f"{rod / 2} mm"
         own = _marched("nunes-slider-crank", {"parameters.l1": half, "parameters.l2": half})[2]
-        speed = own.omega * 30 / np.pi
+        speed = own.omega / RPM
         figures[f"crossover_rpm {rod} mm"] = float(crossovers(speed, own.torque_avg, other.torque_avg)[-1])
     return figures
 

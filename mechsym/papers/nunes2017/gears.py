@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.papers.nunes2017.sizing_numbers import GEOMETRY
+from mechsym.quantities import RPM
 from mechsym.sizing.rules import gear_factors, gears
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor
 from mechsym.sizing.rules.gear_geometry import Pair, pitting_geometry_factor
@@ -120,7 +121,7 @@ def widths_corrected(
     bounds = {"bending": _BENDING, "contact": _CONTACT} | dict(limits or {})
     module = D_PINION / teeth
     pair = Pair(kind="internal", module=module, teeth_1=teeth, teeth_2=2 * teeth, pressure_angle=_ANGLE, shift=shift)
-    speed = gears.mesh_speed(D_PINION, np.asarray(rpm) * np.pi / 30)
+    speed = gears.mesh_speed(D_PINION, np.asarray(rpm) * RPM)
     load = 0.5 * np.max(tooth * gear_factors.dynamic_factor(speed, 6.0))
     factors = gears.LoadFactors(K_m=load_distribution_printed(1))
     bend = [gears.face_width_bending(load, module, bending_geometry_factor(pair, m), bounds["bending"], factors)

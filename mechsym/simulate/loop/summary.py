@@ -4,10 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.quantities import RPM
 from mechsym.simulate.loop.run import LoopResult
 from mechsym.simulate.loop.system import Loop
-
-_RPM = np.pi / 30
 
 
 def summary(loop: Loop, result: LoopResult) -> dict[str, Any]:
@@ -24,15 +23,15 @@ def summary(loop: Loop, result: LoopResult) -> dict[str, Any]:
     q = result.q[:, 0]
     last = u[q > q[-1] - 4 * np.pi]
     rows = [
-        {"cylinder": c.cylinder + 1, "t_s": c.time, "speed_rpm": c.speed / _RPM, "work": c.work,
+        {"cylinder": c.cylinder + 1, "t_s": c.time, "speed_rpm": c.speed / RPM, "work": c.work,
          "wall_heat": c.wall_heat, "energy_residual": c.residual}
         for c in result.cycles
     ]  # fmt: skip
     mean = float(last.mean())
     return {
         "status": result.status, "reason": result.reason, "t_end": float(result.t[-1]),
-        "speed_mean_rpm": mean / _RPM, "speed_min_rpm": float(last.min()) / _RPM,
-        "speed_max_rpm": float(last.max()) / _RPM, "speed_ripple": float(np.ptp(last)) / mean,
+        "speed_mean_rpm": mean / RPM, "speed_min_rpm": float(last.min()) / RPM,
+        "speed_max_rpm": float(last.max()) / RPM, "speed_ripple": float(np.ptp(last)) / mean,
         "p_max_mpa": float(result.p.max()) / 1e6, "cycles": rows, "energy_residual": result.energy_residual,
     }  # fmt: skip
 

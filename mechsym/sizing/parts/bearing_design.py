@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from mechsym.quantities import record
+from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, at_least, at_most, unsafe
 from mechsym.sizing.rounding import at_speed
 from mechsym.sizing.rules import bearings
@@ -71,7 +71,6 @@ def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
     life[loaded] = bearings.life_hours(turns, seat.turning[loaded])
     j, i = int(np.argmin(life)), int(np.argmax(np.abs(seat.turning)))
     static = wants.static_ball if bearing.kind == "ball" else wants.static_roller
-    rpm = 30 / np.pi
     return [
         at_most(name, "static load", float(peak[k]), choice.count * bearing.C0, "N", wanted=static,
                 rule="static rating", source="ISO 76", note=at_speed(seat.omega, k)),
@@ -79,7 +78,7 @@ def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
                  note=f"{at_speed(seat.omega, j)}: {life[j]:.0f} h, equivalent load {P[j]:.0f} N"),
         at_most(name, "speed", float(abs(seat.turning[i])), bearing.limiting, "rad/s", wanted=1.0,
                 rule="limiting speed", source=bearing.source,
-                note=f"{abs(seat.turning[i]) * rpm:.0f} rpm of one ring against the other"),
+                note=f"{abs(seat.turning[i]) / RPM:.0f} rpm of one ring against the other"),
     ]  # fmt: skip
 
 

@@ -9,12 +9,10 @@ from dataclasses import fields
 from importlib import resources
 from pathlib import Path
 
-import numpy as np
-
 from mechsym.errors import BadInput
-from mechsym.quantities import choice, parse, quantity, record
+from mechsym.quantities import RPM, choice, parse, quantity, record
 
-_UNITS = {"_mm": ("m", 1e-3), "_N": ("N", 1.0), "_rpm": ("rad/s", 2 * np.pi / 60), "_kg": ("kg", 1.0)}
+_UNITS = {"_mm": ("m", 1e-3), "_N": ("N", 1.0), "_rpm": ("rad/s", RPM), "_kg": ("kg", 1.0)}
 
 
 @record
