@@ -1,7 +1,8 @@
 """Case files: data sets in TOML with a unit and a source per line, read into checked records.
 
 A case names its mechanism and has one section per record: `[parameters]` of the mechanism, `[operation]`, and
-whatever its commands need (`[cycle]`, `[spring]`, ...). `schema.py` says which record each section becomes.
+whatever its commands need (`[cycle]`, `[spring]`, ...). `schema.py` says which record each section becomes,
+`values.py` reads and replaces a value, `settings.py` has the small sections.
 Numbers are SI; texts may carry a unit; a key may name its unit instead (`speed_rpm = 142`).
 """
 
@@ -18,6 +19,7 @@ from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.quantities import record
 
+__all__ = ["Case", "load", "locate", "names", "text", "underlaid"]
 _HEAD = ("mechanism", "source", "about")
 
 
@@ -213,3 +215,7 @@ def _values(cls: Any, section: str, table: dict[str, Any]) -> dict[str, Any]:
             unit = field.metadata.get("unit")
             raise BadInput(f"key {section}.{name} is missing" + (f"; give it in {unit}" if unit else ""))
     return values
+
+
+def __dir__() -> list[str]:
+    return __all__

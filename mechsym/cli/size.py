@@ -28,10 +28,11 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
               mechsym size nunes-slider-crank --set sizing.life="500 h"
     """
     from mechsym import cases
-    from mechsym.jobs import size as sizing
+    from mechsym.jobs.size import check_printed
+    from mechsym.jobs.size import size as sized
 
     loaded = cases.load(case, pairs(overrides))
-    found = sizing.check_printed(loaded) if as_printed else sizing.size(loaded)
+    found = check_printed(loaded) if as_printed else sized(loaded)
     files = _write(out, found) if out else []
     emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
     if found.failing or not found.converged:

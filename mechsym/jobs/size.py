@@ -14,16 +14,16 @@ from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
-from mechsym.sizing.hypocycloid import design as hypocycloid
 from mechsym.sizing.hypocycloid import masses
 from mechsym.sizing.hypocycloid.checks import check_all
+from mechsym.sizing.hypocycloid.design import size_hypocycloid
 from mechsym.sizing.hypocycloid.forces import hypocycloid_forces
 from mechsym.sizing.hypocycloid.parts import Parts, Stock
 from mechsym.sizing.hypocycloid.rows import engine_rows, mass_rows, nearest_rows, part_rows
-from mechsym.sizing.pressures import Pressures, pressures
+from mechsym.sizing.pressures import Pressures, pressures_over
 from mechsym.sizing.rows import check_rows, fact, size_rows
 from mechsym.sizing.rules import bearing_data, materials
-from mechsym.sizing.slider_crank import design as slider_crank
+from mechsym.sizing.slider_crank.design import size_slider_crank
 from mechsym.sizing.slider_crank.forces import slider_crank_forces
 from mechsym.sizing.wants import Wants
 
@@ -98,7 +98,7 @@ def _hypocycloid(one: Task) -> Sizing:
     reference, wants, stock = printed_parts(one.case), one.wants, one.stock
     parameters = one.case.need("parameters")
     forces_of = hypocycloid_forces(gas_of(one), parameters)
-    found = hypocycloid.design(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
+    found = size_hypocycloid(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
     mass, power = masses.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
     rows = part_rows(found.parts, "sized") + check_rows(found.checks)
     rows += mass_rows(found.parts, reference, wants, stock)
@@ -114,7 +114,7 @@ def _hypocycloid(one: Task) -> Sizing:
 def _slider_crank(one: Task) -> Sizing:
     parameters = one.case.need("parameters")
     start = parameters.m3 + parameters.m4 + parameters.m5
-    found = slider_crank.design(slider_crank_forces(gas_of(one), parameters), start, one.wants, one.stock)
+    found = size_slider_crank(slider_crank_forces(gas_of(one), parameters), start, one.wants, one.stock)
     rows = [
         row for key in ("piston", "cylinder", "crank") for row in size_rows(key, getattr(found.parts, key), "sized")
     ]
@@ -163,7 +163,7 @@ def speeds(one: Task) -> np.ndarray:
 
 def gas_of(one: Task) -> Pressures:
     """The cycle at every speed."""
-    return pressures(one.machine, speeds(one), one.wants.heat_share)
+    return pressures_over(one.machine, speeds(one), one.wants.heat_share)
 
 
 def printed_parts(case: Case) -> masses.PrintedMasses:

@@ -9,5 +9,14 @@ c/*.h         what does not depend on the program: elementary functions, methods
 """
 
 from mechsym.native.evaluate import Compiled, compiled, compiled_all
+from mechsym.native.fold import folder
+from mechsym.native.march import marcher
+from mechsym.native.runs import Breaks, Level, Outcome, Runs, Table
 
-__all__ = ["Compiled", "compiled", "compiled_all"]
+__all__ = [
+    "Breaks", "Compiled", "Level", "Outcome", "Runs", "Table", "compiled", "compiled_all", "folder", "marcher",
+]  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -32,7 +32,7 @@ class Pressures:
     head_heat: float
 
 
-def pressures(engine: ClosedEngine, omega: np.ndarray, heat_share: float) -> Pressures:
+def pressures_over(engine: ClosedEngine, omega: np.ndarray, heat_share: float) -> Pressures:
     """The cycle at every speed, gas exchange at the surroundings' pressure.
 
     Parameters

@@ -12,7 +12,8 @@ run.py       the points in chunks, and interrupts
 points.py    how a chunk is computed: simulations, hinges, cycles
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason
-data.py      labelled columns with units, CSV, netCDF; the picture is `mechsym.plots_sweep`
+data.py      labelled columns with units, CSV, netCDF
+plots.py     the picture
 """
 
 from mechsym.sweep.axes import Axis
@@ -34,3 +35,7 @@ __all__ = [
     "write_netcdf",
     "write_table",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

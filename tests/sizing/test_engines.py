@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.jobs import size
+from mechsym.jobs.size import check_printed, gas_of, printed_parts, size, task
 from mechsym.sizing.checks import unsafe
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import design as hypocycloid_design
@@ -21,23 +21,23 @@ COARSE = {"sizing.speed_step": "250 rpm"}
 
 @pytest.fixture(scope="module")
 def job():
-    return size.task(load("nunes-hypocycloid", COARSE))
+    return task(load("nunes-hypocycloid", COARSE))
 
 
 @pytest.fixture(scope="module")
 def forces_of(job):
-    return hypocycloid_forces(size.gas_of(job), job.case.need("parameters"))
+    return hypocycloid_forces(gas_of(job), job.case.need("parameters"))
 
 
 @pytest.fixture(scope="module")
 def printed(job):
-    return size.printed_parts(job.case)
+    return printed_parts(job.case)
 
 
 @pytest.fixture(scope="module")
 def design(job, forces_of, printed):
     start = hypocycloid_masses.moving_printed(printed, job.stock)
-    return hypocycloid_design.design(forces_of, printed, start, job.wants, job.stock)
+    return hypocycloid_design.size_hypocycloid(forces_of, printed, start, job.wants, job.stock)
 
 
 def test_the_printed_sizes_close_to_the_millimetre(job, printed):
@@ -55,8 +55,8 @@ def test_printed_masses(job, printed):
 def test_consequences_of_the_moving_mass(job, printed):
     """Erratum E20 at 8000 rpm in the thesis's own cycle: largest force and exhaust TDC for 0.250 and 0.579 kg."""
     changes = {**COARSE, "speeds.lowest": "8000 rpm", "cycle.vaporisation": "latent_heat", "chamber.back_pressure": 0.0}
-    found = size.task(load("nunes-hypocycloid", changes))
-    forces_of = hypocycloid_forces(size.gas_of(found), found.case.need("parameters"))
+    found = task(load("nunes-hypocycloid", changes))
+    forces_of = hypocycloid_forces(gas_of(found), found.case.need("parameters"))
     light, heavy = (
         forces_of(hypocycloid_masses.Moving(rod=m, axis=m, planet=0.0, unbalance=0.0)) for m in (0.25, 0.579)
     )
@@ -102,7 +102,7 @@ def test_it_does_not_hold_by_luck(job, design, forces_of):
 
 
 def test_more_wanted_life_is_refused_and_the_nearest_engine_named():
-    found = size.size(load("nunes-hypocycloid", {**COARSE, "sizing.life": "300 h"}))
+    found = size(load("nunes-hypocycloid", {**COARSE, "sizing.life": "300 h"}))
     assert [(check.component[:11], check.quantity) for check in found.failing] == [("rod bearing", "life")]
     named = {row["quantity"]: row["value"] for row in found.rows if row["component"] == "engine"}
     assert 0 < named["lowest speed at full load"] <= named["highest speed"] < 8000 * np.pi / 30
@@ -110,7 +110,7 @@ def test_more_wanted_life_is_refused_and_the_nearest_engine_named():
 
 
 def test_printed_parts_fail_where_the_errata_say():
-    found = size.check_printed(load("nunes-hypocycloid", COARSE))
+    found = check_printed(load("nunes-hypocycloid", COARSE))
     failing = {(check.component.split(",")[0], check.quantity) for check in found.failing}
     assert {("output shaft", "shear stress"), ("cylinder", "length"), ("inner journal", "speed")} <= failing
     assert ("cylinder bolts", "stress in the core of M10") in failing
@@ -119,7 +119,7 @@ def test_printed_parts_fail_where_the_errata_say():
 
 
 def test_slider_crank_holds_and_is_consistent():
-    found = size.size(load("nunes-slider-crank", COARSE))
+    found = size(load("nunes-slider-crank", COARSE))
     assert not found.failing and found.converged
 
 
@@ -134,5 +134,5 @@ def test_candidates_are_without_fault_and_hold_the_ratio(printed):
 @pytest.mark.slow
 def test_every_factor_holds_on_the_cases_own_grid():
     """All 800 speeds of the thesis, 10 to 8000 rpm in steps of 10."""
-    found = size.size(load("nunes-hypocycloid", {"sizing.speed_step": "10 rpm"}))
+    found = size(load("nunes-hypocycloid", {"sizing.speed_step": "10 rpm"}))
     assert not found.failing and found.converged

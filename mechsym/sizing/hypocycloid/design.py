@@ -37,7 +37,7 @@ class HypocycloidDesign:
     converged: bool
 
 
-def design(
+def size_hypocycloid(
     forces_of: Callable[[Moving], PartForces], printed: PrintedMasses, start: Moving, wants: Wants, stock: Stock
 ) -> HypocycloidDesign:
     """Iterate loads and sizes to a fixed point.

@@ -30,7 +30,9 @@ _AXIAL = 0.85  # endurance limit in tension and compression over that in bending
 _ROD_ENDS = 1.6  # mass of a rod over that of its shank, assumed
 
 
-def design(forces_of: Callable[[float], SliderForces], start: float, wants: Wants, stock: Stock) -> SliderDesign:
+def size_slider_crank(
+    forces_of: Callable[[float], SliderForces], start: float, wants: Wants, stock: Stock
+) -> SliderDesign:
     """Iterate loads and sizes to a fixed point.
 
     Parameters
