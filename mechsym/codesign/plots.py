@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from mechsym.codesign.cylinders import Count
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.verify import fine_path
-from mechsym.hinge.plots import BLUE, GREEN, GREY, ORANGE, RED
+from mechsym.style import BLUE, GREEN, GREY, ORANGE, RED
 
 _RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")

@@ -13,8 +13,7 @@ from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import Track
 from mechsym.codesign.verify import fine_path
 from mechsym.files import to_json, write_csv, write_text
-from mechsym.hinge.plots import svg
-from mechsym.hinge.report import significant
+from mechsym.style import significant, svg
 
 
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:
