@@ -18,6 +18,7 @@ COMMANDS = {
     "eval": "mechsym.cli.evaluate:evaluate",
     "fmu": "mechsym.cli.fmu:fmu",
     "forces": "mechsym.cli.forces:forces",
+    "guide": "mechsym.cli.guide:guide",
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",

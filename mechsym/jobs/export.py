@@ -18,6 +18,7 @@ from mechsym.forces.turn import Turn, at
 from mechsym.hinge.balance import balance
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import engine_with, one_cylinder
 from mechsym.jobs.machine import load, machine
@@ -62,6 +63,15 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
 def named(name: str, settings: Mapping[str, str]) -> Ready:
     """The run of a case by its name or file, with values replaced by dotted key."""
     return ready(cases.load(name, settings))
+
+
+def guide_named(name: str, settings: Mapping[str, str]) -> tuple[Guide, RollerParameters]:
+    """Guide and rollers of a case by its name or file, with values replaced by dotted key."""
+    case = cases.load(name, settings)
+    guide = guide_of(case)[2]
+    if guide is None:
+        raise BadInput(f"{case.file}: sections [spring] and [guide] are missing; a guide needs both")
+    return guide, case.need("rollers")
 
 
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide | None]:

@@ -1,23 +1,10 @@
-import os
-from pathlib import Path
-
 import pytest
+from built_in import needed
 
 from mechsym import cases
 from mechsym.jobs.export import ready
 from mechsym.out.fmi import fmu, write
 from mechsym.out.laws import block_of
-
-DATA = os.environ.get("MECHSYM_TEST_DATA")
-
-
-def settings(name):
-    """What a built-in case needs besides its name: the start-up amplifies rounding after 10 s, the generator a file."""
-    if name == "generator":
-        if not DATA:
-            pytest.skip("MECHSYM_TEST_DATA is not set: the measured diagrams are not here")
-        return {"cycle.file": str(Path(DATA) / "generator-half-load.csv")}
-    return {"t_end": "10 s"} if name == "chmielewski" else {}
 
 
 @pytest.fixture(scope="session")
@@ -27,7 +14,7 @@ def exported():
 
     def get(name):
         if name not in made:
-            case = cases.load(name, settings(name))
+            case = cases.load(name, needed(name))
             run = ready(case)
             made[name] = run, block_of(case.name, case.about, run)
         return made[name]

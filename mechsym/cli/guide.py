@@ -1,0 +1,96 @@
+"""`mechsym guide`: the guide of a case as DXF and as a dimensioned sheet."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym import cases
+from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.errors import BadInput
+from mechsym.quantities import parse
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+
+
+@click.command(short_help="Draw the guide for the workshop: DXF, sheet.")
+@click.argument("case")
+@click.option("--dxf", type=_FILE, help="DXF file to write (extra cad).")
+@click.option("--sheet", type=_FILE, help="Dimensioned sheet to write, .svg or .pdf.")
+@click.option("--tolerance", default="1 um", help="Largest distance of the curves from the exact ones.")
+@click.option("--bore", default="60 mm", help="Diameter of the hole for the shaft, 0 for none.")
+@click.option("--diagram", type=click.Path(), help="CSV file of a measured diagram in place of the cycle.")
+@set_option
+@json_option
+def guide(
+    case: str,
+    dxf: Path | None,
+    sheet: Path | None,
+    tolerance: str,
+    bore: str,
+    diagram: str | None,
+    overrides: tuple[str, ...],
+    as_json: bool,
+) -> None:
+    """Draw the guide of CASE: centre path and walls with exact tangents, roller, bore, axes; millimetres.
+
+    The walls stand at the roller radius from the path; a wall that would cross itself is refused with its angle. The
+    sheet has angle and radius in a table, what errors of spring and track cost, loads and roller life.
+
+    \b
+    Example: mechsym guide zotov-89 --dxf guide.dxf --sheet guide.pdf --tolerance "0.1 um"
+    """
+    from mechsym.jobs.guide import workshop
+    from mechsym.out.cad import track
+
+    if dxf is None and sheet is None:
+        raise BadInput("nothing to write: give --dxf FILE, --sheet FILE or both")
+    hole = parse(bore, "m", "--bore")
+    shop = workshop(cases.load(case, pairs(overrides)), diagram)
+    curves = track(shop.guide, shop.rollers, parse(tolerance, "m", "--tolerance"), shop.kinks)
+    _refuse_bore(hole, curves)
+    written = [*_dxf(dxf, shop, curves, hole), *_sheet(sheet, shop, curves, hole)]
+    checks = {f"deviation_{c.name}": c.deviation for c in (curves.centre, curves.inner, curves.outer)}
+    checks |= {f"points_{c.name}": len(c.theta) for c in (curves.centre, curves.inner, curves.outer)}
+    report = {
+        "written": written,
+        "checks": {"feasible": shop.verdict.feasible, "tolerance": curves.tolerance, **checks},
+    }
+    emit(report, as_json, lambda: _text(report, shop.verdict.reason))
+
+
+def _refuse_bore(hole: float, curves: Any) -> None:
+    import numpy as np
+
+    nearest = float(np.min(np.hypot(*curves.inner.points.T)))
+    if hole < 0 or hole / 2 >= nearest:
+        raise BadInput(f"--bore = {1e3 * hole:g} mm is not allowed; the track leaves a hole of {2e3 * nearest:.4g} mm")
+
+
+def _dxf(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
+    from mechsym.out.cad.dxf import write
+    from mechsym.out.cad.sheet import spring_text
+
+    lines = [
+        f"guide of {shop.name}, {shop.guide.omega * 30 / math.pi:.5g} rpm, mm",
+        f"spring {spring_text(shop.guide.spring)}",
+        f"within {1e6 * curves.tolerance:.3g} um of the exact curves; roller {2e3 * curves.roller_radius:.6g} mm",
+    ]
+    return [] if path is None else [str(write(curves, path, hole, lines))]
+
+
+def _sheet(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
+    from mechsym.out.cad.sheet import write
+
+    return [] if path is None else [str(write(shop, curves, path, hole))]
+
+
+def _text(report: dict[str, Any], reason: str) -> str:
+    checks = report["checks"]
+    lines = [f"wrote {name}" for name in report["written"]]
+    for name in ("centre", "inner", "outer"):
+        lines.append(
+            f"{name}: {checks[f'points_{name}']} points, {1e6 * checks[f'deviation_{name}']:.3g} um from exact"
+        )
+    return "\n".join([*lines, f"limits: {reason}"])

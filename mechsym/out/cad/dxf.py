@@ -1,0 +1,98 @@
+"""The guide as DXF: splines within a stated tolerance, layers, millimetres.
+
+Layers: CENTRES (paths of the roller centres), INNER and OUTER (walls), HOLES (bore), ROLLERS, AXES, TEXT; the track of
+the second roller has layers of its own with the ending _2.
+"""
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsym.errors import MissingExtra
+from mechsym.files import write_text
+from mechsym.out.cad.curve import CubicPath, Track, nurbs
+
+_MM = 1e3
+_COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXES": 8, "TEXT": 7}
+
+
+def text(track: Track, bore: float, lines: Sequence[str]) -> str:
+    """The text of a DXF file.
+
+    Parameters
+    ----------
+    bore : float
+        Diameter of the hole for the shaft, 0 for none [m]
+    lines : sequence of str
+        What the drawing says: case, spring, tolerance
+    """
+    ezdxf = _ezdxf()
+    document = ezdxf.new("R2010", units=ezdxf.units.MM)
+    space = document.modelspace()
+    for name, colour in _COLOURS.items():
+        document.layers.add(name, color=colour)
+    for number, angle in enumerate(track.turned):
+        ending = "" if number == 0 else f"_{number + 1}"
+        for layer, path in {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}.items():
+            _spline(space, path, angle, layer + ending)
+        start = _MM * track.centre.points[0] @ _rotation(angle)
+        space.add_circle(start, _MM * track.roller_radius, dxfattribs={"layer": "ROLLERS"})
+    if bore:
+        space.add_circle((0, 0), _MM * bore / 2, dxfattribs={"layer": "HOLES"})
+    _frame(space, track, lines)
+    return _written(document)
+
+
+def _spline(space: Any, path: CubicPath, angle: float, layer: str) -> None:
+    points, knots = nurbs(path)
+    flat = [(x, y, 0.0) for x, y in _MM * points @ _rotation(angle)]
+    spline = space.add_open_spline(flat, degree=3, knots=[float(k) for k in knots], dxfattribs={"layer": layer})
+    spline.dxf.flags = 8  # planar, not closed: ends are clamped and meet
+
+
+def _rotation(angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, s], [-s, c]])
+
+
+def _frame(space: Any, track: Track, lines: Sequence[str]) -> None:
+    reach = 1.1 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
+    for ends in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))):
+        space.add_line(*ends, dxfattribs={"layer": "AXES"})
+    height = reach / 40
+    for row, line in enumerate(lines):
+        place = (-reach, -reach - 1.6 * height * (row + 1))
+        space.add_text(line, height=height, dxfattribs={"layer": "TEXT"}).set_placement(place)
+
+
+def _written(document: Any) -> str:
+    """The same text for the same drawing: no time, no random identifiers."""
+    header: Mapping[str, Any] = {
+        "$TDCREATE": 2451545.0, "$TDUPDATE": 2451545.0, "$TDUCREATE": 2451545.0, "$TDUUPDATE": 2451545.0,
+        "$FINGERPRINTGUID": "{00000000-0000-0000-0000-000000000000}",
+        "$VERSIONGUID": "{00000000-0000-0000-0000-000000000000}",
+    }  # fmt: skip
+    _ezdxf().options.write_fixed_meta_data_for_testing = True
+    for name, value in header.items():
+        document.header[name] = value
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue()
+
+
+def write(track: Track, path: Path, bore: float, lines: Sequence[str]) -> Path:
+    """Write a guide as DXF, with a bore of that diameter [m]."""
+    return write_text(path, text(track, bore, lines))
+
+
+def _ezdxf() -> Any:
+    try:
+        import ezdxf
+        import ezdxf.units
+    except ImportError:
+        raise MissingExtra("a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
+    return ezdxf

@@ -1,0 +1,159 @@
+"""The guide for the workshop: curves within tolerance, files read again by other code, walls that cross are refused."""
+
+import io
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from built_in import needed
+from click.testing import CliRunner
+from scipy.interpolate import PPoly
+
+from mechsym import cases
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+from mechsym.jobs.guide import workshop
+from mechsym.out.cad import track
+from mechsym.out.cad.curve import cubic, nurbs, offset
+
+ezdxf = pytest.importorskip("ezdxf", reason="the extra cad is not installed")
+
+from mechsym.out.cad.check import measured  # noqa: E402
+from mechsym.out.cad.dxf import text, write  # noqa: E402
+
+WITH_GUIDE = ("zotov-89", "zotov-142", "generator")
+
+
+@pytest.fixture(scope="module")
+def shops():
+    made = {}
+
+    def get(name):
+        if name not in made:
+            made[name] = workshop(cases.load(name, needed(name)))
+        return made[name]
+
+    return get
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-6, 1e-7])
+@pytest.mark.parametrize("name", WITH_GUIDE)
+def test_a_file_read_again_keeps_its_tolerance(shops, tmp_path, name, tolerance):
+    shop = shops(name)
+    curves = track(shop.guide, shop.rollers, tolerance, shop.kinks)
+    rows, errors = measured(write(curves, tmp_path / "g.dxf", 0.02, ["a"]), shop.guide.rho, shop.rollers.radius)
+    assert errors == 0
+    assert sorted(r.layer for r in rows) == ["CENTRES", "CENTRES_2", "INNER", "INNER_2", "OUTER", "OUTER_2"]
+    for row in rows:
+        assert row.gap == 0.0
+        assert row.deviation <= tolerance
+        assert row.area_error * row.area <= tolerance * row.length
+
+
+def test_a_fine_drawing_has_area_and_length_to_nine_digits(shops, tmp_path):
+    shop = shops("zotov-89")
+    path = write(track(shop.guide, shop.rollers, 1e-9, shop.kinks), tmp_path / "g.dxf", 0.06, [])
+    for row in measured(path, shop.guide.rho, shop.rollers.radius)[0]:
+        assert row.area_error < 1e-9 and row.length_error < 1e-9
+
+
+def test_a_spoiled_file_is_noticed(shops, tmp_path):
+    """The measuring must see a tenth of a micrometre, or it would prove nothing."""
+    shop = shops("zotov-89")
+    path = write(track(shop.guide, shop.rollers, 1e-7, shop.kinks), tmp_path / "g.dxf", 0.06, [])
+    document = ezdxf.readfile(path)
+    spline = next(iter(document.modelspace().query('SPLINE[layer=="OUTER"]')))
+    points = np.array(spline.control_points)
+    points[40] *= 1 + 1e-6
+    spline.control_points = points
+    document.saveas(path)
+    found = {r.layer: r.deviation for r in measured(path, shop.guide.rho, shop.rollers.radius)[0]}
+    assert found["OUTER"] > 1.5e-7 >= found["INNER"]
+
+
+def test_a_circle_is_an_arc_of_known_error():
+    """A cubic over the angle h misses a circle by r h^4 / 384 of the radius, a constant that is not ours."""
+    circle = offset(PPoly([[2.0]], [0.0, 2 * math.pi], extrapolate="periodic"), 0.5)
+    found = cubic("circle", circle, np.linspace(0, 2 * math.pi, 13), 1e-3)
+    h = 2 * math.pi / 12
+    assert found.deviation == pytest.approx(2.5 * h**4 / 384, rel=0.05)
+    points, knots = nurbs(found)
+    assert len(knots) == len(points) + 4 and np.allclose(np.hypot(*found.points.T), 2.5, rtol=1e-15)
+
+
+def test_second_track_is_the_first_turned_by_half_a_turn(shops):
+    assert track(shops("zotov-89").guide, shops("zotov-89").rollers, 1e-5).turned == (0.0, math.pi)
+
+
+@pytest.mark.parametrize("wall, radius", [("inner", "700 mm"), ("inner", "400 mm")])
+def test_a_crossing_wall_is_refused_with_its_angle(tmp_path, wall, radius):
+    words = ["guide", "zotov-89", "--dxf", str(tmp_path / "g.dxf"), "--set", f"rollers.radius={radius}"]
+    done = CliRunner().invoke(mechsym, words)
+    assert isinstance(done.exception, BadInput)
+    assert f"the {wall} wall crosses itself at theta = " in str(done.exception)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_same_drawing_is_the_same_text(shops):
+    shop = shops("zotov-89")
+    curves = track(shop.guide, shop.rollers, 1e-5, shop.kinks)
+    assert text(curves, 0.06, ["a"]) == text(curves, 0.06, ["a"])
+
+
+def test_layers_units_and_title(shops):
+    shop = shops("zotov-89")
+    content = text(track(shop.guide, shop.rollers, 1e-5, shop.kinks), 0.06, ["guide of zotov-89"])
+    document = ezdxf.read(io.StringIO(content))
+    kinds = {(e.dxf.layer, e.dxftype()) for e in document.modelspace()}
+    assert {("HOLES", "CIRCLE"), ("ROLLERS", "CIRCLE"), ("AXES", "LINE"), ("TEXT", "TEXT")} <= kinds
+    (hole,) = document.modelspace().query('CIRCLE[layer=="HOLES"]')
+    assert hole.dxf.radius == pytest.approx(30.0) and document.units == ezdxf.units.MM
+
+
+def test_sheet_and_answer_of_the_command(tmp_path):
+    svg, dxf = tmp_path / "g.svg", tmp_path / "g.dxf"
+    words = ["guide", "zotov-89", "--sheet", str(svg), "--dxf", str(dxf), "--tolerance", "10 um", "--json"]
+    done = CliRunner().invoke(mechsym, words)
+    assert done.exit_code == 0, done.output
+    answer = json.loads(done.output)
+    assert answer["written"] == [str(dxf), str(svg)]
+    assert answer["checks"]["feasible"] and answer["checks"]["deviation_outer"] <= 1e-5
+    assert svg.read_text().startswith("<?xml") and "</svg>" in svg.read_text()
+    first = svg.read_bytes()
+    assert CliRunner().invoke(mechsym, words).exit_code == 0 and svg.read_bytes() == first
+
+
+def test_sheet_says_what_errors_cost(shops):
+    """One per cent of pressure against what the design itself reports."""
+    shop = shops("zotov-89")
+    told = {what.split()[0]: (low, high) for what, low, high in shop.tolerances}
+    assert told["p0"][0] == pytest.approx(0.0490, abs=5e-4)
+    assert 0 < told["track"][0] < told["p0"][0]
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        ([], "nothing to write"),
+        (["--sheet", "g.png"], "allowed are .svg, .pdf"),
+        (["--dxf", "g.dxf", "--tolerance", "1 kg"], "--tolerance"),
+        (["--dxf", "g.dxf", "--tolerance", "1 m"], "from 1e-10 m to 1e-3 m"),
+        (["--dxf", "g.dxf", "--bore", "2 m"], "the track leaves a hole of"),
+    ],
+)
+def test_bad_input_is_one_line(tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(mechsym, ["guide", "zotov-89", *words])
+    assert isinstance(done.exception, BadInput) and said in str(done.exception)
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_the_extra_one_line_names_it(tmp_path):
+    code = "import sys; sys.modules['ezdxf'] = None; from mechsym.cli import main; main()"
+    words = ["guide", "zotov-89", "--dxf", str(tmp_path / "g.dxf")]
+    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.strip() == "mechsym: a DXF file needs the extra cad: pip install 'mechsym[cad]'"
