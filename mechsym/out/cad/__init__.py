@@ -4,6 +4,6 @@ curve.py   path and walls as cubic curves with exact tangents     dxf.py     lay
 check.py   a file read again and measured against the path        sheet.py   dimensioned sheet, SVG or PDF
 """
 
-from mechsym.out.cad.curve import Track, track
+from mechsym.out.cad.curve import Groove, track
 
-__all__ = ["Track", "track"]
+__all__ = ["Groove", "track"]

@@ -39,7 +39,7 @@ class CubicPath:
 
 
 @record
-class Track:
+class Groove:
     """A groove: centre path and both walls, of one guide."""
 
     centre: CubicPath
@@ -50,7 +50,7 @@ class Track:
     turned: tuple[float, ...]  #: angles by which the track of each roller is turned about the axis [rad]
 
 
-def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequence[float] = ()) -> Track:
+def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequence[float] = ()) -> Groove:
     """Centre path and walls of a guide within a tolerance.
 
     Parameters
@@ -76,7 +76,7 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequ
     ]
     second = (math.pi,) if guide.rollers == 2 and guide.parameters.arrangement == "two_tracks" else ()
     centre, inner, outer = curves
-    return Track(
+    return Groove(
         centre=centre,
         inner=inner,
         outer=outer,

@@ -14,13 +14,13 @@ import numpy as np
 
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
-from mechsym.out.cad.curve import CubicPath, Track, nurbs
+from mechsym.out.cad.curve import CubicPath, Groove, nurbs
 
 _MM = 1e3
 _COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXES": 8, "TEXT": 7}
 
 
-def text(track: Track, bore: float, lines: Sequence[str]) -> str:
+def text(track: Groove, bore: float, lines: Sequence[str]) -> str:
     """The text of a DXF file.
 
     Parameters
@@ -59,7 +59,7 @@ def _rotation(angle: float) -> np.ndarray:
     return np.array([[c, s], [-s, c]])
 
 
-def _frame(space: Any, track: Track, lines: Sequence[str]) -> None:
+def _frame(space: Any, track: Groove, lines: Sequence[str]) -> None:
     reach = 1.1 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
     for ends in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))):
         space.add_line(*ends, dxfattribs={"layer": "AXES"})
@@ -84,7 +84,7 @@ def _written(document: Any) -> str:
     return stream.getvalue()
 
 
-def write(track: Track, path: Path, bore: float, lines: Sequence[str]) -> Path:
+def write(track: Groove, path: Path, bore: float, lines: Sequence[str]) -> Path:
     """Write a guide as DXF, with a bore of that diameter [m]."""
     return write_text(path, text(track, bore, lines))
 

@@ -13,7 +13,7 @@ from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
 from mechsym.jobs.guide import Workshop
-from mechsym.out.cad.curve import Track, hermite
+from mechsym.out.cad.curve import Groove, hermite
 from mechsym.sizing.rules.bearings import equivalent_load, required_rating
 
 _MM = 1e3
@@ -32,7 +32,7 @@ def roller_life(shop: Workshop) -> tuple[float, float, float]:
     return load, speed, required_rating(load, speed * 3600 * _LIFE / (2 * math.pi), "roller")
 
 
-def write(shop: Workshop, track: Track, path: Path, bore: float) -> Path:
+def write(shop: Workshop, track: Groove, path: Path, bore: float) -> Path:
     """Write the sheet as SVG or PDF, by the ending of the file; `bore` is the diameter of the hole [m]."""
     import io
 
@@ -47,7 +47,7 @@ def write(shop: Workshop, track: Track, path: Path, bore: float) -> Path:
     return write_bytes(path, buffer.getvalue())
 
 
-def sheet(shop: Workshop, track: Track, bore: float) -> Figure:
+def sheet(shop: Workshop, track: Groove, bore: float) -> Figure:
     """The sheet as a figure of A3; `bore` is the diameter of the hole [m]."""
     figure = Figure(figsize=(16.5, 11.7))
     _profile(figure.add_axes((0.03, 0.2, 0.55, 0.77)), shop, track, bore)
@@ -56,7 +56,7 @@ def sheet(shop: Workshop, track: Track, bore: float) -> Figure:
     return figure
 
 
-def _profile(axis: Any, shop: Workshop, track: Track, bore: float) -> None:
+def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     theta = np.linspace(0, 2 * math.pi, 1441)
     axis.set_aspect("equal")
     axis.axis("off")
@@ -130,7 +130,7 @@ def _share(value: float | None) -> str:
     return "no steady motion" if value is None else f"{100 * value:.3g} %"
 
 
-def _title(axis: Any, shop: Workshop, track: Track, bore: float) -> None:
+def _title(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     axis.set_xticks([])
     axis.set_yticks([])
     g = shop.guide.parameters
