@@ -23,6 +23,7 @@ _SECTIONS: dict[str, Any] = {
     "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
+    "stirling": "mechsym.cycle.kinds.stirling_second_order:StirlingLosses",
     "combustion": "mechsym.cycle.measured.combustion:Analysis",
     "gas": (
         "model",
@@ -87,6 +88,7 @@ _SECTIONS: dict[str, Any] = {
         {
             "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
             "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
+            "clearances": "mechsym.mechanisms.rodless_clearance:Clearances",
         },
     ),
 }

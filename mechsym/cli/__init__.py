@@ -17,6 +17,7 @@ COMMANDS = {
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
     "fmu": "mechsym.cli.fmu:fmu",
+    "flywheel": "mechsym.cli.flywheel:flywheel",
     "forces": "mechsym.cli.forces:forces",
     "guide": "mechsym.cli.guide:guide",
     "hinge": "mechsym.cli.hinge:hinge",

@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from mechsym.cli import cycle_stirling
 from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
@@ -34,6 +35,7 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle nunes-slider-crank --over "cycle.ignition=-30 deg:0 deg:2 deg" --speeds 4000
               mechsym cycle generator --diagram measured.csv
               mechsym cycle nunes-hypocycloid --loop 10
+              mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
     """
     from mechsym.cases import load
     from mechsym.cli import cycle_loop, cycle_measured
@@ -55,7 +57,11 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     from mechsym.jobs.gas import one_cylinder
 
     as_json, out = output
-    if kind_of(case.need("cycle")).given == "engine":
+    given = kind_of(case.need("cycle")).given
+    if given == "train" and not over:
+        cycle_stirling.show(case, _array(omega), as_json, out)
+        return
+    if given == "engine":
         machine = engine(one_cylinder(case))
         found = _map(machine, omega, over)
     elif over:

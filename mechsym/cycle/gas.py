@@ -13,7 +13,9 @@ from mechsym.cycle.chamber import Chamber, chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.engine import curves
 from mechsym.cycle.kinds import cylinder_pressure
-from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_pressure
+from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_engine, stirling_pressure
+from mechsym.cycle.kinds.stirling_second_order import StirlingLosses
+from mechsym.cycle.kinds.stirling_spaces import StirlingCylinders, areas
 from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train import build_rigid
@@ -30,7 +32,9 @@ class Gas:
 
     pressure: Pressure
     chamber: Chamber
-    shared: bool = False  #: Whether all pistons of a machine share it, over the angle of the shaft
+    #: Areas by which a gas that all pistons of a machine share pushes each of them, over the angle of the shaft; empty
+    #: where each piston has a gas of its own [m^2]
+    pistons: tuple[float, ...] = ()
 
     # a gas is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
@@ -89,13 +93,23 @@ def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
     return Gas(pressure=pressure_over("spark-ignition", absolute, 4 * math.pi, (), room, facts=facts), chamber=room)
 
 
-def gas_of_train(cycle: Schmidt, train: CrankTrainParameters) -> Gas:
-    """Gas that the two cylinders of a crank train share, hot and cold; its chamber is the hot one."""
-    if not isinstance(train, CrankTrainParameters) or len(train.throw) != 2:
-        raise BadInput("[cycle] of kind 'schmidt' needs a crank_train with two cylinders, hot and cold")
+def gas_of_train(
+    cycle: StirlingCylinders, train: CrankTrainParameters, omega: float, losses: StirlingLosses | None = None
+) -> Gas:
+    """Gas that the two cylinders of a crank train share; its chamber is the hot one.
+
+    Parameters
+    ----------
+    omega : float
+        Shaft speed, for a cycle that depends on it [rad/s]
+    """
+    return gas_of_engine_on(engine_of_train(cycle, train, omega, losses), cycle, train)
+
+
+def gas_of_engine_on(engine: StirlingEngine, cycle: StirlingCylinders, train: CrankTrainParameters) -> Gas:
+    """Gas of a Stirling engine whose turn is known, on its crank train."""
     kinematics, phi = build_rigid(train).functions["kinematics"], ca.SX.sym("phi")
     found = dict(zip(kinematics.name_out(), kinematics(phi), strict=True))
-    travels = [_vectorised(ca.Function("x", [phi], [found[f"x_{i}"]])) for i in (1, 2)]
     hot = ca.Function("hot", [phi], [found["x_1"], found["dx_1_dphi"]], ["phi"], ["x", "dx_dphi"])
     area, stroke = piston_area(cycle.bore), 2 * each(train, "r")[0]
     room = Chamber(
@@ -103,11 +117,28 @@ def gas_of_train(cycle: Schmidt, train: CrankTrainParameters) -> Gas:
         displacement=area * stroke, back_pressure=cycle.p_back,
         compression_ratio=1 + area * stroke / cycle.dead_hot if cycle.dead_hot else math.inf,
     )  # fmt: skip
-    return Gas(pressure=schmidt_pressure(cycle, *travels), chamber=room, shared=True)
+    pistons = areas(cycle).sum(axis=0).tolist()
+    return Gas(pressure=stirling_pressure(engine), chamber=room, pistons=tuple(pistons))
 
 
-def _vectorised(function: ca.Function) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda phi: np.asarray(function(np.reshape(phi, (1, -1)))).reshape(np.shape(phi))
+def engine_of_train(
+    cycle: StirlingCylinders, train: CrankTrainParameters, omega: float, losses: StirlingLosses | None = None
+) -> StirlingEngine:
+    """The Stirling engine on a crank train.
+
+    Parameters
+    ----------
+    omega : float
+        Shaft speed, for a cycle that depends on it [rad/s]
+    """
+    if not isinstance(train, CrankTrainParameters) or len(train.throw) != 2:
+        raise BadInput("[cycle] of a Stirling engine needs a crank_train with two cylinders, hot and cold")
+    kinematics = build_rigid(train).functions["kinematics"]
+
+    def travel(name: str) -> Callable[[Any], Any]:
+        return lambda phi: kinematics.call([phi])[kinematics.name_out().index(name)]
+
+    return stirling_engine(cycle, (travel("x_1"), travel("x_2")), omega, losses)
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:

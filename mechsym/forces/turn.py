@@ -20,12 +20,12 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import crank_train, rodless
 from mechsym.mechanisms.crank_train.firing import gas_forces
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.rodless import CrankFreeRadially, Stiffnesses
+from mechsym.mechanisms.rodless import ClosingRule
 from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
 from mechsym.quantities import record
 
 _STEPS_PER_TURN = 1440
-ClosingRule = CrankFreeRadially | Stiffnesses
+
 _SUPPORTED = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
 
 
@@ -112,7 +112,7 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
     phi : ndarray, shape (n,)
         Crank angles, evenly spaced over a period [rad]
     """
-    inputs, mechanism = _inputs(drive, gas, phi), drive.mechanism
+    inputs, mechanism = pushes(drive, gas, phi), drive.mechanism
     letters = _letters(mechanism, omega, phi) | inputs
     kinematics, reactions, momentum = (
         evaluate(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
@@ -139,7 +139,14 @@ def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, n
     return {q: phi, f"{q}d": none + omega, f"{q}dd": none} | dict.fromkeys(mechanism.inputs, none)
 
 
-def _inputs(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
+def pushes(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
+    """Gas forces by the input of the mechanism that takes them [N].
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Crank angles [rad]
+    """
     if gas is None:
         return {}
 
@@ -148,8 +155,8 @@ def _inputs(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np
 
     if drive.name == "rodless":
         return dict(zip(("F_a", "F_b"), axis_forces(faces_of(drive), net, phi), strict=True))
-    if gas.shared:
-        return {f"F{i + 1}": net(phi) * gas.chamber.area for i in range(len(drive.parameters.throw))}
+    if gas.pistons:
+        return {f"F{i + 1}": net(phi) * area for i, area in enumerate(gas.pistons)}
     if drive.name == "crank_train":
         forces = gas_forces(drive.parameters, net, gas.chamber.area, phi)
         return {f"F{i + 1}": force for i, force in enumerate(forces)}

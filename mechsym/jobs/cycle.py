@@ -10,8 +10,12 @@ from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.figures import cylinder_columns
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
+from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
+from mechsym.cycle.kinds.stirling import stirling_columns
+from mechsym.forces import turn
 from mechsym.jobs.gas import engine_with, of, one_cylinder
-from mechsym.jobs.turn import fitted_law
+from mechsym.jobs.turn import drive_of, fitted_law
+from mechsym.quantities import RPM
 
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
@@ -55,6 +59,59 @@ def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
     seen = one_cylinder(case)
     with of(case):
         return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega)
+
+
+def columns_of_stirling(case: Case, omega: np.ndarray) -> dict[str, Any]:
+    """Figures of a Stirling engine over the speeds, of the whole engine.
+
+    Parameters
+    ----------
+    omega : ndarray, shape (n,)
+        Shaft speeds [rad/s]
+
+    Returns
+    -------
+    columns : dict
+        As `engine.columns`, without fuel; works and heats of a turn, temperatures, and under `losses` what is lost [W]
+    """
+    drive, cycle, train = drive_of(case), case.need("cycle"), case.need("parameters")
+    rows = []
+    with of(case):
+        for speed in omega:
+            engine = engine_of_train(cycle, train, float(speed), case.sections.get("stirling"))
+            found = turn(drive, gas_of_engine_on(engine, cycle, train), float(speed))
+            force = max(float(np.abs(push).max()) for push in found.inputs.values())
+            extremes = {"torque_max": float(found.torque.max()), "force_max": force}
+            rows.append(stirling_columns(engine, float(speed)) | extremes)
+    columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0] if key != "losses"}
+    shares = {"heat": 1 - columns["efficiency"], "work": columns["efficiency"]}
+    none = dict.fromkeys(("exhaust", "unburnt"), np.full(len(rows), np.nan))
+    losses = {name: np.array([row["losses"][name] for row in rows]) for name in rows[0]["losses"]}
+    return {"speed_rpm": omega / RPM} | columns | {"fractions": shares | none, "loads": {}, "losses": losses}
+
+
+def stirling_curves(case: Case, omega: float) -> dict[str, np.ndarray]:
+    """One turn of a Stirling engine, curve by curve, from the first dead centre on.
+
+    Parameters
+    ----------
+    omega : float
+        Shaft speed [rad/s]
+
+    Returns
+    -------
+    curves : dict of str to ndarray, shape (n,)
+        `phi_deg`, `p_pa`, `v_e_m3`, `v_c_m3`, `t_e_k`, `t_c_k`, and `flow_e_kg_s`, `flow_c_kg_s` into the spaces
+    """
+    with of(case):
+        found = engine_of_train(case.need("cycle"), case.need("parameters"), omega, case.sections.get("stirling")).turn
+    order = np.argsort(np.remainder(found.phi, 2 * np.pi), kind="stable")
+    curves = {
+        "phi_deg": np.degrees(np.remainder(found.phi, 2 * np.pi)), "p_pa": found.p, "v_e_m3": found.V_e,
+        "v_c_m3": found.V_c, "t_e_k": found.T_e, "t_c_k": found.T_c, "flow_e_kg_s": found.flow_e * omega,
+        "flow_c_kg_s": found.flow_c * omega,
+    }  # fmt: skip
+    return {name: values[order] for name, values in curves.items()}
 
 
 def speed_range(speeds: Speeds) -> np.ndarray:

@@ -39,7 +39,8 @@ def gas(case: Case) -> Gas | None:
     given = kind_of(cycle).given
     if given == "train":
         with of(case):
-            return gas_of_train(cycle, case.need("parameters"))
+            speed = case.need("operation").speed
+            return gas_of_train(cycle, case.need("parameters"), speed, case.sections.get("stirling"))
     seen = one_cylinder(case)
     if given == "engine":
         return gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)

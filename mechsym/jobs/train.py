@@ -67,7 +67,7 @@ def cylinders(case: Case) -> Cylinders:
 
 def _starts(case: Case, found: Gas, parameters: CrankTrainParameters) -> tuple[float, ...]:
     """Shaft angle at which each cylinder's pressure has its angle 0."""
-    if not found.shared:
+    if not found.pistons:
         refuse_wrong_firing(parameters)
         return each(parameters, "firing")
     if len(set(parameters.throw)) > 1:
@@ -79,8 +79,10 @@ def _starts(case: Case, found: Gas, parameters: CrankTrainParameters) -> tuple[f
 
 
 def _part(found: Gas, index: int, throw: int, start: float) -> Part:
+    share = found.pistons[index] / found.chamber.area if found.pistons else 1.0
+
     def force(phi: np.ndarray) -> np.ndarray:
-        return found.force(phi - start)
+        return found.force(phi - start) * share
 
     kinks = tuple(sorted((k + start) % found.pressure.period for k in found.pressure.kinks))
     value = Periodic(coordinate=f"phi{throw}", value=force, period=found.pressure.period, kinks=kinks)

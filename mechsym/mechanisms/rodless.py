@@ -11,6 +11,7 @@ import casadi as ca
 
 from mechsym import mechanisms
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.rodless_clearance import Clearances, redundant_force
 from mechsym.quantities import quantity, record
 
 Symbols = dict[str, ca.SX]
@@ -45,6 +46,9 @@ class Stiffnesses:
     k_c: float = quantity("N/m", above=0, about="stiffness of crank and pin along the radius")
 
 
+ClosingRule = CrankFreeRadially | Stiffnesses | Clearances
+
+
 def build(parameters: RodlessParameters) -> Mechanism:
     """The rodless mechanism with the reactions that the rigid mechanism determines.
 
@@ -56,7 +60,7 @@ def build(parameters: RodlessParameters) -> Mechanism:
     return mechanisms.build("rodless", parameters)
 
 
-def closed(mechanism: Mechanism, rule: CrankFreeRadially | Stiffnesses) -> Mechanism:
+def closed(mechanism: Mechanism, rule: ClosingRule) -> Mechanism:
     r"""The mechanism with all reactions, by a closing rule.
 
     With the radial pin force S the reactions are :math:`X_a = X_a^0 - S \sin\alpha`,
@@ -88,9 +92,11 @@ def closed(mechanism: Mechanism, rule: CrankFreeRadially | Stiffnesses) -> Mecha
     return dataclasses.replace(mechanism, functions={**mechanism.functions, "reactions": closed_reactions})
 
 
-def _radial_force(rule: CrankFreeRadially | Stiffnesses, X_a: ca.SX, X_b: ca.SX, s: ca.SX, c: ca.SX) -> ca.SX:
+def _radial_force(rule: ClosingRule, X_a: ca.SX, X_b: ca.SX, s: ca.SX, c: ca.SX) -> ca.SX:
     if isinstance(rule, CrankFreeRadially):
         return ca.SX(0)
+    if isinstance(rule, Clearances):
+        return redundant_force(rule, X_a, X_b, s, c)
     # least X_a^2 / k_a + X_b^2 / k_b + S^2 / k_c over S
     return (X_a * s / rule.k_a + X_b * c / rule.k_b) / (1 / rule.k_c + s**2 / rule.k_a + c**2 / rule.k_b)
 

@@ -54,6 +54,8 @@ KINDS: Mapping[str, Kind] = {
     ),
     "spark-ignition": Kind(cycle="mechsym.cycle.kinds.spark_ignition:SparkIgnition", given="engine"),
     "schmidt": Kind(cycle="mechsym.cycle.kinds.schmidt:Schmidt", given="train"),
+    "stirling-adiabatic": Kind(cycle="mechsym.cycle.kinds.stirling:StirlingAdiabatic", given="train"),
+    "stirling-second-order": Kind(cycle="mechsym.cycle.kinds.stirling:StirlingSecondOrder", given="train"),
 }
 
 

@@ -1,0 +1,76 @@
+"""`mechsym flywheel`: the flywheel for a wanted ripple of the speed, and the run that proves it."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option, out_option, pairs, set_option
+from mechsym.errors import BadInput
+
+
+@click.command(short_help="Flywheel for a wanted ripple of the speed.")
+@click.argument("case")
+@click.option(
+    "--ripple", default="2%", show_default=True, metavar="SHARE", help="Wanted (max - min)/mean of the speed."
+)
+@json_option
+@out_option
+@set_option
+def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+    """Size the flywheel of CASE for a wanted ripple, for its cycle, load and cylinders, and run it in time.
+
+    The shaft is rigid. Inertia is what must be added to the case. Exit status 1 when no flywheel does it.
+
+    \b
+    Examples: mechsym flywheel zotov-89 --ripple 2%
+              mechsym flywheel opposed-pistons --ripple 0.005 --set load.law=constant
+    """
+    from mechsym.cases import load
+    from mechsym.jobs.flywheel import flywheel as size
+    from mechsym.jobs.flywheel import summary
+
+    found = size(load(case, pairs(overrides)), _share(ripple))
+    files = _write(out, found) if out else []
+    result = summary(found)
+    emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))
+    if found.inertia is None:
+        raise click.exceptions.Exit(1)
+
+
+def _share(text: str) -> float:
+    from mechsym.quantities import parse
+
+    value = parse(text, "-", "--ripple")
+    if not 1e-6 <= value < 1:
+        raise BadInput(f"--ripple = {text}: give a share from 1e-6 to below 1, such as 0.02 or 2%")
+    return value
+
+
+def _text(result: dict[str, Any]) -> str:
+    bare, check = result["ripple_bare"], result["check"]
+    lines = [
+        f"mean torque {result['torque_mean']:.6g} N*m, work that swings {result['work_swing']:.6g} J",
+        f"without a flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
+    ]
+    if result["inertia"] is None:
+        return "\n".join([*lines, f"no flywheel gives {100 * result['ripple_wanted']:.4g} %: {result['reason']}"])
+    lines.append(
+        f"flywheel {result['inertia']:.6g} kg m2 besides the {result['inertia_kept']:.6g} kg m2 that turn "
+        f"(rule of thumb: {result['estimate']:.6g})"
+    )
+    if check["speed_ripple"] is not None:
+        lines.append(
+            f"run in time: ripple {100 * check['speed_ripple']:.5g} %, {check['status']}, "
+            f"energy residual {check['energy_residual']:.1g}"
+        )
+    return "\n".join(lines)
+
+
+def _write(out: Path, found: Any) -> list[Path]:
+    import numpy as np
+
+    from mechsym.files import write_csv
+
+    columns = {"phi_deg": np.degrees(found.steady.phi), "omega_rad_s": found.steady.omega}
+    return [write_csv(out / "flywheel.csv", columns)]

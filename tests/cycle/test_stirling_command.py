@@ -1,0 +1,82 @@
+"""`mechsym cycle` of the built-in Stirling engine, all kinds, and the forces on its train."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from mechsym import cases
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+from mechsym.jobs.gas import gas
+from mechsym.jobs.turn import turn
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
+
+
+def cycle(*options):
+    found = CliRunner().invoke(mechsym, ["cycle", "alpha-stirling", "--json", *options])
+    assert found.exit_code == 0, found.output
+    return json.loads(found.stdout)
+
+
+@pytest.mark.parametrize(
+    ("kind", "work", "efficiency"),
+    [("schmidt", 224.08, 0.6333), ("stirling-adiabatic", 201.23, 0.4915)],
+)
+def test_figures_of_the_ideal_kinds(kind, work, efficiency):
+    found = cycle("--set", f"cycle.kind={kind}", "--speeds", "300,600")
+    assert found["work_j"] == pytest.approx([work, work], abs=0.01)
+    assert found["efficiency"] == pytest.approx([efficiency] * 2, abs=1e-4)
+    assert found["power_kw"][0] == pytest.approx(work * 5 / 1e3, rel=1e-4)
+    assert found["sfc_g_kwh"] == [None, None]
+    assert found["losses"] == {}
+    assert max(map(abs, found["energy_residual"])) < 1e-10
+    for name in ("heat_in_j", "heat_out_j", "heat_regenerator_j", "T_e_max_k"):
+        assert found[name][0] > 0
+
+
+def test_losses_of_the_second_order_add_up():
+    found = cycle("--set", "cycle.kind=stirling-second-order")
+    lost = {name: values[0] for name, values in found["losses"].items()}
+    work = sum(value for name, value in lost.items() if not name.endswith("_heat"))
+    heat = sum(value for name, value in lost.items() if name.endswith("_heat"))
+    turns = found["speed_rpm"][0] / 60
+    assert found["power_kw"][0] * 1e3 == pytest.approx(found["work_j"][0] * turns - work, rel=1e-12)
+    assert found["heat_in_kw"][0] * 1e3 == pytest.approx(found["heat_in_j"][0] * turns + heat, rel=1e-12)
+    assert 0 < found["efficiency"][0] < found["indicated_efficiency"][0]
+
+
+def test_files_and_text(tmp_path):
+    options = ["cycle", "alpha-stirling", "--set", "cycle.kind=stirling-adiabatic", "--out", str(tmp_path)]
+    found = CliRunner().invoke(mechsym, options)
+    assert found.exit_code == 0
+    assert "first law closed" in found.output
+    table = np.genfromtxt(tmp_path / "cycle.csv", delimiter=",", names=True, deletechars="")
+    assert {path.name for path in tmp_path.iterdir()} == {"performance.csv", "cycle.csv", "cycle.svg"}
+    pressure = next(name for name in table.dtype.names if name.startswith("p_pa"))
+    assert table[pressure].max() == pytest.approx(1.0374e6, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["schmidt", "stirling-adiabatic", "stirling-second-order"])
+def test_mean_torque_on_the_train_is_the_work_of_the_gas(kind):
+    case = cases.load("alpha-stirling", {"cycle.kind": kind})
+    found = turn(case)
+    work = float(np.mean(found.torque)) * 2 * math.pi
+    assert work == pytest.approx(cycle("--set", f"cycle.kind={kind}")["work_j"][0], rel=1e-6)
+
+
+def test_a_displacer_is_hardly_pushed():
+    case = cases.load("alpha-stirling", {"cycle.arrangement": "beta", "cycle.kind": "stirling-adiabatic"})
+    pushed = gas(case).pistons
+    assert pushed[0] == 0
+    assert pushed[1] == pytest.approx(math.pi / 4 * 0.09**2)
+
+
+def test_missing_losses_are_named():
+    case = cases.load("alpha-stirling", {"cycle.kind": "stirling-second-order"})
+    bare = {name: section for name, section in case.sections.items() if name != "stirling"}
+    with pytest.raises(BadInput, match=r"\[stirling\]"):
+        turn(type(case)(**{**vars(case), "sections": bare}))
+    assert isinstance(case.need("parameters"), CrankTrainParameters)
