@@ -24,6 +24,7 @@ COMMANDS = {
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
     "optimise": "mechsym.cli.optimise:optimise",
+    "page": "mechsym.cli.page:page",
     "reproduce": "mechsym.cli.reproduce:reproduce",
     "simulate": "mechsym.cli.simulate:simulate",
     "size": "mechsym.cli.size:size",

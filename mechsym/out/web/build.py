@@ -1,0 +1,102 @@
+"""C to WebAssembly by the compiler of the extra web, and the page around it."""
+
+import base64
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from mechsym.errors import MissingExtra
+from mechsym.native.compiler import NoCompiler
+from mechsym.native.integrators import dop853_numbers
+from mechsym.out.block import Block, Port
+from mechsym.out.fmi.describe import variables
+from mechsym.out.text.c import model
+
+_OPTIONS = ("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-O2", "-s", "-ffp-contract=off")
+# parameters that get a slider, with the range as shares of the start; others have a field
+_SLIDERS = {
+    "p0": (0.9, 1.1), "F0": (0.8, 1.2), "load_torque": (0.5, 1.5), "drive_1": (0.5, 2.0), "k1": (0.5, 2.0),
+    "gas_scale": (0.5, 1.2),
+}  # fmt: skip
+
+
+def page(block: Block) -> str:
+    """The text of an HTML file that simulates a block.
+
+    Raises
+    ------
+    MissingExtra
+        There is no compiler for WebAssembly
+    """
+    room = resources.files("mechsym.out.web")
+    code = base64.b64encode(webassembly(block)).decode("ascii")
+    data = json.dumps(_data(block), separators=(",", ":"), sort_keys=True).replace("</", "<\\/")
+    text = (room / "page.html").read_text(encoding="utf-8")
+    return text.replace("{{title}}", _escaped(block.name)).replace("{{data}}", data).replace("{{code}}", code)
+
+
+def webassembly(block: Block) -> bytes:
+    """The module of a block: exports reset, set, get, advance; imports nothing."""
+    if importlib.util.find_spec("ziglang") is None:
+        raise MissingExtra("a page that simulates needs the extra web: pip install 'mechsym[web]'")
+    room = resources.files("mechsym.out")
+    sources = {
+        "model.h": model(block),
+        "method.h": dop853_numbers() + "\n",
+        "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
+        "page.c": (room / "web" / "page.c").read_text(encoding="utf-8"),
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in sources.items():
+            (Path(folder) / name).write_text(content, encoding="utf-8")
+        command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, "page.c", "-o", "page.wasm", "-lm"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=dict(os.environ))
+        if done.returncode:
+            said = [line for line in done.stderr.splitlines() if "error" in line] or ["no word"]
+            raise NoCompiler(f"the compiler of the extra web failed: {said[0].strip()}")
+        return (Path(folder) / "page.wasm").read_bytes()
+
+
+def _data(block: Block) -> dict[str, Any]:
+    rows = variables(block)
+    speed = block.states[len(block.states) // 2]
+    sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
+    if speed.start:
+        sliders.append(_slider(speed, 0.9, 1.1))
+    turn = block.kinks[0].period if block.kinks else 2 * 3.141592653589793
+    return {
+        "name": block.name,
+        "about": block.about,
+        "references": {v.port.name: v.reference for v in rows},
+        "units": {v.port.name: v.port.unit for v in rows},
+        "angle": block.states[0].name,
+        "speed": speed.name,
+        "start_speed": speed.start,
+        "sliders": sliders,
+        "fields": [{"name": p.name, "unit": p.unit, "start": p.start, "about": p.about} for p in block.parameters],
+        "torques": [p.name for p in block.outputs if "_on_" in p.name],
+        "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
+        "period": turn,
+        "t_end": _end(block, speed.start),
+    }
+
+
+def _slider(port: Port, low: float, high: float) -> dict[str, Any]:
+    about = port.about or ("speed at the start" if port.unit == "rad/s" else port.name)
+    ends = sorted((port.start * low, port.start * high))
+    return {"name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1], "about": about}
+
+
+def _end(block: Block, speed: float) -> float:
+    """Twenty turns from a speed, or the time of the run it was made from [s]."""
+    return 20 * 2 * 3.141592653589793 / speed if speed else block.t_end
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;")
