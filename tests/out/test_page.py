@@ -1,0 +1,134 @@
+"""The page in a real browser: numbers of `simulate`, every slider moves the answer, no request, no error."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from shutil import which
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from mechsym.cli import mechsym
+from mechsym.out.web import page
+from mechsym.simulate import Settings, simulate
+
+pytest.importorskip("ziglang", reason="the extra web is not installed")
+
+CHROMIUM = which("chromium") or which("chromium-browser")
+
+
+@pytest.fixture(scope="module")
+def files(exported, tmp_path_factory):
+    made = {}
+
+    def get(name):
+        if name not in made:
+            made[name] = tmp_path_factory.mktemp("page") / f"{name}.html"
+            made[name].write_text(page(exported(name)[1]), encoding="utf-8")
+        return made[name]
+
+    return get
+
+
+@pytest.fixture(scope="module")
+def browser():
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if CHROMIUM is None:
+        pytest.skip("no chromium is installed")
+    with playwright.sync_playwright() as running:
+        found = running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield found
+        found.close()
+
+
+@pytest.fixture
+def opened(browser, files):
+    """A page that was opened from its file with the network off; its errors and its requests."""
+    pages = []
+
+    def get(name):
+        context = browser.new_context(offline=True)
+        tab = context.new_page()
+        errors, requests = [], []
+        tab.on("pageerror", lambda e: errors.append(str(e)))
+        tab.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
+        tab.on("request", lambda r: requests.append(r.url))
+        tab.goto(files(name).as_uri())
+        tab.wait_for_function("window.mechsym && window.mechsym.last")
+        pages.append(context)
+        return tab, errors, requests
+
+    yield get
+    for context in pages:
+        context.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["zotov-89", "zotov-142", "chmielewski", "alpha-stirling", "generator"])
+def test_numbers_are_those_of_simulate(opened, exported, name):
+    run = exported(name)[0].problem
+    tab, errors, requests = opened(name)
+    wanted = simulate(run, Settings(tolerance=1e-13, check="none"))
+    some = np.linspace(0, len(wanted.t) - 1, 40).astype(int)[1:]
+    times = [float(wanted.t[i]) for i in some]
+    found = tab.evaluate("times => mechsym.run({}, times, [], 1, 1e-13)", times)
+    q = run.mechanism.coordinates[0]
+    for state in (q, f"{q}d"):
+        truth = wanted.columns[state][some][: len(found[state])]
+        assert np.max(np.abs(np.array(found[state]) - truth)) <= 1e-9 * np.max(np.abs(truth)), state
+    assert len(found["t"]) == len(times)
+    assert errors == [] and all(url.startswith("file://") for url in requests) and len(requests) == 1
+
+
+@pytest.mark.slow
+def test_every_slider_and_the_misfire_move_the_answer(opened, tmp_path):
+    tab, errors, _ = opened("zotov-89")
+    first = tab.inner_text("#verdict").split("(")[0]
+    ids = [e.get_attribute("id") for e in tab.query_selector_all("input[type=range]")]
+    assert {"slider_p0", "slider_load_torque", "slider_gas_scale", "slider_phid", "misfire"} <= set(ids)
+    for name in ids:
+        tab.evaluate("id => {const e = document.getElementById(id); e.value = 0.25 * e.min + 0.75 * e.max; "
+                     "if (id === 'misfire') e.value = 0; e.dispatchEvent(new Event('input'))}", name)  # fmt: skip
+        assert tab.inner_text("#verdict").split("(")[0] != first, name
+        tab.click("#back")
+        assert tab.inner_text("#verdict").split("(")[0] == first, name
+    tab.screenshot(path=str(tmp_path / "page.png"))
+    assert errors == []
+
+
+@pytest.mark.slow
+def test_a_number_outside_the_model_is_said_not_shown(opened):
+    tab, errors, _ = opened("zotov-89")
+    tab.evaluate("const e = document.getElementById('field_H'); e.value = 0.01; e.dispatchEvent(new Event('change'))")
+    said = tab.inner_text("#verdict")
+    assert "leave the range" in said or "stops" in said
+    assert "NaN" not in tab.inner_text("body")
+    assert errors == []
+
+
+@pytest.mark.slow
+def test_the_file_is_small_and_names_nothing_outside(files):
+    text = files("zotov-89").read_text()
+    assert len(text) < 200_000
+    assert "http" not in text and "src=" not in text and "{{" not in text
+
+
+def test_without_the_extra_one_line_names_it(tmp_path):
+    code = (
+        "import sys, importlib.util as u; f = u.find_spec; "
+        "u.find_spec = lambda n, *a: None if n == 'ziglang' else f(n, *a); from mechsym.cli import main; main()"
+    )
+    words = ["page", "zotov-89", "--out", str(tmp_path / "p.html")]
+    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and not list(Path(tmp_path).iterdir())
+    assert done.stderr.strip() == "mechsym: a page that simulates needs the extra web: pip install 'mechsym[web]'"
+
+
+@pytest.mark.slow
+def test_the_command_says_what_it_wrote(tmp_path):
+    path = tmp_path / "p.html"
+    done = CliRunner().invoke(mechsym, ["page", "zotov-89", "--out", str(path), "--json"])
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.output)["written"] == [str(path)]
