@@ -81,6 +81,7 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
         f"speed ripple     {_number(check['speed_ripple'])} simulated, "
         f"energy residual {_number(check['energy_residual'])}",
         f"flywheel saved   {_number(numbers['flywheel_inertia_saved'])} kg*m^2 (ripple 1/50 without hinge)",
+        *_left_out(numbers),
     ]
     for offer in numbers["offers"][1:]:
         lines.append(
@@ -98,6 +99,21 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
         columns = ["share", "mep_bar", "speed_ripple", "setting", "p0_ratio", "speed_ripple_reset"]
         lines += ["", table(rows, columns), *_stopped(rows)]
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+
+
+def _left_out(numbers: dict[str, Any]) -> list[str]:
+    """What the ideal hinge does not say, beside the flywheel that it saves."""
+    lost, share = numbers["losses"], numbers["misfire_speed_share"]
+    if lost is None:
+        return []
+    after = "not known" if share is None else f"{share:.2g} of the speed" if share > 0 else "the shaft stops"
+    kinds = ", ".join(f"{kind} {100 * lost['shares'][kind]:.2g}" for kind in lost["shares"])
+    ripple = "no steady motion" if lost["speed_ripple"] is None else f"ripple {lost['speed_ripple']:.2g}"
+    return [
+        f"not counted      losses of {100 * lost['share']:.3g} % of the load torque ({kinds} %; assumed unless "
+        f"[losses] says otherwise); with them {ripple}",
+        f"one misfire      with the flywheel that is kept: {after}",
+    ]
 
 
 def _stopped(rows: list[dict[str, Any]]) -> list[str]:

@@ -1,6 +1,6 @@
 """Guide, pressures of springs and a small flywheel designed together, for a range of speeds and loads.
 
-    points      speeds and loads: the work that each wants from the hinge      family, misfire: where they come from
+    points      speeds and loads: the work that each wants from the hinge      family, machines: where they come from
     rank        a bound that knows no guide: how many springs pay
     programme   the design: task -> basis, unknowns, motion_block, contact_block, derivatives -> co-design
     front       the same for many ripples; a guide cut for one point

@@ -7,6 +7,7 @@ m_h                     mass that moves with each roller: roller, pin, half of t
 
 from typing import Any
 
+from mechsym.hinge.springs import absolute_pressure
 from mechsym.quantities import choice, quantity, record
 
 
@@ -50,36 +51,8 @@ def outside(hardware: Hardware) -> float:
 
 
 def gas_pressure(z: Any, p0: Any, H: Any, n: float, pa: float) -> Any:
-    r"""Excess pressure of a closed gas spring; floats, arrays and CasADi symbols.
-
-    .. math:: p = (p_0 + p_a) \left(\frac{H}{H - z}\right)^n - p_a
-
-    Parameters
-    ----------
-    z, H : float, ndarray or casadi.SX
-        Closing and free height [m]
-    p0 : float or casadi.SX
-        Excess pressure at z = 0 [Pa]
-    n : float
-        Polytropic index [-]
-    pa : float
-        Pressure outside; 0 gives the law as the paper prints it [Pa]
-
-    Returns
-    -------
-    p : same kind as z
-        Excess pressure [Pa]
-
-    Notes
-    -----
-    Source: Zotov et al. (2024), eq. (9), with pa = 0. The force on each roller is A p.
-
-    Examples
-    --------
-    >>> round(gas_pressure(0.5, 5e6, 1.0, 1.25, 0.0) / 1e6, 3)
-    11.892
-    """
-    return (p0 + pa) * (H / (H - z)) ** n - pa
+    """Excess pressure [Pa] of a closed gas spring; pa = 0 [Pa] gives the law as the paper prints it, z and H in [m]."""
+    return absolute_pressure(z, H, p0, n, pa)
 
 
 def gas_energy(z: Any, p0: Any, H: Any, n: float, pa: float) -> Any:

@@ -80,6 +80,8 @@ def with_losses(found: CoDesign, k: int, given: HingeLosses) -> Lossy:
     point = found.task.points[k]
     machine = running.running(point, found.tracks, k, found.flywheel)
     taken = _at_point(found, k, point, given).total
+    if taken >= abs(point.load_torque):  # the hinge takes more than the machine gives
+        return Lossy(ripple=None, fill=1.0)
     load = dataclasses.replace(machine.load, torque=point.load_torque - taken)
 
     def ripple(fill: float) -> float:

@@ -7,8 +7,8 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from mechsym import periodic
 from mechsym.codesign.hardware import Hardware
-from mechsym.codesign.misfire import unfired, unfired_kinks
 from mechsym.codesign.points import Point
+from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.guide import Spring

@@ -35,7 +35,7 @@ class Contact:
     reaction_2: np.ndarray
     hertz_stress: np.ndarray  #: Contact pressure [Pa]
     tilting_couple: np.ndarray  #: Of tracks in offset planes, 0 for other arrangements [N*m]
-    #: Radial force for each kilogram that moves with a roller, left out by the massless model [N/kg]
+    #: Radial force for each kilogram that moves with a roller; in the contact forces only with `moving_mass` [N/kg]
     inertia_force: np.ndarray
     #: On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
     torque: np.ndarray
@@ -87,7 +87,9 @@ def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, valu
     z = closing(guide, rho)
     force = functions.force(z)
     kappa = rollers.curvature(rho, drho, d2rho)
-    reaction = rollers.reaction(force, rho, drho)
+    inertia_force = rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio)
+    # rollers that turn with the shaft are pressed outwards by their own mass too
+    reaction = rollers.reaction(force + parameters.moving_mass * inertia_force, rho, drho)
     offset = parameters.plane_offset if chosen.arrangement == "two_tracks" else 0.0
     return Contact(
         theta=theta,
@@ -104,7 +106,7 @@ def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, valu
         reaction_2=force if guide.rollers == 1 else reaction,
         hertz_stress=rollers.hertz_stress(reaction, kappa, parameters),
         tilting_couple=rollers.tilting_couple(reaction, offset),
-        inertia_force=rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio),
+        inertia_force=inertia_force,
         torque=guide.rollers * force * drho,
         loss_torque=guide.rollers * rollers.loss_torque(reaction, rho, drho, parameters),
     )

@@ -53,7 +53,7 @@ def bearing_torque(
 ) -> np.ndarray:
     r"""Torque lost in the bearings of the rollers.
 
-    .. math:: M = c\,\mu_b N r_b \left(\frac{\sqrt{\rho^2 + \rho'^2}}{r} + 1\right)
+    .. math:: M = c\,\mu_b |N| r_b \left(\frac{\sqrt{\rho^2 + \rho'^2}}{r} + 1\right)
 
     Parameters
     ----------
@@ -83,13 +83,13 @@ def bearing_torque(
     >>> float(bearing_torque(np.array([1e5]), np.array([0.7]), np.array([0.0]), 0.0018, 0.05, 0.1, 2)[0])
     144.0
     """
-    return count * mu * N * bearing_radius * (np.hypot(rho, drho) / radius + 1)
+    return count * mu * np.abs(N) * bearing_radius * (np.hypot(rho, drho) / radius + 1)
 
 
 def seal_torque(force: np.ndarray, drho: np.ndarray, mu: float, count: int) -> np.ndarray:
     r"""Torque lost in the seals of the spring, whose friction follows the pressure.
 
-    .. math:: M = c\,\mu_s F |\rho'|
+    .. math:: M = c\,\mu_s |F \rho'|
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def seal_torque(force: np.ndarray, drho: np.ndarray, mu: float, count: int) -> n
     >>> float(seal_torque(np.array([1e5]), np.array([-0.1]), 0.01, 2)[0])
     200.0
     """
-    return count * mu * force * np.abs(drho)
+    return count * mu * np.abs(force * drho)
 
 
 def side_force(

@@ -6,6 +6,7 @@ from typing import Any
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.limits import Verdict
+from mechsym.hinge.price import Price
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.steady import Flywheels, Retuned, Sensitivity
 from mechsym.hinge.torque import Hinge
@@ -57,4 +58,5 @@ class Design:
     sensitivities: tuple[Sensitivity, ...]  #: Ripple for each per cent of error
     retuned: Retuned | None  #: The same guide at the other speed of the case
     flywheel_kept: float  #: Flywheel of the case [kg*m^2]
+    price: Price | None = None  #: What the ideal design leaves out; None without a guide
     loads: tuple[AtLoad, ...] = ()  #: The same guide at other loads, as far as they were asked for

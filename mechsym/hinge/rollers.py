@@ -34,6 +34,7 @@ class RollerParameters:
     #: `none`, or `rolling` with the resistance of `rolling_arm`
     friction: str = choice("none", "rolling", default="none", about="friction between roller and track")
     rolling_arm: float = quantity("m", default=1e-6, low=0, about="rolling resistance moment over normal force")
+    moving_mass: float = quantity("kg", default=0.0, low=0, high=10000, about="mass that moves with each roller")
 
 
 def pressure_angle(rho: np.ndarray, drho: np.ndarray) -> np.ndarray:

@@ -1,5 +1,6 @@
 """The numbers of a hinge design under the keys that scripts rely on, and its tables for files."""
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,7 @@ def summary(design: Design) -> dict[str, Any]:
         "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
         "loads": [_at_load(row) for row in design.loads],
         "flywheel_inertia_saved": _saved(design),
+        **_price(design),
         "flywheel_inertia_to_turn": design.flywheels.turns.inertia,
         "flywheel_inertia_beside_faulty": getattr(design.flywheels.beside_faulty, "inertia", None),
         "ripple_wanted": RIPPLE,
@@ -88,6 +90,31 @@ def _law(design: Design) -> str:
 def _saved(design: Design) -> float | None:
     # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
     return design.flywheels.steady.inertia
+
+
+def _price(design: Design) -> dict[str, Any]:
+    """What the ideal design leaves out: losses in N m and as shares of the load torque, and a lost combustion."""
+    price = design.price
+    if price is None:
+        return {"losses": None, "misfire_speed_share": None}
+    kinds = ("bearing", "seal", "guide", "rolling", "gas")
+    torques = {kind: getattr(price.losses, kind) for kind in kinds}
+    load = abs(design.hinge.load_torque)
+    assumed = {f.name: getattr(price.assumed, f.name) for f in dataclasses.fields(price.assumed)}
+    return {
+        "losses": {
+            **torques,
+            "total": price.losses.total,
+            "shares": {kind: value / load for kind, value in torques.items()},
+            "share": price.losses.total / load,
+            "speed_ripple": price.speed_ripple,
+            "fill": price.fill,
+            "gas_index": price.gas_index,
+            "assumed": assumed | {"bearing_radius": price.assumed.bearing_radius or design.rollers.radius / 2,
+                                  "tau": price.tau},
+        },
+        "misfire_speed_share": price.misfire_speed_share,
+    }  # fmt: skip
 
 
 def _run(trial: Any) -> dict[str, Any]:

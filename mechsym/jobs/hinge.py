@@ -10,6 +10,8 @@ from mechsym.cases.settings import TrialSettings
 from mechsym.errors import BadInput
 from mechsym.hinge import steady, trials
 from mechsym.hinge.guide import Guide, refit
+from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.price import price
 from mechsym.hinge.result import AtLoad, Design, Origin
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
@@ -74,6 +76,7 @@ def hinge(
         machine=engine, rollers=rollers, hinge=wanted, balance=chosen.balance, guide=chosen.guide,
         verdict=chosen.verdict, instead=tuple(instead), trials=tuple(runs), flywheels=wheels,
         sensitivities=tuple(errors), retuned=again, flywheel_kept=kept_flywheel(case),
+        price=price(engine, wanted, usable, rollers, case.sections.get("losses", HingeLosses())) if usable else None,
         loads=tuple(at_loads(case, usable, pressures) if usable else ()),
     )  # fmt: skip
 

@@ -1,0 +1,199 @@
+r"""What the ideal hinge leaves out: friction, heat of the gas, mass of the rollers, and a turn without combustion.
+
+The design is that of a hinge without losses. Here its guide turns with them: friction is a torque over the angle, the
+gas takes heat from a wall and gives it back, rollers with mass add inertia,
+
+.. math:: I_h = c\,m_h\,(\rho^2 + \rho'^2), \qquad T = \tfrac12 (I + I_h)\,\omega^2
+
+and the load is lowered by the mean of what is lost. The fill of the spring is set anew for the least ripple.
+"""
+
+import dataclasses
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from mechsym.cycle.unfired import unfired, unfired_kinks
+from mechsym.hinge import losses as law
+from mechsym.hinge.contact import Contact, at_angles
+from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import Guide
+from mechsym.hinge.losses import HingeLosses, LossTorques
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs import AirAbsolute, AirGauge
+from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
+from mechsym.hinge.torque import Hinge
+from mechsym.machine.loads import ConstantLoad, Load, TableLoad
+from mechsym.machine.record import Machine, gas_of
+from mechsym.mechanisms.record import curves
+from mechsym.quantities import quantity, record
+from mechsym.simulate import angle_turn
+from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
+from mechsym.simulate.engine import reduced
+from mechsym.simulate.steady import Steady, mean_torque, steady_state
+
+_POINTS = 1440  # angles of a turn of the guide
+_RESET = (0.8, 1.3)  # fills that are tried, by that of the design
+_STOPPED = 2.0
+
+
+@record
+class Price:
+    """What a hinge costs that the ideal design does not show."""
+
+    losses: LossTorques
+    assumed: HingeLosses  #: friction and heat that were taken
+    speed_ripple: float | None = quantity("-", about="steady ripple with losses; None where there is no steady motion")
+    fill: float = quantity("-", about="fill of the spring with which it has that ripple, by that of the design")
+    tau: float | None = quantity("s", default=None, about="time of the gas to take the wall's temperature")
+    gas_index: float | None = quantity("-", default=None, about="index that the gas shows with that time")
+    misfire_speed_share: float | None = quantity(
+        "-", about="lowest speed after one turn without combustion by the mean before; 0 for a stop"
+    )
+
+
+def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParameters, given: HingeLosses) -> Price:
+    """Losses of a guide, the ripple with them, and what one lost combustion does."""
+    theta = np.arange(_POINTS) * 2 * np.pi / _POINTS
+    contact = at_angles(guide, rollers, theta)
+    taken = friction(contact, guide, rollers, given)
+    gas = gas_turn(contact, guide, given)
+    means = {kind: float(np.mean(curve)) for kind, curve in taken.items()}
+    heat = 0.0 if gas is None else max(0.0, guide.parameters.shaft_ratio * gas.loss / (2 * np.pi))
+    lost = LossTorques(**means, gas=heat)
+    ideal = _with_mass(reduced(fitted(machine, wanted, guide)), guide, contact, rollers)
+    fill, ripple = 1.0, None
+    if lost.total < wanted.load_torque:  # else the hinge takes more than the engine gives
+        fill, ripple = _best_fill(ideal, guide, contact, taken, given, lost.total, machine.omega)
+    return Price(
+        losses=lost, assumed=given, speed_ripple=ripple, fill=fill,
+        tau=None if gas is None else _time(guide, given), gas_index=None if gas is None else gas.n_effective,
+        misfire_speed_share=misfire_share(machine, wanted, guide, rollers),
+    )  # fmt: skip
+
+
+def friction(
+    contact: Contact, guide: Guide, rollers: RollerParameters, given: HingeLosses
+) -> dict[str, np.ndarray]:  # fmt: skip
+    """Torques on the crank that are lost to friction over a turn of the guide, each of shape (n,) [N*m]."""
+    ratio, c = guide.parameters.shaft_ratio, guide.rollers
+    side = law.side_force(
+        contact.force, contact.rho, contact.drho, contact.d2rho, rollers.moving_mass, guide.omega * ratio
+    )
+    r_b = given.bearing_radius or rollers.radius / 2
+    bearing = law.bearing_torque(
+        contact.reaction_1, contact.rho, contact.drho, given.bearing_mu, r_b, rollers.radius, c
+    )
+    return {
+        "bearing": ratio * bearing,
+        "seal": ratio * law.seal_torque(contact.force, contact.drho, given.seal_mu, c),
+        "guide": ratio * law.guide_torque(side, contact.drho, given.guide_mu, c),
+        "rolling": ratio * contact.loss_torque,
+    }
+
+
+def gas_turn(contact: Contact, guide: Guide, given: HingeLosses, fill: float = 1.0) -> GasTurn | None:
+    """The gas of the spring with a wall that takes heat; None for a coil. `fill` [-] is by that of the design."""
+    spring = guide.spring
+    if not isinstance(spring, AirAbsolute | AirGauge):
+        return None
+    of = AirThermal(
+        A=spring.A, H=spring.H, p0=fill * spring.p0, tau=_time(guide, given), gamma=given.gamma,
+        wall_temperature=given.wall_temperature, pa=spring.pa if isinstance(spring, AirAbsolute) else 0.0,
+    )  # fmt: skip
+    return turn(of, contact.z, np.full(_POINTS, 2 * np.pi / _POINTS), guide.omega * guide.parameters.shaft_ratio)
+
+
+def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers: RollerParameters) -> float | None:
+    """Lowest speed in one period without combustion from dead centre, by the mean speed before; 0 for a stop [-].
+
+    The gas goes back along its compression line, the load brakes on. None where there is no steady motion before.
+    """
+    gas, fired = gas_of(machine), reduced(fitted(machine, wanted, guide))
+    period = gas.pressure.period
+    without = unfired(gas.force, period)
+
+    def torque(phi: np.ndarray) -> np.ndarray:
+        arm = _arm(machine, phi)
+        return np.asarray(fired.torque(phi) + (without(phi) - gas.force(phi)) * arm)
+
+    missed = dataclasses.replace(
+        fired, torque=torque, kinks=tuple({*fired.kinks, *unfired_kinks(gas.pressure.kinks, period)})
+    )
+    if guide is not None and guide.rho is not None:
+        contact = at_angles(guide, rollers, np.arange(_POINTS) * 2 * np.pi / _POINTS)
+        fired, missed = (_with_mass(m, guide, contact, rollers) for m in (fired, missed))
+    before = steady_state(_panels(fired), machine.omega)
+    if before.speed_mean is None:
+        return None
+    panels = dataclasses.replace(tabulate(missed), load=_panels(fired).load)
+    energy = 0.5 * float(panels.inertia_edges[0]) * float(before.omega[0]) ** 2
+    found = angle_turn.turn(panels, 0.0, energy)
+    if angle_turn.lowest_energy(found) <= 0:
+        return 0.0
+    return float(angle_turn.speeds(panels, 0.0, found)[1].min()) / before.speed_mean
+
+
+def _arm(machine: Machine, phi: np.ndarray) -> np.ndarray:
+    (q,) = machine.mechanism.coordinates
+    return np.asarray(curves(machine.mechanism, phi)[f"dx_d{q}"])
+
+
+def _time(guide: Guide, given: HingeLosses) -> float:
+    """Time [s] of the gas to take the wall's temperature: as given, or such that the spring's index shows."""
+    if given.tau > 0:
+        return given.tau
+    n = min(max(guide.spring.n, 1 + 1e-6), given.gamma - 1e-6)  # type: ignore[union-attr]
+    return x_of_index(n, given.gamma) / (guide.omega * guide.parameters.shaft_ratio)
+
+
+def _with_mass(machine: ReducedMachine, guide: Guide, contact: Contact, rollers: RollerParameters) -> ReducedMachine:
+    if rollers.moving_mass == 0:
+        return machine
+    ratio = guide.parameters.shaft_ratio
+    added = guide.rollers * ratio**2 * rollers.moving_mass * (contact.rho**2 + contact.drho**2)
+    return dataclasses.replace(
+        machine, inertia=lambda phi: machine.inertia(phi) + _over(contact.theta, added, ratio * np.asarray(phi))
+    )
+
+
+def _over(theta: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    return np.asarray(np.interp(at % (2 * np.pi), theta, values, period=2 * np.pi))
+
+
+def _panels(machine: ReducedMachine) -> Panels:
+    panels = tabulate(machine)
+    if isinstance(machine.load, ConstantLoad):
+        return dataclasses.replace(panels, load=ConstantLoad(torque=mean_torque(panels)))
+    return panels
+
+
+def _best_fill(
+    ideal: ReducedMachine, guide: Guide, contact: Contact, friction: dict[str, np.ndarray], given: HingeLosses,
+    lost: float, omega: float,
+) -> tuple[float, float | None]:  # fmt: skip
+    """Fill of the spring with the least steady ripple, and that ripple [-]; 1 for a coil."""
+    taken, ratio = sum(friction.values()), guide.parameters.shaft_ratio
+    area = getattr(guide.spring, "A", 0.0)
+
+    def motion(fill: float) -> Steady:
+        gas = gas_turn(contact, guide, given, fill)
+        change = 0.0 if gas is None or contact.pressure is None else area * (gas.pressure - contact.pressure)
+        extra = ratio * guide.rollers * change * contact.drho - taken
+        real = dataclasses.replace(
+            ideal, load=_lowered(ideal.load, lost),
+            torque=lambda phi: ideal.torque(phi) + _over(contact.theta, extra, ratio * np.asarray(phi)),
+        )  # fmt: skip
+        return steady_state(_panels(real), omega)
+
+    if contact.pressure is None:
+        return 1.0, motion(1.0).speed_ripple
+    best = minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
+                           options={"xatol": 1e-4})  # fmt: skip
+    return float(best.x), motion(float(best.x)).speed_ripple
+
+
+def _lowered(load: Load, lost: float) -> Load:
+    if isinstance(load, TableLoad):
+        return dataclasses.replace(load, torques=tuple(t - lost for t in load.torques))
+    return dataclasses.replace(load, torque=(load.torque or 0.0) - lost)
