@@ -58,8 +58,7 @@ def summary(design: Design) -> dict[str, Any]:
         "retune": _retune(design),
         "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
         "loads": [_at_load(row) for row in design.loads],
-        "flywheel_inertia_saved": _saved(design),
-        **_price(design),
+        **_saved(design),
         "flywheel_inertia_to_turn": design.flywheels.turns.inertia,
         "flywheel_inertia_beside_faulty": getattr(design.flywheels.beside_faulty, "inertia", None),
         "ripple_wanted": RIPPLE,
@@ -87,21 +86,18 @@ def _law(design: Design) -> str:
     return "propeller" if isinstance(design.machine.load, PropellerLoad) else "constant"
 
 
-def _saved(design: Design) -> float | None:
+def _saved(design: Design) -> dict[str, Any]:
+    """The flywheel saved, and what it does not say: losses in N m and shares of the load, and a lost combustion."""
     # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
-    return design.flywheels.steady.inertia
-
-
-def _price(design: Design) -> dict[str, Any]:
-    """What the ideal design leaves out: losses in N m and as shares of the load torque, and a lost combustion."""
-    price = design.price
+    saved, price = {"flywheel_inertia_saved": design.flywheels.steady.inertia}, design.price
     if price is None:
-        return {"losses": None, "misfire_speed_share": None}
+        return {**saved, "losses": None, "misfire_speed_share": None}
     kinds = ("bearing", "seal", "guide", "rolling", "gas")
     torques = {kind: getattr(price.losses, kind) for kind in kinds}
     load = abs(design.hinge.load_torque)
     assumed = {f.name: getattr(price.assumed, f.name) for f in dataclasses.fields(price.assumed)}
     return {
+        **saved,
         "losses": {
             **torques,
             "total": price.losses.total,

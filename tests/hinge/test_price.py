@@ -1,4 +1,4 @@
-"""What the ideal hinge leaves out: nothing without friction and heat, and the numbers of the specification with them."""
+"""What the ideal hinge leaves out: nothing without friction and heat, the numbers of the specification with them."""
 
 import dataclasses
 
