@@ -4,7 +4,7 @@ The public interface is the modules that `__all__` names. Each is imported on fi
 
     from mechsym import cases, jobs
 
-    result = jobs.hinge.design(cases.load("zotov-89"))
+    result = jobs.hinge(cases.load("zotov-89"))
 """
 
 import importlib

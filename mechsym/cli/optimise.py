@@ -24,15 +24,12 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     Exit status 1: no feasible design, or the solver did not converge.
     """
     from mechsym.cases import load
-    from mechsym.jobs.cycle import engine
-    from mechsym.optimise.problem import problem
-    from mechsym.optimise.solver import pareto, solve
+    from mechsym.jobs.optimise import optimise
 
     loaded = load(case, pairs(overrides))
     section = loaded.need("optimise")
-    task = problem(engine(loaded), loaded.need("operation").speed, section)
-    front = pareto(task, section.against, section.against_goal, int(section.points)) if section.against else []
-    found = front[0] if front else solve(task)
+    done = optimise(loaded)
+    found, front = done.best, done.front
     result = asdict(found) | {"goal": section.goal, "objective_name": section.objective}
     result |= {"pareto": [_point(p, section) for p in front]} if front else {}
     files = _write(out, result, section) if out else []

@@ -19,7 +19,7 @@ from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crank_train, rodless
 from mechsym.mechanisms.crank_train.firing import gas_forces
-from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.record import Mechanism, along
 from mechsym.mechanisms.rodless import ClosingRule
 from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
 from mechsym.quantities import record
@@ -115,9 +115,9 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
     inputs, mechanism = pushes(drive, gas, phi), drive.mechanism
     letters = _letters(mechanism, omega, phi) | inputs
     kinematics, reactions, momentum = (
-        evaluate(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
+        _along(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
     )
-    force = evaluate(_virtual_work(mechanism), letters)
+    force = _along(_virtual_work(mechanism), letters)
     return Turn(
         drive=drive,
         gas=gas,
@@ -128,7 +128,7 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
         kinematics=kinematics,
         reactions=reactions,
         momentum=momentum,
-        torque=force["gas"] - evaluate(_energy_slope(mechanism), letters)["slope"],
+        torque=force["gas"] - _along(_energy_slope(mechanism), letters)["slope"],
         gas_power=force["gas"] * omega,
     )
 
@@ -170,22 +170,8 @@ def faces_of(drive: CrankDrive) -> RodlessFaces:
     return drive.faces
 
 
-def evaluate(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """A function of scalars at many points.
-
-    Parameters
-    ----------
-    letters : mapping of str to ndarray, shape (n,)
-        At least its inputs
-
-    Returns
-    -------
-    values : dict of str to ndarray, shape (n,)
-        By output name
-    """
-    n = max(len(v) for v in letters.values())
-    found = function.call([ca.DM(letters[name]).T for name in function.name_in()])
-    return {k: np.broadcast_to(np.asarray(v).ravel(), n) for k, v in zip(function.name_out(), found, strict=True)}
+def _along(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return along(function, {name: letters[name] for name in function.name_in()})
 
 
 def _virtual_work(mechanism: Mechanism) -> ca.Function:

@@ -23,7 +23,7 @@ from scipy.interpolate import PPoly
 from mechsym import periodic
 from mechsym.cycle.gas import Gas
 from mechsym.machine.record import Machine, gas_of
-from mechsym.mechanisms.record import Mechanism, curves
+from mechsym.mechanisms.record import Mechanism, curves, evaluate
 from mechsym.quantities import record
 
 _MEAN_TOLERANCE = 1e-9  # of the peak torque; what rounding leaves is far below
@@ -75,13 +75,10 @@ def engine_torques(machine: Machine) -> EngineTorques:
 @functools.lru_cache(maxsize=8)
 def _torques(mechanism: Mechanism, gas: Gas) -> EngineTorques:
     (q,) = mechanism.coordinates
-    dynamics = mechanism.functions["dynamics"]
 
     def gravity_torque(phi: np.ndarray) -> np.ndarray:
         # at rest and without inputs gravity is the only generalised force
-        row = np.asarray(phi, dtype=float)[None, :]
-        values = dynamics.call([row if name == q else 0.0 for name in dynamics.name_in()])
-        return np.asarray(values[dynamics.index_out("generalized_force")]).ravel()
+        return evaluate(mechanism, "dynamics", **{q: phi})["generalized_force"]
 
     return EngineTorques(
         inertia=lambda phi: curves(mechanism, phi)["inertia"],

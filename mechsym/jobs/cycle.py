@@ -1,4 +1,4 @@
-"""`mechsym cycle`: the engine of a case and its figures over the speeds."""
+"""Case -> cycle: the engine of a case and its figures over the speeds."""
 
 from dataclasses import replace
 from typing import Any
@@ -8,9 +8,11 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.engine import columns, over_design
 from mechsym.cycle.figures import cylinder_columns
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
+from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import stirling_columns
 from mechsym.forces import turn
 from mechsym.jobs.gas import engine_with, of, one_cylinder
@@ -18,6 +20,28 @@ from mechsym.jobs.turn import drive_of, fitted_law
 from mechsym.quantities import RPM
 
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
+
+
+def cycle(case: Case, omega: np.ndarray | None = None) -> dict[str, Any]:
+    """Figures of the engine cycle of a case, at its speed of operation or over several.
+
+    Parameters
+    ----------
+    case : Case
+        With `[cycle]` of any kind that follows no measured diagram
+    omega : ndarray, shape (n,), optional
+        Crank speeds [rad/s]
+
+    Returns
+    -------
+    columns : dict of str to ndarray
+        The names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on
+    """
+    speeds = np.array([case.need("operation").speed]) if omega is None else omega
+    given = kind_of(case.need("cycle")).given
+    if given == "engine":
+        return columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
+    return columns_of_stirling(case, speeds) if given == "train" else columns_of_cylinder(case, speeds)
 
 
 def engine(case: Case) -> ClosedEngine:

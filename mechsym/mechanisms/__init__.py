@@ -1,4 +1,11 @@
-"""Runtime mechanisms: frozen parameters and `build(params) -> Mechanism` on top of the generated code."""
+"""Runtime mechanisms on top of the generated code.
+
+record        Mechanism: named CasADi functions with the parameters bound; `evaluate` along angles
+state         everything at one state; constraints closes loops and finds joint forces
+crosshead, crank_throw, crank_train, crankshaft_flywheel, hypocycloid, rodless    parameters of the built-in ones
+shaft         matrices of an elastic shaft
+drawing, plots    to scale at any angle, moving in a page
+"""
 
 import dataclasses
 from collections.abc import Mapping
@@ -6,8 +13,9 @@ from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput, suggest
-from mechsym.mechanisms.record import Mechanism, bind
+from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
+from mechsym.mechanisms.state import state
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
@@ -67,3 +75,10 @@ def listing(name: str, mechanism: Mechanism | None = None) -> Mapping[str, Any]:
     if name in _ASSEMBLED:
         return import_module(f"mechsym.mechanisms.{name}").listing(mechanism)
     return stored_listing(name)
+
+
+__all__ = ["Mechanism", "bind", "build", "evaluate", "listing", "names", "parameters_class", "state"]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -159,6 +159,63 @@ def acceleration_function(mechanism: Mechanism) -> ca.Function:
     return ca.Function("acceleration", inputs, [solved], dynamics.name_in(), ["acceleration"])
 
 
+def evaluate(mechanism: Mechanism, group: str, **letters: Any) -> dict[str, np.ndarray]:
+    """A group of functions of a mechanism along arrays of its letters.
+
+    Parameters
+    ----------
+    group : str
+        `kinematics`, `dynamics`, `energy`, `reactions`, `momentum`: one that the mechanism has
+    **letters : float or ndarray, shape (n,)
+        Coordinates, velocities, accelerations and inputs, SI; what is not named is 0 [SI]
+
+    Returns
+    -------
+    values : dict of str to ndarray, shape (n,)
+        By output name; vectors and matrices of several coordinates have their own axes before that of the points [SI]
+
+    Raises
+    ------
+    BadInput
+        No such group, or a letter that it does not take
+    """
+    if group not in mechanism.functions:
+        raise BadInput(f"{mechanism.name} has no {group!r}; it has {', '.join(mechanism.functions)}")
+    return along(mechanism.functions[group], letters)
+
+
+def along(function: ca.Function, letters: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """A function of scalars at many points.
+
+    Parameters
+    ----------
+    letters : mapping of str to float or ndarray, shape (n,)
+        By input name; what is not named is 0 [SI]
+
+    Returns
+    -------
+    values : dict of str to ndarray, shape (n,) or (k, n) or (k, k, n)
+        By output name [SI]
+    """
+    names = function.name_in()
+    if unknown := sorted(set(letters) - set(names)):
+        raise BadInput(f"{function.name()} takes no {', '.join(unknown)}; it takes {', '.join(names)}")
+    rows = {n: np.atleast_1d(np.asarray(v, dtype=float))[None, :] for n, v in letters.items()}
+    count = max((row.shape[1] for row in rows.values()), default=1)
+    found = function.call([ca.DM(rows[n]) if n in rows else 0.0 for n in names])
+    sizes = [(function.size1_out(i), function.size2_out(i)) for i in range(function.n_out())]
+    shaped = [_angle_last(np.asarray(v), size, count) for v, size in zip(found, sizes, strict=True)]
+    return dict(zip(function.name_out(), shaped, strict=True))
+
+
+def _angle_last(values: np.ndarray, size: tuple[int, int], count: int) -> np.ndarray:
+    """What CasADi lays side by side, point by point, with the points as the last axis."""
+    rows, columns = size
+    points = values.reshape(rows, -1, columns).transpose(0, 2, 1)
+    shape = tuple(n for n in size if n > 1)
+    return np.broadcast_to(points, (*size, count)).reshape(*shape, count)
+
+
 def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:
     """Kinematic outputs of a one-coordinate mechanism along an array of angles.
 
@@ -166,12 +223,6 @@ def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:
     ----------
     phi : ndarray, shape (n,)
         Crank angles [rad]
-
-    Returns
-    -------
-    curves : dict of str to ndarray, shape (n,)
-        By output name
     """
-    function = mechanism.functions["kinematics"]
-    values = function.call([ca.DM(np.atleast_1d(phi)).T])
-    return {name: np.asarray(v).ravel() for name, v in zip(function.name_out(), values, strict=True)}
+    (q,) = mechanism.coordinates
+    return evaluate(mechanism, "kinematics", **{q: phi})

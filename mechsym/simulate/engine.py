@@ -15,25 +15,25 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.machine.loads import Load, TableLoad, load_torque
 from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
-from mechsym.mechanisms.record import Mechanism, velocities
+from mechsym.mechanisms.record import Mechanism, evaluate, velocities
 from mechsym.simulate.angle import ReducedMachine
 from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Problem, Stop
 
 
 def reduced(machine: Machine) -> ReducedMachine:
     """The machine over the angle of its crank."""
-    dynamics = machine.mechanism.functions["dynamics"]
+    (q,) = machine.mechanism.coordinates
     if _depends_on_speed(machine.mechanism):
         raise BadInput(f"{machine.mechanism.name} has dampers; its torque is no function of the angle alone")
 
     def inertia(phi: np.ndarray) -> np.ndarray:
-        return _over(dynamics, phi, {})[0]
+        return evaluate(machine.mechanism, "dynamics", **{q: phi})["mass_matrix"]
 
     def torque(phi: np.ndarray) -> np.ndarray:
         inputs: dict[str, np.ndarray] = {}
         for force in acting(machine):
             inputs[force.input] = inputs.get(force.input, np.zeros(len(phi))) + force.value(phi)
-        return _over(dynamics, phi, inputs)[2]
+        return evaluate(machine.mechanism, "dynamics", **{q: phi}, **inputs)["generalized_force"]
 
     return ReducedMachine(
         inertia=inertia, torque=torque, load=machine.load, period=period_of(machine), kinks=kinks_of(machine)
@@ -44,14 +44,6 @@ def _depends_on_speed(mechanism: Mechanism) -> bool:
     dynamics = mechanism.functions["dynamics"]
     symbols = [ca.SX.sym(dynamics.name_in(i)) for i in range(dynamics.n_in())]
     return bool(ca.depends_on(dynamics(*symbols)[2], symbols[1]))
-
-
-def _over(dynamics: ca.Function, phi: np.ndarray, inputs: dict[str, np.ndarray]) -> list[np.ndarray]:
-    rows = [phi[None, :], np.zeros((1, len(phi)))]
-    rows += [
-        np.reshape(inputs.get(dynamics.name_in(i), np.zeros(len(phi))), (1, -1)) for i in range(2, dynamics.n_in())
-    ]
-    return [np.broadcast_to(np.asarray(v).ravel(), phi.shape) for v in dynamics(*rows)]
 
 
 def problem(machine: Machine, speed: float, turns: float, phi_start: float = 0.0, points: int = 360) -> Problem:
