@@ -20,6 +20,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from mechsym.cycle.values import Scalar, Value
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 
@@ -62,14 +63,14 @@ class Chamber:
     motion: Motion
     pistons: int
     #: Bore [m], area [m^2] and stroke [m] of one piston
-    bore: Any
-    area: Any
-    stroke: Any
+    bore: Scalar
+    area: Scalar
+    stroke: Scalar
     #: Smallest volume, and swept volume of all pistons together [m^3]
-    clearance: Any
-    displacement: Any
-    compression_ratio: Any  #: Largest volume by smallest volume [-]
-    back_pressure: Any  #: Absolute pressure on the other side of the piston [Pa]
+    clearance: Scalar
+    displacement: Scalar
+    compression_ratio: Scalar  #: Largest volume by smallest volume [-]
+    back_pressure: Scalar  #: Absolute pressure on the other side of the piston [Pa]
 
 
 def chamber(parameters: Any, motion: Motion) -> Chamber:
@@ -138,7 +139,7 @@ def motion_over(kinematics: ca.Function) -> Motion:
     return Motion(name="piston", function=function, parameters={}, masses=())
 
 
-def piston_area(bore: Any) -> Any:
+def piston_area(bore: Value) -> Value:
     r"""Area of a piston.
 
     .. math:: A = \pi B^2/4
@@ -156,7 +157,7 @@ def piston_area(bore: Any) -> Any:
     return np.pi / 4 * bore**2
 
 
-def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
+def travel(motion: Motion, phi: Value) -> tuple[Value, Value, Value]:
     """Travel of one piston and its first two derivatives with respect to the crank angle.
 
     Parameters
@@ -183,7 +184,7 @@ def travel(motion: Motion, phi: Any) -> tuple[Any, Any, Any]:
     return (x, dx, d2x) if angles.ndim else (float(x), float(dx), float(d2x))
 
 
-def volume(chamber: Chamber, phi: Any) -> Any:
+def volume(chamber: Chamber, phi: Value) -> Value:
     r"""Volume of the chamber.
 
     .. math:: V = V_c + n A x(\varphi)
@@ -201,7 +202,7 @@ def volume(chamber: Chamber, phi: Any) -> Any:
     return volume_and_slope(chamber, phi)[0]
 
 
-def dvolume_dphi(chamber: Chamber, phi: Any) -> Any:
+def dvolume_dphi(chamber: Chamber, phi: Value) -> Value:
     r"""Slope of the volume.
 
     .. math:: V' = n A x'(\varphi)
@@ -219,13 +220,13 @@ def dvolume_dphi(chamber: Chamber, phi: Any) -> Any:
     return volume_and_slope(chamber, phi)[1]
 
 
-def volume_and_slope(chamber: Chamber, phi: Any) -> tuple[Any, Any]:
+def volume_and_slope(chamber: Chamber, phi: Value) -> tuple[Value, Value]:
     """Both at once: `volume` [m^3] and `dvolume_dphi` [m^3/rad]."""
     x, dx, _ = travel(chamber.motion, phi)
     return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx
 
 
-def moving_mass(motion: Motion) -> Any:
+def moving_mass(motion: Motion) -> Scalar:
     """Mass that moves with one piston.
 
     Returns
@@ -236,7 +237,7 @@ def moving_mass(motion: Motion) -> Any:
     return sum(motion.parameters[name] for name in motion.masses)
 
 
-def wall_area(chamber: Chamber, v: Any) -> Any:
+def wall_area(chamber: Chamber, v: Value) -> Value:
     r"""Surface that the gas touches.
 
     .. math:: A_w = 2 A + 4 V/B
@@ -258,7 +259,7 @@ def wall_area(chamber: Chamber, v: Any) -> Any:
     return 2 * chamber.area + 4 * v / chamber.bore
 
 
-def piston_force(chamber: Chamber, phi: Any, omega: Any, p: Any) -> Any:
+def piston_force(chamber: Chamber, phi: Value, omega: Value, p: Value) -> Value:
     r"""Force that one piston hands to its mechanism at constant speed, from pressure and inertia.
 
     .. math:: F = (p - p_b) A - m\,x''\omega^2

@@ -1,7 +1,6 @@
 r"""Friction mean pressure by a named correlation, for brake figures where the mechanism itself declares no friction."""
 
-from typing import Any
-
+from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
 
 
@@ -43,7 +42,7 @@ class Heywood:
 Friction = NoFriction | ChenFlynn | Heywood
 
 
-def friction_pressure(law: Friction, p_max: Any, piston_speed: Any, omega: Any) -> Any:
+def friction_pressure(law: Friction, p_max: Value, piston_speed: Value, omega: Value) -> Value:
     r"""Friction mean effective pressure.
 
     .. math::

@@ -4,11 +4,12 @@ Each law is a record of its coefficients; `heat_flux` gives the flux in W/m^2. T
 arithmetic, so numbers, arrays and CasADi expressions all pass through.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 
 from mechsym.cycle.mixture import conductivity, viscosity
+from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
 
 
@@ -19,13 +20,13 @@ class GasAtWall(NamedTuple):
     velocity by combustion divided by its coefficient: V_d T_r (p - p_motored)/(p_r V_r) [K], 0 before ignition.
     """
 
-    p: Any
-    t: Any
-    v: Any
-    gas_constant: Any
-    bore: Any
-    piston_speed: Any
-    swirl: Any = 0.0
+    p: Value
+    t: Value
+    v: Value
+    gas_constant: Value
+    bore: Value
+    piston_speed: Value
+    swirl: Value = 0.0
 
 
 @record
@@ -67,7 +68,7 @@ class Adiabatic:
 Law = Annand | Woschni | Hohenberg | Adiabatic
 
 
-def heat_flux(law: Law, state: GasAtWall) -> Any:
+def heat_flux(law: Law, state: GasAtWall) -> Value:
     r"""Heat flux from the gas to the walls.
 
     .. math::
@@ -103,7 +104,7 @@ def heat_flux(law: Law, state: GasAtWall) -> Any:
     raise TypeError(f"no heat-transfer law for {type(law).__name__}")
 
 
-def motored_swirl(law: Law, p: Any, p_motored: Any, scale: Any) -> Any:
+def motored_swirl(law: Law, p: Value, p_motored: Value, scale: Value) -> Value:
     """Woschni's combustion term, zero where the pressure is below the motored pressure and for the other laws.
 
     Parameters
@@ -121,7 +122,7 @@ def motored_swirl(law: Law, p: Any, p_motored: Any, scale: Any) -> Any:
     return scale * ca.fmax(p - p_motored, 0.0) if isinstance(law, Woschni) else 0.0
 
 
-def _annand(law: Annand, state: GasAtWall) -> Any:
+def _annand(law: Annand, state: GasAtWall) -> Value:
     density = state.p / (state.gas_constant * state.t)
     reynolds = density * state.piston_speed * state.bore / viscosity(state.t)
     convection = conductivity(state.t) / state.bore * law.a * reynolds**law.exponent

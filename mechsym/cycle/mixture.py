@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
+from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
 
 UNIVERSAL = 8.31446261815324  # [J/(mol K)], CODATA 2018, exact
@@ -33,10 +34,10 @@ _N2_PER_O2 = 3.773  # moles of "atmospheric nitrogen" (argon counted in) per mol
 class Properties(NamedTuple):
     """What the first law needs to know of the gas: u [J/kg], c_v [J/(kg K)], du/dX [J/kg], R [J/(kg K)]."""
 
-    energy: Any
-    heat_capacity: Any
-    energy_slope: Any
-    gas_constant: Any
+    energy: Value
+    heat_capacity: Value
+    energy_slope: Value
+    gas_constant: Value
 
 
 @record
@@ -57,7 +58,7 @@ class NasaMixture:
     excess_air: float = quantity("-", default=1.0, low=1, about="air over stoichiometric air")
 
 
-def properties(gas: ConstantGamma | NasaMixture, t: Any, burnt: Any) -> Properties:
+def properties(gas: ConstantGamma | NasaMixture, t: Value, burnt: Value) -> Properties:
     r"""Properties of the cylinder gas.
 
     .. math:: u = c_v T \;\text{(constant)}, \qquad
@@ -95,7 +96,7 @@ def properties(gas: ConstantGamma | NasaMixture, t: Any, burnt: Any) -> Properti
     raise TypeError(f"no gas model for {type(gas).__name__}")
 
 
-def viscosity(t: Any) -> Any:
+def viscosity(t: Value) -> Value:
     """Dynamic viscosity of air.
 
     Parameters
@@ -115,7 +116,7 @@ def viscosity(t: Any) -> Any:
     return 7.457e-6 + 4.1547e-8 * t - 7.4793e-12 * t**2
 
 
-def conductivity(t: Any) -> Any:
+def conductivity(t: Value) -> Value:
     """Thermal conductivity of air.
 
     Parameters
@@ -155,11 +156,11 @@ def _mass_fractions(moles: dict[str, float]) -> dict[str, float]:
     return {s: n * _MOLAR_MASS[s] / total for s, n in moles.items()}
 
 
-def _sum(fractions: dict[str, float], value: Any) -> Any:
+def _sum(fractions: dict[str, float], value: Any) -> Value:
     return sum(y * value(species) for species, y in fractions.items())
 
 
-def _mix(air: dict[str, float], products: dict[str, float], burnt: Any, value: Any) -> Any:
+def _mix(air: dict[str, float], products: dict[str, float], burnt: Value, value: Any) -> Value:
     return (1 - burnt) * _sum(air, value) + burnt * _sum(products, value)
 
 
@@ -167,7 +168,7 @@ def _gas_constant(species: str) -> float:
     return UNIVERSAL / _MOLAR_MASS[species]
 
 
-def _heat_capacity(species: str, t: Any) -> Any:
+def _heat_capacity(species: str, t: Value) -> Value:
     w, dw = _blend(t)
     low, high = _NASA[species]
     u_low, u_high = _ranges(species, t)
@@ -175,20 +176,20 @@ def _heat_capacity(species: str, t: Any) -> Any:
     return _gas_constant(species) * (slopes + dw * (u_high - u_low))
 
 
-def _energy(species: str, t: Any) -> Any:
+def _energy(species: str, t: Value) -> Value:
     w, _ = _blend(t)
     u_low, u_high = _ranges(species, t)
     return _gas_constant(species) * ((1 - w) * u_low + w * u_high)
 
 
-def _blend(t: Any) -> tuple[Any, Any]:
+def _blend(t: Value) -> tuple[Value, Value]:
     # a switch at 1000 K would leave a kink in c_v, at which an integrator loses its order; the ranges agree to 1e-4
     # over the width of the blend, and c_v is the derivative of the blended u to the last bit
     s = ca.tanh((t - _T_SPLIT) / _T_BLEND)
     return (1 + s) / 2, (1 - s**2) / (2 * _T_BLEND)
 
 
-def _ranges(species: str, t: Any) -> tuple[Any, Any]:
+def _ranges(species: str, t: Value) -> tuple[Value, Value]:
     # u/R of both ranges, zero at the reference and continuous at 1000 K, which the fit's rounded constants are not
     low, high = _NASA[species]
     zero = _integral(low, T_REFERENCE) - T_REFERENCE
@@ -196,9 +197,9 @@ def _ranges(species: str, t: Any) -> tuple[Any, Any]:
     return _integral(low, t) - t - zero, _integral(high, t) - t + step
 
 
-def _polynomial(a: tuple[float, ...], t: Any) -> Any:
+def _polynomial(a: tuple[float, ...], t: Value) -> Value:
     return a[0] + t * (a[1] + t * (a[2] + t * (a[3] + t * a[4])))
 
 
-def _integral(a: tuple[float, ...], t: Any) -> Any:
+def _integral(a: tuple[float, ...], t: Value) -> Value:
     return t * (a[0] + t * (a[1] / 2 + t * (a[2] / 3 + t * (a[3] / 4 + t * a[4] / 5))))

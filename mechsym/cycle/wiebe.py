@@ -16,6 +16,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from mechsym.cycle.values import Value
+
 # Smallest y of the symbolic form: log(y), which the derivative with respect to m needs, stays finite
 _TINY = 1e-300
 
@@ -28,7 +30,7 @@ SHEN_2020 = (
 )
 
 
-def wiebe(y: Any, a: Any, m: Any) -> Any:
+def wiebe(y: Value, a: Value, m: Value) -> Value:
     r"""Burnt fraction of one Wiebe function.
 
     .. math:: f = 1 - \exp(-a\,y^{m+1}), \quad y \ge 0
@@ -55,7 +57,7 @@ def wiebe(y: Any, a: Any, m: Any) -> Any:
     return -_expm1(-a * _from_start(y) ** (m + 1))
 
 
-def dwiebe_dy(y: Any, a: Any, m: Any) -> Any:
+def dwiebe_dy(y: Value, a: Value, m: Value) -> Value:
     r"""Burning rate of one Wiebe function.
 
     .. math:: \frac{df}{dy} = a (m+1)\, y^m \exp(-a\,y^{m+1}), \quad y \ge 0
@@ -82,7 +84,7 @@ def dwiebe_dy(y: Any, a: Any, m: Any) -> Any:
     return _where_burning(y, a * (m + 1) * t**m * _exp(-a * t ** (m + 1)))
 
 
-def double_wiebe(y: Any, a_p: Any, m_p: Any, a_d: Any, m_d: Any, b: Any) -> Any:
+def double_wiebe(y: Value, a_p: Value, m_p: Value, a_d: Value, m_d: Value, b: Value) -> Value:
     r"""Burnt fraction of a premixed and a diffusive Wiebe function with a common start.
 
     .. math:: f = (1-b)\,[1-\exp(-a_p\,y^{m_p+1})] + b\,[1-\exp(-a_d\,y^{m_d+1})]
@@ -110,7 +112,7 @@ def double_wiebe(y: Any, a_p: Any, m_p: Any, a_d: Any, m_d: Any, b: Any) -> Any:
     return (1 - b) * wiebe(y, a_p, m_p) + b * wiebe(y, a_d, m_d)
 
 
-def ddouble_wiebe_dy(y: Any, a_p: Any, m_p: Any, a_d: Any, m_d: Any, b: Any) -> Any:
+def ddouble_wiebe_dy(y: Value, a_p: Value, m_p: Value, a_d: Value, m_d: Value, b: Value) -> Value:
     r"""Burning rate of `double_wiebe`.
 
     .. math:: \frac{df}{dy} = (1-b)\,f_p'(y) + b\,f_d'(y)
@@ -138,18 +140,18 @@ def _symbolic(value: Any) -> bool:
     return isinstance(value, (ca.SX, ca.MX))
 
 
-def _from_start(y: Any) -> Any:
+def _from_start(y: Value) -> Value:
     return ca.fmax(y, _TINY) if _symbolic(y) else np.maximum(y, 0.0)
 
 
-def _where_burning(y: Any, rate: Any) -> Any:
+def _where_burning(y: Value, rate: Value) -> Value:
     # only m = 0 needs this: y^0 is 1 before the start too
     return ca.if_else(y >= 0, rate, 0) if _symbolic(y) else np.where(np.asarray(y) >= 0, rate, 0.0)[()]
 
 
-def _exp(value: Any) -> Any:
+def _exp(value: Any) -> Value:
     return ca.exp(value) if _symbolic(value) else np.exp(value)
 
 
-def _expm1(value: Any) -> Any:
+def _expm1(value: Any) -> Value:
     return ca.expm1(value) if _symbolic(value) else np.expm1(value)

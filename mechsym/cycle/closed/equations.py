@@ -9,13 +9,14 @@ and after combustion; `phases` integrates them.
 Every attribute of `Closed` may be a number or a CasADi expression of the design.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 
 from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.values import Scalar
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
 
@@ -34,38 +35,38 @@ class Closed:
     chamber: Chamber
     gas: ConstantGamma | NasaMixture
     law: Law
-    omega: Any  #: Crank speed [rad/s]
+    omega: Scalar  #: Crank speed [rad/s]
     #: Inlet closing, start and duration of combustion, exhaust opening [rad]
-    closes: Any
-    starts: Any
-    duration: Any
-    opens: Any
+    closes: Scalar
+    starts: Scalar
+    duration: Scalar
+    opens: Scalar
     #: State when the inlet closes [Pa], [K], [kg]
-    pressure: Any
-    temperature: Any
-    mass: Any
-    fuel: Any  #: Mass of fuel [kg]
+    pressure: Scalar
+    temperature: Scalar
+    mass: Scalar
+    fuel: Scalar  #: Mass of fuel [kg]
     #: Heat that combustion releases when the Wiebe function has reached 1, heating value of the fuel, and latent heat
     #: charged to the gas [J]
-    heat: Any
-    fuel_heat: Any
-    latent_heat: Any
-    fuel_energy: Any  #: Internal energy that fuel brings along when it turns into gas [J/kg]
+    heat: Scalar
+    fuel_heat: Scalar
+    latent_heat: Scalar
+    fuel_energy: Scalar  #: Internal energy that fuel brings along when it turns into gas [J/kg]
     #: `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
     fuel_entry: str
-    wiebe: tuple[Any, ...]  #: a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
+    wiebe: tuple[Scalar, ...]  #: a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
 
 
 class Contents(NamedTuple):
     """Burnt share, mass [kg] and their slopes in phi at one crank angle."""
 
-    burnt: Any
-    burnt_slope: Any
-    mass: Any
-    mass_slope: Any
+    burnt: Scalar
+    burnt_slope: Scalar
+    mass: Scalar
+    mass_slope: Scalar
 
 
-def contents(closed: Closed, phase: str, phi: Any) -> Contents:
+def contents(closed: Closed, phase: str, phi: Scalar) -> Contents:
     """What the chamber holds at a crank angle.
 
     Parameters
@@ -92,7 +93,7 @@ def contents(closed: Closed, phase: str, phi: Any) -> Contents:
     return Contents(burnt, slope, closed.mass, 0.0)
 
 
-def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
+def pressure(closed: Closed, phase: str, phi: Scalar, t: Scalar) -> Scalar:
     """Pressure of the gas.
 
     Parameters
@@ -111,7 +112,7 @@ def pressure(closed: Closed, phase: str, phi: Any, t: Any) -> Any:
     return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)
 
 
-def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
+def rates(closed: Closed, phase: str, phi: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
     """Slopes of temperature, work and heat loss with the crank angle.
 
     Parameters
@@ -141,7 +142,7 @@ def rates(closed: Closed, phase: str, phi: Any, t: Any) -> tuple[Any, Any, Any]:
     return gain / (now.mass * gas.heat_capacity), p * dv, loss
 
 
-def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
+def scalars(closed: Closed, t_end: Scalar) -> tuple[Scalar, ...]:
     """Energies, masses and angles of the closed period.
 
     Parameters
@@ -177,9 +178,9 @@ def scalars(closed: Closed, t_end: Any) -> tuple[Any, ...]:
     return tuple(values[name] for name in SCALARS)
 
 
-def _heat_loss(closed: Closed, phase: str, p: Any, t: Any, v: Any, gas_constant: Any) -> Any:
+def _heat_loss(closed: Closed, phase: str, p: Scalar, t: Scalar, v: Scalar, gas_constant: Scalar) -> Scalar:
     chamber = closed.chamber
-    swirl: Any = 0.0
+    swirl: Scalar = 0.0
     if phase != "before":
         v_ref = volume(chamber, closed.closes)
         motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT

@@ -9,8 +9,8 @@ p |  2'--3          Seiliger (dual): heat at constant volume 2-2', then at const
 """
 
 import math
-from typing import Any
 
+from mechsym.cycle.values import Value
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -29,7 +29,7 @@ class IdealCycle:
     efficiency: float  #: Work over heat [-]
 
 
-def otto_efficiency(compression_ratio: Any, gamma: Any) -> Any:
+def otto_efficiency(compression_ratio: Value, gamma: Value) -> Value:
     r"""Efficiency of the Otto cycle.
 
     .. math:: \eta = 1 - CR^{1-\gamma}
@@ -53,7 +53,7 @@ def otto_efficiency(compression_ratio: Any, gamma: Any) -> Any:
     return 1 - compression_ratio ** (1 - gamma)
 
 
-def diesel_efficiency(compression_ratio: Any, gamma: Any, cutoff: Any) -> Any:
+def diesel_efficiency(compression_ratio: Value, gamma: Value, cutoff: Value) -> Value:
     r"""Efficiency of the Diesel cycle.
 
     .. math:: \eta = 1 - CR^{1-\gamma}\,\frac{\rho^\gamma - 1}{\gamma(\rho - 1)}

@@ -13,8 +13,6 @@ burn of the last broken degree is lost; the mean torque sums the 721 points of 0
 Source: Nunes (2017), sections 2.3 and 3.4.1.
 """
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
@@ -22,6 +20,7 @@ from mechsym.cycle.chamber import Chamber, piston_force, travel, volume, wall_ar
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
 from mechsym.cycle.mixture import ConstantGamma
+from mechsym.cycle.values import Value
 from mechsym.native.march import marcher
 from mechsym.quantities import record
 
@@ -40,8 +39,8 @@ class March:
     t: np.ndarray
     v: np.ndarray  #: shape (361,): Volume [m^3]
     #: shape (n,) and float: Gas when the inlet closes with all of the fuel, and the fuel [kg]
-    mass: Any
-    fuel: Any
+    mass: Value
+    fuel: Value
     #: shape (360, n): Heats of the steps [J]
     heat_released: np.ndarray
     wall_heat: np.ndarray
@@ -132,7 +131,7 @@ def mean_torque(chamber: Chamber, result: March) -> np.ndarray:
     return chamber.pistons * crank_torque(chamber, result).sum(axis=0) / _POINTS
 
 
-def _loss(chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Any, Any, Any], omega: Any) -> Any:
+def _loss(chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Value, Value, Value], omega: Value) -> Value:
     p, t, v_end = state
     speed = chamber.stroke * omega / np.pi
     flux = heat_flux(law, GasAtWall(p, t, v_end, gas.gas_constant, chamber.bore, speed))

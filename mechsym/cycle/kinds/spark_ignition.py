@@ -10,6 +10,7 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.values import Value
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 
@@ -58,12 +59,12 @@ class SparkIgnition:
 class Charge(NamedTuple):
     """What is in the chamber: gas (when the inlet closes) and fuel [kg], heat that combustion may release [J]."""
 
-    gas: Any
-    fuel: Any
-    heat: Any
+    gas: Value
+    fuel: Value
+    heat: Value
 
 
-def combustion_efficiency(cycle: Any) -> Any:
+def combustion_efficiency(cycle: Any) -> Value:
     r"""Share of the heating value that combustion can release.
 
     .. math:: \eta_c = \eta_{c,max}(-1.6082 + 4.6509\lambda - 2.0764\lambda^2)
@@ -86,7 +87,7 @@ def combustion_efficiency(cycle: Any) -> Any:
     return cycle.combustion_efficiency_max * (-1.6082 + 4.6509 * lam - 2.0764 * lam**2)
 
 
-def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
+def charge(chamber: Chamber, cycle: Any, gas_constant: Value) -> Charge:
     r"""Masses in the chamber and the heat that combustion may release.
 
     .. math:: m = \frac{p_0 V(\varphi_{ivc})}{R T_0}, \quad
@@ -114,7 +115,7 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Any) -> Charge:
     return Charge(density * v_closed, fuel, combustion_efficiency(cycle) * fuel * cycle.heating_value)
 
 
-def latent_heat(cycle: Any) -> Any:
+def latent_heat(cycle: Any) -> Value:
     """Latent heat that the cycle charges for a kilogram of fuel.
 
     Returns
@@ -125,7 +126,7 @@ def latent_heat(cycle: Any) -> Any:
     return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
 
 
-def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Any:
+def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Value:
     """Internal energy that a kilogram of fuel brings along when it turns into vapour.
 
     Parameters
@@ -149,7 +150,7 @@ def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Any:
     return -latent_heat(cycle)
 
 
-def timing(cycle: Any, omega: Any) -> tuple[Any, Any]:
+def timing(cycle: Any, omega: Value) -> tuple[Value, Value]:
     """Start and duration of combustion at a speed.
 
     Parameters
