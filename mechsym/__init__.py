@@ -12,16 +12,16 @@ from pathlib import Path
 from typing import Any
 
 __all__ = [
-    # ground: errors with the way out, units, files, periodic curves
-    "errors", "quantities", "files", "periodic",
+    # ground: errors with the way out, units, files, periodic curves, what pictures share
+    "errors", "quantities", "files", "periodic", "style",
     # mechanisms: declared and derived, as functions of numbers, as compiled C
     "derive", "mechanisms", "native",
     # physics, each room from records and numbers
-    "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise",
+    "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise", "codesign",
     # data files, and one page a command
     "cases", "jobs", "sweep",
-    # published formulas and numbers
-    "audit", "papers",
+    # published formulas and numbers, and what other programs read
+    "audit", "papers", "out",
 ]  # fmt: skip
 
 # in a clone generated/ and derivations/ stand beside the package; what is installed has them inside

@@ -16,6 +16,7 @@ from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
 from mechsym.mechanisms.state import state
+from mechsym.quantities import load
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
@@ -46,8 +47,7 @@ def parameters_class(name: str) -> Any:
     """
     if name not in _CLASSES:
         raise BadInput(f"mechanism {name!r} is not known; {suggest(name, names())}")
-    module, _, cls = _CLASSES[name].partition(":")
-    return getattr(import_module(f"mechsym.mechanisms.{module}"), cls)
+    return load(f"mechsym.mechanisms.{_CLASSES[name]}")
 
 
 def build(name: str, parameters: Any) -> Mechanism:
