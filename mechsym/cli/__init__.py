@@ -16,6 +16,7 @@ COMMANDS = {
     "cycle": "mechsym.cli.cycle:cycle",
     "derive": "mechsym.cli.derive:derive",
     "eval": "mechsym.cli.evaluate:evaluate",
+    "export": "mechsym.cli.export:export",
     "fmu": "mechsym.cli.fmu:fmu",
     "flywheel": "mechsym.cli.flywheel:flywheel",
     "forces": "mechsym.cli.forces:forces",

@@ -1,0 +1,194 @@
+"""Whole files in each language: functions of one array, and for a machine its curves and its rates in one call.
+
+c         NAME.h, NAME.c: no allocation; a machine also starts, advances (DOP853 with events), sets and gets
+julia     NAME.jl, a module          matlab   NAME.m, one function file, runs in Octave too
+jax       NAME.py, jax.numpy         modelica NAME.mo, flat equations
+"""
+
+import re
+from collections.abc import Callable, Mapping
+
+from mechsym.errors import BadInput
+from mechsym.out.fmi.describe import identifier
+from mechsym.out.text import language_c, language_modelica
+from mechsym.out.text.dialects import JAX, JULIA, MATLAB, Dialect, number
+from mechsym.out.text.programs import Written, told
+from mechsym.out.text.write import statements
+
+
+def files(written: Written, language: str) -> dict[str, str]:
+    """Texts by file name, in `c`, `modelica`, `julia`, `matlab` or `jax`."""
+    if language not in _LANGUAGES:
+        raise BadInput(f"--to {language!r} is not known; allowed are {', '.join(_LANGUAGES)}")
+    return _LANGUAGES[language](written)
+
+
+def _head(written: Written, dialect: Dialect) -> list[str]:
+    about = re.sub(r"\s+", " ", written.about)
+    return [dialect.comment.format(f"{written.name}: {about}"), dialect.comment.format("SI units, angles in rad")]
+
+
+def _functions(written: Written, dialect: Dialect, shape: Callable[[str, list[str]], list[str]]) -> list[str]:
+    """Every function of one array; it counts from 0 in JAX and from 1 elsewhere."""
+    lines: list[str] = []
+    bracket, first = "v({})" if dialect is MATLAB else "v[{}]", 0 if dialect is JAX else 1
+    for name, tape in written.tapes.items():
+        body, results = statements(tape, dialect, lambda i: bracket.format(i + first))
+        comments = [dialect.comment.format(line) for line in told(written, name)]
+        lines += ["", *comments, *shape(name, [*body, *_result(dialect, results)])]
+    return lines
+
+
+def _result(dialect: Dialect, results: list[str]) -> list[str]:
+    joined = ", ".join(results)
+    return {"julia": [f"    return [{joined}]"], "matlab": [f"    y = [{joined.replace(', ', '; ')}];"],
+            "jax": [f"    return jnp.stack(jnp.broadcast_arrays({joined}))"]}[dialect.name]  # fmt: skip
+
+
+def _listed(dialect: Dialect, values: object, ends: str = "[]") -> str:
+    return ends[0] + ", ".join(number(dialect, float(v)) for v in values) + ends[1]  # type: ignore[attr-defined]
+
+
+def _julia(written: Written) -> dict[str, str]:
+    name, block = identifier(written.name), written.block
+    lines = [*_head(written, JULIA), f"module {name}"]
+    lines += _functions(written, JULIA, lambda f, body: [f"function {f}(v)", *body, "end"])
+    if block is not None:
+        lines += ["", f"const x_start = {_listed(JULIA, [s.start for s in block.states])}"]
+        lines += [f"const p_start = {_listed(JULIA, [p.start for p in block.parameters])}"]
+        rows = [
+            f"    ({c.state + 1}, {c.ratio!r}, {str(c.periodic).lower()}, {_listed(JULIA, c.poly.x)}, "
+            f"reshape({_listed(JULIA, c.poly.c.T.ravel())}, {len(c.poly.c)}, :)),"
+            for c in block.curves
+        ]
+        times = [[p.name for p in block.parameters].index(s) + 1 for s in block.switches]
+        lines += ["const curves = (", *rows, ")", f"const switches = {times}", _JULIA_MACHINE]
+    return {f"{name}.jl": "\n".join([*lines, "end", ""])}
+
+
+_JULIA_MACHINE = """
+function curve((state, ratio, periodic, breaks, rows), x)
+    at = ratio * x[state]
+    inside = periodic ? breaks[1] + mod(at - breaks[1], breaks[end] - breaks[1]) : clamp(at, breaks[1], breaks[end])
+    i = clamp(searchsortedlast(breaks, inside), 1, length(breaks) - 1)
+    z, value, slope = inside - breaks[i], 0.0, 0.0
+    for c in rows[:, i]
+        slope = slope * z + value
+        value = value * z + c
+    end
+    return value, (periodic || inside == at) ? slope : 0.0
+end
+
+# t [s], x states, u added to the inputs, p parameters
+function values(t, x, u, p)
+    w = [a for c in curves for a in curve(c, x)]
+    return [t; x; u; p; w; [t >= p[i] ? 1.0 : 0.0 for i in switches]]
+end
+derivative(t, x, u, p) = rates(values(t, x, u, p))
+outputs(t, x, u, p) = observed(values(t, x, u, p))
+"""
+
+
+def _matlab(written: Written) -> dict[str, str]:
+    name, block = identifier(written.name), written.block
+    lines = [f"function varargout = {name}(what, varargin)"]
+    lines += _head(written, MATLAB)
+    if block is None:
+        choice = ", ".join(f"'{f}'" for f in written.tapes)
+        lines += [f"% y = {name}(what, v); what: {choice}", "    varargout{1} = feval(what, varargin{:});", "end"]
+    else:
+        lines += [f"% dx = {name}('derivative', t, x, u, p); y = {name}('outputs', t, x, u, p)",
+                  f"% [x, p] = {name}('start')"]  # fmt: skip
+        lines += ["    [varargout{1:max(nargout, 1)}] = feval(what, varargin{:});", "end"]
+    lines += _functions(written, MATLAB, lambda f, body: [f"function y = {f}(v)", *body, "end"])
+    lines += ["", "function y = pick(condition, value)", "    y = 0.0;", "    if condition, y = value; end", "end"]
+    if block is not None:
+        times = [[p.name for p in block.parameters].index(s) + 1 for s in block.switches]
+        lines += ["", "function [x, p] = start()", f"    x = {_listed(MATLAB, [s.start for s in block.states])}';",
+                  f"    p = {_listed(MATLAB, [p.start for p in block.parameters])}';", "end",
+                  "", "function v = values(t, x, u, p)", "    w = [];"]  # fmt: skip
+        for c in block.curves:
+            rows = "; ".join(" ".join(number(MATLAB, v) for v in row) for row in c.poly.c.T)
+            head = f"    w = [w; curve({c.ratio!r} * x({c.state + 1}), {int(c.periodic)}, "
+            lines.append(f"{head}{_listed(MATLAB, c.poly.x)}, [{rows}])];")
+        lines += [f"    s = double(t >= p({times}));" if times else "    s = [];"]
+        lines += ["    v = [t; x(:); u(:); p(:); w; s(:)];", "end", _MATLAB_MACHINE]
+    return {f"{name}.m": "\n".join([*lines, ""])}
+
+
+_MATLAB_MACHINE = """
+function w = curve(at, periodic, breaks, rows)
+    if periodic
+        inside = breaks(1) + mod(at - breaks(1), breaks(end) - breaks(1));
+    else
+        inside = min(max(at, breaks(1)), breaks(end));
+    end
+    i = min(max(find(breaks <= inside, 1, 'last'), 1), numel(breaks) - 1);
+    z = inside - breaks(i);
+    value = 0.0; slope = 0.0;
+    for c = rows(i, :)
+        slope = slope * z + value;
+        value = value * z + c;
+    end
+    if ~periodic && inside ~= at, slope = 0.0; end
+    w = [value; slope];
+end
+
+function dx = derivative(t, x, u, p)
+    dx = rates(values(t, x, u, p));
+end
+
+function y = outputs(t, x, u, p)
+    y = observed(values(t, x, u, p));
+end"""
+
+
+def _jax(written: Written) -> dict[str, str]:
+    name, block = identifier(written.name), written.block
+    lines = [*_head(written, JAX), "import jax", "import jax.numpy as jnp", "",
+             'jax.config.update("jax_enable_x64", True)', ""]  # fmt: skip
+    lines += _functions(written, JAX, lambda f, body: [f"def {f}(v):", *body, ""])
+    if block is not None:
+        times = [[p.name for p in block.parameters].index(s) for s in block.switches]
+        lines += ["", f"x_start = jnp.array({_listed(JAX, [s.start for s in block.states])})",
+                  f"p_start = jnp.array({_listed(JAX, [p.start for p in block.parameters])})",
+                  f"switches = {times}", "curves = ["]  # fmt: skip
+        for c in block.curves:
+            rows = f"jnp.array({_listed(JAX, c.poly.c.T.ravel())}).reshape(-1, {len(c.poly.c)})"
+            lines += [f"    ({c.state}, {c.ratio!r}, {c.periodic}, jnp.array({_listed(JAX, c.poly.x)}), {rows}),"]
+        lines += ["]", _JAX_MACHINE]
+    return {f"{name}.py": "\n".join([*lines, ""])}
+
+
+_JAX_MACHINE = '''
+
+def curve(c, x):
+    state, ratio, periodic, breaks, rows = c
+    at, first, last = ratio * x[state], breaks[0], breaks[-1]
+    inside = first + jnp.mod(at - first, last - first) if periodic else jnp.clip(at, first, last)
+    i = jnp.clip(jnp.searchsorted(breaks, inside, side="right") - 1, 0, len(breaks) - 2)
+    z, value, slope = inside - breaks[i], 0.0, 0.0
+    for k in range(rows.shape[1]):
+        slope = slope * z + value
+        value = value * z + rows[i, k]
+    return [value, slope if periodic else jnp.where(inside == at, slope, 0.0)]
+
+
+def values(t, x, u, p):
+    """t [s], x states, u added to the inputs, p parameters."""
+    w = [a for c in curves for a in curve(c, x)]
+    s = [jnp.where(t >= p[i], 1.0, 0.0) for i in switches]
+    return jnp.concatenate([jnp.atleast_1d(jnp.asarray(a, dtype=float)) for a in (t, x, u, p, *w, *s)])
+
+
+def derivative(t, x, u, p):
+    return rates(values(t, x, u, p))
+
+
+def outputs(t, x, u, p):
+    return observed(values(t, x, u, p))'''
+
+
+_LANGUAGES: Mapping[str, Callable[[Written], dict[str, str]]] = {
+    "c": language_c.files, "modelica": language_modelica.files, "julia": _julia, "matlab": _matlab, "jax": _jax,
+}  # fmt: skip
