@@ -17,6 +17,7 @@ from typing import Any
 from mechsym.cases import schema
 from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.mechanisms import own
 from mechsym.quantities import record
 
 __all__ = ["Case", "load", "locate", "names", "text", "underlaid"]
@@ -135,7 +136,9 @@ def _raw(name: str, overrides: Mapping[str, Any] | None) -> tuple[str, dict[str,
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
     tables = _tables(file, content)
-    head = {key: _head(tables, key, file) for key in _HEAD}
+    usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
+    head = {key: _head(usual | tables, key, file) for key in _HEAD}
+    head["mechanism"] = own.located(head["mechanism"], Path(name).parent)
     sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in _HEAD}
     for key, value in (overrides or {}).items():
         override(sections, head["mechanism"], key, value)

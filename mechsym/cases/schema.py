@@ -94,6 +94,10 @@ _SECTIONS: dict[str, Any] = {
 }
 
 
+# sections whose keys are the mechanism's own letters: the function of mechsym.mechanisms that makes their record
+_LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": "start_class"}
+
+
 def sections() -> list[str]:
     """Names of all sections.
 
@@ -102,7 +106,7 @@ def sections() -> list[str]:
     names : list of str
         In the order of a case file
     """
-    return ["parameters", *_SECTIONS]
+    return [*_LETTERS, *_SECTIONS]
 
 
 def selector(section: str) -> str | None:
@@ -127,10 +131,10 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
     table : dict
         The section's raw values, read for its selector
     """
-    if section == "parameters":
-        from mechsym.mechanisms import parameters_class
+    if section in _LETTERS:
+        from mechsym import mechanisms
 
-        return parameters_class(mechanism)
+        return getattr(mechanisms, _LETTERS[section])(mechanism)
     entry = _SECTIONS[section]
     if isinstance(entry, tuple):
         key, variants = entry

@@ -1,22 +1,60 @@
 """`mechsym derive`: regenerate the code, or check that it is what the derivations give."""
 
 import sys
+from pathlib import Path
+from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, progress
+from mechsym.cli.common import emit, json_option, out_option, progress
 
 
 @click.command()
 @click.argument("names", nargs=-1)
-@click.option("--check", is_flag=True, help="Write nothing; exit 1 when generated/ is not what the derivations give.")
+@click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
+@click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
+@out_option
 @json_option
-def derive(names: tuple[str, ...], check: bool, as_json: bool) -> None:
-    """Regenerate generated/ from derivations/.
+def derive(names: tuple[str, ...], check: bool, show: bool, out: Path | None, as_json: bool) -> None:
+    """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
+
+    The code of FILE.py or FILE.py:NAME goes to the cache by its content, with --out to a folder.
 
     \b
-    Example: mechsym derive crosshead
+    Examples: mechsym derive crosshead
+              mechsym derive ./scotch.py --out derived
     """
+    from mechsym.mechanisms import own
+
+    files = [name for name in names if own.is_file(name)]
+    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": []}
+    if not files or len(files) < len(names):
+        built_in = _built_in(tuple(name for name in names if name not in files), check)
+        found = {k: v | built_in[k] if isinstance(v, dict) else v + built_in[k] for k, v in found.items()}
+    shown = {"code": found["code"]} if show else {}
+    report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
+    emit(report, as_json, lambda: _text(found, check, show))
+    if found["differs"]:
+        sys.exit(1)
+
+
+def _files(names: list[str], check: bool, out: Path | None) -> dict[str, Any]:
+    from mechsym.mechanisms import own
+
+    found: dict[str, Any] = {"written": [], "differs": {}, "code": []}
+    with progress(len(names), "deriving") as bar:
+        for name in names:
+            if check:
+                found["differs"] |= own.differences(name, out)
+            else:
+                mechanism = own.load(name)
+                found["code"].append(mechanism.code)
+                found["written"] += [str(p) for p in own.write(mechanism, out)]
+            bar.update(1)
+    return found
+
+
+def _built_in(names: tuple[str, ...], check: bool) -> dict[str, Any]:
     from mechsym.derive import build
 
     differs: dict[str, str] = {}
@@ -33,16 +71,17 @@ def derive(names: tuple[str, ...], check: bool, as_json: bool) -> None:
         differs |= {file: f"generated/{file} has no derivation" for file in build.orphans()}
     elif not names:
         written += build.write([])
-    emit({"written": written, "differs": sorted(differs)}, as_json, lambda: _text(written, differs, check))
-    if differs:
-        sys.exit(1)
+    return {"written": written, "differs": differs, "code": []}
 
 
-def _text(written: list[str], differs: dict[str, str], check: bool) -> str:
-    if differs:
-        return "\n".join(
-            [*differs.values(), "generated/ is not what the derivations give: run `make derive` and commit"]
+def _text(found: dict[str, Any], check: bool, show: bool) -> str:
+    if found["differs"]:
+        way_out = (
+            "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
         )
+        return "\n".join([*found["differs"].values(), way_out])
     if check:
-        return "generated/ is what the derivations give"
-    return "\n".join(f"wrote generated/{file}" for file in written) or "nothing to write: generated/ is up to date"
+        return "the code is what the derivations give"
+    if show:
+        return "\n".join(found["code"])
+    return "\n".join(f"wrote {file}" for file in found["written"]) or "nothing to write: generated/ is up to date"

@@ -42,8 +42,12 @@ def forces(
     from mechsym.jobs.forces import forces as run
     from mechsym.jobs.forces import write
     from mechsym.jobs.gas import measured
+    from mechsym.jobs.own import is_own
 
     loaded = cases.load(case, pairs(overrides))
+    if is_own(loaded.mechanism):
+        _own(loaded, out, as_json)
+        return
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
     report = summary(found, loaded.name)
@@ -51,6 +55,23 @@ def forces(
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
     emit(report, as_json, lambda: _text(report))
     ctx.exit(1 if found.unbalanced else 0)
+
+
+def _own(case: Any, out: Path | None, as_json: bool) -> None:
+    from mechsym.jobs import own_turn
+
+    found = own_turn.turn(case)
+    report = own_turn.summary(found, case)
+    report["files"] = [] if out is None else [str(file) for file in own_turn.write(found, case, out)]
+    emit(report, as_json, lambda: _own_text(report))
+
+
+def _own_text(report: dict[str, Any]) -> str:
+    acts = {name: who for name, who in report["reactions"].items()}
+    rows = [{"quantity": n, "max": v, "min": report["min"][n], "of": acts.get(n, "")} for n, v in report["max"].items()]
+    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]
+    lines += [table(rows, ["quantity", "max", "min", "of"]), "", f"power residual {report['power_residual']:.2g}"]
+    return "\n".join(lines + [f"written: {file}" for file in report["files"]])
 
 
 def _law(case: Any, speeds: str) -> dict[str, Any]:

@@ -1,7 +1,10 @@
 """The symbolic side: declare a mechanism, derive its exact equations, generate code from them. The only home of sympy
 besides `mechsym.audit`.
 
-declare.py    what a mechanism is made of (bodies, joints, springs, forces; records in elements.py)
+declare.py    what a mechanism is made of (bodies, joints, springs, forces; records in elements.py, letters and
+              units in letters.py, dimensions.py; refusals with file and line in refuse.py)
+linkage.py    links and joints without algebra; closing.py places them, by dyads.py or by constraint
+roles.py      what parts are for: pistons, rotors, bearings, guides, teeth, drawing
 tape.py       named intermediates and their named derivatives
 outputs.py    what shall come out beside the equations
 rates.py      velocities and accelerations of named expressions
@@ -9,9 +12,11 @@ lagrange.py   mass matrix, bias, generalised forces, energies, reactions
 textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
 identity.py   is an expression zero? numbers at 50 digits refute, a polynomial certificate proves
 printer.py    sympy -> CasADi text and expressions
-emit.py       one readable module of Python per mechanism
+autodiff.py   the same from T - V by automatic differentiation, for loops in loops
+emit.py       one readable module of Python per mechanism, stamp.py its header
 listing.py    the equations as LaTeX and MathML for reports
 build.py      from derivations/ to generated/, or compare the two
+files.py      mechanisms in files of the user's own
 """
 
 from sympy import (

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mechsym.derive.declare import Mechanism
-from mechsym.derive.emit import digest, module_text
+from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
 from mechsym.derive.listing import listing
+from mechsym.derive.stamp import digest
 from mechsym.derive.textbook import disagreements
 from mechsym.errors import BadInput
 from mechsym.files import write_text

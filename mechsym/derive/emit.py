@@ -1,16 +1,16 @@
 """One readable module of Python per mechanism: header, tables of names, one function per group of equations."""
 
-import hashlib
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import sympy
 from sympy import Expr, Integer, Symbol, cse, numbered_symbols
 
-from mechsym.derive.lagrange import Equations
+from mechsym.derive.lagrange import Equations, multiplier
 from mechsym.derive.printer import casadi_text
 from mechsym.derive.rates import accelerations, velocities
+from mechsym.derive.refuse import refuse
+from mechsym.derive.stamp import digest, header
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +72,8 @@ def groups(equations: Equations) -> list[Group]:
         closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
         about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
         found.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
+    if points := equations.mechanism.shape_points:
+        found.append(Group(name="drawing", about="Points and sizes that a drawing needs.", outputs=points))
     return found
 
 
@@ -169,12 +171,16 @@ def arguments(equations: Equations, steps: list[tuple[Symbol, Expr]], results: M
     """
     m = equations.mechanism
     used = {s.name for e in [*(v for _, v in steps), *results.values()] for s in e.free_symbols}
-    order = [*m.q, *velocities(m), *accelerations(m), *m.input_list, *m.parameter_list]
+    order = [*m.q, *velocities(m), *accelerations(m), *m.input_list, *_multipliers(equations), *m.parameter_list]
     known = [s.name for s in order]
     unknown = used - set(known) - {s.name for s, _ in steps}
     if unknown:
-        raise ValueError(f"{m.name}: undeclared letters {sorted(unknown)}; declare them as parameters or inputs")
+        refuse(f"undeclared letters {sorted(unknown)}; declare them as parameters or inputs", m.where[m.name])
     return [name for name in known if name in used]
+
+
+def _multipliers(equations: Equations) -> list[Symbol]:
+    return [multiplier(equations.mechanism, c) for c in equations.mechanism.constraints]
 
 
 def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
@@ -199,13 +205,15 @@ def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
     m = equations.mechanism
     units = m.units | {v.name: f"{m.units[q.name]}/s" for q, v in zip(m.q, velocities(m), strict=True)}
     units |= {a.name: f"{m.units[q.name]}/s^2" for q, a in zip(m.q, accelerations(m), strict=True)}
+    units |= {s.name: m.units.get(s.name, "-") for s in _multipliers(equations)}
     given = ", ".join(f"{n} [{units[n]}]" for n in names)
     body = [f"{s.name} = {casadi_text(e)}" for s, e in steps]
     body += [f"{n} = {casadi_text(e)}" for n, e in results.items() if e != Symbol(n, real=True)]
     doc = _wrapped(f"Takes {given or 'nothing'}.") + _wrapped(f"Returns {', '.join(results)}.")
     lines = [f"def {group.name}({', '.join(names)}):", f'    """{group.about}', "", *doc, '    """']
     lines += [f"    {line}" for line in body]
-    return "\n".join([*lines, f"    return {', '.join(results)}{',' if len(results) == 1 else ''}"]), names
+    returned = f"{', '.join(results)}{',' if len(results) == 1 else ''}" or "()"
+    return "\n".join([*lines, f"    return {returned}"]), names
 
 
 def _wrapped(text: str) -> list[str]:
@@ -245,6 +253,7 @@ def module_text(equations: Equations, script: str, source_hash: str) -> str:
         f"COORDINATES = {tuple(s.name for s in m.q)!r}",
         f"INPUTS = {tuple(s.name for s in m.input_list)!r}",
         f"PARAMETERS = {tuple(s.name for s in m.parameter_list)!r}",
+        *_closing(equations),
         "# function: (arguments, outputs)",
         "FUNCTIONS = {",
         *table,
@@ -254,40 +263,10 @@ def module_text(equations: Equations, script: str, source_hash: str) -> str:
     return header(script, source_hash, digest(body)) + body
 
 
-def header(script: str, source_hash: str, body_hash: str) -> str:
-    """The stamp of a generated file: what it came from and that it is not to be edited.
-
-    Parameters
-    ----------
-    script : str
-        Path of the derivation
-    source_hash, body_hash : str
-        16 hex digits each
-
-    Returns
-    -------
-    text : str
-        Comment lines
-    """
-    return (
-        f"# Generated from {script} by mechsym.derive. Do NOT edit: run `make derive`.\n"
-        f"# source sha256: {source_hash}   ({script} + mechsym/derive/*.py, newlines normalised)\n"
-        f"# body   sha256: {body_hash}   (everything below this header)\n"
-        f"# sympy {sympy.__version__}\n"
-    )
-
-
-def digest(text: str) -> str:
-    """First 16 hex digits of the SHA-256 of a text with newlines normalised.
-
-    Parameters
-    ----------
-    text : str
-        Any text
-
-    Returns
-    -------
-    digits : str
-        16 hex digits
-    """
-    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()[:16]
+def _closing(equations: Equations) -> list[str]:
+    """Tables of a mechanism that closes by constraint."""
+    m = equations.mechanism
+    if not m.dependent_list:
+        return []
+    names = tuple(s.name for s in _multipliers(equations))
+    return ["# dependent coordinates and where they start", f"DEPENDENTS = {m.guesses!r}", f"MULTIPLIERS = {names!r}"]

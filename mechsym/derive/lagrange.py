@@ -12,8 +12,11 @@ from dataclasses import dataclass
 
 from sympy import Expr, Integer, Rational, Symbol, sympify
 
-from mechsym.derive.declare import Body, Mechanism
+from mechsym.derive.closing import finish
+from mechsym.derive.declare import Mechanism
+from mechsym.derive.elements import Body
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
+from mechsym.derive.refuse import refuse
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +90,10 @@ def derive(m: Mechanism) -> Equations:
     equations : Equations
         Mass matrix, bias, forces, energies, reactions
     """
+    finish(m)
+    if not m.q:
+        refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])
+    _count_constraints(m)
     if m.given is not None:
         rows, bias, force = m.given
         return Equations(
@@ -101,9 +108,10 @@ def derive(m: Mechanism) -> Equations:
             momentum={},
         )
     mass = [[_mass(m, a, b) for b in m.q] for a in m.q]
+    _require_mass(m, mass)
     kinematics: dict[str, Expr] = {s.name: s for s in m.kinematic_outputs}
     if len(m.q) == 1:
-        inertia = m.let("inertia", mass[0][0], "kg*m^2")
+        inertia = m.let("inertia", mass[0][0], "kg" if m.units[m.q[0].name] == "m" else "kg*m^2")
         mass = [[inertia]]
         kinematics["inertia"] = inertia
         kinematics[f"dinertia_d{m.q[0].name}"] = m.tape.derivative(inertia, m.q[0])
@@ -120,6 +128,25 @@ def derive(m: Mechanism) -> Equations:
         constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
         constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
     )
+
+
+def _count_constraints(m: Mechanism) -> None:
+    # without dependents only the rank is wanted, see mechsym.mechanisms.constraints
+    held, made = len(m.dependent_list), len(m.constraints)
+    if held != made and (held or (made and m.joint_list)):
+        why = f"{made} constraints hold {held} dependent coordinates"
+        refuse(
+            f"{why}; the loop is {'open' if made < held else 'held twice'}: declare as many m.dependents",
+            m.where[m.name],
+        )
+
+
+def _require_mass(m: Mechanism, mass: list[list[Expr]]) -> None:
+    for i, q in enumerate(m.q):
+        # a dependent coordinate may move without mass, as a massless rod does
+        if mass[i][i].is_zero and (q not in m.dependent_list or all(row[j].is_zero for j, row in enumerate(mass))):
+            why = f"nothing that moves with {q} has a mass; give a body on it a mass or an inertia"
+            refuse(why, m.where[q.name])
 
 
 def _mass(m: Mechanism, a: Symbol, b: Symbol) -> Expr:
@@ -174,7 +201,12 @@ def _reactions(m: Mechanism) -> dict[str, Expr]:
     found: dict[Symbol, Expr] = {}
     for joint in m.joint_list:
         found[m.reaction_of[joint]] = _reaction(m, joint).xreplace(found)
-    outputs = {s.name: e for s, e in found.items()} | {n: e.xreplace(found) for n, e in m.dynamic_outputs.items()}
+    multipliers = {s.name: s for s in m.multiplier_of.values()}
+    outputs = (
+        {s.name: e for s, e in found.items()}
+        | multipliers
+        | {n: e.xreplace(found) for n, e in m.dynamic_outputs.items()}
+    )
     for name, expression in outputs.items():
         if unknown := sorted(s.name for s in expression.free_symbols & found.keys()):
             raise ValueError(f"{name} depends on {', '.join(unknown)}; declare the joint of that reaction earlier")
@@ -186,7 +218,26 @@ def _reaction(m: Mechanism, joint: Symbol) -> Expr:
     for body in m.bodies:
         total += body.mass * sum((acceleration(m, p) * d(p, joint) for p in body.at), Integer(0))
         total += body.inertia * acceleration(m, body.turns) * d(body.turns, joint)
-    return total - generalized_force(m, joint)
+    held = (multiplier(m, name) * d(g, joint) for name, g in m.constraints.items())
+    return total - generalized_force(m, joint) - sum(held, Integer(0))
+
+
+def multiplier(m: Mechanism, constraint: str) -> Symbol:
+    """Letter of a constraint's multiplier: the reaction of the joint that it closes, or `force_<constraint>`.
+
+    Parameters
+    ----------
+    m : Mechanism
+        The declaration
+    constraint : str
+        Name of the constraint
+
+    Returns
+    -------
+    symbol : Symbol
+        An argument of the reactions
+    """
+    return m.multiplier_of.get(constraint, Symbol(f"force_{constraint}", real=True))
 
 
 def _momentum(m: Mechanism) -> dict[str, Expr]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Eq, Expr, Symbol, cos, latex, mathml, sin
+from sympy import Eq, Expr, Integer, Symbol, cos, latex, mathml, sin
 
 from mechsym.derive.declare import Mechanism
 from mechsym.derive.emit import groups
@@ -41,10 +41,24 @@ def listing(equations: Equations) -> dict[str, Any]:
         "parameters": {s.name: m.units[s.name] for s in m.parameter_list},
         "inputs": {s.name: m.units[s.name] for s in m.input_list},
         "outputs": {name: _unit(m, name) for name in outputs},
-        "reactions": {m.reaction_of[s].name: about for s, about in m.joint_about.items()},
+        "reactions": {m.reaction_of.get(s, s).name: about for s, about in m.joint_about.items()},
         "constraints": list(m.constraints),
+        **_own(m),
         "equations": [_equation(m, *row) for row in _rows(equations)],
     }
+
+
+def _own(m: Mechanism) -> dict[str, Any]:
+    """What only some declarations say."""
+    said: dict[str, Any] = {
+        "dependents": [s.name for s in m.dependent_list],
+        "guesses": m.guesses,
+        "multipliers": {c: s.name for c, s in m.multiplier_of.items()},
+        "ranges": m.ranges,
+        "roles": m.roles,
+        "shapes": m.shapes,
+    }
+    return {key: value for key, value in said.items() if value}
 
 
 def _unit(m: Mechanism, name: str) -> str:
@@ -58,7 +72,7 @@ def _unit(m: Mechanism, name: str) -> str:
 
 def _rows(equations: Equations) -> list[tuple[str, Expr, Expr]]:
     m, rows = equations.mechanism, []
-    held = dict.fromkeys(m.joint_list, 0)
+    held = dict.fromkeys(m.joint_list, Integer(0))
     wanted = [*equations.kinematics.values(), *equations.generalized_force, *equations.bias]
     for symbol in m.tape.needed(wanted):
         if not symbol.name.startswith(("sin_", "cos_")) or symbol.name[4:] not in {v.name for v in m.tape.variables}:

@@ -1,8 +1,10 @@
 """What shall come out of a mechanism beside its equations: kinematic names with derivatives, and dynamic quantities."""
 
+from typing import Any
+
 from sympy import Expr, Symbol, sympify
 
-from mechsym.derive.declare import Mechanism
+Mechanism = Any  # the declaration, which imports this module
 
 
 def output(m: Mechanism, *symbols: Symbol, order: int = 0) -> None:
@@ -21,9 +23,15 @@ def output(m: Mechanism, *symbols: Symbol, order: int = 0) -> None:
         found = [symbol]
         for _ in range(order):
             m.kinematic_outputs += found
-            found = [d for f in found for v in m.q if (d := m.tape.derivative(f, v)).is_Symbol]
+            found = [d for f in found for v in m.q if (d := _named(m, f, v)).is_Symbol]
         m.kinematic_outputs += found
     m.kinematic_outputs = list(dict.fromkeys(m.kinematic_outputs))
+
+
+def _named(m: Mechanism, symbol: Symbol, v: Symbol) -> Expr:
+    """A derivative by its own name, also where it is another name with its sign turned."""
+    value = m.tape.derivative(symbol, v)
+    return m.tape.name_derivative(symbol, v, value) if (-value).is_Symbol else value
 
 
 def output_dynamic(m: Mechanism, name: str, value: Expr, unit: str) -> None:

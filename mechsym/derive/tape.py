@@ -8,7 +8,7 @@ in them and no derivative is ever expanded into trigonometric functions.
 
 from collections.abc import Callable, Iterable
 
-from sympy import Expr, Float, Integer, Symbol, asin, cos, sin, sqrt, sympify
+from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, sin, sqrt, sympify
 
 Rule = Callable[[Symbol], Expr]
 
@@ -79,6 +79,52 @@ class Tape:
         angle = self.define(name, asin(s))
         self._rules[angle] = lambda v: self.derivative(s, v) / c
         self._rules[c] = lambda v: -s * self.derivative(angle, v)
+        return angle
+
+    def define_direction(self, name: str, cosine: Expr, sine: Expr) -> Symbol:
+        """Put an angle on the tape by its cosine and sine, of which one follows from the other.
+
+        Parameters
+        ----------
+        name : str
+            Name of the angle; `sin_name` and `cos_name` are defined with it
+        cosine, sine : Expr
+            Their squares add up to 1, displaced joints included
+
+        Returns
+        -------
+        angle : Symbol
+            The angle
+        """
+        c, s = self.define(f"cos_{name}", cosine), self.define(f"sin_{name}", sine)
+        values = self.entries[c], self.entries[s]
+        angle = self.define(name, atan2(s, c))
+        self._rules[angle] = lambda v: c * self.diff(values[1], v) - s * self.diff(values[0], v)
+        self._rules[s] = lambda v: c * self.derivative(angle, v)
+        self._rules[c] = lambda v: -s * self.derivative(angle, v)
+        return angle
+
+    def define_turn(self, name: str, value: Expr, x: Expr, y: Expr) -> Symbol:
+        """Put the turn of a line on the tape: `value` where joints are held, rates from the line's ends.
+
+        Parameters
+        ----------
+        name : str
+            Name of the angle
+        value : Expr
+            Its value, without the jumps of an arc tangent
+        x, y : Expr
+            The line from end to end
+
+        Returns
+        -------
+        angle : Symbol
+            The angle
+        """
+        ends = self.named(x), self.named(y)
+        angle = self.define(name, value)
+        square = ends[0] ** 2 + ends[1] ** 2
+        self._rules[angle] = lambda v: (ends[0] * self.diff(ends[1], v) - ends[1] * self.diff(ends[0], v)) / square
         return angle
 
     def named(self, expression: Expr) -> Expr:
@@ -155,6 +201,10 @@ class Tape:
         value = rule(variable) if rule else self.diff(self.entries[symbol], variable)
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
+        return self.name_derivative(symbol, variable, value)
+
+    def name_derivative(self, symbol: Symbol, variable: Symbol, value: Expr) -> Symbol:
+        """Put a derivative on the tape by its own name, for example `dx_dphi`."""
         root, by = self.derived_from(symbol)
         by = tuple(sorted([*by, variable], key=self.variables.index))
         name = Symbol(derivative_name(root.name, [v.name for v in by]), real=True)

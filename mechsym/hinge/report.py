@@ -31,7 +31,9 @@ def write(design: Design, folder: Path) -> list[Path]:
         Where to write; made when missing
     """
     numbers, figures = summary(design), _figures(design)
-    files = [write_text(folder / "report.html", html(design, numbers, figures))]
+    # the page draws a slider crank; other mechanisms turn in the page of `mechsym forces`
+    page = hasattr(design.origin.sections["parameters"], "r1")
+    files = [write_text(folder / "report.html", html(design, numbers, figures))] if page else []
     files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
     files.append(write_csv(folder / "hinge.csv", hinge_columns(design)))
     if design.guide.rho is not None:

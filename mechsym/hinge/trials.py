@@ -11,7 +11,8 @@ from mechsym.hinge.guide import Guide
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.machine.record import Machine, period_of
-from mechsym.mechanisms.record import bind
+from mechsym.mechanisms.record import Mechanism, bind
+from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.quantities import record
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
@@ -85,8 +86,15 @@ def with_flywheel(machine: Machine, wanted: Hinge, inertia: float, turns: float)
         Turns to run [-]
     """
     mechanism = machine.mechanism
-    heavier = bind(mechanism.name, {**mechanism.parameters, "I01": mechanism.parameters["I01"] + inertia})
+    heavier = _heavier(mechanism, inertia)
     engine = fitted(replace(machine, mechanism=heavier), wanted)
     steady = steady_state(tabulate(reduced(engine)), machine.omega)
     speed = float(steady.omega[0]) if len(steady.omega) else machine.omega
     return run("flywheel", f"no hinge, flywheel of {inertia:.4g} kg m²", engine, speed, turns)
+
+
+def _heavier(mechanism: Mechanism, inertia: float) -> Mechanism:
+    own = mechanism.parameters
+    if "I01" in own:  # inertia about the shaft axis
+        return bind(mechanism.name, {**own, "I01": own["I01"] + inertia})
+    return with_inertia(mechanism, inertia)

@@ -8,6 +8,8 @@ from mechsym.cases import Case
 from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
+from mechsym.jobs import own_machine
+from mechsym.jobs.own import is_own
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
 from mechsym.mechanisms.crosshead import with_flywheel
@@ -29,6 +31,8 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
     BadInput
         Another mechanism, or a cycle that cannot be made
     """
+    if is_own(case.mechanism):
+        return own_machine.machine(case)
     if case.mechanism != "crosshead":
         raise BadInput(f"{case.file}: a hinge is designed for the mechanism crosshead, not for {case.mechanism}")
     cycle = case.need("cycle")

@@ -15,6 +15,8 @@ from mechsym.hinge.guide import cut
 from mechsym.hinge.torque import torque
 from mechsym.jobs import train as trains
 from mechsym.jobs.machine import machine
+from mechsym.jobs.own import is_own, simulation_of
+from mechsym.jobs.own import problem as own_problem
 from mechsym.machine.record import Machine
 from mechsym.mechanisms import crank_train
 from mechsym.simulate import engine as engines
@@ -34,7 +36,7 @@ def settings_of(case: Case) -> Settings:
     case : Case
         With section `[simulation]`
     """
-    wanted: Simulation = case.need("simulation")
+    wanted = simulation_of(case)
     return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
 
 
@@ -52,6 +54,8 @@ def problem_of(case: Case) -> Problem:
     BadInput
         A section is missing or names what the mechanism has not
     """
+    if is_own(case.mechanism) and not _hinged(case):
+        return own_problem(case)
     wanted: Simulation = case.need("simulation")
     if case.mechanism == "crank_train":
         return _train(case, wanted)
@@ -65,6 +69,11 @@ def problem_of(case: Case) -> Problem:
     if wanted.t_end is None:
         return problem
     return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
+
+
+def _hinged(case: Case) -> bool:
+    """Whether a hinge is designed for the run."""
+    return {"cycle", "spring", "guide"} <= set(case.sections) and simulation_of(case).hinge == "designed"
 
 
 def engine_of(case: Case) -> Machine:
@@ -110,7 +119,7 @@ def window_of(case: Case, problem: Problem) -> float | None:
     window : float or None
         None for the last turn [s]
     """
-    wanted: Simulation = case.need("simulation")
+    wanted = simulation_of(case)
     if wanted.window is None and problem.turns is None:
         return problem.t_end - problem.t_start
     return wanted.window

@@ -13,10 +13,11 @@ from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput, suggest
+from mechsym.mechanisms import own
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
 from mechsym.mechanisms.state import state
-from mechsym.quantities import load
+from mechsym.quantities import load, quantity
 
 _CLASSES = {
     "crosshead": "crosshead:CrossheadParameters",
@@ -34,7 +35,7 @@ _ASSEMBLED = ("crank_train",)  # put together at run time from a derived part
 
 def names() -> list[str]:
     """Names of the mechanisms."""
-    return sorted(_CLASSES)
+    return sorted([*_CLASSES, *own.brought()])
 
 
 def parameters_class(name: str) -> Any:
@@ -45,9 +46,24 @@ def parameters_class(name: str) -> Any:
     BadInput
         No such mechanism
     """
+    if own.is_file(name):
+        return own.load(name).parameters
     if name not in _CLASSES:
         raise BadInput(f"mechanism {name!r} is not known; {suggest(name, names())}")
     return load(f"mechsym.mechanisms.{_CLASSES[name]}")
+
+
+def inputs_class(name: str) -> Any:
+    """The record of `[inputs]`: constants for inputs that nothing drives, 0 where they are not given."""
+    found = listing(name)["inputs"]
+    return own.letters_class("Inputs", {n: quantity(unit, default=0.0) for n, unit in found.items()})
+
+
+def start_class(name: str) -> Any:
+    """The record of `[start]`: coordinates and velocities at the start; of dependent coordinates the guesses."""
+    units = listing(name)["coordinates"]
+    units = {**units, **{f"{n}d": f"{unit}/s" for n, unit in units.items()}}
+    return own.letters_class("Start", {n: quantity(unit, default=None) for n, unit in units.items()})
 
 
 def build(name: str, parameters: Any) -> Mechanism:

@@ -44,8 +44,9 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
         The same with all coordinates and velocities
     """
     q, u = mechanism.coordinates, velocities(mechanism)
-    position = np.array([float(values.get(n, 0.0)) for n in q])
-    free = [i for i, n in enumerate(q) if n not in values]
+    guesses = mechanism.dependents
+    position = np.array([float(values.get(n, guesses.get(n, 0.0))) for n in q])
+    free = [i for i, n in enumerate(q) if n not in values and (not guesses or n in guesses)]
     for _ in range(50):
         gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(q)))
         if not free or np.abs(gap).max() <= 1e-14 * max(1.0, np.abs(position).max()):

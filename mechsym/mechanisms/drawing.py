@@ -59,9 +59,14 @@ def extent(mechanism: str, parameters: Any) -> tuple[float, float, float, float]
     x_min, x_max, y_min, y_max : float
         Edges [m]
     """
+    return extent_of(lambda angle: shapes(mechanism, parameters, angle))
+
+
+def extent_of(drawn: Callable[[float], Shapes]) -> tuple[float, float, float, float]:
+    """Box that holds a drawing at every crank angle [rad]: x_min, x_max, y_min, y_max [m]."""
     corners: list[Point] = []
     for angle in np.linspace(0, 2 * math.pi, 24, endpoint=False):
-        for shape in shapes(mechanism, parameters, float(angle)):
+        for shape in drawn(float(angle)):
             if isinstance(shape, Line):
                 corners += shape.points
             else:

@@ -2,13 +2,14 @@
 
 import json
 import math
+from collections.abc import Callable
 from importlib import resources
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.mechanisms.drawing import Circle, Line, extent, shapes
+from mechsym.mechanisms.drawing import Circle, Line, Shapes, extent_of, shapes
 from mechsym.style import INK, QUIET
 
 # role: colour of the line, line width in points, filled colour
@@ -32,9 +33,13 @@ def paint(axes: Any, mechanism: str, parameters: Any, angle: float) -> None:
     angle : float
         Crank angle [rad]
     """
+    _paint(axes, lambda at: shapes(mechanism, parameters, at), angle)
+
+
+def _paint(axes: Any, drawn: Callable[[float], Shapes], angle: float) -> None:
     from matplotlib import patches
 
-    for shape in _ordered(shapes(mechanism, parameters, angle)):
+    for shape in _ordered(drawn(angle)):
         color, width, fill = STYLES[shape.role]
         if isinstance(shape, Circle):
             axes.add_patch(patches.Circle(shape.centre, shape.radius, ec=color, lw=width, fc=fill))
@@ -42,7 +47,7 @@ def paint(axes: Any, mechanism: str, parameters: Any, angle: float) -> None:
             axes.add_patch(patches.Polygon(shape.points[:-1], ec=color, lw=width, fc=fill))
         else:
             axes.plot(*zip(*shape.points, strict=True), color=color, lw=width, solid_capstyle="round")
-    left, right, low, high = extent(mechanism, parameters)
+    left, right, low, high = extent_of(drawn)
     pad = 0.04 * max(right - left, high - low)
     axes.set(xlim=(left - pad, right + pad), ylim=(low - pad, high + pad), aspect="equal")
     axes.set_axis_off()
@@ -61,12 +66,17 @@ def figure(mechanism: str, parameters: Any, angle: float) -> Figure:
     angle : float
         Crank angle [rad]
     """
-    left, right, low, high = extent(mechanism, parameters)
+    return figure_of(lambda at: shapes(mechanism, parameters, at), angle)
+
+
+def figure_of(drawn: Callable[[float], Shapes], angle: float) -> Figure:
+    """One drawing with a scale, at a crank angle [rad]."""
+    left, right, low, high = extent_of(drawn)
     wide, tall = right - left, high - low
     size = 8.0 / max(wide, tall)
-    drawn = Figure(figsize=(max(size * wide, 3.0), max(size * tall, 1.6) + 0.5), layout="constrained")
-    axes = drawn.add_subplot()
-    paint(axes, mechanism, parameters, angle)
+    picture = Figure(figsize=(max(size * wide, 3.0), max(size * tall, 1.6) + 0.5), layout="constrained")
+    axes = picture.add_subplot()
+    _paint(axes, drawn, angle)
     step = 10 ** math.floor(math.log10(wide / 3))
     length = max(k * step for k in (1, 2, 5) if k * step <= wide / 3)
     y = low - 0.02 * max(wide, tall)
@@ -74,17 +84,22 @@ def figure(mechanism: str, parameters: Any, angle: float) -> Figure:
     axes.text(
         left + length, y, f"  {1e3 * length:g} mm, crank at {math.degrees(angle):.0f} deg", va="center", fontsize=8
     )
-    return drawn
+    return picture
 
 
 def animation(mechanism: str, parameters: Any, title: str) -> str:
     """A page in which the mechanism turns; it needs nothing from outside."""
+    return animation_of(lambda at: shapes(mechanism, parameters, at), title)
+
+
+def animation_of(drawn: Callable[[float], Shapes], title: str) -> str:
+    """A page in which a drawing over the crank angle [rad] turns; it needs nothing from outside."""
     import jinja2
 
     source = (resources.files("mechsym") / "templates" / "mechanism.html").read_text(encoding="utf-8")
-    left, right, low, high = extent(mechanism, parameters)
+    left, right, low, high = extent_of(drawn)
     angles = np.linspace(0, 2 * math.pi, _FRAMES, endpoint=False)
-    frames = [[_plain(s) for s in _ordered(shapes(mechanism, parameters, float(a)))] for a in angles]
+    frames = [[_plain(s) for s in _ordered(drawn(float(a)))] for a in angles]
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
     return environment.from_string(source).render(
         title=title,

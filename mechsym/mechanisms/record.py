@@ -6,6 +6,7 @@ positive away from the head; mass_matrix * qdd + bias = generalized_force, with 
 the right; a reaction R_j is the force of the first body on the second along the joint displacement j.
 """
 
+import dataclasses
 import json
 from collections.abc import Mapping, Sequence
 from importlib import import_module, resources
@@ -16,6 +17,8 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms import own
+from mechsym.mechanisms.multipliers import with_multipliers
 from mechsym.quantities import record
 
 
@@ -31,6 +34,9 @@ class Mechanism:
     #: u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)` giving closure,
     #: jacobian, bias; only those that exist
     functions: Mapping[str, ca.Function]
+    dependents: Mapping[str, float] = dataclasses.field(
+        default_factory=dict
+    )  #: Held by constraints, with their guesses
 
     # a mechanism is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
@@ -58,11 +64,15 @@ def generated(name: str) -> ModuleType:
     module : module
         Tables of names and plain functions for floats or CasADi symbols
     """
+    if own.is_file(name):
+        return own.load(name).module
     return import_module(f"mechsym.generated.{name}")
 
 
 def listing(name: str) -> dict[str, Any]:
     """Letters, units, source and equations of a mechanism, as stored by the derivation."""
+    if own.is_file(name):
+        return dict(own.load(name).listing)
     return json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text(encoding="utf-8"))
 
 
@@ -79,7 +89,12 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
     mechanism : Mechanism
         Functions with scalar inputs; a row vector (1, n) maps over its columns
     """
-    module = generated(name)
+    return dataclasses.replace(bind_module(generated(name), parameters), name=name)
+
+
+def bind_module(module: ModuleType, parameters: Mapping[str, Any]) -> Mechanism:
+    """The named CasADi functions of a generated module for given parameters, see `bind`."""
+    name = module.NAME
     missing = [p for p in module.PARAMETERS if p not in parameters]
     if missing:
         raise BadInput(f"{name}: no value for {', '.join(missing)}; parameters are {', '.join(module.PARAMETERS)}")
@@ -89,12 +104,18 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
         "kinematics": q,
         "dynamics": (*q, *u, *module.INPUTS),
         "energy": (*q, *u),
-        "reactions": (*q, *u, *a, *module.INPUTS),
+        "reactions": (*q, *u, *a, *module.INPUTS, *getattr(module, "MULTIPLIERS", ())),
         "momentum": (*q, *u, *a),
         "constraints": (*q, *u),
+        "drawing": q,
     }
     functions = {f: casadi_function(module, f, letters[f], values) for f in module.FUNCTIONS}
-    return Mechanism(name=name, coordinates=q, inputs=module.INPUTS, parameters=values, functions=functions)
+    dependents = getattr(module, "DEPENDENTS", {})
+    if dependents and "reactions" in functions:
+        functions["reactions"] = with_multipliers(functions, module.MULTIPLIERS, tuple(dependents))
+    return Mechanism(
+        name=name, coordinates=q, inputs=module.INPUTS, parameters=values, functions=functions, dependents=dependents
+    )
 
 
 def casadi_function(
@@ -127,7 +148,9 @@ def casadi_function(
     free = [p for p in parameters.values() if isinstance(p, ca.SX)]
     inputs = [*symbols.values(), *free]
     names = [*symbols, *(p.name() for p in free)]
-    return ca.Function(function, inputs, list(results.values()), names, list(results))
+    # a dependent coordinate may be asked for as an output
+    options = {"allow_duplicate_io_names": True} if set(names) & set(results) else {}
+    return ca.Function(function, inputs, list(results.values()), names, list(results), options)
 
 
 def _matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:

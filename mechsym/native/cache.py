@@ -59,7 +59,7 @@ def shared_object(source: str, mode: str) -> Path:
     """
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
-    folder = _writable()
+    folder = writable()
     for path in sorted(folder.glob(f"{name}-*.so")):
         if path.name == _named(name, path):
             os.utime(path)  # used today, see `_prune`
@@ -99,7 +99,8 @@ def _named(name: str, binary: Path) -> str:
     return f"{name}-{hashlib.sha256(binary.read_bytes()).hexdigest()[:_LENGTH]}.so"
 
 
-def _writable() -> Path:
+def writable() -> Path:
+    """The cache directory, made; a private one for this process where it cannot be written to or is not ours."""
     folder = directory()
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)

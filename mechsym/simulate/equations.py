@@ -45,16 +45,17 @@ def system(problem: Problem) -> System:
     """
     mechanism = problem.mechanism
     if "constraints" in mechanism.functions:
-        raise BadInput(f"{mechanism.name} has constraints; simulate a form with independent coordinates")
+        why = "its constraints name no dependent coordinates"
+        raise BadInput(f"{mechanism.name} cannot run in time: {why}; declare them with m.dependents(..)")
     n, names = len(mechanism.coordinates), velocities(mechanism)
     t, y = ca.SX.sym("t"), ca.SX.sym("y", 2 * n + len(problem.parts) + 1)
     q, u = ca.vertsplit(y[:n]), ca.vertsplit(y[n : 2 * n])
-    outer = tuple(p.value for p in problem.parts if not isinstance(p.value, FormulaForce))
+    outer = outer_values(problem)
     w = ca.SX.sym("w", len(outer))
-    values = _values(problem, t, q, u, w)
+    values = part_values(problem, t, q, u, w)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
     qdd = acceleration_function(mechanism)(*q, *u, *inputs)
-    rates, loss = _power(problem, q, u)
+    rates, loss = power(problem, q, u)
     powers = [value * rates[part.input] for part, value in values]
     works = tuple(f"work_{p.name}" for p in problem.parts)
     return System(
@@ -67,7 +68,12 @@ def system(problem: Problem) -> System:
     )
 
 
-def _values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any) -> list[tuple[Any, Any]]:
+def outer_values(problem: Problem) -> tuple[Any, ...]:
+    """The values that no formula gives, in the order of w."""
+    return tuple(p.value for p in problem.parts if not isinstance(p.value, FormulaForce))
+
+
+def part_values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any) -> list[tuple[Any, Any]]:
     """Each part with the symbol or the formula of its value."""
     found, next_w = [], 0
     for part in problem.parts:
@@ -79,7 +85,7 @@ def _values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any
     return found
 
 
-def _power(problem: Problem, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
+def power(problem: Problem, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
     """The speed conjugate to each input, and the power that is lost inside the mechanism."""
     mechanism = problem.mechanism
     inputs = ca.SX.sym("inputs", len(mechanism.inputs))

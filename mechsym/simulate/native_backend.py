@@ -95,7 +95,8 @@ def raw(problem: Problem, equations: System, times: np.ndarray, outcome: Outcome
     failure = "" if status in (_DONE, _MET) else f"stopped at t = {t_end:.6g} s: {STATUS[status]}"
     if status == _TOO_MANY:
         failure = f"stopped at t = {t_end:.6g} s: {int(outcome.steps[index])} steps were not enough"
-    end = _ends(problem, equations).ends[int(outcome.met[index])] if status == _MET else "t_end"
+    names = (*_ends(problem, equations).ends, "margin")  # see constrained.py
+    end = names[int(outcome.met[index])] if status == _MET else "t_end"
     return Raw(t=t, y=y, steps=int(outcome.steps[index]), end="failure" if failure else end, failure=failure)
 
 

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.mechanisms.record import velocities
 from mechsym.native.compiler import NoCompiler
-from mechsym.simulate import native_backend
+from mechsym.simulate import constrained, native_backend
 from mechsym.simulate.audit import energies, energy_audit, speed_difference, verdict
 from mechsym.simulate.backends import FALLBACK, NATIVE, backend
 from mechsym.simulate.equations import System, held, system
@@ -40,14 +39,20 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
         The backend cannot take this problem
     """
     settings = settings or Settings()
-    equations = system(problem)
-    begin = time.perf_counter()
-    raw = _integrate(problem, equations, settings)
-    result = result_of(problem, equations, raw, time.perf_counter() - begin)
-    if raw.failure or settings.check == "none":
+    result = _once(problem, settings)
+    if result.status == "failed" or settings.check == "none":
         return result
-    check = result_of(problem, equations, _integrate(problem, equations, tighter(settings)), 0.0)
-    return checked(problem, result, check, settings)
+    return checked(problem, result, _once(problem, tighter(settings)), settings)
+
+
+def _once(problem: Problem, settings: Settings) -> Result:
+    begin = time.perf_counter()
+    if problem.mechanism.dependents:
+        equations, raw = constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem))
+    else:
+        equations = system(problem)
+        raw = _integrate(problem, equations, settings)
+    return result_of(problem, equations, raw, time.perf_counter() - begin)
 
 
 def tighter(settings: Settings) -> Settings:
@@ -80,7 +85,8 @@ def checked(problem: Problem, result: Result, check: Result, settings: Settings)
         why = f"ends by {result.end!r}, at the tighter tolerance by {check.end!r}; use a smaller tolerance"
         return replace(result, status="not converged", reason=why)
     t, here, there = np.intersect1d(result.t, check.t, return_indices=True)
-    speeds = velocities(problem.mechanism)
+    mechanism = problem.mechanism
+    speeds = [f"{q}d" for q in mechanism.coordinates if q not in mechanism.dependents]  # the others follow them
     difference = speed_difference(
         {v: result.columns[v][here] for v in speeds}, {v: check.columns[v][there] for v in speeds}
     )
@@ -191,7 +197,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
     if known is not None:
         columns |= dict(zip(("kinetic_energy", "potential_energy"), known, strict=True))
         units |= {"kinetic_energy": "J", "potential_energy": "J"}
-    met = raw.end in {s.name for s in problem.stops}
+    met = raw.end in {constrained.LOCKED, *(s.name for s in problem.stops)}
     state = dict(zip(equations.columns[: 2 * n], raw.y[-1].tolist(), strict=False))
     return Result(
         status="failed" if raw.failure else "unchecked",

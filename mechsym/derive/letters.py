@@ -1,0 +1,80 @@
+"""Letters of a declaration with their units, and the check of every expression that is made of them."""
+
+from typing import Any
+
+from sympy import Expr, Symbol, sympify
+
+from mechsym.derive.dimensions import PURE, Dimension, dimension_of, in_words, of_unit
+from mechsym.derive.refuse import place, refuse
+from mechsym.derive.tape import Tape
+
+
+class Letters:
+    """The part of a declaration that knows its letters."""
+
+    name: str
+    tape: Tape
+    q: list[Symbol]
+    units: dict[str, str]
+    where: dict[str, str]
+    dimensions: dict[Symbol, Dimension | None]
+    reaction_of: dict[Symbol, Symbol]
+    multiplier_of: dict[str, Symbol]
+
+    def _symbols(self, names: str, unit: str) -> list[Symbol]:
+        symbols = [Symbol(n, real=True) for n in names.split()]
+        if not symbols:
+            refuse("no letter is named; write for example m.parameters('r l', 'm')")
+        for symbol in symbols:
+            self._new_letter(symbol, unit)
+        return symbols
+
+    def _new_letter(self, symbol: Symbol, unit: str) -> None:
+        name = symbol.name
+        if name in self.units:
+            first = f" (first at {self.where[name]})" if name in self.where else ""
+            refuse(f"the letter {name!r} is declared twice in {self.name}{first}; give one of them another name")
+        if not name.isidentifier() or name.startswith("_"):
+            refuse(f"{name!r} is not a usable name; use letters, digits and inner underscores")
+        self.units[name], self.where[name] = unit, place()
+        self.dimensions[symbol] = self._unit(unit)
+
+    def _unit(self, unit: str) -> Dimension:
+        try:
+            return of_unit(unit)
+        except ValueError as error:
+            refuse(str(error))
+
+    def dimension(self, expression: Expr) -> Dimension | None:
+        """Dimension of an expression; unknown letters and sums of unlike terms are refused."""
+        known = {s: self._dimension_of_letter(s) for s in expression.free_symbols}
+        return dimension_of(expression, known)
+
+    def _dimension_of_letter(self, symbol: Symbol) -> Dimension | None:
+        if symbol in self.dimensions:
+            return self.dimensions[symbol]
+        root, by = self.tape.derived_from(symbol)
+        if by:
+            below = [self.dimensions[v] or PURE for v in by]
+            above = self._dimension_of_letter(root)
+            return None if above is None else tuple(a - sum(powers) for a, *powers in zip(above, *below, strict=True))
+        for q in self.q:
+            for order, ending in enumerate(("d", "dd"), 1):
+                if symbol.name == q.name + ending:
+                    kg, metre, second, kelvin = self.dimensions[q] or PURE
+                    return kg, metre, second - order, kelvin
+        if symbol in self.reaction_of.values() or symbol in self.multiplier_of.values():
+            return of_unit(self.units[symbol.name])
+        if symbol in self.tape.entries:
+            return PURE if symbol.name.startswith(("sin_", "cos_")) else None
+        refuse(f"the letter {symbol.name!r} is not declared in {self.name}; declare it before it is used")
+
+    def _checked(self, value: Any, unit: str, what: str) -> Expr:
+        try:
+            expression = sympify(value)
+        except (TypeError, ValueError, AttributeError) as error:
+            refuse(f"{what} = {value!r} is no expression ({error})")
+        found = self.dimension(expression)
+        if unit and found is not None and found != self._unit(unit):
+            refuse(f"{what} = {value} is in {in_words(found)}, and must be in {unit}")
+        return expression

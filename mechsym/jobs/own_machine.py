@@ -1,0 +1,128 @@
+"""A mechanism of the user's own as a machine: one periodic coordinate, gas, load and a place for a hinge.
+
+All that acts besides the gas (weights, springs, dampers and inputs of `[inputs]`) is taken at the speed of operation
+and becomes a torque over the angle; its mean goes into the load. Several pistons become one torque on the shaft, which
+a gas with one metre of travel a radian stands for.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import casadi as ca
+import numpy as np
+
+from mechsym import periodic
+from mechsym.cases import Case
+from mechsym.cycle.gas import Gas
+from mechsym.errors import BadInput
+from mechsym.jobs import own
+from mechsym.machine.loads import ConstantLoad
+from mechsym.machine.record import Machine
+from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.quantities import record
+
+_HARMONICS = 4096  # samples a turn of what acts besides the gas
+
+
+@record
+class ShaftTorque(Gas):
+    """A torque on the shaft in place of one piston's gas force."""
+
+    curve: Callable[[np.ndarray], np.ndarray]  #: crank angle [rad] to torque [N*m]
+
+    __hash__ = object.__hash__
+
+    def force(self, phi: np.ndarray) -> np.ndarray:
+        """The torque over the crank angle [rad]: [N*m] for each metre of travel."""
+        return self.curve(np.asarray(phi, dtype=float))
+
+
+def machine(case: Case) -> Machine:
+    """The machine of a case, ready to turn.
+
+    Parameters
+    ----------
+    case : Case
+        With `[parameters]`, `[operation]`, and `[cycle]` on the pistons
+    """
+    mechanism, omega = own.one_coordinate(case), case.need("operation").speed
+    acting = own.pistons(case, mechanism)
+    flywheel = case.sections.get("flywheel")
+    if not acting:
+        raise BadInput(f"{case.file}: nothing turns the shaft; give [cycle], for the pistons of the declaration")
+    if len(acting) == 1:
+        gas, travel = _at_crank(acting[0]), own.roles(case, "piston")[0]["travel"]
+    else:
+        gas, travel = _on_shaft(case, mechanism, acting), ""
+    shaft = _shaft(case, mechanism, omega, travel)
+    if flywheel is not None:
+        shaft = with_inertia(shaft, flywheel.inertia)
+    return Machine(mechanism=shaft, gas=gas, load=case.sections.get("load", ConstantLoad()), omega=omega)
+
+
+def _at_crank(piston: own.Piston) -> Gas:
+    """The gas of one piston over the crank angle."""
+    pressure, start = piston.gas.pressure, piston.start
+    absolute = pressure.absolute
+    kinks = tuple(sorted((k + start) % pressure.period for k in pressure.kinks))
+    return replace(piston.gas, pressure=replace(pressure, absolute=lambda phi: absolute(phi - start), kinks=kinks))
+
+
+def _on_shaft(case: Case, mechanism: Mechanism, acting: list[own.Piston]) -> ShaftTorque:
+    """Gas of all pistons as one torque; pressures and sizes told are those of the first."""
+    first = acting[0].gas
+    pressure = replace(
+        first.pressure,
+        period=own.period_of(acting),
+        kinks=own.kinks_of(acting),
+        facts=(*first.pressure.facts, f"the torque is that of {len(acting)} pistons on one shaft"),
+    )
+    return ShaftTorque(pressure=pressure, chamber=first.chamber, curve=own.gas_torque(case, mechanism, acting))
+
+
+def _shaft(case: Case, base: Mechanism, omega: float, travel: str) -> Mechanism:
+    """The mechanism with the inputs F, M_r and M_h, and all else as a torque over the angle without a mean."""
+    (q,) = base.coordinates
+    phi, u = ca.SX.sym(q), ca.SX.sym(f"{q}d")
+    F, M_r, M_h = (ca.SX.sym(n) for n in ("F", "M_r", "M_h"))
+    constants = own.constants(case)
+    inputs = [constants.get(n, 0.0) for n in base.inputs]
+    mass, bias, _ = base.functions["dynamics"](phi, u, *inputs)
+    at_speed = base.functions["dynamics"](phi, omega, *inputs)[2]
+    grid = np.arange(_HARMONICS) * 2 * np.pi / _HARMONICS
+    mean = float(np.mean(np.asarray(ca.Function("rest", [phi], [at_speed])(grid[None, :]))))
+    found = dict(zip(base.functions["kinematics"].name_out(), base.functions["kinematics"].call([phi]), strict=True))
+    motion = {"x": phi, f"dx_d{q}": ca.SX(1), f"d2x_d{q}2": ca.SX(0)}
+    if travel:
+        top = float(np.min(np.asarray(own.travel_of(base, travel)(grid[None, :])[0])))
+        first = ca.jacobian(found[travel], phi)
+        motion = {"x": found[travel] - top, f"dx_d{q}": first, f"d2x_d{q}2": ca.jacobian(first, phi)}
+    force = at_speed - mean + F * motion[f"dx_d{q}"] - M_r + M_h
+    dynamics = ca.Function(
+        "dynamics", [phi, u, F, M_r, M_h], [mass, bias, force], [q, f"{q}d", "F", "M_r", "M_h"],
+        ["mass_matrix", "bias", "generalized_force"],
+    )  # fmt: skip
+    kinematic = {k: v for k, v in found.items() if k not in motion} | motion
+    kinematics = ca.Function("kinematics", [phi], list(kinematic.values()), [q], list(kinematic))
+    functions = {"kinematics": kinematics, "dynamics": dynamics, "energy": _energy(base, at_speed - mean, phi, u)}
+    return replace(base, inputs=("F", "M_r", "M_h"), functions=functions)
+
+
+def _energy(base: Mechanism, rest: ca.SX, phi: ca.SX, u: ca.SX) -> ca.Function:
+    """Kinetic energy, and the potential of the torque over the angle: its integral, from its Fourier series."""
+    (q,) = base.coordinates
+    torque = ca.Function("rest", [phi], [rest])
+    poly = periodic.fit(lambda a: np.asarray(torque(np.asarray(a)[None, :])).ravel(), (), 2 * np.pi)
+    grid = np.arange(_HARMONICS) * 2 * np.pi / _HARMONICS
+    series = np.fft.rfft(poly(grid)) / _HARMONICS
+    size = np.abs(series)
+    potential = ca.SX(0)
+    for k in range(1, len(series) - 1):
+        if size[k] > 1e-16 * max(size.max(), 1e-300):
+            a, b = 2 * series[k].real, -2 * series[k].imag
+            potential -= (a * ca.sin(k * phi) - b * ca.cos(k * phi)) / k
+        if size[k:].sum() <= 1e-14 * size.sum():
+            break
+    kinetic = base.functions["energy"](phi, u)[0]
+    return ca.Function("energy", [phi, u], [kinetic, potential], [q, f"{q}d"], ["kinetic_energy", "potential_energy"])

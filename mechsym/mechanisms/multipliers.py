@@ -1,0 +1,32 @@
+r"""Reactions of the joints that close loops: the multipliers of the constraints, from the dependent rows.
+
+.. math:: J_d^T \mu = (M \ddot q + h - Q)_d
+"""
+
+from collections.abc import Mapping, Sequence
+
+import casadi as ca
+
+
+def with_multipliers(
+    functions: Mapping[str, ca.Function], multipliers: Sequence[str], dependents: Sequence[str]
+) -> ca.Function:
+    """Reactions whose multipliers are worked out from the dependent rows, with the driving force of each other row.
+
+    Returns
+    -------
+    reactions : casadi.Function
+        Same inputs without the multipliers; outputs also `driving_<coordinate>` [N*m] or [N]
+    """
+    raw, dynamics = functions["reactions"], functions["dynamics"]
+    names = [n for n in raw.name_in() if n not in multipliers]
+    letters = {n: ca.SX.sym(n) for n in names}
+    mass, bias, force = dynamics(*(letters[n] for n in dynamics.name_in()))
+    q = [n for n in functions["constraints"].name_in()][: mass.shape[0]]
+    held, rest = [i for i, n in enumerate(q) if n in dependents], [i for i, n in enumerate(q) if n not in dependents]
+    _, jacobian, _ = functions["constraints"](*(letters[n] for n in functions["constraints"].name_in()))
+    needed = ca.mtimes(mass, ca.vertcat(*(letters[f"{n}dd"] for n in q))) + bias - force
+    mu = ca.solve(jacobian[:, held].T, needed[held])
+    found = raw(**letters, **dict(zip(multipliers, ca.vertsplit(mu), strict=True)))
+    found |= {f"driving_{q[i]}": needed[i] - ca.mtimes(jacobian[:, [i]].T, mu) for i in rest}
+    return ca.Function("reactions", list(letters.values()), list(found.values()), names, list(found))

@@ -1,0 +1,194 @@
+"""Mechanisms of the user's own: `./scotch.py`, `./scotch.py:NAME`, or a name that an installed package brings.
+
+The code of a file is derived once and kept in the user's cache by the content of the file, of its neighbours that it
+imports and of the derivation core; sympy is needed only then. The record of parameters is made from the declaration.
+A package brings mechanisms by the entry point group `mechsym.mechanisms`: name = "package.module", a module with a
+declaration. Such a file runs as code of the user's own.
+"""
+
+import ast
+import dataclasses
+import difflib
+import functools
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import write_text
+from mechsym.native import cache
+from mechsym.quantities import check, quantity, record
+
+_GROUP = "mechsym.mechanisms"
+
+
+@record
+class Own:
+    """A mechanism read from a file."""
+
+    name: str  #: In its declaration
+    path: Path  #: File that declares it
+    which: str  #: Which of its mechanisms; empty where there is one
+    code: str  #: Text of the generated module
+    listing: Mapping[str, Any]  #: See `mechsym.derive.listing`
+    module: ModuleType
+    parameters: Any  #: Class of its record of parameters
+
+
+def is_file(name: str) -> bool:
+    """Whether a mechanism is named by a file, or brought by another package."""
+    return name.partition(".py:")[0].endswith(".py") or ".py:" in name or name in brought()
+
+
+@functools.lru_cache(maxsize=1)
+def brought() -> dict[str, str]:
+    """Names that installed packages bring, with their files."""
+    found = {}
+    for entry in importlib.metadata.entry_points(group=_GROUP):
+        spec = importlib.util.find_spec(entry.value.partition(":")[0])
+        if spec is not None and spec.origin:
+            found[entry.name] = f"{spec.origin}:{entry.attr}" if entry.attr else spec.origin
+    return found
+
+
+def located(name: str, folder: Path) -> str:
+    """A mechanism's name in a case file of a folder as a name that holds in the working folder."""
+    if name in brought() or not is_file(name):
+        return name
+    path, colon, which = _parts(name)
+    return f"{path if path.is_absolute() else folder / path}{colon}{which}"
+
+
+def _parts(name: str) -> tuple[Path, str, str]:
+    name = brought().get(name, name)
+    head, colon, which = name.rpartition(":")
+    if colon and head.endswith(".py"):
+        return Path(head), colon, which
+    return Path(name), "", ""
+
+
+def load(name: str) -> Own:
+    """The mechanism of a file.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be read, or its declaration is refused
+    MissingExtra
+        It is not in the cache and sympy is not installed
+    """
+    path, _, which = _parts(name)
+    if not path.is_file():
+        raise BadInput(f"mechanism {name!r}: there is no file {path}; paths count from the case file or this folder")
+    return _load(path.resolve(), which, _key(path.resolve(), which))
+
+
+def _key(path: Path, which: str) -> str:
+    texts = [p.read_bytes() for p in [path, *_neighbours(path)]]
+    return hashlib.sha256(b"\0".join([which.encode(), _core(), *texts])).hexdigest()[:24]
+
+
+@functools.lru_cache(maxsize=1)
+def _core() -> bytes:
+    return b"\0".join(p.read_bytes() for p in sorted((Path(__file__).parents[1] / "derive").glob("*.py")))
+
+
+def _neighbours(path: Path) -> list[Path]:
+    """Files beside a file that it imports."""
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (SyntaxError, ValueError):
+        return []  # refused with its line when it runs
+    names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
+    names |= {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.module}
+    return sorted(p for n in names if (p := path.parent / f"{n.partition('.')[0]}.py").is_file() and p != path)
+
+
+@functools.lru_cache(maxsize=32)
+def _load(path: Path, which: str, key: str) -> Own:
+    folder = cache.writable()
+    stored = _stored(folder, key)
+    if stored is None:
+        stored = _derived(path, which, key)
+        text = json.dumps(stored, ensure_ascii=False)
+        write_text(folder / f"derived-{key}-{_digest(text)}.json", text)
+    listing = stored["listing"]
+    return Own(
+        name=listing["name"],
+        path=path,
+        which=which,
+        code=stored["code"],
+        listing=listing,
+        module=_module(path, stored["code"]),
+        parameters=_class(json.dumps(listing)),
+    )
+
+
+def write(mechanism: Own, folder: Path | None) -> list[Path]:
+    """Write code and listing to a folder; without one they are in the cache, which is named."""
+    if folder is None:
+        return sorted(cache.writable().glob(f"derived-{_key(mechanism.path, mechanism.which)}-*.json"))
+    listing = json.dumps(dict(mechanism.listing), indent=1, ensure_ascii=False) + "\n"
+    files = {f"{mechanism.name}.py": mechanism.code, f"{mechanism.name}.json": listing}
+    return [write_text(folder / name, text) for name, text in files.items()]
+
+
+def differences(name: str, folder: Path | None) -> dict[str, str]:
+    """Files in a folder, or in the cache, that differ from what the declaration gives, with the difference."""
+    path, _, which = _parts(name)
+    stored = load(name)
+    fresh = _derived(path.resolve(), which, _key(path.resolve(), which))["code"]
+    file = None if folder is None else folder / f"{stored.name}.py"
+    text = stored.code if file is None else file.read_text(encoding="utf-8") if file.is_file() else ""
+    if text == fresh:
+        return {}
+    lines = difflib.unified_diff(text.splitlines(), fresh.splitlines(), str(file or "cache"), "derived", lineterm="")
+    return {str(file or f"cache of {name}"): "\n".join(lines)}
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+def _stored(folder: Path, key: str) -> dict[str, Any] | None:
+    for file in folder.glob(f"derived-{key}-*.json"):
+        text = file.read_text(encoding="utf-8")
+        if file.stem.endswith(_digest(text)):
+            return json.loads(text)
+        file.unlink(missing_ok=True)
+    return None
+
+
+def _derived(path: Path, which: str, key: str) -> dict[str, Any]:
+    try:
+        from mechsym.derive import files
+    except ModuleNotFoundError as error:
+        raise MissingExtra(f"deriving {path.name} needs sympy ({error}); pip install 'mechsym[derive]'") from None
+    code, listing = files.build(path, which, key[:16])
+    return {"code": code, "listing": listing}
+
+
+def _module(path: Path, code: str) -> ModuleType:
+    module = ModuleType(f"mechsym_derived_{path.stem}")
+    exec(compile(code, f"<derived from {path.name}>", "exec"), module.__dict__)
+    return module
+
+
+@functools.lru_cache(maxsize=32)
+def _class(text: str) -> Any:
+    """The record of a mechanism's parameters, made from the letters, units and ranges of its declaration."""
+    listing = json.loads(text)
+    ranges = listing.get("ranges", {})
+    fields = {letter: quantity(unit, **ranges.get(letter, {})) for letter, unit in listing["parameters"].items()}
+    return letters_class(f"{listing['name'].title().replace('_', '')}Parameters", fields)
+
+
+def letters_class(name: str, fields: Mapping[str, Any]) -> Any:
+    """A record of numbers by letter, checked when it is made."""
+    rows = [(letter, float, field) for letter, field in fields.items()]
+    return dataclasses.make_dataclass(name, rows, frozen=True, kw_only=True, namespace={"__post_init__": check})
