@@ -10,7 +10,8 @@ from mechsym.derive.autodiff import disagreement
 from mechsym.derive.emit import module_text
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.own import _module
-from mechsym.mechanisms.record import bind_module, state
+from mechsym.mechanisms.record import bind_module
+from mechsym.mechanisms.state import state
 
 STATES = [{"phi": 0.4, "phid": 5.0, "phidd": -3.0}, {"phi": 2.1, "phid": -7.0, "phidd": 11.0}]
 
