@@ -18,32 +18,33 @@ _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram: combustion from pressure.")
+@click.option("--motored", type=click.Path(dir_okay=False), help="CSV without combustion, same encoder: dead centre.")
 @click.option("--loop", type=click.FloatRange(0.5, 1000), help="Engine cycles to run with the mechanism in the loop.")
 @json_option
 @out_option
 @set_option
-def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, loop: float | None, as_json: bool,
-          out: Path | None, overrides: tuple[str, ...]) -> None:  # fmt: skip
+def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, motored: str | None,
+          loop: float | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:  # fmt: skip
     """Engine cycle of CASE, one cylinder: torque, power, consumption, energy shares, peak pressure.
 
-    With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle. With --loop: gas
-    and motion integrated together, against the case's load (a propeller without [load]).
+    With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle; --motored, a
+    record of the same encoder without combustion, gives its dead centre. With --loop: gas and motion integrated
+    together, against the case's load (a propeller without [load]).
 
     \b
     Examples: mechsym cycle nunes-slider-crank --speeds 500:8000:500
               mechsym cycle nunes-hypocycloid --set cycle.method=nunes2017_printed --speeds 10:8000:10 --json
               mechsym cycle nunes-slider-crank --over "cycle.ignition=-30 deg:0 deg:2 deg" --speeds 4000
-              mechsym cycle generator --diagram measured.csv
+              mechsym cycle generator --diagram measured.csv --motored motored.csv
               mechsym cycle nunes-hypocycloid --loop 10
               mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
     """
     from mechsym.cases import load
     from mechsym.cli import cycle_loop, cycle_measured
-    from mechsym.cycle.kinds import kind_of
 
     loaded = load(case, pairs(overrides))
-    if diagram or kind_of(loaded.need("cycle")).measured:
-        cycle_measured.show(loaded, diagram, as_json, out)
+    if diagram or motored or hasattr(loaded.need("cycle"), "alignment"):
+        cycle_measured.show(loaded, (diagram, motored), as_json, out)
     elif loop:
         cycle_loop.show(loaded, loop, as_json, out)
     else:

@@ -6,38 +6,55 @@ from typing import Any
 from mechsym.cli.common import emit, table
 
 
-def show(case: Any, diagram: str | None, as_json: bool, out: Path | None) -> None:
+def show(case: Any, files: tuple[str | None, str | None], as_json: bool, out: Path | None) -> None:
     """Print the combustion of a measured diagram, and write its table.
 
     Parameters
     ----------
     case : Case
         With a cycle of kind `diagram`, or any cycle that a diagram replaces
-    diagram : str or None
-        CSV file in place of the case's
+    files : tuple of str or None
+        CSV files of the diagram and of a motored record, in place of the case's
     """
     from mechsym.files import write_csv
     from mechsym.jobs.measured import measured_combustion, summary
 
-    found = summary(measured_combustion(case, diagram))
+    found = summary(measured_combustion(case, *files))
     rows = found["cycles"]
-    files = [write_csv(out / "combustion.csv", {k: [row[k] for row in rows] for k in rows[0]})] if out else []
-    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    written = [write_csv(out / "combustion.csv", {k: [row[k] for row in rows] for k in rows[0]})] if out else []
+    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in written)]))
 
 
 def _text(found: dict[str, Any]) -> str:
     weak = ", ".join(map(str, found["weak_cycles"])) or "none"
-    spread = found["tdc_uncertainty_deg"]
-    known = "not estimated" if spread is None else f"+- {spread:.2f} deg"
-    fits = [
-        f"{name}: " + ", ".join(f"{k} {v['value']:.4g} +- {v['confidence']:.2g}" for k, v in fit.items() if k != "rms")
-        for name, fit in ((n, found[n]) for n in ("wiebe", "double_wiebe", "compression_line"))
-    ]
+    per_degree = found["per_degree"]
     lines = [
         table(found["cycles"], list(found["cycles"][0])),
+        found["read_and_used"],
+        f"mean: {found['mep_bar']:.3g} bar indicated at {found['speed_rpm']:.0f} rpm, exponents "
+        f"{found['n_compression']:.3f} (compression), {found['n_expansion']:.3f} (expansion)",
         f"nearly misfired (less than 0.7 of the median work): cycle {weak}",
         f"trapped mass {found['trapped_mass']:.4g} kg",
-        f"dead centre {known}; one degree later changes work by {100 * found['per_degree']['work']:+.2f} % and heat "
-        f"by {100 * found['per_degree']['heat']:+.2f} %",
+        f"dead centre {_known(found['dead_centre'])}; one degree later changes work by "
+        f"{100 * per_degree['work']:+.2f} % and heat by {100 * per_degree['heat']:+.2f} %",
     ]
-    return "\n".join([*lines, *fits])
+    doubts = [
+        f"doubt {d['code']}: {d['quantity']} {d['value']:.4g}, usual {d['usual']}: {d['why']}" for d in found["doubts"]
+    ]
+    return "\n".join([*lines, *_fits(found), *doubts])
+
+
+def _known(centre: dict[str, Any]) -> str:
+    low, high = centre["interval_deg"]
+    if low == high:
+        return f"{centre['deg']:.2f} deg as given"
+    assumed = f"{100 * centre['prior_share']:.0f} % of its variance assumed, not measured"
+    return f"{centre['deg']:.2f} deg by {centre['method']}, 19 times in 20 between {low:.2f} and {high:.2f} ({assumed})"
+
+
+def _fits(found: dict[str, Any]) -> list[str]:
+    fits = ((name, found[name]) for name in ("wiebe", "double_wiebe", "compression_line") if found[name])
+    return [
+        f"{name}: " + ", ".join(f"{k} {v['value']:.4g} +- {v['confidence']:.2g}" for k, v in fit.items() if k != "rms")
+        for name, fit in fits
+    ]

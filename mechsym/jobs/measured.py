@@ -4,19 +4,43 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
+
 from mechsym.cases import Case
 from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.kinds import with_diagram
+from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
+from mechsym.cycle.measured.doubt import Doubt
+from mechsym.cycle.measured.facts import cycle_work, read_and_used
 from mechsym.cycle.measured.fits import Fit
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.motion import piston_travel
 from mechsym.jobs.gas import of, one_cylinder
+from mechsym.quantities import RPM, quantity, record
 
 _DEG = 180 / math.pi
 
 
-def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustion:
+@record
+class BrakeMeasured:
+    """Section `[measured]`: what was measured beside the pressure."""
+
+    torque: float = quantity("N*m", above=0, about="mean brake torque of one cylinder while the diagram was recorded")
+
+
+@record
+class MeasuredResult:
+    """A measured diagram taken apart."""
+
+    combustion: DiagramCombustion
+    doubts: tuple[Doubt, ...]
+    line: str  #: What was read and what was used
+    mep: float  #: Mean indicated pressure, net, mean over the cycles [Pa]
+    speed: float  #: By the file's times, else of the case [rad/s]
+
+
+def measured_combustion(case: Case, file: str | None = None, motored: str | None = None) -> MeasuredResult:
     """Take the measured diagram of a case apart.
 
     Parameters
@@ -25,37 +49,59 @@ def measured_combustion(case: Case, file: str | None = None) -> DiagramCombustio
         With `[parameters]` and `[cycle]`; `[combustion]` holds the assumptions of the analysis
     file : str, optional
         CSV file in place of the case's
-
-    Returns
-    -------
-    found : DiagramCombustion
-        Cycle by cycle and for the mean
+    motored : str, optional
+        CSV file of a record without combustion on the same encoder, in place of the case's
 
     Raises
     ------
     BadInput
         The file is refused, or the diagram cannot be aligned
     """
-    cycle = with_diagram(case.need("cycle"), file) if file else case.need("cycle")
+    cycle = with_diagram(case.need("cycle"), file, motored)
     seen = one_cylinder(case)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"))
     cylinder = chamber_over(travel, cycle.bore, cycle.compression_ratio)
-    return diagram_combustion(measured_cycles(cycle, cylinder), cylinder, case.sections.get("combustion", Analysis()))
+    measured = measured_cycles(cycle, cylinder)
+    found = diagram_combustion(measured, cylinder, case.sections.get("combustion", Analysis()))
+    mep = float(cycle_work(measured, cylinder).mean())
+    doubts = diagram_doubts(cycle, cylinder, measured, found.mean.phi_p_max)
+    if "measured" in case.sections and mep > 0:
+        beside = brake_doubt(case.sections["measured"].torque, mep, float(cylinder.displacement), measured.period)
+        doubts += (beside,) if beside else ()
+    return MeasuredResult(
+        combustion=found,
+        doubts=doubts,
+        line=read_and_used(cycle, measured),
+        mep=mep,
+        speed=case.need("operation").speed if measured.speeds is None else float(measured.speeds.mean()),
+    )
 
 
-def summary(found: DiagramCombustion) -> dict[str, Any]:
+def summary(result: MeasuredResult) -> dict[str, Any]:
     """The analysis under the names and units of the command line.
 
     Returns
     -------
     summary : dict
-        `cycles` (rows), `weak_cycles` (from 1), `mean`, `wiebe`, `double_wiebe`, `compression_line`, `trapped_mass`,
-        `tdc_uncertainty_deg`, `per_degree`, `uncertainty`
+        `dead_centre`, `speed_rpm`, `mep_bar`, `n_compression`, `n_expansion`, `read_and_used`, `cycles` (rows),
+        `weak_cycles` (from 1), `mean`, `wiebe`, `double_wiebe`, `compression_line`, `trapped_mass`,
+        `tdc_uncertainty_deg`, `per_degree`, `uncertainty`, `doubts`
     """
-    spread = found.tdc_uncertainty
+    found = result.combustion
+    spread, speeds = found.tdc_uncertainty, found.measured.speeds
+    table = rows(found)
+    for k, row in enumerate(table):
+        row["speed_rpm"] = None if speeds is None else float(speeds[k]) / RPM
     return {
-        "cycles": rows(found),
+        "dead_centre": _dead_centre(found),
+        "speed_rpm": result.speed / RPM,
+        "mep_bar": result.mep / 1e5,
+        "n_compression": float(np.mean([c.n_compression for c in found.cycles])),
+        "n_expansion": float(np.mean([c.n_expansion for c in found.cycles])),
+        "read_and_used": result.line,
+        "scale": found.measured.scale,
+        "cycles": table,
         "weak_cycles": [k + 1 for k in found.weak],
         "mean": asdict(found.mean),
         "wiebe": _fit(found.wiebe),
@@ -65,9 +111,26 @@ def summary(found: DiagramCombustion) -> dict[str, Any]:
         "tdc_uncertainty_deg": None if spread is None else spread * _DEG,
         "per_degree": found.per_degree,
         "uncertainty": found.uncertainty,
+        "doubts": [asdict(doubt) for doubt in result.doubts],
     }
 
 
-def _fit(fit: Fit) -> dict[str, Any]:
+def _dead_centre(found: DiagramCombustion) -> dict[str, Any]:
+    """Modulo 360 degrees; the ends of the interval stay beside the value and may lie below 0 or above 360."""
+    centre = found.measured.alignment.dead_centre
+    deg = centre.angle * _DEG % 360
+    loss = centre.loss_angle
+    return {
+        "deg": deg,
+        "interval_deg": [deg + (end - centre.angle) * _DEG for end in (centre.low, centre.high)],
+        "method": centre.method,
+        "prior_share": centre.prior_share,
+        "loss_angle_deg": None if loss is None else loss * _DEG,
+    }
+
+
+def _fit(fit: Fit | None) -> dict[str, Any] | None:
+    if fit is None:
+        return None
     pairs = zip(fit.names, fit.values, fit.confidence, strict=True)
     return {"rms": fit.rms} | {name: {"value": value, "confidence": half} for name, value, half in pairs}

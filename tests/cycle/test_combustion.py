@@ -11,10 +11,10 @@ from click.testing import CliRunner
 
 from mechsym.cases import load
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.chamber import chamber, travel
+from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
-from mechsym.cycle.measured.fits import compression_line, fit_double_wiebe, fit_wiebe, least_squares_fit, trapped_mass
+from mechsym.cycle.measured.fits import fit_double_wiebe, fit_wiebe, least_squares_fit
 from mechsym.cycle.measured.heat_release import (
     Walls,
     burn_angles,
@@ -22,7 +22,6 @@ from mechsym.cycle.measured.heat_release import (
     combustion,
     cumulative,
     heat_release,
-    polytropic_fit,
 )
 from mechsym.cycle.measured.identify import identify
 from mechsym.cycle.wiebe import double_wiebe, wiebe
@@ -119,20 +118,6 @@ def test_angles_outside_the_closed_period_are_refused(synthetic):
         identify(machine, OMEGA, phi + 1.0, p, {"cycle.wiebe_m": 2.0}, {"cycle.wiebe_m": 0.3})
 
 
-def test_compression_line_of_a_polytrope(synthetic, rng):
-    cylinder = cylinder_of(synthetic[0])
-    phi = np.arange(-150.0, -15.0, 0.25) * DEG
-    v = np.pi / 4 * cylinder.bore**2 * (cylinder.stroke / 9 + travel(cylinder.motion, phi - TDC_ERROR)[0])
-    p = 1e5 * (v / v[0]) ** -1.31
-    exact = compression_line(phi, p, cylinder, phi[0], phi[-1])
-    assert exact.values[:2] == (pytest.approx(1.31, abs=1e-6), pytest.approx(TDC_ERROR, abs=1e-7))
-    noisy = compression_line(phi, p + rng.normal(0, NOISE, phi.size), cylinder, phi[0], phi[-1])
-    assert abs(noisy.values[0] - 1.31) < 2 * noisy.confidence[0] < 0.05
-    assert abs(noisy.values[1] - TDC_ERROR) < 2 * noisy.confidence[1] < 1 * DEG
-    assert polytropic_fit(phi - TDC_ERROR, p, cylinder, -2.0, -0.5) == pytest.approx(1.31, abs=1e-9)
-    assert trapped_mass(noisy.values[2], 3e-4, 300.0, 287.0) == pytest.approx(1e5 * 3e-4 / 287 / 300, rel=0.02)
-
-
 def test_double_wiebe_comes_back(rng):
     phi = np.linspace(-30, 90, 481) * DEG
     y = (phi + 5 * DEG) / (60 * DEG)
@@ -187,7 +172,7 @@ def test_measured_diagram_cycle_by_cycle(measured_data, tmp_path):
     cycles = found["cycles"]
     assert len(cycles) == 12 and found["weak_cycles"] == [12]
     sound = [c for c in cycles if not c["weak"]]
-    assert all(4.0 < c["mep_bar"] < 5.6 and 12 < c["p_max_bar"] < 18 for c in sound)
+    assert all(3.0 < c["mep_bar"] < 4.8 and 9 < c["p_max_bar"] < 18 for c in sound)
     assert all(5 < c["burn_10_deg"] < c["burn_50_deg"] < c["burn_90_deg"] < 60 for c in sound)
     misfire = cycles[11]
     assert misfire["mep_bar"] < 0.65 * np.median([c["mep_bar"] for c in cycles]) and misfire["burn_50_deg"] > 45

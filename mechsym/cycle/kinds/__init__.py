@@ -108,7 +108,7 @@ def back_pressure(cycle: Any) -> float:
     return load(back)(cycle) if back else cycle.p_back
 
 
-def with_diagram(cycle: Any, file: str) -> "Diagram":
+def with_diagram(cycle: Any, file: str | None, motored: str | None = None) -> "Diagram":
     """The cycle with a measured diagram in its place.
 
     Parameters
@@ -123,17 +123,18 @@ def with_diagram(cycle: Any, file: str) -> "Diagram":
     """
     kind = kind_of(cycle)
     if kind.measured:
-        return dataclasses.replace(cycle, file=file)
+        return dataclasses.replace(cycle, file=file or cycle.file, motored=motored or cycle.motored)
     if not kind.as_diagram:
         raise BadInput(
-            f"{file}: a measured diagram has no cylinder in this case; give [cycle] kind = 'diagram' with bore, "
-            "compression_ratio and working_cycle"
+            f"{file or motored}: a measured diagram has no cylinder in this case; give [cycle] kind = 'diagram' with "
+            "bore, compression_ratio and working_cycle"
         )
     known = load(kind.as_diagram)(cycle)
     return load(KINDS["diagram"].cycle)(
         bore=cycle.bore,
         compression_ratio=cycle.compression_ratio,
         p_back=back_pressure(cycle),
-        file=file,
+        file=file or "",
+        motored=motored or "",
         **known,
     )

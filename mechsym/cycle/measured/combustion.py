@@ -4,14 +4,16 @@ measured cycles --> heat release, burn points, exponents of each --> weak cycles
                \--> mean cycle: Wiebe functions, compression line, trapped mass, what a degree of dead centre costs
 """
 
+import dataclasses
 import math
 from typing import Any
 
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
+from mechsym.cycle.measured.charge_line import log_pressure, mean_exponent
 from mechsym.cycle.measured.facts import weak_cycles
-from mechsym.cycle.measured.fits import Fit, compression_line, fit_double_wiebe, fit_wiebe, trapped_mass
+from mechsym.cycle.measured.fits import Fit, fit_double_wiebe, fit_wiebe, trapped_mass
 from mechsym.cycle.measured.heat_release import Combustion, burnt_fraction, combustion, heat_release
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
 from mechsym.quantities import quantity, record
@@ -19,6 +21,7 @@ from mechsym.quantities import quantity, record
 _DEGREE = math.radians(1.0)
 _EARLIEST = math.radians(-45.0)
 _BEFORE_COMBUSTION = math.radians(-30.0)
+_Z = 1.96
 
 
 @record
@@ -38,13 +41,14 @@ class Analysis:
 class DiagramCombustion:
     """What a measured diagram says of combustion."""
 
+    measured: MeasuredCycles
     cycles: tuple[Combustion, ...]
     mean: Combustion
     weak: tuple[int, ...]  #: Cycles with less than 0.7 of the median work, from 0
-    #: Through the burnt fraction of the mean cycle
-    wiebe: Fit
-    double_wiebe: Fit
-    line: Fit  #: Compression line of the mean cycle from the closing of the inlet, exponent and dead centre free
+    #: Through the burnt fraction of the mean cycle; None where nothing burns
+    wiebe: Fit | None
+    double_wiebe: Fit | None
+    line: Fit  #: Charge line of the joint fit: exponent, dead centre, pressure when the inlet closes
     mass: float  #: Trapped mass from that line [kg]
     tdc_uncertainty: float | None  #: Of the alignment [rad]
     #: Change by one degree of later dead centre: `work`, `heat` relative [-], `burn_50` [rad]
@@ -62,27 +66,56 @@ def diagram_combustion(measured: MeasuredCycles, cylinder: Chamber, analysis: An
     """
     phi, cycles = around_compression(measured.phi, measured.cycles, measured.period)
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
-    each = tuple(combustion(phi, p, cylinder, analysis.gamma, ends) for p in cycles)
+    burns = not measured.alignment.motored
+    each = tuple(_said(combustion(phi, p, cylinder, analysis.gamma, ends), burns) for p in cycles)
     average = cycles.mean(axis=0)
     inside = (phi >= ends[0]) & (phi <= ends[1])
     at = phi[inside]
     burnt = burnt_fraction(at, heat_release(at, average[inside], cylinder, analysis.gamma))
     burning = at >= _EARLIEST
-    line = compression_line(phi, average, cylinder, analysis.inlet_closes, _BEFORE_COMBUSTION)
+    line = _line(measured, cylinder, analysis.inlet_closes)
     v_closed = float(volume(cylinder, analysis.inlet_closes))
     slopes = sensitivity(phi, average, cylinder, analysis)
     spread = measured.tdc_uncertainty
     return DiagramCombustion(
+        measured=measured,
         cycles=each,
-        mean=combustion(phi, average, cylinder, analysis.gamma, ends),
-        weak=weak_cycles(np.array([c.mean_indicated for c in each])),
-        wiebe=fit_wiebe(at[burning], burnt[burning]),
-        double_wiebe=fit_double_wiebe(at[burning], burnt[burning]),
+        mean=_said(combustion(phi, average, cylinder, analysis.gamma, ends), burns),
+        weak=weak_cycles(np.array([c.mean_indicated for c in each])) if burns else (),
+        wiebe=fit_wiebe(at[burning], burnt[burning]) if burns else None,
+        double_wiebe=fit_double_wiebe(at[burning], burnt[burning]) if burns else None,
         line=line,
         mass=trapped_mass(line.values[2], v_closed, analysis.charge_temperature, analysis.gas_constant),
         tdc_uncertainty=spread,
         per_degree=slopes,
         uncertainty={k: None if spread is None else abs(v) * spread / _DEGREE for k, v in slopes.items()},
+    )
+
+
+def _said(found: Combustion, burns: bool) -> Combustion:
+    """What a cycle says, without the heat and burn points of one in which nothing burns."""
+    if burns:
+        return found
+    return dataclasses.replace(found, heat=0.0, burn_angles=(math.nan,) * len(found.burn_angles))
+
+
+def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:
+    """The charge line of the joint fit as exponent, dead centre and pressure when the inlet closes."""
+    fit, ends = measured.alignment.fit, np.array([closed, _BEFORE_COMBUSTION])
+    log_p, slopes = log_pressure(cylinder, ends, fit.shape)
+    rise = float(np.diff(np.log(volume(cylinder, ends)))[0])
+    known = fit.covariance[:5, :5].copy()
+    known[0, :] = known[:, 0] = 0.0  # the dead centre has its own interval
+    by_exponent, by_level = -np.diff(slopes, axis=0)[0] / rise, slopes[0]
+    exponent = math.sqrt(float(by_exponent @ known @ by_exponent))
+    by_offset = math.sqrt(float(fit.covariance[5, 5])) * fit.swing / fit.level
+    level = math.hypot(math.sqrt(float(by_level @ known @ by_level)), by_offset)
+    pressure = measured.level * math.exp(float(log_p[0]))
+    return Fit(
+        names=("n", "tdc", "pressure"),
+        values=(mean_exponent(cylinder, fit.shape, closed, _BEFORE_COMBUSTION), 0.0, pressure),
+        confidence=(_Z * exponent, measured.tdc_uncertainty or 0.0, _Z * level * pressure),
+        rms=measured.scale * fit.rms,
     )
 
 
@@ -107,7 +140,7 @@ def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, analysis: Ana
     )
     return {
         "work": (later.work - earlier.work) / here.work,
-        "heat": (later.heat - earlier.heat) / here.heat,
+        "heat": (later.heat - earlier.heat) / here.heat if here.heat else 0.0,
         "burn_50": later.burn_angles[1] - earlier.burn_angles[1],
     }
 

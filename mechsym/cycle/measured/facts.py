@@ -5,12 +5,15 @@ import math
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, travel
-from mechsym.cycle.measured.compression_line import free_exponent, polytropic_exponent
-from mechsym.cycle.measured.diagram import Diagram, window
-from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
+from mechsym.cycle.measured.alignment import between
+from mechsym.cycle.measured.charge_line import mean_exponent
+from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.measured.joint_fit import Prior
+from mechsym.cycle.measured.measure import MeasuredCycles
 from mechsym.cycle.measured.smoothing import noise
 
 _WEAK = 0.7
+_Z = 1.96
 
 
 def cycle_work(measured: MeasuredCycles, cylinder: Chamber) -> np.ndarray:
@@ -65,6 +68,7 @@ def diagram_facts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles,
     p_mi = cycle_work(measured, cylinder) / 1e5
     scatter = float(measured.cycles.std(axis=0).max())
     return (
+        read_and_used(diagram, measured),
         *(f"the file says: {comment}" for comment in measured.comments),
         f"{measured.file}: {len(p_mi)} cycles; net mean indicated pressure {p_mi.min():.2f} to {p_mi.max():.2f} bar, "
         f"peaks {measured.cycles.max(axis=1).min() / 1e5:.1f} to {measured.cycles.max() / 1e5:.1f} bar absolute",
@@ -79,19 +83,40 @@ def diagram_facts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles,
     )
 
 
-def _alignment_fact(diagram: Diagram, measured: MeasuredCycles, per_degree: float) -> str:
-    how = {
-        "given": "given",
-        "motored_peak": f"peak of a motored diagram plus a loss angle of {math.degrees(diagram.loss_angle):.2f} deg "
-        "(assumed)",
-        "compression_line": f"where the compression line from {math.degrees(diagram.fit_from):.0f} to "
-        f"{math.degrees(diagram.fit_to):.0f} deg is straightest for the exponent {diagram.n_c:g} (assumed)",
-    }[diagram.alignment]
-    spread = measured.tdc_uncertainty
-    known = "not estimated" if spread is None else f"+- {math.degrees(spread):.1f} deg"
+def read_and_used(diagram: Diagram, measured: MeasuredCycles) -> str:
+    """What was read and what was used, in one line."""
+    found = measured.alignment.dead_centre
+    by = "as read" if measured.scale == 1.0 else f"scaled {measured.scale:.3g} by scale = {diagram.scale}"
+    low, high = measured.offsets.min() / 1e5, measured.offsets.max() / 1e5
+    shifted = f"{-low:+.2f} bar" if high - low < 0.005 else f"{-high:+.2f} to {-low:+.2f} bar"
+    speeds = "" if measured.speeds is None else f", {_range(measured.speeds * 30 / math.pi, '.0f')} rpm by time_s"
+    read, used = measured.raw_mean.max() / 1e5, measured.cycles.mean(axis=0).max() / 1e5
     return (
-        f"firing dead centre at {math.degrees(measured.tdc):.2f} deg of the file, {known}: {how}; "
-        f"one degree changes the work by {100 * per_degree:+.1f} %"
+        f"peak {read:.4g} bar read, {used:.3g} bar absolute used: shifted {shifted} by pegging = {diagram.pegging}, "
+        f"{by}, dead centre {_modulo(found.angle):.2f} deg ({_modulo(found.low):.2f} to {_modulo(found.high):.2f}) by "
+        f"{found.method}{speeds}"
+    )
+
+
+def _modulo(angle: float) -> float:
+    return math.degrees(angle) % 360
+
+
+def _range(values: np.ndarray, form: str) -> str:
+    low, high = format(values.min(), form), format(values.max(), form)
+    return low if low == high else f"{low} to {high}"
+
+
+def _alignment_fact(diagram: Diagram, measured: MeasuredCycles, per_degree: float) -> str:
+    found, spread = measured.alignment.dead_centre, measured.tdc_uncertainty
+    known = "not estimated" if spread is None else f"+- {math.degrees(spread):.1f} deg (19 times in 20)"
+    assumed = "" if found.prior_share is None else f", {100 * found.prior_share:.0f} % of it assumed and not measured"
+    loss = "" if found.loss_angle is None else f", {math.degrees(found.loss_angle):.2f} deg behind the motored peak"
+    even = measured.alignment.spread
+    uneven = "" if even is None else f"; up to {math.degrees(even):.1f} deg of it: angles spread evenly over each turn"
+    return (
+        f"firing dead centre (with the sensor's lag) at {math.degrees(found.angle):.2f} deg of the file, "
+        f"{known}{assumed}: {found.method}{loss}{uneven}; one degree changes the work by {100 * per_degree:+.1f} %"
     )
 
 
@@ -99,38 +124,32 @@ def _pegging_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
     how = {
         "none": "none, the file is taken as absolute",
         "gauge": f"the file is taken as gauge, over {diagram.p_back / 1e5:.4g} bar absolute",
-        "inlet": f"{diagram.inlet_pressure / 1e5:.3g} bar absolute at the dead centre before compression (assumed)",
+        "inlet": "inlet_pressure at the dead centre before compression (assumed)",
         "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
+        "joint": "offset of every cycle's compression line in the joint fit",
     }[diagram.pegging]
     low, high = measured.offsets.min() / 1e5, measured.offsets.max() / 1e5
     return f"pegging: {how}; {low:.3f} to {high:.3f} bar were taken off the cycles"
 
 
 def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
-    start = f"the compression line of the file as it is starts from {measured.line.p_bdc / 1e5:.3g} bar absolute at BDC"
-    if diagram.scale == "as_given":
+    start = f"the compression line starts from {measured.bottom / 1e5:.3g} bar absolute at BDC"
+    if diagram.scale in ("checked", "as_given"):
         return f"scale as given; {start}"
-    assumed = {
-        "trapped": f"{diagram.inlet_pressure / 1e5:.3g} bar there",
-        "exhaust": f"{diagram.exhaust_pressure / 1e5:.3g} bar in the middle of the exhaust stroke",
-    }[diagram.scale]
-    return (
-        f"scaled by {measured.scale:.4f}: {start}; assumed are {assumed}, with which the line starts from "
-        f"{measured.scale * measured.line.p_bdc / 1e5:.3g} bar; all pressures and the work are as uncertain"
-    )
-
-
-def _drift(measured: MeasuredCycles) -> float:
-    # signal at the dead centre before compression against the compression line drawn on to there
-    phi, mean = around_compression(measured.phi, measured.cycles.mean(axis=0), measured.period)
-    return float(mean[np.abs(phi + math.pi) < 0.1].mean() / (measured.scale * measured.line.p_bdc))
+    assumed = "inlet_pressure there" if diagram.scale == "trapped" else (
+        f"{diagram.exhaust_pressure / 1e5:.3g} bar in the middle of the exhaust stroke"
+    )  # fmt: skip
+    return f"scaled by {measured.scale:.4f} (assumed: {assumed}); {start}; all pressures and the work are as uncertain"
 
 
 def _exponent_fact(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> str:
-    line = window(diagram)
-    found = polytropic_exponent(measured.phi, measured.cycles.mean(axis=0), cylinder, line)
-    free = free_exponent(measured.phi, measured.raw_mean, cylinder, line)
-    return f"compression exponent of the pegged diagram {found:.3f}; with a free offset the data prefer {free:.3f}"
+    shape = measured.alignment.fit.shape
+    found = mean_exponent(cylinder, shape, *between(diagram))
+    return (
+        f"compression exponent {found:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
+        f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
+        f"{100 * _Z * Prior().loss[1]:.0f} %)"
+    )
 
 
 def _weak_fact(p_mi: np.ndarray) -> str:
@@ -139,39 +158,3 @@ def _weak_fact(p_mi: np.ndarray) -> str:
         return f"no cycle does less than {_WEAK:g} of the median work"
     named = ", ".join(f"{k + 1} ({p_mi[k]:.2f} bar)" for k in weak)
     return f"nearly misfired (less than {_WEAK:g} of the median work), kept in the mean: cycle {named}"
-
-
-def diagram_doubts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: float) -> tuple[str, ...]:
-    """What looks physically implausible in a measured diagram.
-
-    Parameters
-    ----------
-    phi_p_max : float
-        Crank angle of the highest pressure, from firing TDC [rad]
-
-    Returns
-    -------
-    doubts : tuple of str
-        One sentence each; empty if nothing does
-    """
-    found = []
-    ratio = measured.scale * measured.line.p_bdc / diagram.inlet_pressure
-    exponent = polytropic_exponent(measured.phi, measured.cycles.mean(axis=0), cylinder, window(diagram))
-    drift = _drift(measured)
-    if not 0.7 < ratio < 1.4:
-        found.append(
-            f"compression starts from {ratio:.2f} times the inlet pressure {diagram.inlet_pressure / 1e5:.3g} bar: "
-            "the sensor's scale or the inlet pressure is wrong; scale = 'exhaust' or 'trapped' corrects the first"
-        )
-    if not 0.7 < drift < 1.4:
-        found.append(
-            f"the signal at BDC is {drift:.2f} of what the compression line drawn on to there says: the sensor drifts "
-            "within the cycle, and pressures of the gas exchange are as wrong"
-        )
-    if not 1.2 < exponent < 1.42:
-        found.append(f"compression exponent {exponent:.2f} is outside 1.2 to 1.42: dead centre or pegging is wrong")
-    if not math.radians(-3) < phi_p_max < math.radians(60):
-        found.append(f"the pressure peaks {math.degrees(phi_p_max):.1f} deg after TDC: the dead centre is wrong")
-    if measured.tdc_uncertainty is not None and measured.tdc_uncertainty > math.radians(5):
-        found.append("the dead centre is uncertain by more than 5 deg: it depends on the window and the exponent")
-    return tuple(found)

@@ -23,6 +23,7 @@ from mechsym.quantities import parse, record
 _UNITS = {
     "rad": ("rad", "deg", "rev"),
     "Pa": ("Pa", "kPa", "MPa", "bar"),
+    "s": ("s", "ms", "us"),
 }
 _HEADER = re.compile(r"^(?P<name>.*?)(?:_(?P<plain>[A-Za-z]+)|\s*[\[(]\s*(?P<bracketed>[^\])]*?)\s*[\])])$")
 _DELIMITERS = (";", "\t", ",")
@@ -39,6 +40,7 @@ class Recording:
     lines: np.ndarray  #: shape (n,): Line of each sample in the file [-]
     comments: tuple[str, ...]
     columns: tuple[str, str]  #: Headers of the angle and the pressure column
+    time: np.ndarray | None  #: shape (n,): Time of each sample; None when the file has no column of it [s]
 
 
 def read_diagram(path: str | Path, period: float, angle_column: str = "", pressure_column: str = "") -> Recording:
@@ -56,9 +58,9 @@ def read_diagram(path: str | Path, period: float, angle_column: str = "", pressu
     comments, header, rows = _split(str(path), _text(path))
     angle_at, angle_unit = _column(str(path), header, "rad", angle_column)
     pressure_at, pressure_unit = _column(str(path), header, "Pa", pressure_column)
-    names = header[1]
+    names, clock = header[1], _clock(header[1])
     lines = np.array([line for line, _ in rows])
-    values = _numbers(str(path), rows, names, (angle_at, pressure_at))
+    values = _numbers(str(path), rows, names, (angle_at, pressure_at, *(at for at, _ in clock)))
     pressure = values[:, 1] * parse(f"1 {pressure_unit}", "Pa")
     angle = _continuous(str(path), values[:, 0] * parse(f"1 {angle_unit}", "rad"), lines)
     _check_steps(str(path), angle, lines, names[angle_at])
@@ -71,7 +73,24 @@ def read_diagram(path: str | Path, period: float, angle_column: str = "", pressu
         lines=lines,
         comments=tuple(comments),
         columns=(names[angle_at], names[pressure_at]),
+        time=_rising(str(path), values[:, 2] * parse(f"1 {clock[0][1]}", "s"), lines) if clock else None,
     )
+
+
+def _clock(names: list[str]) -> list[tuple[int, str]]:
+    """The column of the time and its unit, if there is one."""
+    return [(i, _unit(n)) for i, n in enumerate(names) if _unit(n) in _UNITS["s"] and n.lower().startswith("t")][:1]
+
+
+def _rising(file: str, time: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    bad = np.flatnonzero(np.diff(time) <= 0)
+    if bad.size:
+        i = int(bad[0])
+        raise BadInput(
+            f"{file}, line {lines[i + 1]}: time {time[i + 1]:.9g} s does not rise from line {lines[i]} "
+            f"({time[i]:.9g} s); time must rise row by row; mend it or leave the column out"
+        )
+    return time
 
 
 def _text(path: str | Path) -> str:
@@ -139,8 +158,8 @@ def _unit(name: str) -> str:
     return (match["plain"] or match["bracketed"] or "") if match else ""
 
 
-def _numbers(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, int]) -> np.ndarray:
-    values = np.empty((len(rows), 2))
+def _numbers(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, ...]) -> np.ndarray:
+    values = np.empty((len(rows), len(at)))
     for row, (line, cells) in enumerate(rows):
         if len(cells) != len(names):
             raise BadInput(

@@ -10,7 +10,6 @@ correlated residuals tell as much as n (1 - r)/(1 + r) independent ones, r their
 model fitted, not for what the model leaves out.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -18,9 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.wiebe import wiebe
-from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _Z = 1.959963984540054  # 95 % of a normal distribution
@@ -66,49 +63,6 @@ def least_squares_fit(
         names=tuple(names), values=tuple(float(v) for v in found.x), rms=float(np.sqrt(np.mean(left**2))),
         confidence=tuple(float(_Z * s) for s in spread),
     )  # fmt: skip
-
-
-def compression_line(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, first: float, last: float) -> Fit:
-    r"""Exponent, dead-centre error and level of the compression line of a pegged diagram.
-
-    .. math:: p = p_1\,(V(\varphi - \delta)/V(\varphi_1))^{-n}
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles from the assumed firing TDC [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure [Pa]
-    first, last : float
-        Ends of the piece of compression that is used [rad]
-
-    Returns
-    -------
-    fit : Fit
-        `n` [-]; `tdc`, the true dead centre on the scale of `phi` [rad]; `pressure` at `first` [Pa]; rms [Pa]
-
-    Notes
-    -----
-    Valid for a constant exponent. Heat to the walls changes n along the stroke and shows up as dead-centre error:
-    0.05 in n are worth about 2 degrees. `identify` takes the walls into account.
-    """
-    inside = (phi >= first) & (phi <= last)
-    at, measured = phi[inside], p[inside]
-    if at.size < 8:
-        raise BadInput(f"only {at.size} samples between {first:.3g} and {last:.3g} rad; widen the piece of compression")
-
-    def residuals(x: np.ndarray) -> np.ndarray:
-        n, tdc, level = x
-        return level * measured[0] * (volume(cylinder, at - tdc) / volume(cylinder, first)) ** -n - measured
-
-    bounds = (np.array([1.0, -0.3, 0.1]), np.array([1.67, 0.3, 10.0]))
-    fit = least_squares_fit(residuals, ("n", "tdc", "pressure"), np.array([1.35, 0.0, 1.0]), bounds)
-    scale = (1.0, 1.0, float(measured[0]))
-    return dataclasses.replace(
-        fit,
-        values=tuple(v * s for v, s in zip(fit.values, scale, strict=True)),
-        confidence=tuple(v * s for v, s in zip(fit.confidence, scale, strict=True)),
-    )
 
 
 def trapped_mass(pressure: float, v: float, temperature: float, gas_constant: float) -> float:

@@ -96,6 +96,8 @@ def burnt_fraction(phi: np.ndarray, q: np.ndarray) -> np.ndarray:
     top = int(np.argmax(q))
     first = min(int(np.searchsorted(phi, _EARLIEST)), top)
     bottom = first + int(np.argmin(q[first : top + 1]))
+    if q[top] <= q[bottom]:  # nothing burns
+        return np.zeros_like(q)
     inside = np.clip((q - q[bottom]) / (q[top] - q[bottom]), 0.0, 1.0)
     return np.where(np.arange(q.size) <= bottom, 0.0, np.where(np.arange(q.size) >= top, 1.0, inside))
 

@@ -9,16 +9,19 @@ import math
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.measured.compression_line import Line, dead_centre_uncertainty, find_dead_centre, fit_line
-from mechsym.cycle.measured.cycles import cut_cycles
-from mechsym.cycle.measured.diagram import Diagram, period_of, window
-from mechsym.cycle.measured.file import read_diagram
+from mechsym.cycle.measured.alignment import Alignment, align, between, in_one_piece, sound_cycles
+from mechsym.cycle.measured.charge_line import ChargeShape, log_pressure
+from mechsym.cycle.measured.diagram import Diagram, period_of
+from mechsym.cycle.measured.joint_fit import JointFit, cycle_lines
+from mechsym.cycle.measured.timing import cycle_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _AT_BDC = math.radians(10.0)
 _EXHAUST_MIDDLE, _EXHAUST_REACH = math.radians(270.0), math.radians(30.0)
-_MOTORED_UNCERTAINTY = math.radians(0.5)
+_BDC = np.array([-math.pi])
+USUAL_SCALE = (0.7, 1.4)
+_USUAL_BOTTOM = (0.2e5, 5e5)  # where no inlet pressure is given: throttled to the utmost, charged to the utmost
 
 
 @record
@@ -31,13 +34,24 @@ class MeasuredCycles:
     phi: np.ndarray
     cycles: np.ndarray  #: shape (k, n): Absolute pressure of each cycle [Pa]
     raw_mean: np.ndarray  #: shape (n,): Mean of the cycles as measured, neither pegged nor scaled [Pa]
-    tdc: float  #: Angle of the file at firing TDC [rad]
-    #: How far it may be off; None for a given dead centre, inf if the search's assumptions upset it [rad]
-    tdc_uncertainty: float | None
+    alignment: Alignment
     offsets: np.ndarray  #: shape (k,): What was taken off each cycle [Pa]
     scale: float  #: Factor on what remained [-]
-    line: Line  #: Compression line fitted to `raw_mean`, before scaling
+    level: float  #: The charge line 45 degrees before TDC, scaled [Pa]
+    bottom: float  #: The charge line drawn on to the bottom dead centre before compression, scaled [Pa]
+    speeds: np.ndarray | None  #: shape (k,): Speed of each cycle; None when the file has no times [rad/s]
     comments: tuple[str, ...]
+
+    @property
+    def tdc(self) -> float:
+        """Angle of the file at firing TDC [rad]."""
+        return self.alignment.dead_centre.angle
+
+    @property
+    def tdc_uncertainty(self) -> float | None:
+        """Half the 95 % interval of the dead centre; None for a given one [rad]."""
+        found = self.alignment.dead_centre
+        return None if found.method == "given" else (found.high - found.low) / 2
 
 
 def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
@@ -47,14 +61,16 @@ def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
             "the diagram has no file; name it with --set cycle.file=FILE (or --diagram FILE of hinge, forces, cycle)"
         )
     period = period_of(diagram)
-    recording = read_diagram(diagram.file, period, diagram.angle_column, diagram.pressure_column)
-    angle, raw = cut_cycles(recording, period)
-    tdc, uncertainty = _dead_centre(diagram, cylinder, angle, raw.mean(axis=0))
+    recording, angle, raw = sound_cycles(diagram.file, diagram, cylinder)
+    found = align(diagram, cylinder, recording, angle, raw)
     # the row starts before TDC and ends behind it, whatever the file calls its angles
-    phi = angle - tdc - period * math.ceil((angle[0] - tdc) / period)
-    line = fit_line(*around_compression(phi, raw.mean(axis=0), period), cylinder, window(diagram))
-    offsets = _offsets(diagram, cylinder, phi, raw)
-    scale = _scale(diagram, phi, raw.mean(axis=0) - offsets.mean(), line)
+    phi = angle - found.dead_centre.angle
+    phi = phi - period * math.ceil(phi[0] / period)
+    shape, drift = _pegging_line(diagram, found.fit)
+    on_line, levels = cycle_lines(*around_compression(phi, raw, period), cylinder, between(diagram), shape, drift)
+    offsets, level = _offsets(diagram, phi, raw, on_line), float(levels.mean())
+    bottom = level * math.exp(float(log_pressure(cylinder, _BDC, shape)[0][0]))
+    scale = _scale(diagram, phi, raw.mean(axis=0) - offsets.mean(), bottom)
     cycles = scale * (raw - offsets[:, None])
     _refuse_negative(diagram.file, cycles)
     return MeasuredCycles(
@@ -63,54 +79,14 @@ def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
         phi=phi,
         cycles=cycles,
         raw_mean=raw.mean(axis=0),
-        tdc=tdc,
-        tdc_uncertainty=uncertainty,
+        alignment=found,
         offsets=offsets,
         scale=scale,
-        line=line,
+        level=scale * level,
+        bottom=scale * bottom,
+        speeds=cycle_speeds(recording, float(angle[0]), period, len(raw)),
         comments=recording.comments,
     )
-
-
-def _refuse_negative(file: str, cycles: np.ndarray) -> None:
-    # noise may push single samples of a throttled engine below zero, the mean cycle not
-    lowest = float(cycles.mean(axis=0).min())
-    if lowest <= 0:
-        raise BadInput(
-            f"{file}: the absolute pressure of the mean cycle falls to {lowest / 1e5:.3g} bar; "
-            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
-        )
-
-
-def _dead_centre(
-    diagram: Diagram, cylinder: Chamber, angle: np.ndarray, mean: np.ndarray
-) -> tuple[float, float | None]:
-    if diagram.alignment == "given":
-        return diagram.tdc_offset, None
-    top = _peak_angle(angle, mean)
-    if diagram.alignment == "motored_peak":
-        return top + diagram.loss_angle, _MOTORED_UNCERTAINTY
-    guess = top - math.radians(15.0)
-    period = period_of(diagram)
-    shift = find_dead_centre(*around_compression(angle - guess, mean, period), cylinder, window(diagram))
-    if not math.isfinite(shift):
-        raise BadInput(
-            f"{diagram.file}: no dead centre makes the compression line straight; is it of this engine? In a [cycle] "
-            "of kind = 'diagram' change fit_from, fit_to or n_c, or give the dead centre with alignment = 'given', "
-            "tdc_offset"
-        )
-    shifted = around_compression(angle - guess - shift, mean, period)
-    return guess + shift, dead_centre_uncertainty(*shifted, cylinder, window(diagram))
-
-
-def _peak_angle(angle: np.ndarray, mean: np.ndarray) -> float:
-    # a parabola through the samples within 4 degrees of the highest one: noise moves a single sample by degrees
-    at = int(np.argmax(mean))
-    step = float(angle[1] - angle[0])
-    reach = max(1, round(math.radians(4.0) / step))
-    offsets = np.arange(-reach, reach + 1)
-    c2, c1, _ = np.polyfit(offsets * step, np.take(mean, at + offsets, mode="wrap"), 2)
-    return float(angle[at] - c1 / (2 * c2)) if c2 < 0 else float(angle[at])
 
 
 def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
@@ -132,28 +108,65 @@ def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tu
     values : ndarray
         In the order of phi [Pa]
     """
-    start = -math.pi - 0.5
-    centred = start + np.remainder(phi - start, period)
-    order = np.argsort(centred)
-    return centred[order], values[..., order]
+    return in_one_piece(phi, values, period, start=-math.pi - 0.5)
 
 
-def _offsets(diagram: Diagram, cylinder: Chamber, phi: np.ndarray, raw: np.ndarray) -> np.ndarray:
+def _refuse_negative(file: str, cycles: np.ndarray) -> None:
+    # noise may push single samples of a throttled engine below zero, the mean cycle not
+    lowest = float(cycles.mean(axis=0).min())
+    if lowest <= 0:
+        raise BadInput(
+            f"{file}: the absolute pressure of the mean cycle falls to {lowest / 1e5:.3g} bar; "
+            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
+        )
+
+
+def _pegging_line(diagram: Diagram, joint: JointFit) -> tuple[ChargeShape, float]:
+    """Shape and drift that give every cycle its offset: of the joint fit, or of the polytrope of the case."""
+    if diagram.pegging != "polytropic":
+        return joint.shape, joint.drift
+    return ChargeShape(n0=diagram.n_c, n1=0.0, loss=0.0, sharpness=1.0), 0.0
+
+
+def _offsets(diagram: Diagram, phi: np.ndarray, raw: np.ndarray, on_line: np.ndarray) -> np.ndarray:
     if diagram.pegging == "none":
         return np.zeros(len(raw))
     if diagram.pegging == "gauge":
         return np.full(len(raw), -diagram.p_back)
-    ordered, rows = around_compression(phi, raw, period_of(diagram))
-    if diagram.pegging == "inlet":
-        near = np.abs(ordered + math.pi) <= _AT_BDC
-        return rows[:, near].mean(axis=1) - diagram.inlet_pressure
-    return np.array([fit_line(ordered, row, cylinder, window(diagram)).p_off for row in rows])
+    if diagram.pegging == "inlet" and diagram.inlet_pressure is not None:
+        ordered, rows = around_compression(phi, raw, period_of(diagram))
+        return rows[:, np.abs(ordered + math.pi) <= _AT_BDC].mean(axis=1) - diagram.inlet_pressure
+    return on_line
 
 
-def _scale(diagram: Diagram, phi: np.ndarray, pegged: np.ndarray, line: Line) -> float:
-    if diagram.scale == "trapped":
-        return diagram.inlet_pressure / line.p_bdc
+def _scale(diagram: Diagram, phi: np.ndarray, pegged: np.ndarray, bottom: float) -> float:
+    if diagram.scale == "trapped" and diagram.inlet_pressure is not None:
+        return diagram.inlet_pressure / bottom
     if diagram.scale == "exhaust":
         behind = np.remainder(phi - _EXHAUST_MIDDLE + math.pi, 4 * math.pi) - math.pi
-        return diagram.exhaust_pressure / float(pegged[np.abs(behind) <= _EXHAUST_REACH].mean())
+        level = float(pegged[np.abs(behind) <= _EXHAUST_REACH].mean())
+        if level <= 0:
+            raise BadInput(
+                f"{diagram.file}: in the middle of the exhaust stroke the pegged pressure is {level / 1e5:.3g} bar, "
+                "below zero: the sensor drifts too far for scale = 'exhaust'; use 'trapped' with inlet_pressure"
+            )
+        return diagram.exhaust_pressure / level
+    if diagram.scale == "checked":
+        _refuse_scale(diagram, bottom)
     return 1.0
+
+
+def _refuse_scale(diagram: Diagram, bottom: float) -> None:
+    low, high = _USUAL_BOTTOM
+    allowed = f"{low / 1e5:g} to {high / 1e5:g} bar of any engine"
+    if diagram.inlet_pressure is not None:
+        low, high = (factor * diagram.inlet_pressure for factor in USUAL_SCALE)
+        allowed = (
+            f"{USUAL_SCALE[0]:g} to {USUAL_SCALE[1]:g} times inlet_pressure = {diagram.inlet_pressure / 1e5:.3g} bar"
+        )
+    if not low <= bottom <= high:
+        raise BadInput(
+            f"{diagram.file}: the compression line starts from {bottom / 1e5:.3g} bar absolute at BDC, allowed are "
+            f"{allowed}; unit or scale of the sensor is wrong: mend the file, or choose scale = 'exhaust' or 'trapped' "
+            "(scaled by the exhaust or inlet pressure) or 'as_given' in [cycle]"
+        )

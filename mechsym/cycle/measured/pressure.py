@@ -8,8 +8,9 @@ The spline leaves out as much as the noise of the mean cycle; both are reported,
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.facts import diagram_doubts, diagram_facts
+from mechsym.cycle.measured.facts import diagram_facts
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.measured.smoothing import smooth
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, periodic
@@ -39,5 +40,8 @@ def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
         mean_indicated=mean_indicated_pressure(absolute, measured.period, (), cylinder),
         phases={"compression line from": diagram.fit_from, "compression line to": diagram.fit_to},
         facts=diagram_facts(diagram, cylinder, measured, residual),
-        doubts=diagram_doubts(diagram, cylinder, measured, phi_p_max),
+        doubts=tuple(
+            f"{d.quantity} {d.value:.4g}, usual {d.usual}: {d.why}"
+            for d in diagram_doubts(diagram, cylinder, measured, phi_p_max)
+        ),
     )

@@ -1,0 +1,198 @@
+"""Cross-checks of a measured diagram: what each must give, and the doubt where it does not."""
+
+import math
+
+import numpy as np
+
+from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.measured.alignment import between
+from mechsym.cycle.measured.charge_line import log_pressure, mean_exponent
+from mechsym.cycle.measured.diagram import Diagram, line_prior
+from mechsym.cycle.measured.doubt import Doubt
+from mechsym.cycle.measured.heat_release import burnt_fraction, heat_release, polytropic_fit
+from mechsym.cycle.measured.joint_fit import Prior, joint_fit
+from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
+from mechsym.cycle.measured.smoothing import noise
+
+_DEG = math.radians(1.0)
+_WIDEST, _DRIFT = 3.5 * _DEG, 0.25
+_EXPONENT, _EXPANSION = (1.2, 1.42), (1.15, 1.40)
+_PEAK = (-3 * _DEG, 50 * _DEG)
+_LOSS_ANGLE = (0.0, 2.5 * _DEG)
+# heat of a stoichiometric mixture with air, by its mass: 2.75 MJ/kg for petrol and diesel, 2.7 for methane [J/kg]
+_MIXTURE_HEAT = 3.0e6
+_EARLY = (-0.12, 0.06)  # heat before ignition by the heat of the cycle: walls take some, nothing gives any
+_GAMMA, _R, _T_CLOSED = 1.35, 287.0, 330.0
+_BURNT, _OPENS = 0.97, 110 * _DEG
+_Z = 1.96
+
+
+def diagram_doubts(
+    diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: float
+) -> tuple[Doubt, ...]:
+    """What is possible and not usual in a measured diagram; empty where all checks agree.
+
+    Parameters
+    ----------
+    phi_p_max : float
+        Crank angle of the highest pressure, from firing TDC [rad]
+    """
+    found = [_scale(diagram, measured), _drift(measured), _exponent(diagram, cylinder, measured), _width(measured)]
+    found += [_agreement(measured), _free(diagram, cylinder, measured), _spread(measured), _loss_angle(measured)]
+    if not measured.alignment.motored:
+        found += [_peak(phi_p_max), *_combustion(diagram, cylinder, measured)]
+    return tuple(doubt for doubt in found if doubt is not None)
+
+
+def _doubt(code: str, quantity: str, value: float, usual: tuple[float, float], why: str) -> Doubt | None:
+    if usual[0] <= value <= usual[1]:
+        return None
+    return Doubt(code=code, quantity=quantity, value=value, usual=f"{usual[0]:.4g} to {usual[1]:.4g}", why=why)
+
+
+def _scale(diagram: Diagram, measured: MeasuredCycles) -> Doubt | None:
+    if diagram.scale in ("exhaust", "trapped"):
+        why = "all pressures and the work hang on the pressure assumed for it; calibrate the sensor"
+        return _doubt(
+            "scale", f"factor on the pressure by scale = {diagram.scale!r} [-]", measured.scale, USUAL_SCALE, why
+        )
+    if diagram.inlet_pressure is None:
+        usual = (0.2, 5.0)
+        return _doubt("scale", "compression line at BDC [bar]", measured.bottom / 1e5, usual, "sensor or unit is wrong")
+    ratio = measured.bottom / diagram.inlet_pressure
+    why = "the sensor's scale, its unit or inlet_pressure is wrong; scale = 'exhaust' or 'trapped' corrects the first"
+    return _doubt("scale", "compression line at BDC by inlet_pressure [-]", ratio, USUAL_SCALE, why)
+
+
+def _drift(measured: MeasuredCycles) -> Doubt | None:
+    # signal at the dead centre before compression against the charge line drawn on to there
+    phi, mean = around_compression(measured.phi, measured.cycles.mean(axis=0), measured.period)
+    off = float(mean[np.abs(phi + math.pi) < 0.1].mean() - measured.bottom)
+    why = "the sensor drifts within the cycle: pressures of the gas exchange and the net work are as wrong"
+    swing = float(np.ptp(mean))
+    limit = (-0.04 * swing / measured.bottom - _DRIFT, 0.04 * swing / measured.bottom + _DRIFT)
+    return _doubt(
+        "drift", "signal at BDC less the charge line there, by the latter [-]", off / measured.bottom, limit, why
+    )
+
+
+def _exponent(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doubt | None:
+    found = mean_exponent(cylinder, measured.alignment.fit.shape, *between(diagram))
+    why = "dead centre, offset or compression ratio is wrong"
+    return _doubt("compression_exponent", "exponent of the compression line [-]", found, _EXPONENT, why)
+
+
+def _width(measured: MeasuredCycles) -> Doubt | None:
+    half = (measured.tdc_uncertainty or 0.0) / _DEG
+    why = "the record says little of its dead centre; a motored record of the same encoder (--motored) says more"
+    return _doubt(
+        "dead_centre_width", "half the 95 % interval of the dead centre [deg]", half, (0.0, _WIDEST / _DEG), why
+    )
+
+
+def _agreement(measured: MeasuredCycles) -> Doubt | None:
+    own, found = measured.alignment.own, measured.alignment.dead_centre
+    if own is None:
+        return None
+    apart = own.angle - found.angle
+    apart -= 2 * math.pi * round(apart / (2 * math.pi))
+    limit = math.hypot((own.high - own.low) / 2, (found.high - found.low) / 2) / _DEG
+    why = f"the record's own compression line has it elsewhere than {found.method}: another encoder zero or engine?"
+    return _doubt(
+        "dead_centre", "compression line's dead centre less the one used [deg]", apart / _DEG, (-limit, limit), why
+    )
+
+
+def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doubt | None:
+    """Dead centre with hardly any prior on the exponent."""
+    if measured.alignment.own is not None or measured.alignment.motored:
+        return None
+    phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
+    free = Prior(n0=(line_prior(diagram).n0[0], 0.3))
+    fit = joint_fit(phi, mean, cylinder, between(diagram), noise(mean), free, [0.0])
+    spread = math.sqrt(float(fit.covariance[0, 0] + measured.alignment.fit.covariance[0, 0]))
+    limit = _Z * spread / _DEG
+    why = "with the exponent free the dead centre is elsewhere: drift, early burning, or another compression ratio"
+    return _doubt(
+        "free_exponent",
+        "dead centre with a free exponent less the one used [deg]",
+        fit.tdc / _DEG,
+        (-limit, limit),
+        why,
+    )
+
+
+def _spread(measured: MeasuredCycles) -> Doubt | None:
+    off = (measured.alignment.spread or 0.0) / _DEG
+    why = "the angles were spread evenly over each turn, the shaft does not turn evenly; take the angles by teeth"
+    return _doubt("even_angles", "how far the angles of the file may be off [deg]", off, (0.0, 0.5), why)
+
+
+def _loss_angle(measured: MeasuredCycles) -> Doubt | None:
+    loss = measured.alignment.dead_centre.loss_angle
+    if loss is None:
+        return None
+    why = "heat and blow-by let a motored engine peak 0.2 to 2 deg before its dead centre, never behind it"
+    usual = (_LOSS_ANGLE[0] / _DEG, _LOSS_ANGLE[1] / _DEG)
+    return _doubt("loss_angle", "from the motored peak to the dead centre [deg]", loss / _DEG, usual, why)
+
+
+def _peak(phi_p_max: float) -> Doubt | None:
+    usual = (_PEAK[0] / _DEG, _PEAK[1] / _DEG)
+    why = "no combustion peaks there: the dead centre is wrong, or most cycles misfire"
+    return _doubt("peak_angle", "crank angle of the highest pressure [deg]", phi_p_max / _DEG, usual, why)
+
+
+def _combustion(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> list[Doubt | None]:
+    """Heat before ignition, heat against the fuel that the charge could burn, exponent behind burning."""
+    # by the offset of the joint fit: one from a fixed exponent would condemn the true dead centre; no scale is needed
+    line = measured.alignment.fit
+    phi, p = around_compression(measured.phi, measured.raw_mean - line.offset, measured.period)
+    first, last = between(diagram)
+    inside = (phi >= first) & (phi <= _OPENS)
+    at, p = phi[inside], p[inside]
+    q = heat_release(at, p, cylinder, _GAMMA)
+    heat = float(q.max())
+    bottom = line.level * math.exp(float(log_pressure(cylinder, np.array([-math.pi]), line.shape)[0][0]))
+    mass = bottom * cylinder.clearance * cylinder.compression_ratio / (_R * _T_CLOSED)
+    early = float(np.interp(last, at, q)) / heat if heat > 0 else 0.0
+    whose = "more than air in the cylinder can burn: scale, bore or compression_ratio is wrong"
+    when = (
+        "heat before ignition, or more lost than walls take: dead centre or offset is wrong, or it burns before fit_to"
+    )
+    return [
+        _doubt("heat", "heat released by mass of charge [MJ/kg]", heat / mass / 1e6, (0.0, _MIXTURE_HEAT / 1e6), whose),
+        _doubt("early_heat", "heat until fit_to by the heat of the cycle [-]", early, _EARLY, when),
+        _expansion(at, p, q, cylinder),
+    ]
+
+
+def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber) -> Doubt | None:
+    behind = phi[int(np.argmax(burnt_fraction(phi, q) > _BURNT))]
+    first = max(float(behind), 50 * _DEG)
+    if phi[-1] - first < 25 * _DEG or not np.all(p[phi >= first] > 0):
+        return None
+    n = polytropic_fit(phi, p, cylinder, first, float(phi[-1]))
+    why = "behind burning the gas expands with 1.2 to 1.35: dead centre, offset or scale is wrong, or the sensor drifts"
+    return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, _EXPANSION, why)
+
+
+def brake_doubt(torque: float, p_mi: float, swept: float, period: float) -> Doubt | None:
+    r"""Whether a measured brake torque and the indicated work belong together.
+
+    .. math:: \eta_m = \frac{M\,T}{p_{mi} V_d}
+
+    Parameters
+    ----------
+    torque : float
+        Mean brake torque of one cylinder [N*m]
+    p_mi : float
+        Mean indicated pressure [Pa]
+    swept : float
+        Swept volume of one cylinder [m^3]
+    period : float
+        T: 2 pi or 4 pi [rad]
+    """
+    why = "the brake gives more than the gas, or far less: dead centre, scale or torque is wrong"
+    found = torque * period / (p_mi * swept)
+    return _doubt("mechanical_efficiency", "brake work by indicated work [-]", found, (0.5, 0.98), why)

@@ -1,0 +1,183 @@
+r"""Where the firing dead centre of a measured record lies, and between which angles it lies 19 times in 20.
+
+given          the case says it
+motored_peak   peak of a motored record plus a loss angle that the case says
+motored        a record without combustion, the file itself or another one on the same encoder: its line is fitted
+               through the dead centre, where the asymmetry of compression and expansion tells the losses
+compression    joint fit of the compression line alone: one to two degrees, for the losses are assumed
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.measured.joint_fit import JointFit, Prior, joint_fit
+from mechsym.cycle.measured.smoothing import noise
+from mechsym.quantities import record
+
+_Z = 1.96
+_DEG = math.radians(1.0)
+_EARLIER, _BURNS = (0.0, 8.0 * _DEG), 1.4
+_ENCODER = 0.2 * _DEG  # what no line tells of: its mounting, its teeth
+_THROUGH = (-60.0 * _DEG, 60.0 * _DEG)
+_LOSS_ANGLE, _STARTS = (0.6 * _DEG, 0.6 * _DEG), (-18.0, -5.0)
+_MOTORED = 0.004  # of the swing: a line without combustion leaves a tenth of it, the weakest one with it twice as much
+
+
+@record
+class DeadCentre:
+    """Firing dead centre on the scale of a file's angles."""
+
+    angle: float  #: Angle of the file at firing TDC, or at that of its period's first turn [rad]
+    low: float  #: Lower end of the 95 % interval [rad]
+    high: float  #: Upper end [rad]
+    method: str
+    prior_share: (
+        float | None
+    )  #: Share of the variance that is assumed and not measured; None where nothing is fitted [-]
+    loss_angle: float | None = None  #: From the motored peak to the dead centre, where there is such a peak [rad]
+
+
+def given(angle: float) -> DeadCentre:
+    """A dead centre that the case says.
+
+    Parameters
+    ----------
+    angle : float
+        Angle of the file at firing TDC [rad]
+    """
+    return DeadCentre(angle=angle, low=angle, high=angle, method="given", prior_share=None)
+
+
+def behind_peak(peak: float, loss_angle: float) -> DeadCentre:
+    """A dead centre behind the peak of a motored record.
+
+    Parameters
+    ----------
+    peak : float
+        Angle of the file at the peak [rad]
+    loss_angle : float
+        From the peak to the dead centre, as the case says [rad]
+    """
+    # heat and blow-by move the peak by 0.2 to 1.4 degrees, whatever a case assumes
+    return _around(peak + loss_angle, 0.3 * _DEG, "motored peak and loss angle", prior_share=1.0, loss_angle=loss_angle)
+
+
+def from_compression(
+    angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], prior: Prior
+) -> tuple[DeadCentre, JointFit]:
+    """Dead centre of a fired record from its compression line.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        Ascending angles of one period, compression in one piece [rad]
+    mean : ndarray, shape (n,)
+        Measured pressure of the mean cycle [Pa]
+    between : tuple of float
+        Ends of the line from the dead centre [rad]
+    """
+    top = peak_angle(angle, mean)
+    starts, inside = [top + s * _DEG for s in _STARTS], (top - 60 * _DEG, top + 4 * _DEG)
+    ends = [(between[0], between[1] - by) for by in _EARLIER if between[1] - by - between[0] > 25 * _DEG]
+    fits = [joint_fit(angle, mean, cylinder, end, noise(mean), prior, starts, inside) for end in ends]
+    # where an earlier end leaves far less, something burns before the end that the case names
+    fit = fits[0]
+    for earlier in fits[1:]:
+        fit = earlier if fit.sigma > _BURNS * earlier.sigma else fit
+    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), _ENCODER)
+    share = 1 - (1 - fit.prior_share) * fit.covariance[0, 0] / spread**2
+    return _around(fit.tdc, spread, "compression line", prior_share=share), fit
+
+
+def from_motored(
+    angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Prior, method: str
+) -> tuple[DeadCentre, JointFit]:
+    """Dead centre of a record without combustion from compression and expansion together.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        Ascending angles of one period, compression in one piece [rad]
+    mean : ndarray, shape (n,)
+        Measured pressure of the mean cycle [Pa]
+    """
+    top = peak_angle(angle, mean)
+    fit = joint_fit(angle, mean, cylinder, _THROUGH, noise(mean), prior, [top + _LOSS_ANGLE[0]])
+    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), _ENCODER)
+    share = 1 - (1 - fit.prior_share) * fit.covariance[0, 0] / spread**2
+    return _around(fit.tdc, spread, method, prior_share=share, loss_angle=fit.tdc - top), fit
+
+
+def is_motored(angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Prior) -> bool:
+    """Whether one line of trapped charge goes through compression and expansion: nothing burns.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        Ascending angles of one period, compression in one piece [rad]
+    mean : ndarray, shape (n,)
+        Measured pressure of the mean cycle [Pa]
+    """
+    top, sigma = peak_angle(angle, mean), noise(mean)
+    pinned = Prior(n0=prior.n0, tdc=(top + _LOSS_ANGLE[0], _LOSS_ANGLE[1]))
+    fit = joint_fit(angle, mean, cylinder, _THROUGH, sigma, pinned, [top + _LOSS_ANGLE[0]])
+    return math.sqrt(max(fit.rms**2 - sigma**2, 0.0)) < _MOTORED * float(np.ptp(mean))
+
+
+def carried(found: DeadCentre, angle: np.ndarray, mean: np.ndarray) -> DeadCentre:
+    """The dead centre of a motored record on the angles of a fired one of the same encoder.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        Ascending angles of one period of the fired record [rad]
+    mean : ndarray, shape (n,)
+        Its measured pressure [Pa]
+    """
+    # an encoder knows whole turns: the one is taken whose dead centre lies just before the peak of combustion
+    expected = peak_angle(angle, mean) - 12 * _DEG
+    moved = 2 * math.pi * round((expected - found.angle) / (2 * math.pi))
+    return dataclasses.replace(found, angle=found.angle + moved, low=found.low + moved, high=found.high + moved)
+
+
+def widened(found: DeadCentre, by: float) -> DeadCentre:
+    """The same dead centre in an interval that is wider.
+
+    Parameters
+    ----------
+    by : float
+        On both sides [rad]
+    """
+    return dataclasses.replace(found, low=found.low - by, high=found.high + by)
+
+
+def peak_angle(angle: np.ndarray, mean: np.ndarray) -> float:
+    """Angle of the highest pressure, by a parabola: noise moves a single sample by degrees.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (n,)
+        Evenly spaced angles of one period [rad]
+    mean : ndarray, shape (n,)
+        Measured pressure [Pa]
+
+    Returns
+    -------
+    peak : float
+        Angle of the file [rad]
+    """
+    at = int(np.argmax(mean))
+    step = float(angle[1] - angle[0])
+    reach = max(2, round(5.0 * _DEG / step))
+    offsets = np.arange(-reach, reach + 1)
+    c2, c1, _ = np.polyfit(offsets * step, np.take(mean, at + offsets, mode="wrap"), 2)
+    # a stretch that is not bent downwards, or not there, has no peak
+    inside = c2 < 0 and abs(c1 / (2 * c2)) < reach * step
+    return float(angle[at] - c1 / (2 * c2)) if inside else float(angle[at])
+
+
+def _around(angle: float, spread: float, method: str, **more: float | None) -> DeadCentre:
+    return DeadCentre(angle=angle, low=angle - _Z * spread, high=angle + _Z * spread, method=method, **more)

@@ -1,0 +1,204 @@
+r"""Dead centre, exponent, losses, offset and drift of a measured charge line in one least-squares fit with priors.
+
+    measured_k(phi) = offset_k + drift (phi - phi_r) + level_k p(phi - delta; n0, n1, loss, sharpness) + noise
+
+Offset and level of every cycle and the dead centre are free; the rest has a prior, because dead centre, exponent and
+losses of one line are nearly one number. The mean of the cycles carries all that they say of what they share. A lag
+of the sensor at one speed is a later dead centre: their sum is found, and the sum is what the work needs.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.measured.charge_line import REFERENCE, ChargeShape, log_pressure
+from mechsym.quantities import record
+
+_RAMP = math.radians(5.0)
+_LONGEST_STEP = math.radians(3.0)
+_DRIFT = 0.005  # of the swing per radian: slow drift, and what a membrane heated once a cycle does
+_SETTLED, _TURNS = 1e-6, 30
+_Solved = tuple[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+
+
+@record
+class Prior:
+    """What is known before the fit, as middle and standard deviation."""
+
+    n0: tuple[float, float] = (1.33, 0.045)  #: Exponent at the reference volume [-]
+    n1: tuple[float, float] = (0.04, 0.035)  #: Its change with log V [-]
+    loss: tuple[float, float] = (0.06, 0.06)  #: Lost share of the pressure [1/rad]
+    sharpness: tuple[float, float] = (1.3, 0.4)  #: Exponent of the losses [-]
+    tdc: tuple[float, float] | None = None  #: Dead centre on the scale of the angles [rad]
+
+
+@record
+class JointFit:
+    """The fitted line; the order of the covariance is dead centre, n0, n1, loss, sharpness, level, offset, drift."""
+
+    tdc: float  #: Dead centre on the scale of the angles given [rad]
+    shape: ChargeShape
+    level: float  #: Pressure 45 degrees before TDC, of the mean cycle [Pa]
+    offset: float  #: What the sensor adds there, of the mean cycle [Pa]
+    drift: float  #: How fast that changes [Pa/rad]
+    covariance: np.ndarray  #: shape (8, 8), level, offset and drift by the swing of the record [rad, -, 1/rad]
+    prior_share: float  #: Share of the variance of the dead centre that the priors leave; the rest is noise [-]
+    swing: float  #: Highest less lowest pressure of the record [Pa]
+    rms: float  #: Root mean square of the residuals of the mean cycle [Pa]
+    sigma: (
+        float  #: Noise of the mean cycle that the covariance stands for, residuals that hang together allowed for [Pa]
+    )
+
+
+def joint_fit(
+    phi: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], sigma: float,
+    prior: Prior, starts: Sequence[float], inside: tuple[float, float] = (-math.inf, math.inf),
+) -> JointFit:  # fmt: skip
+    """Fit the charge line of the mean cycle.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles on any scale [rad]
+    mean : ndarray, shape (n,)
+        Measured pressure [Pa]
+    between : tuple of float
+        Ends of the line from the dead centre; they move along with it [rad]
+    sigma : float
+        White noise of the mean cycle [Pa]
+    starts : sequence of float
+        Dead centres to begin with; where the line fits best in the end counts [rad]
+    inside : tuple of float
+        Between which angles the dead centre must lie [rad]
+
+    Returns
+    -------
+    fit : JointFit
+        With the noise that the residuals show where that is more than `sigma` [Pa]
+    """
+    swing = float(np.ptp(mean))
+    floor = max(sigma / swing, 1e-5)
+    tried = [_solve(phi, mean / swing, cylinder, between, floor, prior, start, inside) for start in starts]
+    at = min(tried, key=lambda found: _cost(found, floor, prior))
+    noise = max(floor, _correlated(at[2], at[3]))
+    at = _solve(phi, mean / swing, cylinder, between, noise, prior, at[0], inside)
+    return _result(at, swing, noise, prior)
+
+
+def cycle_lines(
+    phi: np.ndarray, rows: np.ndarray, cylinder: Chamber, between: tuple[float, float], shape: ChargeShape,
+    drift: float,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Offset and level of every cycle under the shape that all of them share.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Ascending crank angles from firing TDC [rad]
+    rows : ndarray, shape (k, n)
+        Measured pressure of each cycle [Pa]
+    between : tuple of float
+        Ends of the line [rad]
+    drift : float
+        How fast the offset changes [Pa/rad]
+
+    Returns
+    -------
+    offsets, levels : ndarray, shape (k,)
+        Of each cycle, 45 degrees before TDC [Pa]
+    """
+    root = np.sqrt(_weights(phi, between))
+    inside = root > 0
+    at = phi[inside]
+    rise = np.exp(log_pressure(cylinder, at, shape)[0])
+    columns = np.stack([np.ones_like(at), rise], axis=-1) * root[inside, None]
+    measured = (rows[:, inside] - drift * (at - REFERENCE)) * root[inside]
+    found = np.linalg.lstsq(columns, measured.T, rcond=None)[0]
+    return found[0], found[1]
+
+
+def _weights(phi: np.ndarray, between: tuple[float, float]) -> np.ndarray:
+    # they rise and fall inside the ends: what lies behind the last angle may burn already
+    return np.clip(np.minimum(phi - between[0], between[1] - phi) / _RAMP, 0.0, 1.0)
+
+
+def _solve(
+    phi: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], noise: float,
+    prior: Prior, start: float, bounds: tuple[float, float],
+) -> _Solved:  # fmt: skip
+    """Gauss-Newton steps; dead centre, all values, residuals, weights and Jacobian where they settle."""
+    middle, tight = _known(prior, start)
+    x = middle[:5].copy()
+    for turn in range(_TURNS):
+        weight = _weights(phi - x[0], between)
+        inside = weight > 0
+        angle, y, root = phi[inside] - x[0], mean[inside], np.sqrt(weight[inside])
+        log_p, slopes = log_pressure(cylinder, angle, ChargeShape(n0=x[1], n1=x[2], loss=x[3], sharpness=x[4]))
+        rise = np.exp(log_p)
+        linear = np.stack([rise, np.ones_like(rise), angle - REFERENCE], axis=-1)
+        size, offset, drift = _linear(linear * root[:, None], y * root, noise)
+        jacobian = np.hstack([size * rise[:, None] * slopes, linear]) * root[:, None]
+        left = (y - linear @ np.array([size, offset, drift])) * root
+        values = np.array([*x, size, offset, drift])
+        step = np.linalg.lstsq(
+            np.vstack([jacobian / noise, np.diag(tight)]),
+            np.append(left / noise, tight * (middle - values)),
+            rcond=None,
+        )[0][:5]
+        if np.abs(step).max() < _SETTLED or turn == _TURNS - 1:
+            break
+        # the samples change with the dead centre: later steps are damped so that the search cannot swing for ever
+        limit = _LONGEST_STEP * min(1.0, abs(10.0 / (1 + turn)))
+        step *= min(1.0, limit / max(abs(step[0]), 1e-12)) * (1.0 if turn < 8 else 0.5)
+        x = x + step
+        x[0], x[4] = np.clip(x[0], *bounds), np.clip(x[4], 0.3, 3.0)
+    return float(x[0]), values, left, weight[inside], jacobian
+
+
+def _known(prior: Prior, start: float) -> tuple[np.ndarray, np.ndarray]:
+    """Middle of every prior, and one over its deviation (0: free)."""
+    tdc = prior.tdc or (start, math.inf)
+    pairs = [tdc, prior.n0, prior.n1, prior.loss, prior.sharpness, (0.0, math.inf), (0.0, math.inf), (0.0, _DRIFT)]
+    return np.array([m for m, _ in pairs]), np.array([1 / s for _, s in pairs])
+
+
+def _linear(columns: np.ndarray, y: np.ndarray, noise: float) -> np.ndarray:
+    held = np.array([0.0, 0.0, noise / _DRIFT])
+    return np.linalg.lstsq(np.vstack([columns, held]), np.append(y, 0.0), rcond=None)[0]
+
+
+def _correlated(left: np.ndarray, weight: np.ndarray) -> float:
+    """Noise by which n independent residuals would say as little as these, which hang together."""
+    power = float(left @ left)
+    r = min(max(float(left[:-1] @ left[1:]) / power, 0.0), 0.98) if power > 0 else 0.0
+    return math.sqrt(power / max(float(weight.sum()) - 5.0, 1.0) * (1 + r) / (1 - r))
+
+
+def _cost(at: _Solved, noise: float, prior: Prior) -> float:
+    """Weighted squares of residuals and priors by the number of samples."""
+    tdc, values, left, weight, _ = at
+    middle, tight = _known(prior, tdc)
+    return float(left @ left / noise**2 + np.sum((tight * (values - middle))[1:] ** 2)) / float(weight.sum())
+
+
+def _result(at: _Solved, swing: float, noise: float, prior: Prior) -> JointFit:
+    tdc, values, left, weight, jacobian = at
+    tight = _known(prior, tdc)[1]
+    data = jacobian.T @ jacobian / noise**2
+    scale = 1 / np.sqrt(np.diag(data) + tight**2)
+    covariance = np.linalg.inv((data + np.diag(tight**2)) * np.outer(scale, scale)) * np.outer(scale, scale)
+    _, n0, n1, loss, sharpness, level, offset, drift = (float(value) for value in values)
+    return JointFit(
+        tdc=tdc,
+        shape=ChargeShape(n0=n0, n1=n1, loss=loss, sharpness=sharpness),
+        level=level * swing,
+        offset=offset * swing,
+        drift=drift * swing,
+        covariance=covariance,
+        prior_share=float((covariance @ np.diag(tight**2) @ covariance)[0, 0] / covariance[0, 0]),
+        swing=swing,
+        rms=float(np.sqrt(left @ left / weight.sum())) * swing,
+        sigma=noise * swing,
+    )
