@@ -25,7 +25,7 @@ _SECTIONS: dict[str, Any] = {
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
     "stirling": "mechsym.cycle.kinds.stirling_second_order:StirlingLosses",
     "combustion": "mechsym.cycle.measured.combustion:Analysis",
-    "measured": "mechsym.jobs.measured:BrakeMeasured",
+    "measured": "mechsym.cycle.measured.diagram:BrakeMeasured",
     "gas": (
         "model",
         {"constant_gamma": "mechsym.cycle.mixture:ConstantGamma", "nasa": "mechsym.cycle.mixture:NasaMixture"},

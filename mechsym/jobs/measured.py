@@ -17,16 +17,9 @@ from mechsym.cycle.measured.fits import Fit
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.motion import piston_travel
 from mechsym.jobs.gas import of, one_cylinder
-from mechsym.quantities import RPM, quantity, record
+from mechsym.quantities import RPM, record
 
 _DEG = 180 / math.pi
-
-
-@record
-class BrakeMeasured:
-    """Section `[measured]`: what was measured beside the pressure."""
-
-    torque: float = quantity("N*m", above=0, about="mean brake torque of one cylinder while the diagram was recorded")
 
 
 @record

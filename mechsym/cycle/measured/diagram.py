@@ -73,6 +73,13 @@ class Diagram:
             raise BadInput("scale = 'exhaust' needs an exhaust stroke; a two-stroke cycle has none, use 'trapped'")
 
 
+@record
+class BrakeMeasured:
+    """Section `[measured]`: what was measured beside the pressure."""
+
+    torque: float = quantity("N*m", above=0, about="mean brake torque of one cylinder while the diagram was recorded")
+
+
 def line_prior(diagram: Diagram) -> Prior:
     """What is known of the charge line before it is fitted: the exponent to expect, and the share that losses take."""
     # without its losses the exponent at 45 degrees before TDC is about 0.03 above that of the whole line
