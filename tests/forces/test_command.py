@@ -124,8 +124,9 @@ def test_a_recorded_diagram_drives_the_chain(recorded):
         json.loads(run("moroianu", "--json", *words).output) for words in ([], ["--diagram", recorded, "--comparison"])
     )
     assert measured["power_residual"] < 1e-10 and measured["comparison"]
+    # the file tells neither offset nor dead centre, and a polytrope has no losses: half a degree is not to be had
     for key in ("F", "torque", "crank_pin_load", "side_force"):
-        assert measured["max"][key] == pytest.approx(own["max"][key], rel=1e-3)
+        assert measured["max"][key] == pytest.approx(own["max"][key], rel=0.015)
     assert measured["max"]["torque"] != own["max"]["torque"]  # read from the file: with its rounding and its fit
 
 

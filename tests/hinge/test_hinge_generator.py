@@ -94,7 +94,7 @@ def test_files_hold_two_turns(generator, tmp_path):
 def test_report_tells_what_was_measured_and_assumed(generator, tmp_path):
     text = report.write(generator, tmp_path)[0].read_text(encoding="utf-8")
     for words in (
-        "firing dead centre at", "+-", "12 cycles", "nearly misfired", "were taken off", "scaled by", "drifts",
+        "firing dead centre at", "+-", "12 cycles", "nearly misfired", "were taken off", "scaled by", "spread evenly",
         "two ways to give it", "what repeats every turn", "turns even without a flywheel",
     ):  # fmt: skip
         assert words in text

@@ -186,6 +186,7 @@ def as_diagram(cycle: TwoStrokeMarine) -> dict[str, Any]:
     return {
         "working_cycle": "two-stroke",
         "n_c": cycle.n_c,
+        "pegging": "polytropic",
         "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
         "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
     }

@@ -115,7 +115,7 @@ def _alignment_fact(diagram: Diagram, measured: MeasuredCycles, per_degree: floa
     even = measured.alignment.spread
     uneven = "" if even is None else f"; up to {math.degrees(even):.1f} deg of it: angles spread evenly over each turn"
     return (
-        f"firing dead centre (with the sensor's lag) at {math.degrees(found.angle):.2f} deg of the file, "
+        f"firing dead centre at {math.degrees(found.angle):.2f} deg of the file, the sensor's lag in it, "
         f"{known}{assumed}: {found.method}{loss}{uneven}; one degree changes the work by {100 * per_degree:+.1f} %"
     )
 

@@ -47,9 +47,7 @@ class JointFit:
     prior_share: float  #: Share of the variance of the dead centre that the priors leave; the rest is noise [-]
     swing: float  #: Highest less lowest pressure of the record [Pa]
     rms: float  #: Root mean square of the residuals of the mean cycle [Pa]
-    sigma: (
-        float  #: Noise of the mean cycle that the covariance stands for, residuals that hang together allowed for [Pa]
-    )
+    sigma: float  #: Noise behind the covariance, residuals that hang together allowed for [Pa]
 
 
 def joint_fit(
