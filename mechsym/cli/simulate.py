@@ -46,6 +46,7 @@ def simulate(
     \b
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
              mechsym simulate alpha-stirling --set c="5 N*m*s/rad"
+             mechsym simulate alpha-stirling --set speed_start="250 rpm" --set simulation.turns=300
     """
     from mechsym.jobs.run import run
 
@@ -75,6 +76,7 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
         "twist": [dataclasses.asdict(s) for s in run.twist],
         "findings": list(run.findings),
         "start_up": [numbers(s) for s in run.start_ups],
+        "settling": dataclasses.asdict(run.settling) if run.settling else None,
     }
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.problem import problem_of, settings_of, window_of
+from mechsym.jobs.settling import settled
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
 from mechsym.quantities import record
@@ -14,6 +15,7 @@ from mechsym.simulate import Result, simulate
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.summary import summary
 from mechsym.torsion.findings import findings
+from mechsym.torsion.settling import Settling, sentences
 from mechsym.torsion.startup import AVERAGE, StartUp
 from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
 
@@ -28,6 +30,7 @@ class FinishedRun:
     natural_frequencies: tuple[float, ...]  #: Of an elastic shaft [rad/s]
     twist: tuple[ShaftSection, ...]
     start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
+    settling: Settling | None  #: Where an engine settles after a start against a load
     findings: tuple[str, ...]
 
 
@@ -51,7 +54,7 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
     settings, problem = settings_of(case), problem_of(case)
     result = simulate(problem, replace(settings, check=check))
     told = summary(result, problem.mechanism.coordinates, window_of(case, problem))
-    starts = _start_ups(case, result, dampings)
+    starts, settles = _start_ups(case, result, dampings), settled(case, result)
     return FinishedRun(
         settings=settings,
         result=result,
@@ -59,7 +62,8 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
         natural_frequencies=natural_frequencies(case.need("parameters")),
         twist=sections(case.need("parameters"), result, result.t[-1] - told["window"]),
         start_ups=starts,
-        findings=(*remarks(case), *(findings(starts[0]) if starts else ())),
+        settling=settles,
+        findings=(*remarks(case), *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ())),
     )
 
 
