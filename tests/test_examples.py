@@ -13,7 +13,8 @@ import mechsym
 
 FOLDER = Path(__file__).parent.parent / "examples"
 EXAMPLES = sorted(FOLDER.glob("*.py"))
-FILES = {"design_hinge": "report.html", "design_guide": "profile air.csv", "sweep_spring": "sweep.csv"}
+FILES = {"design_hinge": "report.html", "design_guide": "profile air.csv", "sweep_spring": "sweep.csv",
+         "codesign_marine": "track.csv"}  # fmt: skip
 
 
 def test_there_are_examples():

@@ -12,16 +12,17 @@ Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesig
 
 from mechsym.codesign.front import front
 from mechsym.codesign.hardware import Bounds, Hardware
+from mechsym.codesign.machines import bounds, from_curve, hardware, point
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.scenarios import misfire
 from mechsym.codesign.task import CoDesign, CoDesignTask
-from mechsym.codesign.verify import verify
+from mechsym.codesign.verify import fine_path, verify
 
 __all__ = [
-    "Bounds", "CoDesign", "CoDesignTask", "Hardware", "Point", "bare_flywheel", "front", "misfire", "rank", "solve",
-    "verify",
+    "Bounds", "CoDesign", "CoDesignTask", "Hardware", "Point", "bare_flywheel", "bounds", "fine_path", "from_curve",
+    "front", "hardware", "misfire", "point", "rank", "solve", "verify",
 ]  # fmt: skip
 
 

@@ -1,17 +1,19 @@
 """A machine at one speed and load as a point of a co-design, the hardware of its hinge, a torque curve as a point."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
 from mechsym import periodic
-from mechsym.codesign.hardware import Hardware
+from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.points import Point
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.guide import Spring
+from mechsym.hinge.limits import Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.hinge.torque import engine_torques, torque
@@ -92,3 +94,8 @@ def hardware(spring: Spring, guide: GuideParameters, rollers: RollerParameters, 
         count=ROLLERS[guide.arrangement], shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width,
         E=rollers.E, nu=rollers.nu, moving_mass=moving_mass,
     )  # fmt: skip
+
+
+def bounds(limits: Limits) -> Bounds:
+    """Limits of a hinge as those of a co-design."""
+    return Bounds(**{f.name: getattr(limits, f.name) for f in dataclasses.fields(Bounds)})

@@ -12,7 +12,7 @@ optimise    the design that `[optimise]` declares
 compare     two engines side by side
 """
 
-from mechsym.jobs.codesign import codesign
+from mechsym.jobs.codesign import codesign, codesign_task
 from mechsym.jobs.compare import compare
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces
@@ -26,7 +26,8 @@ from mechsym.jobs.size import size
 from mechsym.jobs.startup import startup
 
 __all__ = [
-    "codesign", "compare", "cycle", "forces", "gas", "hinge", "loop", "machine", "optimise", "run", "size", "startup",
+    "codesign", "codesign_task", "compare", "cycle", "forces", "gas", "hinge", "loop", "machine", "optimise", "run",
+    "size", "startup",
 ]  # fmt: skip
 
 

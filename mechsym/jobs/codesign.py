@@ -10,8 +10,7 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.codesign import family, loss, scenarios
 from mechsym.codesign.front import cut_for_one, front
-from mechsym.codesign.hardware import Bounds
-from mechsym.codesign.machines import hardware, point
+from mechsym.codesign.machines import bounds, hardware, point
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
@@ -80,12 +79,17 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
     )
 
 
+def codesign_task(case: Case) -> CoDesignTask:
+    """Points, hardware and limits of a case, as its section `[codesign]` asks."""
+    return task_of(case, case.need("codesign"))
+
+
 def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
-    """Points, hardware and limits of a case."""
+    """Points, hardware and limits of a case for other settings than its own."""
     return CoDesignTask(
         points=points(case, settings),
         hardware=hardware(case.need("spring"), case.need("guide"), case.need("rollers"), settings.moving_mass),
-        bounds=Bounds(**{f.name: getattr(case.need("limits"), f.name) for f in dataclasses.fields(Bounds)}),
+        bounds=bounds(case.need("limits")),
         ripple=settings.ripple,
         springs=int(settings.springs),
         schedule=settings.schedule,

@@ -7,24 +7,27 @@ _ENDINGS = {
 # the last part of a dotted name that contains one of these
 _PARTS = {
     "rad/s": ("speed_mean", "speed_min", "speed_max", "mean", "min", "max"),
-    "s": ("t_end", "t", "window"),
+    "s": ("t_end", "t", "window", "tau"),
+    "K": ("wall_temperature",),
     "J": ("work_in", "dissipation", "change", "hinge_work_max", "hinge_work_min"),
     "N*m": (
         "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean", "torque_avg", "torque_max",
-        "brake_torque", "tilting_couple_max", "torque_mean", "torque_amplitude", "torque_peak",
+        "brake_torque", "tilting_couple_max", "torque_mean", "torque_amplitude", "torque_peak", "bearing", "seal",
+        "guide", "rolling", "gas", "total",
     ),
     "N": ("force_max", "roller_reaction_max", "spring_force_max"),
-    "m": ("rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius"),
+    "m": ("rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius", "bearing_radius"),
     "rad": ("pressure_angle_max", "phi", "twist_mean", "twist_amplitude", "twist_peak"),
     "Pa": ("spring_pressure_max", "hertz_stress_max"),
     "kg*m^2": ("flywheel_inertia_saved", "flywheel_inertia_to_turn", "flywheel_inertia_beside_faulty"),
     "-": (
         "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "speed_ripple", "ripple_wanted",
         "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
-        "torque_ratio_min", "torque_ratio_peak",
+        "torque_ratio_min", "torque_ratio_peak", "share", "fill", "gas_index", "misfire_speed_share", "bearing_mu",
+        "seal_mu", "guide_mu", "gamma",
     ),
 }  # fmt: skip
-_GROUPS = {"energy.work.": "J", "fractions.": "-", "loads.": "N"}
+_GROUPS = {"losses.shares.": "-", "energy.work.": "J", "fractions.": "-", "loads.": "N"}
 _KNOWN = {name: unit for unit, names in _PARTS.items() for name in names}
 
 
