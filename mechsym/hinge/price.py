@@ -92,13 +92,13 @@ def friction(
     }
 
 
-def gas_turn(contact: Contact, guide: Guide, given: HingeLosses, fill: float = 1.0) -> GasTurn | None:
-    """The gas of the spring with a wall that takes heat; None for a coil. `fill` [-] is by that of the design."""
+def gas_turn(contact: Contact, guide: Guide, given: HingeLosses) -> GasTurn | None:
+    """The gas of the spring with a wall that takes heat; None for a coil."""
     spring = guide.spring
     if not isinstance(spring, AirAbsolute | AirGauge):
         return None
     of = AirThermal(
-        A=spring.A, H=spring.H, p0=fill * spring.p0, tau=_time(guide, given), gamma=given.gamma,
+        A=spring.A, H=spring.H, p0=spring.p0, tau=_time(guide, given), gamma=given.gamma,
         wall_temperature=given.wall_temperature, pa=spring.pa if isinstance(spring, AirAbsolute) else 0.0,
     )  # fmt: skip
     return turn(of, contact.z, np.full(_POINTS, 2 * np.pi / _POINTS), guide.omega * guide.parameters.shaft_ratio)
@@ -173,20 +173,24 @@ def _best_fill(
     lost: float, omega: float,
 ) -> tuple[float, float | None]:  # fmt: skip
     """Fill of the spring with the least steady ripple, and that ripple [-]; 1 for a coil."""
-    taken, ratio = sum(friction.values()), guide.parameters.shaft_ratio
-    area = getattr(guide.spring, "A", 0.0)
+    taken, ratio, panels = np.sum(list(friction.values()), axis=0), guide.parameters.shaft_ratio, tabulate(ideal)
+    gas = gas_turn(contact, guide, given)
 
     def motion(fill: float) -> Steady:
-        gas = gas_turn(contact, guide, given, fill)
-        change = 0.0 if gas is None or contact.pressure is None else area * (gas.pressure - contact.pressure)
-        extra = ratio * guide.rollers * change * contact.drho - taken
-        real = dataclasses.replace(
-            ideal, load=_lowered(ideal.load, lost),
-            torque=lambda phi: ideal.torque(phi) + _over(contact.theta, extra, ratio * np.asarray(phi)),
-        )  # fmt: skip
-        return steady_state(_panels(real), omega)
+        extra = -taken
+        if gas is not None and contact.pressure is not None:
+            pa = getattr(guide.spring, "pa", 0.0)
+            # the temperature does not know the fill, the pressure is in proportion to it
+            filled = (fill * guide.spring.p0 + pa) / (guide.spring.p0 + pa)  # type: ignore[union-attr]
+            change = (gas.pressure + pa) * filled - pa - contact.pressure
+            extra = extra + ratio * guide.rollers * guide.spring.A * change * contact.drho  # type: ignore[union-attr]
+        torque = panels.torque + _over(contact.theta, extra, ratio * panels.phi)
+        real = dataclasses.replace(panels, torque=torque, load=_lowered(ideal.load, lost))
+        if isinstance(real.load, ConstantLoad):
+            real = dataclasses.replace(real, load=ConstantLoad(torque=mean_torque(real)))
+        return steady_state(real, omega)
 
-    if contact.pressure is None:
+    if gas is None:
         return 1.0, motion(1.0).speed_ripple
     best = minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
                            options={"xatol": 1e-4})  # fmt: skip

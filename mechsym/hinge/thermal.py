@@ -83,21 +83,21 @@ def gas_temperature(volume: Any, step: Any, x: Any, gamma: float, wall: float) -
     >>> np.round(still, 6).tolist()
     [320.0, 320.0, 320.0, 320.0]
     """
-    forcing = wall * volume ** (gamma - 1)
-    count = forcing.shape[0]
-    decay, gains = [], []
-    for i in range(count):
-        keep, first, second = _relaxation(step[i] / x)
-        decay.append(keep)
-        gains.append(first * forcing[i] + second * forcing[(i + 1) % count])
-    end, kept = 0.0, 1.0
+    forcing, count = wall * volume ** (gamma - 1), volume.shape[0]
+    symbols = isinstance(volume, ca.SX | ca.MX)
+    rates = [step[i] / x for i in range(count)] if symbols else list(np.asarray(step) / x)
+    known: dict[Any, Any] = {}
+    for r in rates:  # even angles have one relaxation
+        if symbols or r not in known:
+            known[r] = _relaxation(r)
+    decay = [known[r][0] for r in rates]
+    gains = [known[r][1] * forcing[i] + known[r][2] * forcing[(i + 1) % count] for i, r in enumerate(rates)]
+    end = 0.0
     for keep, gain in zip(decay, gains, strict=True):
-        end, kept = keep * end + gain, kept * keep
-    whole = sum(step[i] for i in range(count)) / x
-    values = [end / _lost(whole)]
+        end = keep * end + gain
+    values = [end / _lost(sum(rates))]
     for keep, gain in zip(decay[:-1], gains[:-1], strict=True):
         values.append(keep * values[-1] + gain)
-    symbols = isinstance(volume, ca.SX | ca.MX)
     return (ca.vertcat(*values) if symbols else np.array(values)) * volume ** (1 - gamma)
 
 
