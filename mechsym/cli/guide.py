@@ -1,6 +1,5 @@
 """`mechsym guide`: the guide of a case as DXF and as a dimensioned sheet."""
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ import click
 from mechsym import cases
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
-from mechsym.quantities import parse
+from mechsym.quantities import RPM, parse
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 
@@ -73,7 +72,7 @@ def _dxf(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
     from mechsym.out.cad.sheet import spring_text
 
     lines = [
-        f"guide of {shop.name}, {shop.guide.omega * 30 / math.pi:.5g} rpm, mm",
+        f"guide of {shop.name}, {shop.guide.omega / RPM:.5g} rpm, mm",
         f"spring {spring_text(shop.guide.spring)}",
         f"within {1e6 * curves.tolerance:.3g} um of the exact curves; roller {2e3 * curves.roller_radius:.6g} mm",
     ]

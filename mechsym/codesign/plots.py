@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 from mechsym.codesign.cylinders import Count
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.verify import fine_path
+from mechsym.quantities import RPM
 from mechsym.style import BLUE, GREEN, GREY, ORANGE, RED
 
-_RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 _COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
 
@@ -18,7 +18,7 @@ def works(result: CoDesignResult) -> Figure:
     figure, (left, right) = _panels(2)
     bound, best = result.bound, result.bound.best[0]
     for k, point in enumerate(result.design.task.points):
-        color, name = _COLORS[k % len(_COLORS)], f"{point.omega * _RPM:.0f} rpm"
+        color, name = _COLORS[k % len(_COLORS)], f"{point.omega / RPM:.0f} rpm"
         left.plot(np.degrees(bound.phi), bound.wanted[k], color=color, linewidth=1, label=name)
         right.plot(np.degrees(bound.phi), bound.wanted[k] - best.shares[k] @ best.shapes, color=color, linewidth=1)
     left.set(xlabel="crank angle [deg]", ylabel="W / omega² [kg m²]")
@@ -72,7 +72,7 @@ def points(result: CoDesignResult) -> Figure:
     """Ripple by three ways, and the schedule of pressures, over the speed."""
     figure, (left, right) = _panels(2)
     design, found = result.design, result.verified
-    speeds = np.array([p.omega * _RPM for p in design.task.points])
+    speeds = np.array([p.omega / RPM for p in design.task.points])
     left.plot(speeds, 100 * found.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none")
     left.plot(speeds, 100 * found.steady_ripple, "x", color=RED, label="over the angle")
     left.plot(speeds, 100 * found.time_ripple, "+", color="#1b2a41", label="run in time")
@@ -92,7 +92,7 @@ def losses(result: CoDesignResult) -> Figure:
     """What friction and heat take at each point, as shares of the load's torque."""
     figure, (axis,) = _panels(1)
     task = result.design.task
-    names, below = [f"{p.omega * _RPM:.0f}" for p in task.points], np.zeros(len(task.points))
+    names, below = [f"{p.omega / RPM:.0f}" for p in task.points], np.zeros(len(task.points))
     for kind, color in zip(_KINDS, _COLORS, strict=False):
         values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
                            for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
@@ -113,7 +113,7 @@ def misfires(result: CoDesignResult) -> Figure | None:
     for s, color in zip(rows, _COLORS, strict=False):
         point = result.design.task.points[s.point]
         assert s.run is not None
-        axis.plot(np.degrees(s.run.phi), s.run.omega / point.omega, color=color, label=f"{point.omega * _RPM:.0f} rpm")
+        axis.plot(np.degrees(s.run.phi), s.run.omega / point.omega, color=color, label=f"{point.omega / RPM:.0f} rpm")
     axis.axhline(1.0, color=GREY, linewidth=0.8)
     axis.set(xlabel="crank angle [deg]", ylabel="speed by the mean before")
     axis.set_ylim(bottom=0)
@@ -126,7 +126,7 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     if result.map is None:
         return None
     figure, (left, right) = _panels(2)
-    speeds, loads = result.map.omega * _RPM, result.map.load / 1e5
+    speeds, loads = result.map.omega / RPM, result.map.load / 1e5
     shown = np.minimum(100 * result.map.ripple, 30.0)
     drawn = left.contourf(speeds, loads, shown.T, levels=[0, 1, 2, 3, 5, 8, 12, 20, 30], cmap="viridis_r")
     figure.colorbar(drawn, ax=left, label="speed ripple [%]")
@@ -134,7 +134,7 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     figure.colorbar(drawn, ax=right, label="p0 [MPa]")
     for axis in (left, right):
         axis.plot(
-            [p.omega * _RPM for p in result.design.task.points],
+            [p.omega / RPM for p in result.design.task.points],
             [p.load / 1e5 for p in result.design.task.points],
             "o-",
             color="white",

@@ -11,8 +11,8 @@ from mechsym.codesign.rank import Bound, flywheel_bound
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import GuideLoads, Verified
+from mechsym.quantities import RPM
 
-_RPM = 30 / np.pi
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
 
@@ -36,7 +36,7 @@ def found(design: CoDesign, verified: Verified) -> dict[str, Any]:
         "reason": design.reason,
         "feasible": design.status == "optimal" and not verified.broken,
         "flywheel_inertia": design.flywheel,
-        "speed_rpm": [p.omega * _RPM for p in task.points],
+        "speed_rpm": [p.omega / RPM for p in task.points],
         "load": [p.load for p in task.points],
         "load_torque": [p.load_torque for p in task.points],
         "speed_ripple": design.ripple.tolist(),

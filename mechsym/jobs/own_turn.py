@@ -16,7 +16,7 @@ from mechsym.files import write_csv, write_text
 from mechsym.jobs import own
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import Mechanism, listing
-from mechsym.quantities import record
+from mechsym.quantities import RPM, record
 
 _STEPS_PER_TURN = 720
 
@@ -106,7 +106,7 @@ def summary(found: OwnTurn, case: Case) -> dict[str, Any]:
     return {
         "case": case.name,
         "mechanism": told["name"],
-        "speed_rpm": found.omega * 30 / np.pi,
+        "speed_rpm": found.omega / RPM,
         "max": {n: float(v.max()) for n, v in found.columns.items()},
         "min": {n: float(v.min()) for n, v in found.columns.items()},
         "driving_torque_mean": float(found.columns["driving_torque"].mean()),

@@ -11,6 +11,7 @@ from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.measured.measure import MeasuredCycles
 from mechsym.cycle.measured.smoothing import noise
+from mechsym.quantities import RPM
 
 _WEAK = 0.7
 _Z = 1.96
@@ -89,7 +90,7 @@ def read_and_used(diagram: Diagram, measured: MeasuredCycles) -> str:
     by = "as read" if measured.scale == 1.0 else f"scaled {measured.scale:.3g} by scale = {diagram.scale}"
     low, high = measured.offsets.min() / 1e5, measured.offsets.max() / 1e5
     shifted = f"{-low:+.2f} bar" if high - low < 0.005 else f"{-high:+.2f} to {-low:+.2f} bar"
-    speeds = "" if measured.speeds is None else f", {_range(measured.speeds * 30 / math.pi, '.0f')} rpm by time_s"
+    speeds = "" if measured.speeds is None else f", {_range(measured.speeds / RPM, '.0f')} rpm by time_s"
     read, used = measured.raw_mean.max() / 1e5, measured.cycles.mean(axis=0).max() / 1e5
     return (
         f"peak {read:.4g} bar read, {used:.3g} bar absolute used: shifted {shifted} by pegging = {diagram.pegging}, "

@@ -14,6 +14,7 @@ from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
 from mechsym.jobs.guide import Workshop
 from mechsym.out.cad.curve import Groove, hermite
+from mechsym.quantities import RPM
 from mechsym.sizing.rules.bearings import equivalent_load, required_rating
 
 _MM = 1e3
@@ -113,7 +114,7 @@ def _notes(shop: Workshop) -> list[str]:
         f"material: E = {rollers.E / 1e9:.4g} GPa, nu = {rollers.nu:g}; contact stress up to "
         f"{np.max(c.hertz_stress) / 1e6:.4g} MPa",
         f"roller force {np.min(c.reaction_1) / 1e3:.4g} to {np.max(c.reaction_1) / 1e3:.4g} kN at "
-        f"{speed * 30 / math.pi:.4g} rpm; equivalent over a turn {load / 1e3:.4g} kN (ISO 281)",
+        f"{speed / RPM:.4g} rpm; equivalent over a turn {load / 1e3:.4g} kN (ISO 281)",
         f"rating C of the roller's bearing for {_LIFE:,.0f} h: at least {rating / 1e3:.4g} kN".replace(",", " "),
         f"limits: {shop.verdict.reason}",
     ]
@@ -137,7 +138,7 @@ def _title(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     tracks = f"{len(track.turned)} tracks, the second turned by 180°" if len(track.turned) > 1 else "one track"
     lines = [
         f"Guide of {shop.name}: {shop.about}",
-        f"{shop.guide.omega * 30 / math.pi:.5g} rpm of the crank, shaft ratio {g.shaft_ratio:g}, "
+        f"{shop.guide.omega / RPM:.5g} rpm of the crank, shaft ratio {g.shaft_ratio:g}, "
         f"rho0 {_MM * g.rho0:.6g} mm, {tracks}, bore {_MM * bore:.6g} mm",
         f"spring: {spring_text(shop.guide.spring)}",
         f"dimensions in mm; curves of the DXF within {1e6 * track.tolerance:.3g} µm; rigid, no clearance, no friction "
