@@ -14,8 +14,8 @@ from typing import Any
 __all__ = [
     # ground: errors with the way out, units, files, periodic curves, what pictures share
     "errors", "quantities", "files", "periodic", "style",
-    # mechanisms: declared and derived, as functions of numbers, as compiled C
-    "derive", "mechanisms", "native",
+    # mechanisms: declared and derived, expressions to other systems, as functions of numbers, as compiled C
+    "derive", "convert", "mechanisms", "native",
     # physics, each room from records and numbers
     "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise", "codesign",
     # data files, and one page a command
