@@ -16,13 +16,14 @@ from mechsym.cycle.closed.model import ClosedEngine, at_design, closed_period
 from mechsym.cycle.closed.performance import force_function
 from mechsym.cycle.closed.phases import closed_function
 from mechsym.cycle.friction import friction_pressure
+from mechsym.cycle.knock import knock_integral
 
 STEPS = 120
 # scalar outputs of `design_function` and their units
 SCALAR_UNITS = {
     "efficiency": "-", "brake_efficiency": "-", "torque_avg": "N*m", "brake_torque": "N*m", "power": "W",
     "brake_power": "W", "mep": "Pa", "brake_mep": "Pa", "sfc": "kg/J", "brake_sfc": "kg/J", "displacement": "m^3",
-    "piston_speed": "m/s", "stroke": "m",
+    "piston_speed": "m/s", "stroke": "m", "knock": "-",
 }  # fmt: skip
 # outputs along the cycle, bounded or minimised as peaks; loads of the mechanism come on top and are in N
 PEAK_UNITS = {"p_max": "Pa", "force_max": "N", "torque_max": "N*m"}
@@ -57,8 +58,9 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
         "torque_max": forces.pop("torque"),
         **forces,
     }
-    friction = at_design(engine, {name: design[k] for k, name in enumerate(names)}).friction_pressure
-    outputs = _scalars(found, friction) | peaks
+    here = at_design(engine, {name: design[k] for k, name in enumerate(names)})
+    knock = knock_integral(found, steps, here.gas, here.cycle.octane)
+    outputs = _scalars(found, here.friction_pressure) | {"knock": knock} | peaks
     return ca.Function("engine", [design], list(outputs.values()), ["design"], list(outputs))
 
 
@@ -77,4 +79,4 @@ def _scalars(found: dict[str, Any], friction: Any) -> dict[str, Any]:
             f"{prefix}mep": energy / displacement,
             f"{prefix}sfc": fuel / energy,
         }
-    return {name: outputs[name] for name in SCALAR_UNITS}
+    return {name: outputs[name] for name in SCALAR_UNITS if name in outputs}

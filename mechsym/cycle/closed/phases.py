@@ -20,7 +20,7 @@ from mechsym.native.fold import folder
 from mechsym.quantities import record
 
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
-_GRADING = {"before": 1, "during": 4, "after": 1}
+GRADING = {"before": 1, "during": 4, "after": 1}
 NODES = ("phi", "t", "p", "dt_dphi", "dp_dphi")
 
 Map = Callable[[np.ndarray, int], Mapping[str, np.ndarray]]
@@ -56,7 +56,7 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
     state: Any = start(design)
     nodes = []
     for phase in PHASES:
-        n = _steps(phase, steps)
+        n = steps_of(phase, steps)
         history = ca.horzcat(state, fold(parts[phase].rate, n)(state, design))
         s = ca.DM(np.arange(n + 1) / n).T
         nodes.append(parts[phase].node(ca.repmat(design, 1, n + 1), s, history))
@@ -80,7 +80,7 @@ def closed_map(build: Callable[[Any], Closed], names: Sequence[str]) -> Map:
     def run(designs: np.ndarray, steps: int) -> dict[str, np.ndarray]:
         state, found = np.array(start(designs)), []
         for phase in PHASES:
-            history = np.concatenate([state[None], folds[phase](state, designs, _steps(phase, steps))])
+            history = np.concatenate([state[None], folds[phase](state, designs, steps_of(phase, steps))])
             found.append(_nodes(nodes[phase].batch, designs, history))
             state = history[-1]
         curves = dict(zip(NODES, np.concatenate(found, axis=1).transpose(0, 2, 1), strict=True))
@@ -98,7 +98,8 @@ def _nodes(batch: Callable[..., np.ndarray], designs: np.ndarray, history: np.nd
     return batch(*np.tile(designs, count), s, *states).reshape(-1, count, n)
 
 
-def _steps(phase: str, steps: int) -> int:
+def steps_of(phase: str, steps: int) -> int:
+    """Steps of a phase out of all."""
     return round(_SHARES[phase] * steps)
 
 
@@ -119,7 +120,7 @@ def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
         "during": (closed.starts, ends),
         "after": (ends, closed.opens),
     }[phase]
-    power = _GRADING[phase]
+    power = GRADING[phase]
     return first + (last - first) * s**power, (last - first) * power * s ** (power - 1)
 
 

@@ -43,6 +43,7 @@ class SparkIgnition:
     #: `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge is
     #: vapour from the start
     vaporisation: str = choice("latent_heat", "liquid_energy", "none", default="liquid_energy")
+    octane: float = quantity("-", default=95.0, low=60, high=130, about="octane number of the fuel, for knock")
     latent_heat: float = quantity("J/kg", default=0.0, low=0, about="latent heat of vaporisation")
 
     def __post_init__(self) -> None:

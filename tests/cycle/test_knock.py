@@ -1,0 +1,99 @@
+"""The knock integral against its closed forms, fine quadrature, and the derivative by differences."""
+
+from functools import partial
+
+import casadi as ca
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from mechsym import cases
+from mechsym.cycle.closed.differentiable import design_function
+from mechsym.cycle.closed.model import closed_period
+from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, share_of_delay
+from mechsym.jobs.cycle import engine
+from mechsym.optimise.problem import Optimise, problem
+from mechsym.optimise.solver import solve
+
+OMEGA = 300.0
+
+
+def pressure(s):
+    return 20e5 * (1 + 1.5 * s**2)
+
+
+def integrand(s, octane=95.0):
+    p = pressure(s)
+    return 1.2 * s**3 / (OMEGA * ignition_delay(p, end_gas_temperature(p, 20e5, 700.0, 0.27), octane))
+
+
+@pytest.mark.parametrize("count", [37, 49, 60])  # even and odd numbers of steps
+def test_against_fine_quadrature(count):
+    s = np.linspace(0, 1, count)
+    p = pressure(s)
+    found = share_of_delay(1.2 * s**3, p, end_gas_temperature(p, 20e5, 700.0, 0.27), OMEGA, 95.0)
+    assert found == pytest.approx(quad(integrand, 0, 1, epsrel=1e-12)[0], rel=2e-5)
+
+
+def test_numbers_and_expressions_agree_and_differentiate():
+    s = np.linspace(0, 1, 41)
+    octane = ca.MX.sym("octane")
+    p = ca.DM(pressure(s)).T
+    k = share_of_delay(ca.DM(1.2 * s**3).T, p, end_gas_temperature(p, 20e5, 700.0, 0.27), OMEGA, octane)
+    f = ca.Function("k", [octane], [k, ca.jacobian(k, octane)])
+    numbers = share_of_delay(1.2 * s**3, pressure(s), end_gas_temperature(pressure(s), 20e5, 700.0, 0.27), OMEGA, 95.0)
+    assert float(f(95.0)[0]) == pytest.approx(numbers, rel=1e-12)
+    assert float(f(95.0)[1]) == pytest.approx(-3.402 / 95.0 * numbers, rel=1e-12)  # closed form of the octane's power
+
+
+def test_constant_state_is_time_by_delay():
+    for p, T, octane in [(20 * ATM, 800.0, 90.0), (60 * ATM, 950.0, 100.0)]:
+        tau = ignition_delay(p, T, octane)
+        n = np.ones(12)
+        assert share_of_delay(OMEGA * tau / 3 * n, p * n, T * n, OMEGA, octane) == pytest.approx(1 / 3, rel=1e-13)
+
+
+def test_delay_at_the_fits_reference():
+    # the printed law at 1 atm and octane 100 is its factor times exp(3800/T)
+    assert ignition_delay(ATM, 3800.0, 100.0) == pytest.approx(17.68e-3 * np.e, rel=1e-14)
+    assert ignition_delay(2 * ATM, 900.0, 95.0) / ignition_delay(ATM, 900.0, 95.0) == pytest.approx(2**-1.7)
+
+
+def test_end_gas_keeps_its_entropy():
+    T = end_gas_temperature(80e5, 20e5, 700.0, 2 / 7)
+    assert T ** (7 / 2) / 80e5 == pytest.approx(700.0 ** (7 / 2) / 20e5, rel=1e-12)
+
+
+def test_integral_of_an_engine_is_that_of_its_curves():
+    case = cases.load("nunes-hypocycloid")
+    machine, omega = engine(case), 2000 * np.pi / 30
+    k = float(design_function(machine, ["omega"]).call({"design": omega})["knock"])
+    result = run(partial(closed_period, machine), {"omega": np.array([omega])})
+    phi, p, t = at_angles(result, np.radians(0.02))
+    starts, ends = float(result.scalars["starts"][0]), float(result.scalars["ends"][0])
+    first = np.searchsorted(phi, starts)
+    T = np.where(phi < starts, t, end_gas_temperature(p, p[first], t[first], 2 / 7))
+    till = phi <= ends
+    rate = 1 / ignition_delay(p, T, machine.cycle.octane) / omega
+    assert k == pytest.approx(np.trapezoid(rate[till], phi[till]), rel=3e-3)
+
+
+def test_optimum_with_a_limit_on_knock_leaves_its_bound():
+    """Without it the compression ratio of such a task ends at its bound of 14."""
+    machine = engine(cases.load("nunes-hypocycloid"))
+    variables = {
+        "cycle.ignition": {"low": "-40 deg", "high": "0 deg"},
+        "chamber.compression_ratio": {"low": 8, "high": 14},
+    }
+
+    def best(constraints):
+        wanted = Optimise(variables=variables, constraints=constraints)
+        return solve(problem(machine, 4000 * np.pi / 30, wanted))
+
+    free, limited = best({}), best({"knock": {"high": 1.0}})
+    assert free.variables["chamber.compression_ratio"] == pytest.approx(14.0, rel=1e-3)
+    assert limited.status == "optimal"
+    assert limited.figures["knock"] == pytest.approx(1.0, rel=1e-6)
+    assert limited.variables["chamber.compression_ratio"] == pytest.approx(11.62, abs=0.02)
+    assert limited.figures["efficiency"] < free.figures["efficiency"] - 0.03
