@@ -1,17 +1,23 @@
 """Writing results so that nothing half-written is ever seen."""
 
+import contextlib
 import csv
 import json
 import math
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
+
+# what another place or name mends; any other failure (disk full, device broken) is the system's
+_MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
+_folders: list[Path] = []  # folders whose files wait for each other
+_waiting: dict[Path, str] = {}  # file: its temporary name, complete and on the disk
 
 
 def make_folder(path: Path) -> Path:
@@ -30,9 +36,53 @@ def make_folder(path: Path) -> Path:
     try:
         path.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=path).close()
-    except OSError as error:
+    except _MENDABLE as error:
         raise _unwritable(path, error) from error
     return path
+
+
+def try_folder(path: Path) -> Path:
+    """Refuse a folder that could not take results, as `make_folder` does, and leave nothing behind."""
+    missing = [p for p in (path, *path.parents) if not p.exists()]
+    try:
+        return make_folder(path)
+    finally:
+        for made in missing:
+            with contextlib.suppress(OSError):
+                made.rmdir()
+
+
+@contextlib.contextmanager
+def together(folder: Path) -> Iterator[None]:
+    """Files written below `folder` in the block appear at its end all at once; a failed write or bad input drops them.
+
+    An interrupt keeps what is complete.
+    """
+    _folders.append(folder.absolute())
+    try:
+        yield
+    except (OSError, MemoryError, BadInput):
+        _drop()
+        raise
+    finally:
+        _folders.pop()
+        appear()
+
+
+def appear() -> None:
+    """Move the files that wait for each other into place."""
+    try:
+        while _waiting:
+            path = next(iter(_waiting))
+            os.replace(_waiting[path], path)
+            del _waiting[path]
+    finally:
+        _drop()
+
+
+def _drop() -> None:
+    while _waiting:
+        Path(_waiting.popitem()[1]).unlink(missing_ok=True)
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -42,21 +92,44 @@ def write_text(path: Path, text: str) -> Path:
 
 def write_bytes(path: Path, data: bytes) -> Path:
     """Write bytes to a temporary name beside `path` and move it into place; its folder is made when it is missing."""
+    return write_with(path, lambda part: part.write_bytes(data))
+
+
+def write_with(path: Path, write: Callable[[Path], Any]) -> Path:
+    """Let `write` fill a temporary name beside `path`, and move it into place when it is on the disk.
+
+    Parameters
+    ----------
+    write : callable
+        Writes the file whose path it is given
+    """
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
+    except _MENDABLE as error:
         raise _unwritable(path, error) from error
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
+        write(Path(name))
+        os.fsync(handle)
         os.chmod(name, 0o644)
-        os.replace(name, path)
+        _place(name, path)
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
+    finally:
+        os.close(handle)
     return path
+
+
+def _place(name: str, path: Path) -> None:
+    target = path.absolute()
+    if not any(target.is_relative_to(folder) for folder in _folders):
+        os.replace(name, path)
+        return
+    if target in _waiting:
+        Path(_waiting[target]).unlink(missing_ok=True)
+    _waiting[target] = name
 
 
 def _unwritable(path: Path, error: OSError) -> BadInput:

@@ -1,6 +1,10 @@
 """The command line: argument parsing and one call per command. Each command's module is imported only when it runs."""
 
+import contextlib
+import os
 import sys
+from collections.abc import Iterator
+from typing import Any, NoReturn
 
 import click
 
@@ -33,6 +37,18 @@ COMMANDS = {
 }
 
 
+class _BrokenPipe(Exception):
+    """A broken pipe under a name that click does not know: it would end with 1."""
+
+
+@contextlib.contextmanager
+def _pipe() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError as error:
+        raise _BrokenPipe(str(error)) from error
+
+
 class LazyGroup(click.Group):
     """A group that knows its commands by name and imports a command's module on first use."""
 
@@ -50,6 +66,16 @@ class LazyGroup(click.Group):
         """
         return load(COMMANDS[cmd_name]) if cmd_name in COMMANDS else None
 
+    def make_context(self, *args: Any, **options: Any) -> click.Context:
+        """Parse; help may be printed here."""
+        with _pipe():
+            return super().make_context(*args, **options)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command."""
+        with _pipe():
+            return super().invoke(ctx)
+
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="mechsym", prog_name="mechsym")
@@ -62,7 +88,7 @@ def mechsym() -> None:
 
 
 def main() -> None:
-    """Run the command line; bad input ends with one line on standard error and exit status 2."""
+    """Run the command line; bad input ends with one line and exit status 2, a failure of the system with 74."""
     try:
         sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
     except BadInput as error:
@@ -75,4 +101,20 @@ def main() -> None:
     except (click.Abort, KeyboardInterrupt):
         print("mechsym: interrupted; files already named above are complete", file=sys.stderr)
         sys.exit(130)
+    except (OSError, MemoryError, _BrokenPipe) as error:
+        _failed(error)
     sys.exit(2)
+
+
+def _failed(error: Exception) -> NoReturn:
+    """End with one line and exit status 74: disk full, pipe or device broken, memory used up."""
+    why = " ".join(str(error).split()) or "memory is used up"
+    with contextlib.suppress(OSError):
+        print(f"mechsym: the system failed: {why}", file=sys.stderr)
+    for stream in filter(None, (sys.__stdout__, sys.__stderr__)):
+        try:
+            stream.flush()
+        except OSError:
+            # what is left in its buffer cannot be written at the end either
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    sys.exit(74)

@@ -8,15 +8,35 @@ from typing import Any
 import click
 
 from mechsym.errors import BadInput
-from mechsym.files import to_json
+from mechsym.files import appear, to_json, together, try_folder
+
+
+def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
+    """Refuse an --out that cannot be written before the work begins; what is written into a folder appears together."""
+    if path is not None and not ctx.resilient_parsing:
+        file = isinstance(param.type, click.Path) and not param.type.dir_okay
+        try_folder(path.parent if file else path)
+        if not file:
+            ctx.with_resource(together(path))
+    return path
+
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value to standard output.")
 out_option = click.option(
-    "--out", type=click.Path(path_type=Path, file_okay=False), help="Folder for files; made when missing."
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    callback=tried,
+    help="Folder for files; made when missing.",
 )
 set_option = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help='Override a value, e.g. --set spring.p0="9.5 MPa".'
 )
+
+
+def file_option(usual: str) -> Callable[..., Any]:
+    """The option --out of a command that writes one file; `usual` says which where it is left away."""
+    kind = click.Path(path_type=Path, dir_okay=False)
+    return click.option("--out", type=kind, callback=tried, help=f"File to write; {usual}")
 
 
 def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
@@ -51,6 +71,7 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
     text : callable
         Makes the text for people; called only when needed
     """
+    appear()  # files that the text names are in place before it is printed
     click.echo(to_json(value) if as_json else text())
 
 

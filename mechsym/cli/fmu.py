@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym import cases
-from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.cli.common import emit, file_option, json_option, pairs, set_option
 
 
 @click.command(short_help="Write a functional mock-up unit (FMI 2.0 or 3.0).")
@@ -15,7 +15,7 @@ from mechsym.cli.common import emit, json_option, pairs, set_option
 @click.option("--platforms", default="linux64", metavar="NAMES", help="Binaries for linux64, win64; or none.")
 @click.option("--diagram", type=click.Path(), help="CSV file of a measured diagram in place of the cycle.")
 @click.option("--compare", "compared", is_flag=True, help="Run it and compare with the simulation (extra fmu).")
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="File to write; CASE.fmu by default.")
+@file_option("CASE.fmu by default.")
 @set_option
 @json_option
 @click.pass_context

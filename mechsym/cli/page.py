@@ -5,13 +5,13 @@ from pathlib import Path
 import click
 
 from mechsym import cases
-from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.cli.common import emit, file_option, json_option, pairs, set_option
 from mechsym.files import write_text
 
 
 @click.command(short_help="Write a page that simulates, without a server.")
 @click.argument("case")
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="File to write; CASE.html by default.")
+@file_option("CASE.html by default.")
 @click.option("--diagram", type=click.Path(), help="CSV file of a measured diagram in place of the cycle.")
 @set_option
 @json_option

@@ -19,6 +19,7 @@ from mechsym.jobs.own import is_own, simulation_of
 from mechsym.jobs.own import problem as own_problem
 from mechsym.machine.record import Machine
 from mechsym.mechanisms import crank_train
+from mechsym.quantities.ranges import MOST
 from mechsym.simulate import engine as engines
 from mechsym.simulate.problem import Part, Problem, Steps, Stop
 from mechsym.simulate.settings import Settings, Simulation, StepTorque
@@ -65,6 +66,7 @@ def problem_of(case: Case) -> Problem:
     speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
     if wanted.turns is None or speed <= 0:
         raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
+    _count(case, "turns", wanted.turns * _TURN_POINTS, f"give at most {MOST // _TURN_POINTS} turns")
     problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
     if wanted.t_end is None:
         return problem
@@ -145,7 +147,7 @@ def _driven(case: Case, wanted: Simulation) -> Problem:
         u0=(wanted.speed_start or 0.0,) * n,
         t_end=wanted.t_end,
         turns=wanted.turns,
-        output=_times(wanted.t_end, wanted.output_step, wanted.window),
+        output=_wanted_times(case, wanted.t_end, wanted),
     )
 
 
@@ -172,15 +174,31 @@ def _train(case: Case, wanted: Simulation) -> Problem:
     )
 
 
+def _count(case: Case, key: str, points: float, way_out: str) -> None:
+    """Refuse a run whose results would not fit, before any is computed."""
+    if points > MOST:
+        asked = f"{getattr(case.need('simulation'), key):g}{' s' if key == 'output_step' else ''}"
+        raise BadInput(
+            f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
+        )
+
+
+def _wanted_times(case: Case, t_end: float, wanted: Simulation) -> tuple[float, ...]:
+    least = t_end / MOST
+    _count(case, "output_step", t_end / wanted.output_step, f"give at least {least:.3g} s, or a shorter t_end")
+    return _times(t_end, wanted.output_step, wanted.window)
+
+
 def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:
     """Last time and wanted times: of a run to t_end, or of turns from a speed."""
     if wanted.t_end is not None:
-        return wanted.t_end, _times(wanted.t_end, wanted.output_step, wanted.window)
+        return wanted.t_end, _wanted_times(case, wanted.t_end, wanted)
     if speed <= 0:
         raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
     turn_time = 2 * math.pi / speed
     # a shaft that takes ten times as long has stopped for every purpose
     assert wanted.turns is not None  # the section has one of the two
+    _count(case, "turns", wanted.turns * _TURN_POINTS, f"give at most {MOST // _TURN_POINTS} turns")
     return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
 
 

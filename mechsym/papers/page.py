@@ -7,7 +7,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mechsym.files import write_csv, write_text
+from mechsym.files import write_bytes, write_csv, write_text
 from mechsym.papers.rows import KEYS, VERDICTS
 from mechsym.papers.sources import Source
 from mechsym.style import svg
@@ -89,8 +89,4 @@ def _write_png(path: Path, figure: Any) -> Path:
     buffer = io.BytesIO()
     # no software version in the file, so that equal data give equal bytes
     figure.savefig(buffer, format="png", dpi=_DPI, metadata={"Software": None})
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
-    part.write_bytes(buffer.getvalue())
-    part.replace(path)
-    return path
+    return write_bytes(path, buffer.getvalue())

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.errors import MissingExtra
-from mechsym.files import write_csv
+from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import write_csv, write_with
 from mechsym.quantities import record
 
 
@@ -71,14 +71,12 @@ def write_netcdf(result: Result, path: Path) -> Path:
         xarray or h5netcdf is not installed
     """
     data = dataset(result)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
     try:
-        data.to_netcdf(part, engine="h5netcdf")
+        return write_with(path, lambda part: data.to_netcdf(part, engine="h5netcdf"))
+    except BadInput:
+        raise
     except (ImportError, ValueError) as error:
         raise _missing(error) from None
-    part.replace(path)
-    return path
 
 
 def dataset(result: Result) -> Any:

@@ -1,15 +1,13 @@
 """A sweep as one labelled data set: numbers by name over the axes, gaps with their reasons, CSV and netCDF."""
 
 import math
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_csv
+from mechsym.files import write_csv, write_with
 from mechsym.sweep.outcomes import WORDS, Gap, flat
 from mechsym.sweep.run import Sweep
 from mechsym.sweep.units import unit_of
@@ -129,20 +127,13 @@ def write_netcdf(result: Sweep, folder: Path) -> Path:
     MissingExtra
         xarray or h5netcdf is not installed
     """
-    data, target = dataset(result), folder / "sweep.nc"
-    handle, name = tempfile.mkstemp(dir=folder, prefix=".sweep.nc.")
-    os.close(handle)
+    data = dataset(result)
     try:
-        data.to_netcdf(name, engine="h5netcdf")
-        os.chmod(name, 0o644)
-        os.replace(name, target)
+        return write_with(folder / "sweep.nc", lambda part: data.to_netcdf(part, engine="h5netcdf"))
+    except BadInput:
+        raise
     except (ImportError, ValueError) as error:
         raise _missing(error) from None
-    except OSError as error:
-        raise BadInput(f"{target}: cannot be written ({error}); choose another folder with --out") from None
-    finally:
-        Path(name).unlink(missing_ok=True)
-    return target
 
 
 def _missing(error: Exception) -> MissingExtra:
