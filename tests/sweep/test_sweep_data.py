@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
-from mechsym.errors import BadInput, MissingExtra
+from mechsym.errors import MissingExtra
 from mechsym.style import svg
 from mechsym.sweep import Plan, columns, dataset, failures, main_results, sweep, write_netcdf, write_table
 from mechsym.sweep import plots as plots_sweep
@@ -127,7 +127,7 @@ def test_netcdf_is_whole_or_not_there(found, tmp_path, monkeypatch):
         raise OSError("disk full")
 
     monkeypatch.setattr(xr.Dataset, "to_netcdf", breaks)
-    with pytest.raises(BadInput, match="disk full"):
+    with pytest.raises(OSError, match="disk full"):
         write_netcdf(found, tmp_path)
     assert file.read_bytes() == before
     assert [f.name for f in tmp_path.iterdir()] == ["sweep.nc"]
