@@ -90,11 +90,19 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
-        records = {key: _section(head["mechanism"], key, table) for key, table in sections.items()}
+        records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     short = Path(name).stem if name not in names() else name
     return Case(name=short, file=file, sections=records, path=name, overrides=overrides or {}, **head)
+
+
+def _beside(found: Any, name: str) -> Any:
+    """The record with its paths of files that lie beside the case file and not in the working folder."""
+    folder = Path(str(_folder())) if name in names() else Path(name).parent
+    written = {f.name: getattr(found, f.name) for f in dataclasses.fields(found) if f.metadata.get("path")}
+    moved = {k: str(folder / v) for k, v in written.items() if v and not Path(v).exists() and (folder / v).exists()}
+    return dataclasses.replace(found, **moved) if moved else found
 
 
 def underlaid(case: Case, settings: Mapping[str, Any]) -> Case:

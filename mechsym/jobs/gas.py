@@ -9,7 +9,9 @@ from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
 from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
 from mechsym.cycle.kinds import kind_of, with_diagram
-from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.measured.diagram import Diagram, period_of
+from mechsym.cycle.measured.file import read_diagram
+from mechsym.cycle.measured.timing import recorded_speed
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.cycle.motion import one_cylinder as seen_by_one
 from mechsym.cycle.motion import piston_motion, piston_travel
@@ -89,6 +91,24 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
     )
 
 
+def at_recorded_speed(case: Case) -> Case:
+    """The case at the speed that the times of its measured diagram tell, unless the user has set another.
+
+    Parameters
+    ----------
+    case : Case
+        With a cycle of any kind; one without times, or without a file, stays as it is
+    """
+    cycle = case.sections.get("cycle")
+    overridden = any(key.rpartition(".")[2].startswith("speed") for key in case.overrides)
+    if not isinstance(cycle, Diagram) or not cycle.file or overridden or "operation" not in case.sections:
+        return case
+    omega = recorded_speed(read_diagram(cycle.file, period_of(cycle), cycle.angle_column, cycle.pressure_column))
+    if omega is None:
+        return case
+    return replace(case, sections={**case.sections, "operation": replace(case.need("operation"), speed=omega)})
+
+
 def measured(case: Case, file: str) -> Case:
     """The case with a measured diagram in place of its cycle.
 
@@ -107,4 +127,4 @@ def measured(case: Case, file: str) -> Case:
             inlet_pressure=cycle.intake_pressure,
             p_back=room.back_pressure,
         )
-    return replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)})
+    return at_recorded_speed(replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)}))

@@ -1,6 +1,7 @@
 """Case -> machine: mechanism with the flywheel that is kept, gas of the cycle, load, speed of operation."""
 
 import functools
+from dataclasses import replace
 from typing import Any
 
 from mechsym import mechanisms
@@ -9,6 +10,7 @@ from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.jobs import own_machine
+from mechsym.jobs.gas import at_recorded_speed
 from mechsym.jobs.own import is_own
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
@@ -38,6 +40,7 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
     cycle = case.need("cycle")
     if diagram is not None:
         cycle = with_diagram(cycle, diagram)
+    case = at_recorded_speed(replace(case, sections={**case.sections, "cycle": cycle}))
     parameters = with_flywheel(case.need("parameters"), kept_flywheel(case))
     # a diagram is read from a file, which may have changed since
     make = _parts.__wrapped__ if kind_of(cycle).measured else _parts

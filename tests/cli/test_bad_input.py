@@ -206,8 +206,10 @@ def test_diagram_of_bytes(refused, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["hinge", "forces"])
-def test_measured_cycle_without_its_diagram(refused, command):
-    expect(refused([command, "generator"]), ["no file", "--diagram FILE"])
+def test_measured_cycle_without_its_diagram(refused, command, tmp_path):
+    kept = [line for line in cases.text("generator").splitlines() if not line.startswith("file =")]
+    (tmp_path / "engine.toml").write_text("\n".join(kept))
+    expect(refused([command, str(tmp_path / "engine.toml")]), ["no file", "--diagram FILE"])
 
 
 @pytest.mark.parametrize("command", ["hinge", "simulate", "cycle"])

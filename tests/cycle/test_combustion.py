@@ -7,9 +7,10 @@ from functools import partial
 
 import numpy as np
 import pytest
+import shipped_record
 from click.testing import CliRunner
 
-from mechsym.cases import load
+from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
@@ -24,9 +25,10 @@ from mechsym.cycle.measured.heat_release import (
     heat_release,
 )
 from mechsym.cycle.measured.identify import identify
-from mechsym.cycle.wiebe import double_wiebe, wiebe
+from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
+from mechsym.jobs.machine import machine
 from mechsym.quantities import RPM
 
 DEG = math.pi / 180
@@ -184,7 +186,27 @@ def test_measured_diagram_cycle_by_cycle(measured_data, tmp_path):
     assert (tmp_path / "combustion.csv").read_text().count("\n") == 13
 
 
-def test_a_case_of_a_diagram_without_file_is_refused():
-    with pytest.raises(BadInput, match="has no file"):
-        CliRunner().invoke(cycle_command, ["generator"], catch_exceptions=False)
-    assert wiebe(0.0, 5.0, 2.0) == 0.0
+def test_a_diagram_beside_its_case_is_found_from_anywhere(tmp_path, monkeypatch):
+    record = "\n".join(shipped_record.text().splitlines())
+    (tmp_path / "engine.toml").write_text(text("generator").replace("generator-synthetic.csv", "mine.csv"))
+    (tmp_path / "mine.csv").write_text(record)
+    monkeypatch.chdir(tmp_path.parent)
+    assert load(str(tmp_path / "engine.toml")).need("cycle").file == str(tmp_path / "mine.csv")
+
+
+def test_the_shipped_record_is_what_its_simulation_gives():
+    assert shipped_record.PATH.read_text(encoding="utf-8") == shipped_record.text()
+
+
+def test_generator_runs_from_the_package_alone():
+    arguments = ["generator", "--json"]
+    found = json.loads(CliRunner().invoke(cycle_command, arguments, catch_exceptions=False).stdout)
+    low, high = found["dead_centre"]["interval_deg"]
+    assert low < shipped_record.TRUE_DEAD_CENTRE - 360 < high and found["doubts"] == []
+    assert found["speed_rpm"] == pytest.approx(3000, abs=1) and 3 < found["mep_bar"] < 5
+    assert found["read_and_used"].startswith("peak ")
+
+
+def test_a_machine_turns_at_the_speed_of_its_record():
+    assert machine(load("generator")).omega == pytest.approx(3000 * RPM, rel=1e-3)
+    assert machine(load("generator", {"speed_rpm": "2500"})).omega == pytest.approx(2500 * RPM)

@@ -242,7 +242,6 @@ def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="hinge"), r"section \[spring\] is missing"),
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="cycle"), r"section \[cycle\] is missing"),
         (Plan(case=ENGINE, over=("bore=0.08,0.09",), analysis="simulate"), r"section \[simulation\] is missing"),
-        (Plan(case="generator", over=("speed_rpm=80,90",)), "--diagram FILE"),
         (
             Plan(case="alpha-stirling", over=("speed_rpm=500,600",), analysis="cycle"),
             "of no kind with figures over the speed",

@@ -41,6 +41,19 @@ def cycle_speeds(recording: Recording, start: float, period: float, count: int) 
     return (recording.angle[last] - recording.angle[first]) / (recording.time[last] - recording.time[first])
 
 
+def recorded_speed(recording: Recording) -> float | None:
+    """Mean speed of a whole record.
+
+    Returns
+    -------
+    omega : float
+        None without times [rad/s]
+    """
+    if recording.time is None:
+        return None
+    return float((recording.angle[-1] - recording.angle[0]) / (recording.time[-1] - recording.time[0]))
+
+
 def turn_speeds(recording: Recording) -> np.ndarray | None:
     """Mean speed of every whole turn between two zeros of the encoder, where the angles are spread evenly over them.
 
