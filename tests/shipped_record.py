@@ -32,7 +32,7 @@ def text() -> str:
     bar = np.array([np.interp(a * DEG, phi, p[0, k]) for a, k in zip(at, number, strict=True)]) / 1e5
     bar += 2.0 + rng.normal(0, 0.01, bar.size)
     head = [
-        "# SYNTHETIC: simulated, not measured (first law with heat loss and blow-by); stands in for a record of the engine",
+        "# SYNTHETIC: simulated, not measured (first law, heat loss, blow-by); stands in for a record of the engine",
         "# one cylinder, four-stroke petrol, bore 67.7 mm, stroke 55 mm, rod 84.2 mm, compression ratio 8.5, 3000 rpm",
         f"# true dead centre {TRUE_DEAD_CENTRE - 360:.1f} deg (mod 360); the sensor adds 2 bar",
         "crank_angle_deg,time_s,pressure_bar",
