@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.errors import BadInput
 from mechsym.files import write_csv, write_text
 from mechsym.jobs import own
 from mechsym.mechanisms import own_drawing
@@ -54,9 +55,17 @@ def turn(case: Case) -> OwnTurn:
     if "reactions" in mechanism.functions:
         columns |= _named(mechanism, "reactions", letters)
     columns.pop(f"driving_{q}", None)  # the same torque
+    _require_closed(case, q, phi, columns)
     return OwnTurn(
         mechanism=mechanism, omega=omega, phi=phi, columns=columns, power_residual=_residual(mechanism, letters, torque)
     )
+
+
+def _require_closed(case: Case, q: str, phi: np.ndarray, columns: Mapping[str, np.ndarray]) -> None:
+    opened = ~np.all([np.isfinite(v) for v in columns.values()], axis=0)
+    if opened.any():
+        at = f"{q} = {np.degrees(phi[np.argmax(opened)]):.3f} deg"
+        raise BadInput(f"{case.file}: the loop opens at {at}: links too short, or a wrong branch; it cannot turn round")
 
 
 def _turns(case: Case) -> int:

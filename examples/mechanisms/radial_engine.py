@@ -1,0 +1,32 @@
+from mechsym.derive import Mechanism, cos, pi, sin
+
+
+def radial_engine():
+    m = Mechanism("radial_engine", about="Three-cylinder radial engine with articulated rods.")
+    phi = m.coordinates("phi")
+    r, l, la, ra = m.parameters("r l la ra", "m", above=0)
+    mp, mr = m.parameters("mp mr", "kg", above=0)
+    I, Ir = m.parameters("I Ir", "kg*m^2", above=0)
+    F1, F2, F3 = m.inputs("F1 F2 F3", "N")
+    M_r = m.inputs("M_r", "N*m")
+    crank = m.link("crank", turns=phi, inertia=I)
+    master = m.link("master", mass=mr, centre=(l / 3, 0), inertia=Ir)
+    m.pin("O", m.frame, crank)
+    m.pin("A", crank.at(r), master)
+    for n, F in ((1, F1), (2, F2), (3, F3)):
+        angle = (n - 1) * 2 * pi / 3
+        piston = m.link(f"piston{n}", mass=mp)
+        m.slider(f"G{n}", m.frame.line(angle=angle), piston)
+        if n == 1:
+            m.pin("B1", master.at(l), piston)
+        else:
+            rod = m.link(f"rod{n}", mass=mr / 2, centre=(la / 2, 0), inertia=Ir / 3)
+            m.pin(f"K{n}", master.at(ra * cos(angle), ra * sin(angle)), rod)
+            m.pin(f"B{n}", rod.at(la), piston)
+        p = piston.at()
+        x = m.let(f"x{n}", r + l - (p.x * cos(angle) + p.y * sin(angle)), "m")
+        m.force(F, along=x)
+        m.piston(f"p{n}", travel=x, force=F)
+    m.torque(-M_r, along=phi)
+    m.rotor("crank", angle=phi, load=M_r)
+    return m

@@ -1,0 +1,56 @@
+"""Bad declarations are refused in one line with file and line."""
+
+import pytest
+
+from mechsym.derive import derive
+from mechsym.derive.files import chosen
+from mechsym.errors import BadInput
+
+HEAD = """from sympy import Symbol
+from mechsym.derive import Mechanism, cos, sin
+
+
+def bad():
+    m = Mechanism("bad")
+    phi = m.coordinates("phi")
+    r, l = m.parameters("r l", "m", above=0)
+    M = m.parameters("M", "kg")
+"""
+LINK = '    crank = m.link("crank", turns=phi, mass=M, centre=(r, 0))\n    m.pin("O", m.frame, crank)\n'
+CASES = {
+    "unknown letter": ('    m.body("b", mass=M, at=(r * Symbol("q"), 0))\n', 10, "the letter 'q' is not declared"),
+    "wrong unit": ('    m.body("b", mass=M, at=(phi**2 + sin(phi) * M, 0))\n', 10, "both must have one unit"),
+    "mass in metres": ('    m.body("b", mass=r, at=(r * cos(phi), 0))\n', 10, "is in m, and must be in kg"),
+    "torsion spring": ('    k = m.parameters("k", "N/m"); m.spring(k, stretch=phi)\n', 10, "must be in N*m/rad"),
+    "open loop": (LINK + '    rod = m.link("rod", mass=M)\n    m.pin("A", crank.at(r), rod)\n', 13, "the loop is open"),
+    "hanging link": (LINK + '    rod = m.link("rod", mass=M)\n', 12, "hangs on nothing"),
+    "two owners": (LINK + '    m.pin("O", m.frame, crank)\n', 12, "has two owners (first at"),
+    "held twice": (LINK + '    m.pin("P", m.frame.at(l), crank.at(r))\n', 12, "constraint(s) too many"),
+    "cyclic": (
+        '    m.let("a", Symbol("b", real=True) + r, "m")\n    m.let("b", Symbol("a", real=True), "m")\n',
+        10,
+        "'b'",
+    ),
+    "missing mass": ('    m.body("b", at=(r * cos(phi), 0))\n', 7, "nothing that moves with phi has a mass"),
+    "declared twice": ('    m.parameters("r", "m")\n', 10, "is declared twice"),
+    "unknown unit": ('    m.parameters("k", "N/furlong")\n', 10, "is not known"),
+    "any error": ("    1 / 0\n", 10, "ZeroDivisionError"),
+}
+
+
+@pytest.mark.parametrize("kind", CASES)
+def test_a_bad_declaration_is_refused_with_its_line(tmp_path, kind):
+    body, line, message = CASES[kind]
+    path = tmp_path / "bad.py"
+    path.write_text(HEAD + body + "    return m\n")
+    with pytest.raises(BadInput) as refused:
+        derive(chosen(path))
+    told = str(refused.value)
+    assert told.startswith(f"bad.py:{line}: ") and message in told and "\n" not in told
+
+
+def test_a_file_without_a_mechanism_is_refused(tmp_path):
+    path = tmp_path / "none.py"
+    path.write_text("def nothing():\n    return None\n")
+    with pytest.raises(BadInput, match="declares no mechanism"):
+        chosen(path)
