@@ -39,4 +39,4 @@ def test_the_master_piston_is_a_slider_crank_and_the_other_is_not():
     r, l, phi = 0.05, 0.2, found.phi
     plain = r * (1 - np.cos(phi)) + l - np.sqrt(l**2 - (r * np.sin(phi)) ** 2)
     np.testing.assert_allclose(found.columns["x1"], plain, atol=1e-14)
-    assert np.ptp(found.columns["x2"]) > 2.001 * r  # an articulated rod lengthens the stroke
+    assert np.ptp(found.columns["x2"]) > 2 * r + 1e-5  # an articulated rod lengthens the stroke
