@@ -1,6 +1,7 @@
 """The family of operating points that `[codesign]` describes: mean pressure, scavenge pressure, combustion, speed."""
 
 import ast
+import csv
 import dataclasses
 import math
 from collections.abc import Callable
@@ -10,9 +11,10 @@ import numpy as np
 
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.errors import BadInput, shown
-from mechsym.quantities import quantity, record
+from mechsym.quantities import parse, quantity, record
 
 _COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
+_COLUMNS = {"speed": "rad/s", "load": "Pa", "weight": "-"}
 _FUNCTIONS: dict[str, Callable[..., float]] = {"max": max, "min": min}
 
 
@@ -26,13 +28,36 @@ class SpeedAndLoad:
 
 
 def places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
-    """Speeds and loads of the curve `propeller` or `constant_speed`."""
+    """Speeds and loads of the curve `propeller` or `constant_speed`, or of a CSV file."""
+    if settings.curve.endswith(".csv"):
+        return _from_file(settings.curve)
     if settings.curve == "propeller":
         shares = [(s, (s / settings.full_speed) ** 2) for s in settings.speeds]
         pairs = [(s, share * load) for s, share in shares for load in settings.loads]
     else:
         pairs = [(s, load) for s in settings.speeds for load in settings.loads]
     return [SpeedAndLoad(omega=s, mep=share * settings.full_load) for s, share in pairs]
+
+
+def _from_file(name: str) -> list[SpeedAndLoad]:
+    """Points of a CSV file with the headings speed, load and perhaps weight, each with its unit: `speed [rpm]`."""
+    try:
+        with open(name, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"codesign.curve = {name!r} cannot be read ({error}); give a CSV file of points") from None
+    heads = [head.strip().partition("[") for head in rows[0]] if rows else []
+    columns = {head.strip(): (i, unit.rstrip("] ")) for i, (head, _, unit) in enumerate(heads)}
+    if not {"speed", "load"} <= set(columns) <= set(_COLUMNS):
+        raise BadInput(f"{name}: the headings are speed [rpm], load [bar] and perhaps weight, not {rows[:1]}")
+    found = []
+    for number, row in enumerate(rows[1:], start=2):
+        if len(row) != len(heads):
+            raise BadInput(f"{name}, line {number}: {len(row)} values below {len(heads)} headings")
+        values = {key: parse(f"{row[i].strip()} {unit}".strip(), _COLUMNS[key], f"{name}, line {number}: {key}")
+                  for key, (i, unit) in columns.items()}  # fmt: skip
+        found.append(SpeedAndLoad(omega=values["speed"], mep=values["load"], weight=values.get("weight", 1.0)))
+    return found
 
 
 def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: float) -> Any:
