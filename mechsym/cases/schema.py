@@ -15,6 +15,7 @@ _SECTIONS: dict[str, Any] = {
     "part_gears": "mechsym.sizing.parts.records:GearPart",
     "part_crank": "mechsym.sizing.parts.records:CrankPart",
     "part_bearings": "mechsym.sizing.parts.records:BearingPart",
+    "part_crosshead": "mechsym.sizing.crosshead:CrossheadPart",
     "part_masses": "mechsym.sizing.parts.records:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",

@@ -64,8 +64,10 @@ def _write(out: Path, found: Any) -> list[Path]:
     columns: dict[str, Any] = {
         name: [row[name] if row[name] is not None else "" for row in found.rows] for name in COLUMNS
     }
-    return [
+    files = [
         write_csv(out / "parts.csv", columns),
         write_text(out / "parts.json", to_json(found.rows) + "\n"),
-        section_view(out / "section.svg", found.parts, found.forces, found.stock),
     ]
+    if found.stock is None:
+        return files
+    return [*files, section_view(out / "section.svg", found.parts, found.forces, found.stock)]

@@ -12,8 +12,11 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
+from mechsym.jobs.turn import turn
 from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
+from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
+from mechsym.sizing.crosshead import checks as crosshead_checks
 from mechsym.sizing.hypocycloid import masses
 from mechsym.sizing.hypocycloid.checks import check_all
 from mechsym.sizing.hypocycloid.design import size_hypocycloid
@@ -38,7 +41,7 @@ class Sizing:
     rounds: int
     parts: Any
     forces: Any
-    stock: Stock
+    stock: Stock | None  #: None where no stock part belongs to it
 
 
 @record
@@ -75,6 +78,8 @@ def check_printed(case: Case) -> Sizing:
     BadInput
         The case prints no parts
     """
+    if case.mechanism == "crosshead" and "part_crosshead" in case.sections:
+        return _crosshead(case)
     one = task(case)
     if case.mechanism not in ("crosshead", "hypocycloid"):
         raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
@@ -193,3 +198,32 @@ def _crossing_rows(one: Task) -> list[dict[str, Any]]:
     return [fact("engine", "crossover of the mean torque", value, "rad/s", "cycle", "fig. 5.14",
                  f"{value / RPM:.0f} rpm, against {rival.case.name}")
             for value in crossovers(omega, own, other)]  # fmt: skip
+
+
+def _crosshead(case: Case) -> Sizing:
+    part: CrossheadPart = case.need("part_crosshead")
+    loads = crosshead_loads(case)
+    found = crosshead_checks(part, loads)
+    rows = size_rows("crosshead drive", part, "as printed") + check_rows(found)
+    rows += [
+        fact(name, "pressure times sliding speed", value, "Pa*m/s", "Archard", note="mean over a turn")
+        for name, value in wear(part, loads).items()
+    ]
+    return Sizing(rows=rows, failing=unsafe(found), converged=True, rounds=1, parts=part, forces=loads, stock=None)
+
+
+def crosshead_loads(case: Case) -> CrossheadLoads:
+    """Loads of a crosshead drive over one cycle of its case."""
+    found, masses_of = turn(case), case.need("parameters")
+    inertia = (masses_of.m4 + masses_of.m5) * found.kinematics["d2x_dphi2"] * found.omega**2
+
+    def whole(values: np.ndarray) -> np.ndarray:
+        return np.append(values, values[0])
+
+    r, k = found.reactions, found.kinematics
+    return CrossheadLoads(
+        phi=np.append(found.phi, found.phi[0] + found.period), omega=found.omega,
+        rod=whole(found.inputs["F"] - inertia), pin=whole(np.hypot(r["R_x_B"], r["R_y_B"])),
+        crank_pin=whole(np.hypot(r["R_x_A"], r["R_y_A"])), side=whole(r["R_y_G"]), dx_dphi=whole(k["dx_dphi"]),
+        dpsi_dphi=whole(k["dpsi_dphi"]),
+    )  # fmt: skip
