@@ -28,6 +28,7 @@ COMMANDS = {
     "hinge": "mechsym.cli.hinge:hinge",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
+    "new": "mechsym.cli.new:new",
     "optimise": "mechsym.cli.optimise:optimise",
     "page": "mechsym.cli.page:page",
     "reproduce": "mechsym.cli.reproduce:reproduce",
