@@ -1,0 +1,131 @@
+"""The tape of a theory: named expressions, and by themselves their slopes, rates and harmonics.
+
+`dx_dphi`, `d2x_dphi2` by any letter, `x_d`, `x_dd` in time (the letter phi has the rates phid, phidd), `x_mean`, `x_cos2`,
+`x_sin2` over a turn of the angle. Each is made when it is first asked for, and its own parts are names again.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from mechsym.audit.calculus import Rate, derivative, is_zero, over
+from mechsym.audit.tree import Node, letters, name, negative, number
+from mechsym.errors import BadInput
+
+
+@dataclass(frozen=True, kw_only=True)
+class Root:
+    """The name `unknown` for which an equation vanishes; `start` picks the branch."""
+
+    equation: Node
+    unknown: str
+    start: Node
+
+
+@dataclass(frozen=True, kw_only=True)
+class Harmonic:
+    """One Fourier coefficient of a name over a turn of an angle; order 0 is the mean."""
+
+    of: str
+    angle: str
+    order: int
+    sine: bool = False
+
+
+Entry = Node | tuple[Node, ...] | Root | Harmonic
+_TIMED = re.compile(r"(?P<of>\w+?)_(?P<dots>d{1,3})$")
+_HARMONIC = re.compile(r"(?P<of>\w+?)_(?:mean|(?P<kind>cos|sin)(?P<order>[1-9]\d?))$")
+
+
+class Tape(Mapping[str, Entry]):
+    """Entries by name; the derived ones are made on demand and do not show in iteration."""
+
+    def __init__(self, base: Mapping[str, Entry], free: Mapping[str, object], angle: str) -> None:
+        self.base, self.free, self.angle = dict(base), dict(free), angle
+        self.made: dict[str, Entry | None] = {}
+
+    def __getitem__(self, key: str) -> Entry:
+        if key in self.base:
+            return self.base[key]
+        if key in self.free:
+            raise KeyError(key)
+        if key not in self.made:
+            self.made[key] = None  # a name that is derived from itself is none
+            self.made[key] = self._derived(key)
+        found = self.made[key]
+        if found is None:
+            raise KeyError(key)
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.base)
+
+    def __len__(self) -> int:
+        return len(self.base)
+
+    def _derived(self, key: str) -> Entry | None:
+        for by in self.free:
+            if (of := _integrated(key, by)) and of in self:
+                return self.slope(of, by)
+        if (match := _TIMED.match(key)) and match["of"] in self:
+            return self.timed(match["of"] + match["dots"][:-1].replace("d", "_d", 1))
+        if (match := _HARMONIC.match(key)) and self.angle and match["of"] in self:
+            order, sine = int(match["order"] or 0), match["kind"] == "sin"
+            return Harmonic(of=match["of"], angle=self.angle, order=order, sine=sine)
+        return None
+
+    def slope(self, of: str, by: str) -> Node | None:
+        """Derivative of a name by a letter; None where it has none."""
+        return self._rate(of, lambda k: number(1) if k == by else self.rate_name(k, slope_name(k, by)))
+
+    def timed(self, of: str) -> Node | None:
+        """Derivative of a name in time; None where nothing turns."""
+        return self._rate(of, lambda k: name(f"{k}d") if f"{k}d" in self.free else self.rate_name(k, f"{k}d" if _TIMED.match(k) else f"{k}_d"))
+
+    def _rate(self, of: str, rate: Rate) -> Node | None:
+        entry = self[of]
+        if isinstance(entry, Root):
+            inside = derivative(entry.equation, lambda k: number(0) if k == entry.unknown else rate(k))
+            across = derivative(entry.equation, lambda k: number(int(k == entry.unknown)))
+            return negative(over(inside, across)) if not is_zero(inside) else number(0)
+        if isinstance(entry, (tuple, Harmonic)):
+            return None
+        return derivative(entry, rate)
+
+    def rate_name(self, of: str, derived: str) -> Node:
+        """Name of a derivative; the number 0 where it vanishes, or where `of` is a letter."""
+        if of not in self.base and of not in self.made or of in self.free:
+            return number(0)
+        entry = self.get(derived)
+        if entry is None:
+            raise BadInput(f"{of} has no derivative {derived}")
+        return number(0) if not isinstance(entry, (tuple, Root, Harmonic)) and is_zero(entry) else name(derived)
+
+
+def needed(entry: Entry) -> list[str]:
+    """Letters and names that an entry is made of."""
+    if isinstance(entry, Root):
+        return [k for k in dict.fromkeys([*letters(entry.equation), *letters(entry.start)]) if k != entry.unknown]
+    if isinstance(entry, Harmonic):
+        return [entry.of]
+    return [k for part in (entry if isinstance(entry, tuple) else (entry,)) for k in letters(part)]
+
+
+def slope_name(of: str, by: str) -> str:
+    """Name of the derivative of a name by a letter: dx_dphi, then d2x_dphi2."""
+    match = re.fullmatch(rf"d(\d?)(\w+?)_d{re.escape(by)}(\d?)", of)
+    if match is None or match[1] != match[3]:
+        return f"d{of}_d{by}"
+    order = int(match[1] or 1) + 1
+    return f"d{order}{match[2]}_d{by}{order}"
+
+
+def _integrated(key: str, by: str) -> str:
+    # the name whose slope a name is; empty where it is none
+    match = re.fullmatch(rf"d(\d?)(\w+?)_d{re.escape(by)}(\d?)", key)
+    if match is None or match[1] != match[3]:
+        return ""
+    order = int(match[1] or 1) - 1
+    if order <= 0:
+        return match[2]
+    return f"d{order}{match[2]}_d{by}{order}" if order > 1 else f"d{match[2]}_d{by}"
