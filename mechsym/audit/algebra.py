@@ -5,6 +5,7 @@ bounds) is nan in the first two systems, so that hostile input costs nothing and
 """
 
 import ast
+import operator
 from collections.abc import Callable, Mapping, MutableMapping
 from fractions import Fraction
 from typing import Any
@@ -29,6 +30,7 @@ class Algebra:
     operations: Mapping[type, Callable]  #: ast operator class to function of two values
     functions: Mapping[str, Callable]
     pi: Callable[[], Any]
+    choose: Callable[[Any, Any, Any], Any] = np.where  #: The second where the first holds, else the third
 
 
 def evaluate(
@@ -73,7 +75,20 @@ def _value(
             calls[text] = algebra.functions[str(function_of(tree))](argument)
         return calls[text]
     values = [evaluate(child, names, algebra, memo, calls) for _, child in children(tree)]
+    if isinstance(tree, ast.Compare):
+        return _COMPARED[type(tree.ops[0])](*values)
+    if isinstance(tree, ast.IfExp):
+        return algebra.choose(*values)
     return -values[0] if isinstance(tree, ast.UnaryOp) else algebra.operations[type(tree.op)](*values)  # type: ignore[attr-defined]
+
+
+_COMPARED: dict[type, Callable] = {
+    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+}  # fmt: skip
+
+
+def _unproved(*values: Any) -> Any:
+    raise BadInput("a formula with cases is decided by its digits alone")
 
 
 def _float_power(base: Any, exponent: Any) -> Any:
@@ -166,6 +181,7 @@ SYMBOLS = Algebra(
         for name in ("sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs")
     } | {"sum": lambda value: np.sum(value) if np.ndim(value) else sympy.nan},
     pi=lambda: sympy.pi,
+    choose=_unproved,
 )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import evaluate
-from mechsym.audit.bench import Bench, names, part_values, shaped
+from mechsym.audit.bench import Bench, names, part_values, shaped, used_names
 from mechsym.audit.edits import Edit, is_product, places, scaled, without_double_signs
 from mechsym.audit.insertion import candidate_words, is_unit, simple, vocabulary
 from mechsym.audit.printer import to_python
@@ -19,9 +19,10 @@ from mechsym.audit.put_back import insertions
 from mechsym.audit.question import Question
 from mechsym.audit.required import Required, quotient, required
 from mechsym.audit.slips import single_edits
-from mechsym.audit.theory.record import known
+from mechsym.audit.theory.record import dependencies, known
 from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
-from mechsym.quantities import dimension, record
+from mechsym.audit.units_of import kind_of_letter
+from mechsym.quantities import record
 
 _MET = 1e-5
 _VALID = 0.6
@@ -64,26 +65,18 @@ def _instead(texts: Mapping[Node, str], text: str, new: Node, node: Node) -> Nod
 
 
 def confusable(question: Question, letter: str) -> list[str]:
-    """Letters that one may be mistaken for: another index, the same unit, or a derived name with the same initial.
-
-    Returns
-    -------
-    letters : list of str
-        Those with the same stem first
-    """
-    stem = re.sub(r"\d+$", "", letter)
-    used = [*question.formula.letters, *question.theory.letters]
-    indexed = [k for k in used if re.sub(r"\d+$", "", k) == stem]
-    unit = _unit(question, letter)
-    alike = [k for k in used if unit is not None and _unit(question, k) == unit]
-    derived = [k for k in known(question.theory) if k[0] == letter[0] and k != question.quantity]
-    return [k for k in dict.fromkeys([*indexed, *alike, *derived]) if k != letter]
-
-
-def _unit(question: Question, letter: str) -> tuple[int, ...] | None:
-    if letter in question.formula.letters or letter not in question.theory.letters:
-        return None
-    return dimension(question.theory.letters[letter].unit)
+    """Letters that one may be mistaken for: of the same dimension, and such that the quantity or the formula has."""
+    stem, kind = re.sub(r"\d+$", "", letter), kind_of_letter(question, letter)
+    if kind is None:
+        return []
+    theory = question.theory
+    needed = dependencies(theory, [question.quantity, *used_names(question.formula)])
+    free = [k for k in theory.letters if k in needed]
+    derived = [k for k in known(theory) if k in theory.tape and k != question.quantity and k in needed]
+    alike = [
+        k for k in dict.fromkeys([*question.formula.letters, *free, *derived]) if kind_of_letter(question, k) == kind
+    ]
+    return [k for k in sorted(alike, key=lambda k: re.sub(r"\d+$", "", k) != stem) if k != letter]
 
 
 def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequence[Edit], insert: bool) -> list[Edit]:

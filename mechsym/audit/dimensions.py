@@ -7,7 +7,8 @@ import numpy as np
 
 from mechsym.audit.algebra import FLOATS
 from mechsym.audit.bench import bench, value
-from mechsym.audit.question import Question, float_values, random_fractions
+from mechsym.audit.question import Question, float_values
+from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
 from mechsym.quantities import dimension
 
@@ -28,7 +29,7 @@ def is_consistent(question: Question, tree: Node) -> bool:
     answer : bool
         False when random scales of mass, length, time and temperature change it otherwise than the derived quantity
     """
-    values = float_values(random_fractions(question, _POINTS, seed=2))
+    values = float_values(drawn(question, _POINTS, seed=2))
     before = bench(question, values, FLOATS)
     after = bench(question, _rescaled(question, values), FLOATS)
     with np.errstate(all="ignore"):

@@ -88,7 +88,7 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
         What else there is to say
     """
     best = verdict.repairs[0] if verdict.repairs else None
-    notes = [verdict.note, _edits(question, verdict), note, effect]
+    notes = [verdict.note, _edits(question, verdict), _nearer(question, verdict), note, effect]
     return {
         "verdict": verdict.verdict,
         "max_rel_error": verdict.max_rel_error,
@@ -114,6 +114,13 @@ def _edits(question: Question, verdict: Decision) -> str:
     return f"repaired by {', then by '.join(found)}"
 
 
+def _nearer(question: Question, verdict: Decision) -> str:
+    if verdict.nearer is None:
+        return ""
+    text, error = write(question.formula, verdict.nearer.tree), verdict.nearer.max_rel_error
+    return f"nearer, and still not right: {text} (largest relative error {error:.3g})"
+
+
 def _told(node: Node) -> str:
     text = to_python(node)
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
@@ -124,6 +131,7 @@ def _evidence(question: Question, verdict: Decision) -> Row:
         "quantity": f"{question.theory.name}.{question.quantity}",
         "data": question.theory.data,
         "certificate": verdict.certificate or None,
+        "domain": verdict.domain or None,
         "orders": dict(verdict.orders),
         "dimensions_consistent": verdict.dimensions,
         "counterexample": dict(verdict.counterexample),

@@ -9,6 +9,7 @@ FUNCTIONS = (
     "sin", "cos", "tan", "cot", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sum",
 )  # fmt: skip
 OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
+COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 MAX_NODES = 2000
 MAX_DEPTH = 100
 LEAST, LARGEST = 1e-30, 1e30
@@ -26,7 +27,11 @@ def check_size(tree: Node) -> None:
 def check(tree: Node) -> None:
     """Refuse a tree that is too large, too deep, or holds anything but arithmetic on letters."""
     check_size(tree)
-    for _, node in walk(tree):
+    if isinstance(tree, ast.Compare):
+        raise BadInput("a condition alone is no formula; write piecewise(a < b, x, y)")
+    for path, node in walk(tree):
+        if isinstance(node, ast.Compare) and path[-1] != "test":
+            raise BadInput("a condition may only stand in piecewise(a < b, x, y)")
         _check_node(node)
 
 
@@ -45,7 +50,10 @@ def _check_node(node: Node) -> None:
             raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; there are {', '.join(FUNCTIONS)}")
         if len(node.args) != 1 or node.keywords:
             raise BadInput(f"{node.func.id} takes one argument")
-    elif not isinstance(node, ast.Name):
+    elif isinstance(node, ast.Compare):
+        if len(node.ops) != 1 or not isinstance(node.ops[0], COMPARISONS):
+            raise BadInput("a condition compares two expressions with <, <=, > or >=")
+    elif not isinstance(node, (ast.Name, ast.IfExp)):
         raise BadInput(f"{type(node).__name__} is not arithmetic; use + - * / **, numbers, letters and functions")
 
 

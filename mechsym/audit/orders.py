@@ -10,11 +10,11 @@ from fractions import Fraction
 from typing import Any
 
 import mpmath
-import numpy as np
 
 from mechsym.audit.algebra import DIGITS
 from mechsym.audit.bench import Bench, bench, value
-from mechsym.audit.question import Question, digit_values, random_fractions, small_rods
+from mechsym.audit.question import Question, digit_values, small_rods
+from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
 from mechsym.quantities import dimension, record
 
@@ -23,12 +23,6 @@ ORDER_DIGITS = 110
 COARSE, FINE = Fraction(1, 10**6), Fraction(1, 10**8)
 _POINTS = 7
 _ZERO_DIGITS = 90
-_SLACK = 1.001
-_TURN_POINTS = 16
-_NODES = 12
-_NODE = Fraction(1, 10**6)
-_TRUSTED = 10  # coefficients that the nodes give to eight digits
-_SHIFT = 2  # powers of eps below zero that a quantity may start with
 
 
 @record
@@ -48,7 +42,7 @@ def groups(question: Question) -> list[LetterGroup]:
     groups : list of LetterGroup
         At least one when the theory has rods
     """
-    if not question.theory.rods:
+    if not (question.theory.rods or question.theory.small):
         return []
     loads = _loads(question)
     found = [_group(question, load, loads) for load in loads]
@@ -63,7 +57,7 @@ def _loads(question: Question) -> list[str]:
 
 
 def _group(question: Question, name: str, loads: list[str]) -> LetterGroup:
-    values = random_fractions(question, _POINTS, seed=3)
+    values = drawn(question, _POINTS, seed=3)
     values |= {other: [Fraction(0)] * _POINTS for other in loads if other != name}
     coarse, fine = (at_small_rods(question, values, eps) for eps in (COARSE, FINE))
     return LetterGroup(name=name, coarse=coarse, fine=fine)
@@ -133,59 +127,3 @@ def lowest(found: Mapping[str, float]) -> int | None:
     """
     finite = [k for k in found.values() if k != EXACT]
     return int(min(finite)) if finite else None
-
-
-def is_truncation(question: Question, found: list[LetterGroup], tree: Node) -> bool:
-    """Whether every group is at least as good as leaving out one power of lambda, and everything above it.
-
-    Returns
-    -------
-    honest : bool
-        True when the largest error over a turn, as lambda goes to zero, is at most 1.001 times the derived term of
-        the same power, or of the first one where the derived series ends before that power
-    """
-    known = orders(found, tree)
-    if not known or min(known.values()) < 1:
-        return False
-    loads = [g.name for g in found]
-    return all(_honest(question, g.name, loads, tree) for g in found if known[g.name] != EXACT)
-
-
-def _honest(question: Question, group: str, loads: list[str], tree: Node) -> bool:
-    derived, printed = _series(question, group, loads, tree)
-    with mpmath.workdps(2 * ORDER_DIGITS):
-        sizes = [max(abs(c)) for c in derived]
-        small = max(sizes) * mpmath.mpf(10) ** -8
-        errors = [max(abs(own - theirs)) for own, theirs in zip(derived, printed, strict=True)]
-        wrong = next((k for k, error in enumerate(errors) if error > small), None)
-        if wrong is None:
-            return False
-        # a derived series that ends before this power has no term to compare with: then its first one
-        ended = all(size <= small for size in sizes[wrong:_TRUSTED])
-        own = next(size for size in sizes if size > small) if ended else sizes[wrong]
-        return bool(errors[wrong] <= _SLACK * own)
-
-
-def _series(question: Question, group: str, loads: list[str], tree: Node) -> tuple[Any, Any]:
-    # Taylor coefficients in eps at points of a turn, from values at a few tiny eps
-    values = random_fractions(question, _TURN_POINTS, seed=4)
-    values |= {other: [Fraction(0)] * _TURN_POINTS for other in loads if other != group and group != "all"}
-    angle = question.theory.angle
-    if angle:
-        values[angle] = [Fraction(2 * i + 1, _TURN_POINTS) * Fraction(355, 113) for i in range(_TURN_POINTS)]
-    steps = [_NODE * (i + 1) for i in range(_NODES)]
-    benches = [_deep(question, values, eps) for eps in steps]
-    with mpmath.workdps(2 * ORDER_DIGITS):
-        scale = [(mpmath.mpf(e.numerator) / e.denominator) for e in steps]
-        inverse = mpmath.matrix([[e**j for j in range(_NODES)] for e in scale]) ** -1
-        weights = np.array(inverse.tolist())
-        derived = np.array([b.expected * e**_SHIFT for b, e in zip(benches, scale, strict=True)])
-        printed = np.array([value(b, tree) * e**_SHIFT for b, e in zip(benches, scale, strict=True)])
-        return weights @ derived, weights @ printed
-
-
-def _deep(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
-    digits = 2 * ORDER_DIGITS
-    with mpmath.workdps(digits):
-        states = digit_values(small_rods(question.theory, values, eps))
-    return bench(question, states, DIGITS, digits)

@@ -7,7 +7,8 @@ from sympy import Expr
 
 from mechsym.audit.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
 from mechsym.audit.bench import Bench, bench, used_names, value
-from mechsym.audit.question import Question, digit_values, float_values, random_fractions
+from mechsym.audit.question import Question, digit_values, float_values
+from mechsym.audit.states import drawn
 from mechsym.audit.theory.record import Theory, complete
 from mechsym.audit.tree import Node
 from mechsym.derive.identity import vanishes
@@ -35,7 +36,7 @@ def judges(question: Question, seed: int = 1) -> Judges:
     judges : Judges
         The same states in floats and with many digits
     """
-    values = random_fractions(question, POINTS, seed)
+    values = drawn(question, POINTS, seed)
     with mpmath.workdps(WORKING_DIGITS):
         strict = digit_values(values)
     return Judges(
@@ -43,29 +44,46 @@ def judges(question: Question, seed: int = 1) -> Judges:
     )
 
 
+@record
+class Agreement:
+    """At how many states quantity and formula have a value, and whether they agree where both have."""
+
+    expected: int  #: States at which the quantity has a value [-]
+    valued: int  #: States of these at which the formula has one too [-]
+    agrees: bool  #: Whether they agree to 40 digits at these, and there are any
+
+    @property
+    def exact(self) -> bool:
+        """Whether they agree wherever the quantity has a value, at more than half of the states."""
+        return self.agrees and self.valued == self.expected and 2 * self.expected > POINTS
+
+
+def agreement(judged: Judges, tree: Node) -> Agreement:
+    """Compare a formula with the derived quantity at every random state."""
+    printed = value(judged.strict, tree)
+    expected = valued = met = 0
+    with mpmath.workdps(judged.strict.digits):
+        for p, e in zip(printed, judged.strict.expected, strict=True):
+            if mpmath.isnan(e):
+                continue
+            expected += 1
+            if not mpmath.isnan(p):
+                valued += 1
+                met += bool(abs(p - e) <= mpmath.mpf(10) ** -TOLERANCE_DIGITS * abs(e))
+    return Agreement(expected=expected, valued=valued, agrees=met == valued > 0)
+
+
 def is_exact(judged: Judges, tree: Node) -> bool:
-    """Whether a formula agrees with the derived quantity to 40 digits at every random state."""
-    return agrees_quickly(judged, tree) and _agrees(judged.strict, tree)
+    """Whether a formula agrees with the derived quantity to 40 digits at every random state; False is a refutation."""
+    return agrees_quickly(judged, tree) and agreement(judged, tree).exact
 
 
 def agrees_quickly(judged: Judges, tree: Node) -> bool:
-    """Whether floats leave it open that a formula is exact."""
+    """Whether floats leave it open that a formula is exact; False is a refutation."""
     printed, expected = value(judged.quick, tree), judged.quick.expected
     with np.errstate(all="ignore"):
         wrong = ~(np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected)))
     return not np.any(wrong & np.isfinite(expected))
-
-
-def _agrees(strict: Bench, tree: Node) -> bool:
-    printed, valid = value(strict, tree), 0
-    with mpmath.workdps(strict.digits):
-        for p, e in zip(printed, strict.expected, strict=True):
-            if mpmath.isnan(e):
-                continue
-            if not abs(p - e) <= mpmath.mpf(10) ** -TOLERANCE_DIGITS * abs(e):
-                return False
-            valid += 1
-    return 2 * valid > len(printed)
 
 
 def certified(question: Question) -> bool:
@@ -119,5 +137,4 @@ def _symbolic_names(question: Question) -> dict[str, Expr]:
 
 def _symbol(theory: Theory, letter: str) -> sympy.Symbol:
     record = theory.letters[letter]
-    positive = record.value > 0 and not record.unit.startswith("rad")
-    return sympy.Symbol(letter, real=True, positive=positive or None)
+    return sympy.Symbol(letter, real=True, positive=record.positive or None)

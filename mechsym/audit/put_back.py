@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any, TypeGuard
 
 from mechsym.audit.bench import Bench
-from mechsym.audit.edits import Edit, is_product, is_term, places, scaled
+from mechsym.audit.edits import Edit, Spot, is_product, is_term, places, scaled
 from mechsym.audit.insertion import Product, Vocabulary, Words, product, product_tree
 from mechsym.audit.required import Required, quotient
 from mechsym.audit.tree import Node, Path, binary, children, is_operation, negative, value_of
@@ -30,13 +30,21 @@ def insertions(
             continue
         wish, old = wishes[place.path], memo[place.node]
         if is_product(place):
-            found = product(asked, words, quotient(asked, wish, old))
-            if _is_little(found, most) and not _cancels(nodes, place.path, found[1]):
-                yield Edit(kind="put back", path=place.path, new=_times(place.node, *found))
+            yield from lost_factor(nodes, place, product(asked, words, quotient(asked, wish, old)), most)
         if is_term(place):
-            found = product(asked, words, wish - old)
-            if _is_little(found, most):
-                yield Edit(kind="put back", path=place.path, new=_plus(place.node, *found))
+            yield from lost_term(place, product(asked, words, wish - old), most)
+
+
+def lost_factor(nodes: Mapping[Path, Node], place: Spot, found: Product | None, most: int) -> Iterator[Edit]:
+    """A factor put back, where it is one."""
+    if _is_little(found, most) and not _cancels(nodes, place.path, found[1]):
+        yield Edit(kind="put back", path=place.path, new=_times(place.node, *found))
+
+
+def lost_term(place: Spot, found: Product | None, most: int) -> Iterator[Edit]:
+    """A term put back, where it is one."""
+    if _is_little(found, most):
+        yield Edit(kind="put back", path=place.path, new=_plus(place.node, *found))
 
 
 def _is_little(found: Product | None, most: int) -> TypeGuard[Product]:

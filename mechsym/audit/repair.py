@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import mpmath
@@ -12,10 +13,12 @@ from mechsym.audit.algebra import DIGITS, FLOATS
 from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.edits import RANKS, Edit, apply
+from mechsym.audit.expansion import Expansion
 from mechsym.audit.orders import EXACT, FINE, LetterGroup, groups, orders, residual
 from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
-from mechsym.audit.question import Question, digit_values, float_values, random_fractions, small_rods
+from mechsym.audit.question import Question, digit_values, float_values, small_rods
+from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
 from mechsym.quantities import record
 
@@ -30,9 +33,19 @@ class Examination:
 
     question: Question
     judged: Judges
-    groups: list[LetterGroup]
     turn: Bench
     search: dict[str, Bench] = field(default_factory=dict)  #: States of the search by group, made when needed
+
+    @cached_property
+    def groups(self) -> list[LetterGroup]:
+        """Long rods for each load, made when needed."""
+        return groups(self.question)
+
+    @cached_property
+    def expansions(self) -> dict[str, Expansion]:
+        """Powers of lambda for each load, made when needed."""
+        loads = tuple(g.name for g in self.groups)
+        return {k: Expansion(question=self.question, load=k, loads=loads) for k in loads}
 
 
 @record
@@ -48,52 +61,35 @@ class Repair:
 
 def examine(question: Question) -> Examination:
     """Prepare the states at which a question is asked."""
-    return Examination(question=question, judged=judges(question), groups=groups(question), turn=turn(question))
+    return Examination(question=question, judged=judges(question), turn=turn(question))
 
 
 def standing(exam: Examination, tree: Node, edits: tuple[Edit, ...] = ()) -> Repair:
     """How good a formula is as it stands."""
     exact = is_exact(exam.judged, tree)
-    known = {g.name: EXACT for g in exam.groups} if exact else orders(exam.groups, tree)
+    known = {} if exact else orders(exam.groups, tree)
     return Repair(tree=tree, edits=edits, exact=exact, orders=known, max_rel_error=max_rel_error(exam.turn, tree))
 
 
-def repairs(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
-    """Formulas one edit away that are exact, or better in order and in error; the most plausible first.
+def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repair | None:
+    """The simplest single edit after which a formula is the derived quantity.
 
     Parameters
     ----------
     insert : bool
         Whether terms and factors that were left out are looked for, rather than slips
-
-    Returns
-    -------
-    repairs : list of Repair
-        Edits that give the same function count once, the simplest is kept
     """
-    return sorted((r for r in better(exam, start, insert) if r.exact or is_sound(r)), key=_rank)
-
-
-def better(exam: Examination, start: Repair, insert: bool) -> list[Repair]:
-    """Formulas one edit away that are exact, or of lower error with some group's order raised and none lowered.
-
-    Parameters
-    ----------
-    insert : bool
-        Whether terms and factors that were left out are looked for, rather than slips
-
-    Returns
-    -------
-    better : list of Repair
-        Distinct functions; an exact one, or those that mend the worst group that can be mended
-    """
-    lists = [[]] if insert else [listed_edits(exam.question, start.tree), repeated_edits(start.tree)]
-    for listed in lists:
+    for listed in [[]] if insert else [listed_edits(exam.question, start.tree), repeated_edits(start.tree)]:
         if exact := _exact(exam, start, listed, insert):
-            return [exact]
-    for listed in lists:
-        if found := _raised(exam, start, listed, insert):
-            return found
+            return exact
+    return None
+
+
+def raising_repairs(exam: Examination, start: Repair) -> list[Repair]:
+    """Single edits that raise some load's order, lower none, and do not raise the error; the most plausible first."""
+    for listed in (listed_edits(exam.question, start.tree), repeated_edits(start.tree)):
+        if found := _raised(exam, start, listed, False):
+            return sorted((r for r in found if is_sound(r)), key=_rank)
     return []
 
 
@@ -136,7 +132,7 @@ def is_sound(repair: Repair) -> bool:
     answer : bool
         False when there is no small parameter
     """
-    return bool(repair.orders) and min(repair.orders.values()) >= 1
+    return repair.exact or bool(repair.orders) and min(repair.orders.values()) >= 1
 
 
 def search_bench(exam: Examination, group: str) -> Bench:
@@ -159,8 +155,12 @@ def search_bench(exam: Examination, group: str) -> Bench:
 
 def _search_bench(exam: Examination, group: str) -> Bench:
     question, theory = exam.question, exam.question.theory
-    values = random_fractions(question, SEARCH_POINTS, seed=5)
-    if theory.angle:
+    letters = theory.letters
+    values = {
+        k: v if letters[k].domain else [abs(x) if letters[k].value >= 0 else -abs(x) for x in v]
+        for k, v in drawn(question, SEARCH_POINTS, seed=5).items()
+    }
+    if theory.angle and not letters[theory.angle].domain and theory.angle not in question.hold:
         values[theory.angle] = [
             Fraction(1, 5) + abs(v) * Fraction(19, 10) % Fraction(11, 10) for v in values[theory.angle]
         ]
@@ -174,7 +174,7 @@ def _search_bench(exam: Examination, group: str) -> Bench:
 
 
 def _improves(candidate: Repair, start: Repair) -> bool:
-    pairs = [(candidate.orders[g], start.orders[g]) for g in start.orders]
+    pairs = [(candidate.orders.get(g, EXACT), start.orders[g]) for g in start.orders]
     higher = all(new >= old for new, old in pairs) and any(new > old for new, old in pairs)
     return higher and candidate.max_rel_error <= start.max_rel_error
 
@@ -187,7 +187,7 @@ def _distinct(exam: Examination, tree: Node, edits: list[Edit]) -> list[Edit]:
 
 
 def _by_simplicity(tree: Node, edits: list[Edit]) -> list[Edit]:
-    return sorted(edits, key=lambda e: _simplicity(e, apply(tree, e)))
+    return sorted(edits, key=lambda e: simplicity(e, apply(tree, e)))
 
 
 def fingerprint(exam: Examination, tree: Node) -> bytes:
@@ -204,11 +204,12 @@ def fingerprint(exam: Examination, tree: Node) -> bytes:
         return np.where(np.isfinite(values) & (values != 0), np.round(values * scale), 0).tobytes()
 
 
-def _simplicity(edit: Edit, tree: Node) -> tuple[int, int]:
+def simplicity(edit: Edit, tree: Node) -> tuple[int, int]:
+    """The simplest slip first, then the shortest formula."""
     return RANKS[edit.kind], len(to_python(tree))
 
 
 def _rank(repair: Repair) -> tuple[Any, ...]:
     worst = min(repair.orders.values(), default=EXACT)
     total = sum(min(k, 9.0) for k in repair.orders.values())
-    return not repair.exact, -worst, -total, *_simplicity(repair.edits[-1], repair.tree)
+    return not repair.exact, -worst, -total, *simplicity(repair.edits[-1], repair.tree)

@@ -36,7 +36,7 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
 def _constant(values: Any) -> float | None:
     values = np.broadcast_to(values, np.shape(values) or (1,))
     middle = float(np.median(values))
-    return middle if middle and np.all(np.abs(values / middle - 1) < _SAME) else None
+    return middle if np.isfinite(middle) and middle and np.all(np.abs(values / middle - 1) < _SAME) else None
 
 
 def _rounds_to(wish: float, printed: Any) -> bool:

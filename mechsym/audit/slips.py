@@ -5,7 +5,18 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from mechsym.audit.edits import Edit, Spot, is_exponent, is_product, places, scaled
-from mechsym.audit.tree import Node, binary, call, function_of, is_operation, name, negative, number, value_of
+from mechsym.audit.tree import (
+    Node,
+    binary,
+    call,
+    function_of,
+    is_operation,
+    name,
+    negative,
+    number,
+    substitute,
+    value_of,
+)
 
 FACTORS = tuple(Fraction(*f) for f in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4), (3, 2), (2, 3)))
 
@@ -24,11 +35,12 @@ def single_edits(tree: Node, siblings: Callable[[str], Sequence[str]]) -> Iterat
         Changes; some give the same function
     """
     for place in places(tree):
-        for kind, new in _node_edits(place, siblings):
+        for kind, new in node_edits(place, siblings):
             yield Edit(kind=kind, path=place.path, new=new)
 
 
-def _node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterator[tuple[str, Node]]:
+def node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterator[tuple[str, Node]]:
+    """Every slip at one place: its kind, and what stands there without it."""
     node = place.node
     yield from _signs(place)
     yield from _factors(place)
@@ -62,6 +74,34 @@ def _factors(place: Spot) -> Iterator[tuple[str, Node]]:
     in_function = place.parent is not None and function_of(place.parent) in ("sin", "cos", "tan")
     for factor in FACTORS if not in_function else FACTORS[:2]:
         yield "argument" if in_function else "factor", scaled(place.node, factor)
+    if in_function:
+        yield from (("degrees", new) for new in _degrees(place.node))
+
+
+def _degrees(node: Node) -> Iterator[Node]:
+    # sin(phi) where phi is counted in degrees, and back; pi/180 that stands there already is taken out
+    pi, half = name("pi"), number(180)
+    plain = substitute(node, lambda n: _without_degrees(n))
+    if plain is not node:
+        yield plain
+    yield binary(ast.Div, binary(ast.Mult, node, pi), half)
+    yield binary(ast.Div, binary(ast.Mult, node, half), pi)
+
+
+def _without_degrees(node: Node) -> Node | None:
+    def is_degree(a: Node, b: Node) -> bool:
+        pair = [n.id if isinstance(n, ast.Name) else value_of(n) for n in (a, b)]
+        return pair in (["pi", 180], [180, "pi"])
+
+    if is_operation(node, ast.Mult) and is_operation(node.right, ast.Div):  # type: ignore[attr-defined]
+        assert isinstance(node, ast.BinOp) and isinstance(node.right, ast.BinOp)
+        return node.left if is_degree(node.right.left, node.right.right) else None
+    if is_operation(node, ast.Div) and is_operation(node.left, ast.Mult):  # type: ignore[attr-defined]
+        assert isinstance(node, ast.BinOp) and isinstance(node.left, ast.BinOp)
+        if is_degree(node.left.right, node.right):
+            return node.left.left
+        return node.left.right if is_degree(node.left.left, node.right) else None
+    return None
 
 
 def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
@@ -69,9 +109,13 @@ def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
     if is_operation(node, ast.Pow):
         base, exponent = node.left, value_of(node.right)  # type: ignore[attr-defined]
         if exponent is not None:
-            for new in (exponent - 1, exponent + 1):
+            for new in dict.fromkeys((exponent - 1, exponent + 1, exponent / 2, exponent * 2)):
                 yield "power", base if new == 1 else binary(ast.Pow, base, number(new)) if new else number(1)
     elif _is_factor(place):
+        yield from (("power", binary(ast.Pow, node, number(n))) for n in (2, 3, 4))
+        yield "power", binary(ast.Pow, node, number(Fraction(3, 2), decimal=True))
+        yield "root", call("sqrt", node)
+    elif is_product(place) and is_operation(node, ast.Mult, ast.Div):
         yield "power", binary(ast.Pow, node, number(2))
         yield "root", call("sqrt", node)
     if function_of(node) == "sqrt":
@@ -98,9 +142,39 @@ def _brackets(node: Node) -> Iterator[tuple[str, Node]]:
             yield "bracket", binary(type(left.op), left.left, bracket)
         if isinstance(left, ast.Call):
             yield "bracket", call(str(function_of(left)), binary(type(node.op), left.args[0], right))
+    yield from (("bracket", new) for new in _lost_brackets(node))
     if is_operation(node, ast.Mult, ast.Div) and is_operation(right, ast.Add, ast.Sub):
         assert isinstance(right, ast.BinOp)
         yield "bracket", binary(type(right.op), binary(type(node.op), left, right.left), right.right)
+
+
+def _lost_brackets(node: ast.BinOp) -> Iterator[Node]:
+    # (a + b)/c printed a/c + b or a + b/c, (a*b)**2 printed a*b**2, and 1/(a*b) printed 1/a*b
+    left, right = node.left, node.right
+    outer = (ast.Mult, ast.Div, ast.Pow)
+    if is_operation(node, ast.Add, ast.Sub):
+        if is_operation(left, ast.Mult, ast.Div):
+            yield binary(type(left.op), binary(type(node.op), left.left, right), left.right)  # type: ignore[attr-defined]
+        if is_operation(right, *outer):
+            assert isinstance(right, ast.BinOp)
+            yield binary(type(right.op), binary(type(node.op), left, right.left), right.right)
+            if is_operation(left, ast.Add, ast.Sub):
+                assert isinstance(left, ast.BinOp)
+                inner = type(node.op) if is_operation(left, ast.Add) else _opposite(node)
+                yield binary(type(left.op), left.left, binary(type(right.op), binary(inner, left.right, right.left), right.right))
+    if is_operation(node, ast.Mult, ast.Div) and is_operation(right, ast.Pow):
+        assert isinstance(right, ast.BinOp)
+        yield binary(ast.Pow, binary(type(node.op), left, right.left), right.right)
+    if is_operation(node, ast.Mult) and is_operation(left, ast.Div):
+        yield binary(ast.Div, left.left, binary(ast.Mult, left.right, right))  # type: ignore[attr-defined]
+    if is_operation(node, ast.Div) and is_operation(right, ast.Mult):
+        yield binary(ast.Mult, binary(ast.Div, left, right.left), right.right)  # type: ignore[attr-defined]
+    if is_operation(node, ast.Pow) and is_operation(left, ast.Mult, ast.Div, ast.Add, ast.Sub):
+        yield binary(type(left.op), left.left, binary(ast.Pow, left.right, right))  # type: ignore[attr-defined]
+
+
+def _opposite(node: ast.BinOp) -> type[ast.operator]:
+    return ast.Sub if is_operation(node, ast.Add) else ast.Add
 
 
 def _squares(node: Node) -> Iterator[tuple[str, Node]]:

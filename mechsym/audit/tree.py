@@ -11,7 +11,13 @@ from fractions import Fraction
 Node = ast.expr
 Path = tuple[str, ...]  # steps from the root: left, right, operand, argument
 
-_STEPS = {ast.BinOp: ("left", "right"), ast.UnaryOp: ("operand",), ast.Call: ("argument",)}
+_STEPS: dict[type, tuple[str, ...]] = {
+    ast.BinOp: ("left", "right"),
+    ast.UnaryOp: ("operand",),
+    ast.Call: ("argument",),
+    ast.IfExp: ("test", "body", "orelse"),  # a if b < c else d
+    ast.Compare: ("less", "more"),
+}
 
 
 def name(text: str) -> ast.Name:
@@ -102,6 +108,8 @@ def children(node: Node) -> list[tuple[str, Node]]:
     """Steps to the operands of a node."""
     if isinstance(node, ast.Call):
         return [("argument", argument) for argument in node.args[:1]]
+    if isinstance(node, ast.Compare):
+        return [("less", node.left), ("more", node.comparators[0])]
     return [(step, getattr(node, step)) for step in _STEPS.get(type(node), ())]
 
 
@@ -130,6 +138,11 @@ def replace(tree: Node, path: Path, new: Node) -> Node:
         return call(str(function_of(tree)), below)
     if isinstance(tree, ast.UnaryOp):
         return negative(below)
+    if isinstance(tree, ast.IfExp):
+        return ast.IfExp(**{"test": tree.test, "body": tree.body, "orelse": tree.orelse, path[0]: below})
+    if isinstance(tree, ast.Compare):
+        sides = {"less": tree.left, "more": tree.comparators[0], path[0]: below}
+        return ast.Compare(left=sides["less"], ops=tree.ops, comparators=[sides["more"]])
     assert isinstance(tree, ast.BinOp)
     if path[0] == "left":
         return ast.BinOp(left=below, op=tree.op, right=tree.right)

@@ -1,105 +1,122 @@
-"""The decision: exact, approximate, misprint (with the edit that repairs it) or wrong."""
+"""The decision: exact, truncation, convention, mixed, misprint (with the edit that repairs it), nearer, wrong."""
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Any
 
 import mpmath
 import numpy as np
 
-from mechsym.audit.bench import max_rel_error, names, value
-from mechsym.audit.candidates import listed_edits
+from mechsym.audit.bench import names, value
+from mechsym.audit.conditions import conditions, under
 from mechsym.audit.dimensions import is_consistent
-from mechsym.audit.edits import apply
-from mechsym.audit.orders import EXACT, is_truncation, lowest
-from mechsym.audit.prover import proves_equal
+from mechsym.audit.orders import EXACT, lowest
+from mechsym.audit.prover import POINTS, Agreement, agreement, proves_equal
 from mechsym.audit.question import Question
-from mechsym.audit.repair import Examination, Repair, better, examine, repairs, standing
-from mechsym.audit.rounding import rounded_constant
+from mechsym.audit.repair import Examination, Repair, examine, standing
+from mechsym.audit.search import search, truncated
+from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, letters
 from mechsym.quantities import record
 
-_BEAM = 6
+PASSED = ("exact", "truncation", "convention")  # exit status 0
+OPEN = ("mixed", "untestable")  # exit status 3
 
 
 @record
 class Decision:
     """What the audit says of one formula, with its evidence."""
 
+    #: `exact`, `truncation`, `convention`, `mixed`, `misprint`, `nearer`, `wrong` or `untestable`
     verdict: str
     max_rel_error: float  #: Largest relative error over a turn at the source's data [-]
     order: int | None  #: Order of the first neglected power of lambda; None when exact or without a small parameter
     orders: Mapping[str, float]
     repairs: tuple[Repair, ...] = ()  #: Corrected formulas, the most plausible first
+    nearer: Repair | None = None  #: Formula that is better and still not right
     certificate: str = ""  #: What proves an exact formula: `polynomial` or `50 digits`
-    dimensions: bool = True  #: Whether the formula rescales with mass, length and time as the quantity does
+    #: Whether the formula rescales with mass, length and time as the quantity does
+    dimensions: bool = True
     #: State with the largest error, and both values; empty for an exact formula
     counterexample: Mapping[str, float] = field(default_factory=dict)
-    note: str = ""  #: Remarks of the reader and of the decision
+    domain: str = ""  #: Where the comparison was made
+    note: str = ""
 
 
 def decide(question: Question) -> Decision:
     """Compare a printed formula with the derived quantity."""
     exam = examine(question)
-    start = standing(exam, question.formula.tree)
-    if start.exact:
-        proof = "polynomial" if proves_equal(question, start.tree) else "50 digits"
-        return _verdict(exam, "exact", start, certificate=proof)
-    verdict, found = search(exam, start)
-    note = rounded_constant(exam, start.tree) if verdict == "approximate" else ""
-    return _verdict(exam, verdict, start, repairs=tuple(found), note=note)
-
-
-def search(exam: Examination, start: Repair) -> tuple[str, list[Repair]]:
-    """The verdict on a formula that is not exact, and its repairs.
-
-    A slip that one edit mends is a misprint even if the rest is an honest approximation; only what is neither is
-    searched for lost terms and factors, since every truncation lacks those.
-
-    Returns
-    -------
-    repairs : list of Repair
-        For a misprint, the most plausible first
-    """
-    found = repairs(exam, start, insert=False)
-    if not found:
-        if rounded_constant(exam, start.tree) or _honest(exam, start):
-            return "approximate", []
-        found = repairs(exam, start, insert=True)
-    found = _complete(exam, found) if found else _second_edits(exam, start)
-    return ("misprint" if found else "wrong"), found
-
-
-def _complete(exam: Examination, found: list[Repair]) -> list[Repair]:
-    # a second slip: search again from the best repair when that is no honest approximation yet
-    best = found[0]
-    if _honest(exam, best):
+    found = _plain(exam)
+    if found is not None:
         return found
-    return [*repairs(exam, best, insert=False), *found]
+    for condition in conditions(question):
+        judged = _plain(examine(under(question, condition)))
+        if judged is not None and judged.verdict in ("exact", "truncation"):
+            words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
+            note = "; ".join(n for n in (judged.note, f"{words} at {condition.told}") if n)
+            return replace(judged, verdict="convention", note=note)
+    return _searched(exam)
 
 
-def _second_edits(exam: Examination, start: Repair) -> list[Repair]:
-    for first in _promising(exam, start):
-        found = [r for r in repairs(exam, first, insert=False) if _honest(exam, r)]
-        if found:
-            return found
-    return []
+def _plain(exam: Examination) -> Decision | None:
+    # what needs no search: exact, without values, or a truncation
+    tree = exam.question.formula.tree
+    met = agreement(exam.judged, tree)
+    if met.exact:
+        proof = "polynomial" if proves_equal(exam.question, tree) else "50 digits"
+        start = standing(exam, tree)
+        return _verdict(exam, "exact", start, certificate=proof, domain=domain(exam.question))
+    if met.expected <= POINTS // 2 or met.agrees:
+        return _verdict(exam, "untestable", _unordered(exam, tree), note=_without_value(met))
+    if not is_consistent(exam.question, tree):
+        return None
+    start = standing(exam, tree)
+    note = truncated(exam, start)
+    return None if note is None else _verdict(exam, "truncation", start, note=note, domain=domain(exam.question))
 
 
-def _honest(exam: Examination, repair: Repair) -> bool:
-    if repair.exact:
-        return True
-    truncated = is_truncation(exam.question, exam.groups, repair.tree)
-    return truncated and is_consistent(exam.question, repair.tree)
+def _searched(exam: Examination) -> Decision:
+    tree = exam.question.formula.tree
+    start = standing(exam, tree)
+    found = search(exam, start)
+    condition = next(conditions(exam.question), None)
+    note = found.note
+    if condition is not None and found.verdict != "misprint":
+        # a slip in a formula for constant speed
+        other = examine(under(exam.question, condition))
+        there = search(other, standing(other, tree))
+        if there.verdict in ("misprint", "nearer") and found.verdict != "mixed":
+            found, note = there, "; ".join(n for n in (there.note, f"compared at {condition.told}") if n)
+    met = agreement(exam.judged, tree)
+    if found.verdict in ("wrong", "nearer") and 2 * met.valued <= met.expected:
+        return _verdict(exam, "untestable", start, note=_without_value(met))
+    return _verdict(exam, found.verdict, start, repairs=found.repairs, nearer=found.nearer, note=note)
 
 
-def _promising(exam: Examination, start: Repair) -> list[Repair]:
-    # first edits that leave the least error, or that mend one group of several
-    parts = better(exam, start, insert=False)
-    edits = listed_edits(exam.question, start.tree)
-    errors = sorted((max_rel_error(exam.turn, apply(start.tree, e)), i) for i, e in enumerate(edits))
-    least = [standing(exam, apply(start.tree, edits[i]), (edits[i],)) for _, i in errors[:_BEAM]]
-    return [*sorted(parts, key=lambda r: r.max_rel_error)[:_BEAM], *least]
+def _without_value(met: Agreement) -> str:
+    if met.expected <= POINTS // 2:
+        return f"the quantity has no value at {POINTS - met.expected} of {POINTS} states; say where it has with assume"
+    told = f"no value at {met.expected - met.valued} of {met.expected} states"
+    return f"{told}; agrees at the others, so say with assume where it is meant to hold" if met.agrees else told
+
+
+def _unordered(exam: Examination, tree: Node) -> Repair:
+    found = standing(exam, tree)
+    return replace(found, orders={})
+
+
+def domain(question: Question) -> str:
+    """Where formula and quantity were compared, in words."""
+    theory = question.theory
+    used = [k for k in theory.letters if k in dependencies(theory, [question.quantity]) and k not in question.hold]
+    positive = [k for k in used if theory.letters[k].positive and not theory.letters[k].domain]
+    signed = [k for k in used if not theory.letters[k].positive and not theory.letters[k].domain]
+    ranges = [f"{d[0]:g} < {k} < {d[1]:g}" for k in used if (d := theory.letters[k].domain)]
+    parts = [f"positive {', '.join(positive)}"] if positive else []
+    parts += [f"all {', '.join(signed)}"] if signed else []
+    parts += ["rods longer than their cranks"] if theory.rods else []
+    held = [f"{k} = {v:g}" for k, v in question.hold.items()]
+    return "; ".join([*parts, *ranges, *held])
 
 
 def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Decision:
@@ -122,8 +139,11 @@ def _counterexample(exam: Examination, tree: Node) -> dict[str, float]:
     with mpmath.workdps(strict.digits):
         errors = [_relative(p, e) for p, e in zip(printed, expected, strict=True)]
     worst = int(np.argmax(errors))
-    shown = [n for n in letters(tree) if n in names(strict, [])]
-    state = {n: float(_at(names(strict, [])[n], worst)) for n in shown if np.ndim(names(strict, [])[n]) <= 1}
+    known = names(strict, [])
+    needed = dependencies(exam.question.theory, [exam.question.quantity])
+    free = [k for k in exam.question.theory.letters if k in needed]
+    shown = [n for n in dict.fromkeys([*letters(tree), *free]) if n in known]
+    state = {n: float(_at(known[n], worst)) for n in shown if np.ndim(known[n]) <= 1}
     return state | {"printed": float(printed[worst]), "derived": float(expected[worst])}
 
 

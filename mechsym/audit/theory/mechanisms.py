@@ -10,6 +10,8 @@ from mechsym.audit.theory.record import Letter, Theory
 from mechsym.derive import Equations, Mechanism, velocities
 from mechsym.derive.rates import accelerations
 
+_SIGNED = ("offset",)  # lengths that may lie on either side
+
 Results = Mapping[str, tuple[Any, str]]  # name: (expression, unit)
 
 
@@ -52,7 +54,12 @@ def mechanism_theory(
 def _letters(m: Mechanism, values: Mapping[str, float]) -> dict[str, Letter]:
     free = [*m.q, *velocities(m), *accelerations(m), *m.parameter_list, *m.input_list]
     units = m.units | _units(m)
-    return {s.name: Letter(unit=units[s.name], value=float(values.get(s.name, 1.0))) for s in free}
+    return {
+        s.name: Letter(
+            unit=units[s.name], value=float(values.get(s.name, 1.0)), sign="any" if s.name in _SIGNED else ""
+        )
+        for s in free
+    }
 
 
 def _units(m: Mechanism) -> dict[str, str]:

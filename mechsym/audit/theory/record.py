@@ -9,17 +9,35 @@ import numpy as np
 
 from mechsym.audit.algebra import Algebra, evaluate
 from mechsym.audit.reader import CONSTANTS, read_expression
-from mechsym.audit.tree import Node, children, function_of, letters, walk
+from mechsym.audit.theory.implicit import harmonic, root
+from mechsym.audit.theory.tape import Entry, Harmonic, Root, Tape, needed
+from mechsym.audit.tree import Node, children, function_of, walk
 from mechsym.errors import BadInput
-from mechsym.quantities import record
+from mechsym.quantities import dimension, record
 
 
 @record
 class Letter:
-    """A letter with its unit and the value that its source gives it."""
+    """A letter with its unit, the value that its source gives it, and where it may lie."""
 
     unit: str  #: SI unit, `"-"` for a pure number
     value: float  #: Value in the source's data, or a plausible one where it prints none [unit]
+    sign: str = ""  #: `positive`, `any`, or by the unit: lengths, masses, pressures, temperatures and numbers are positive
+    domain: tuple[float, float] | None = None  #: Ends of the range, where it is known [unit]
+
+    @property
+    def positive(self) -> bool:
+        """Whether it is never negative."""
+        if self.domain:
+            return self.domain[0] >= 0
+        return self.sign == "positive" or (not self.sign and self.value >= 0 and _never_negative(self.unit))
+
+
+def _never_negative(unit: str) -> bool:
+    mass, length, time, kelvin = dimension(unit)
+    if unit.startswith("rad"):
+        return False
+    return time == 0 or kelvin != 0 or (mass, length, time) == (1, -1, -2)
 
 
 @record
@@ -29,12 +47,20 @@ class Theory:
     name: str  #: Name before the dot in `crosshead.inertia`
     letters: Mapping[str, Letter]
     #: Named expressions in letters and earlier names; a tuple has one value per part (per journal)
-    tape: Mapping[str, Node | tuple[Node, ...]]
+    tape: Mapping[str, Entry]
     results: tuple[str, ...]  #: Names on the tape that formulas may claim to be
     units: Mapping[str, str] = field(default_factory=dict)  #: Units of names on the tape, where known
     angle: str = ""  #: Letter that runs over a turn, empty when nothing turns
     rods: tuple[str, ...] = ()  #: Lengths that grow without limit when lambda goes to zero
+    small: tuple[str, ...] = ()  #: Numbers that go to zero as lambda does
+    #: What a source may take for granted: words to the letters that vanish then
+    conditions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     data: str = ""
+
+    def __post_init__(self) -> None:
+        """Every name gets its slopes, rates and harmonics."""
+        if not isinstance(self.tape, Tape):
+            object.__setattr__(self, "tape", Tape(self.tape, self.letters, self.angle))
 
 
 def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algebra: Algebra) -> None:
@@ -46,13 +72,17 @@ def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algeb
         Values of the letters; names are added
     """
     for wish in wanted:
-        entry = theory.tape.get(wish, ())
-        if wish in names or not entry:
+        if wish in names or wish not in theory.tape:
             continue
-        parts = entry if isinstance(entry, tuple) else (entry,)
-        for part in parts:
-            complete(theory, names, letters(part), algebra)
-        found = [evaluate(part, names, algebra) for part in parts]
+        entry = theory.tape[wish]
+        if isinstance(entry, Harmonic):
+            names[wish] = harmonic(entry, names, algebra, lambda n: complete(theory, n, [entry.of], algebra))
+            continue
+        complete(theory, names, needed(entry), algebra)
+        if isinstance(entry, Root):
+            names[wish] = root(entry, names, algebra)
+            continue
+        found = [evaluate(part, names, algebra) for part in (entry if isinstance(entry, tuple) else (entry,))]
         names[wish] = np.stack(np.broadcast_arrays(*found)) if isinstance(entry, tuple) else found[0]
 
 
@@ -64,9 +94,8 @@ def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:
         if wish in found:
             continue
         found.add(wish)
-        entry = theory.tape.get(wish, ())
-        for part in entry if isinstance(entry, tuple) else (entry,):
-            waiting += letters(part)
+        if wish in theory.tape:
+            waiting += needed(theory.tape[wish])
     return found
 
 

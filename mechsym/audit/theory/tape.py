@@ -6,14 +6,14 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from mechsym.audit.calculus import Rate, derivative, is_zero, over
 from mechsym.audit.tree import Node, letters, name, negative, number
 from mechsym.errors import BadInput
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Root:
     """The name `unknown` for which an equation vanishes; `start` picks the branch."""
 
@@ -22,13 +22,14 @@ class Root:
     start: Node
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Harmonic:
     """One Fourier coefficient of a name over a turn of an angle; order 0 is the mean."""
 
     of: str
     angle: str
     order: int
+    free: frozenset[str]
     sine: bool = False
 
 
@@ -71,7 +72,7 @@ class Tape(Mapping[str, Entry]):
             return self.timed(match["of"] + match["dots"][:-1].replace("d", "_d", 1))
         if (match := _HARMONIC.match(key)) and self.angle and match["of"] in self:
             order, sine = int(match["order"] or 0), match["kind"] == "sin"
-            return Harmonic(of=match["of"], angle=self.angle, order=order, sine=sine)
+            return Harmonic(of=match["of"], angle=self.angle, order=order, free=frozenset(self.free), sine=sine)
         return None
 
     def slope(self, of: str, by: str) -> Node | None:

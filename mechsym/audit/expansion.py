@@ -1,0 +1,137 @@
+"""Powers of lambda: which of them a formula has right, which it leaves out, and which are neither.
+
+A truncation is pure when each coefficient of lambda^j is the derived one or 0, honest when no power below its order is
+wrong and its error there is at most the derived term: never worse than leaving that power out.
+"""
+
+from collections.abc import Mapping
+from dataclasses import field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from mechsym.audit.algebra import DIGITS
+from mechsym.audit.bench import Bench, bench, value
+from mechsym.audit.orders import ORDER_DIGITS
+from mechsym.audit.question import Question, digit_values, small_rods
+from mechsym.audit.states import drawn
+from mechsym.audit.tree import Node
+from mechsym.quantities import record
+
+_SLACK = 1.001
+_ANGLES = 8
+_STATES = 2
+_NODES = 12
+_NODE = Fraction(1, 10**6)
+_TRUSTED = 10  # coefficients that the nodes give to eight digits
+_SHIFT = 2  # powers of eps below zero that a quantity may start with
+
+
+@record
+class Expansion:
+    """States at a few tiny lambdas, from which the coefficients of powers follow."""
+
+    question: Question
+    load: str  #: The mass, inertia or force that is not zero, `all` for every one
+    loads: tuple[str, ...]
+
+    @cached_property
+    def benches(self) -> list[Bench]:
+        """A few angles of a turn at two states, for each lambda."""
+        return [_deep(self.question, self._values, eps) for eps in self.steps]
+
+    @property
+    def steps(self) -> list[Fraction]:
+        """What lambda is multiplied by [-]."""
+        return [_NODE * (i + 1) for i in range(_NODES)]
+
+    @cached_property
+    def _values(self) -> dict[str, list[Fraction]]:
+        question, count = self.question, _ANGLES * _STATES
+        few = drawn(question, _STATES, seed=4)
+        values = {k: [v[i // _ANGLES] for i in range(count)] for k, v in few.items()}
+        if self.load != "all":
+            values |= {other: [Fraction(0)] * count for other in self.loads if other != self.load}
+        angle = question.theory.angle
+        if angle and angle not in question.hold and not question.theory.letters[angle].domain:
+            values[angle] = [Fraction(2 * (i % _ANGLES) + 1, _ANGLES) * Fraction(355, 113) for i in range(count)]
+        return values
+
+    @cached_property
+    def weights(self) -> Any:
+        """Inverse of the matrix of powers [-]."""
+        with mpmath.workdps(ORDER_DIGITS):
+            scale = [(mpmath.mpf(e.numerator) / e.denominator) for e in self.steps]
+            return np.array((mpmath.matrix([[e**j for j in range(_NODES)] for e in scale]) ** -1).tolist())
+
+    @cached_property
+    def derived(self) -> Any:
+        """Coefficients of the derived quantity, shape (powers, states)."""
+        return self._coefficients([b.expected for b in self.benches])
+
+    def printed(self, tree: Node) -> Any:
+        """Coefficients of a formula, shape (powers, states)."""
+        return self._coefficients([value(b, tree) for b in self.benches])
+
+    def _coefficients(self, values: list[Any]) -> Any:
+        with mpmath.workdps(ORDER_DIGITS):
+            scale = [(mpmath.mpf(e.numerator) / e.denominator) ** _SHIFT for e in self.steps]
+            return self.weights @ np.array([v * e for v, e in zip(values, scale, strict=True)])
+
+
+@record
+class Powers:
+    """How a formula stands in powers of lambda, for one load."""
+
+    honest: bool
+    wrong: tuple[int, ...] = ()  #: Powers, counted from the leading one, that are neither right nor left out
+    missing: tuple[int, ...] = field(default=())  #: Powers that are left out
+
+    @property
+    def pure(self) -> bool:
+        """Whether every power is right or left out."""
+        return self.honest and not self.wrong
+
+
+def powers(expansion: Expansion, tree: Node) -> Powers:
+    """Compare the coefficients of a formula with the derived ones."""
+    derived, printed = expansion.derived, expansion.printed(tree)
+    with mpmath.workdps(ORDER_DIGITS):
+        if any(mpmath.isnan(c) for row in printed for c in row):
+            return Powers(honest=False)
+        sizes = [max(abs(c) for c in row) for row in derived]
+        small = max(sizes) * mpmath.mpf(10) ** -8
+        errors = [max(abs(a - b) for a, b in zip(*rows, strict=True)) for rows in zip(derived, printed, strict=True)]
+        own = [max(abs(c) for c in row) for row in printed]
+    leading = next(k for k, size in enumerate(sizes) if size > small)
+    off = [k for k in range(_TRUSTED) if errors[k] > small]
+    if not off or off[0] <= leading:
+        return Powers(honest=False)
+    # a derived series that ends before this power has no term to compare with: then its first one
+    ended = all(size <= small for size in sizes[off[0] : _TRUSTED])
+    measure = sizes[leading] if ended else sizes[off[0]]
+    return Powers(
+        honest=bool(errors[off[0]] <= _SLACK * measure),
+        wrong=tuple(k - leading for k in off if own[k] > small),
+        missing=tuple(k - leading for k in off if own[k] <= small),
+    )
+
+
+def changed_powers(expansion: Expansion, one: Node, other: Node) -> set[int]:
+    """Powers, counted from the leading one, in which two formulas differ."""
+    derived, first, second = expansion.derived, expansion.printed(one), expansion.printed(other)
+    with mpmath.workdps(ORDER_DIGITS):
+        sizes = [max(abs(c) for c in row) for row in derived]
+        small = max(sizes) * mpmath.mpf(10) ** -8
+        leading = next(k for k, size in enumerate(sizes) if size > small)
+        gaps = [max(abs(a - b) for a, b in zip(first[k], second[k], strict=True)) for k in range(_TRUSTED)]
+    return {k - leading for k, gap in enumerate(gaps) if not gap <= small}
+
+
+def _deep(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
+    with mpmath.workdps(ORDER_DIGITS):
+        states = digit_values(small_rods(question.theory, values, eps))
+    return bench(question, states, DIGITS, ORDER_DIGITS)

@@ -1,0 +1,102 @@
+"""The order in which a formula that is not exact is searched: one slip, something lost, two slips, or only nearer."""
+
+from mechsym.audit.dimensions import is_consistent
+from mechsym.audit.expansion import Powers, changed_powers, powers
+from mechsym.audit.orders import EXACT
+from mechsym.audit.pairs import paired_repair
+from mechsym.audit.repair import Examination, Repair, exact_repair, raising_repairs
+from mechsym.audit.rounding import rounded_constant
+from mechsym.audit.tree import children, walk
+from mechsym.quantities import record
+
+# an error beyond this at the source's data is no approximation, whatever its powers
+LARGEST_ERROR = 1.0
+# what makes a formula a truncation by taking its terms away does not repair it
+_TAKES_AWAY = {"left out"}
+_PLAIN = {"sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power"}
+_FEW_LEAVES = 3
+
+
+@record
+class Found:
+    """What the search says of a formula."""
+
+    verdict: str  #: `misprint`, `mixed`, `nearer` or `wrong`
+    repairs: tuple[Repair, ...] = ()
+    nearer: Repair | None = None
+    note: str = ""
+
+
+def standing_powers(exam: Examination, repair: Repair) -> dict[str, Powers]:
+    """Powers of lambda for every load for which a formula is not exact."""
+    return {k: powers(exam.expansions[k], repair.tree) for k, order in repair.orders.items() if order != EXACT}
+
+
+def truncated(exam: Examination, start: Repair) -> str | None:
+    """A note on a formula that is a pure truncation, or exact but for rounded numbers; None where it is neither."""
+    if note := rounded_constant(exam, start.tree):
+        return note
+    if not start.orders or min(start.orders.values()) < 1 or start.max_rel_error > LARGEST_ERROR:
+        return None
+    found = standing_powers(exam, start)
+    if not all(p.pure for p in found.values()):
+        return None
+    return f"leaves out {_powers({k for p in found.values() for k in p.missing[:1]})} and what follows"
+
+
+def search(exam: Examination, start: Repair) -> Found:
+    """The verdict on a formula that is neither exact nor a truncation, and its repairs."""
+    mixed = _mixed(exam, start)
+    single = exact_repair(exam, start)
+    # in an honest approximation, a bracket moved or a factor taken away is a coincidence
+    if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN):
+        return Found(verdict="misprint", repairs=(single,))
+    lost = exact_repair(exam, start, insert=True)
+    if lost is not None and _leaves(lost) - _leaves(start) <= _FEW_LEAVES:
+        return Found(verdict="misprint", repairs=(lost,))
+    raised = [r for r in raising_repairs(exam, start) if is_consistent(exam.question, r.tree)] if start.orders else []
+    mended = [r for r in raised if _mends(exam, start, r)]
+    if mended:
+        return Found(verdict="misprint", repairs=tuple(mended))
+    if lost is not None:
+        return Found(verdict="misprint", repairs=(lost,))
+    if mixed:
+        return Found(verdict="mixed", note=mixed)
+    if pair := paired_repair(exam, start):
+        return Found(verdict="misprint", repairs=(pair,))
+    if raised:
+        return Found(verdict="nearer", nearer=raised[0])
+    return Found(verdict="wrong")
+
+
+def _leaves(repair: Repair) -> int:
+    return sum(not children(node) for _, node in walk(repair.tree))
+
+
+def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
+    # every power that the edit changes is right or left out afterwards
+    if repair.edits[-1].kind in _TAKES_AWAY or min(repair.orders.values(), default=EXACT) < 1:
+        return False
+    changed = [k for k in repair.orders if repair.orders[k] != start.orders[k] and repair.orders[k] != EXACT]
+    for load in changed:
+        found = powers(exam.expansions[load], repair.tree)
+        truncates = found.pure or found.missing and min(found.missing) < min(found.wrong)
+        if not (found.honest and truncates) or set(found.wrong) & changed_powers(exam.expansions[load], start.tree, repair.tree):
+            return False
+    return True
+
+
+def _mixed(exam: Examination, start: Repair) -> str:
+    if not start.orders or min(start.orders.values()) < 1 or start.max_rel_error > LARGEST_ERROR:
+        return ""
+    found = standing_powers(exam, start)
+    if not all(p.honest for p in found.values()) or not is_consistent(exam.question, start.tree):
+        return ""
+    wrong = {k for p in found.values() for k in p.wrong}
+    return f"no truncation: {_powers(wrong)} neither right nor left out"
+
+
+def _powers(orders: set[int]) -> str:
+    few = sorted(orders)[:4]
+    told = ", ".join(f"lam^{k}" for k in few) + (" .." if len(orders) > 4 else "")
+    return f"the relative power{'s' if len(few) > 1 else ''} {told}" if few else "powers of lam"
