@@ -89,6 +89,7 @@ class Powers:
     honest: bool
     wrong: tuple[int, ...] = ()  #: Powers, counted from the leading one, that are neither right nor left out
     missing: tuple[int, ...] = field(default=())  #: Powers that are left out
+    first: int | None = None  #: The first power that differs, of lambda itself
 
     @property
     def pure(self) -> bool:
@@ -109,11 +110,12 @@ def powers(expansion: Expansion, tree: Node) -> Powers:
     leading = next(k for k, size in enumerate(sizes) if size > small)
     off = [k for k in range(_TRUSTED) if errors[k] > small]
     if not off or off[0] <= leading:
-        return Powers(honest=False)
+        return Powers(honest=False, first=off[0] - _SHIFT if off else None)
     # a derived series that ends before this power has no term to compare with: then its first one
     ended = all(size <= small for size in sizes[off[0] : _TRUSTED])
     measure = sizes[leading] if ended else sizes[off[0]]
     return Powers(
+        first=off[0] - _SHIFT,
         honest=bool(errors[off[0]] <= _SLACK * measure),
         wrong=tuple(k - leading for k in off if own[k] > small),
         missing=tuple(k - leading for k in off if own[k] <= small),

@@ -16,7 +16,7 @@ from mechsym.audit.limits import MAX_DEPTH
 from mechsym.audit.tree import Node, binary, call, name, negative, number
 from mechsym.errors import BadInput
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:(?:\.|,|\{,\})\d+)?|[A-Za-z]|\S")
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:(?:\.|,|\{,\})\d+)?|[^\W\d_]|\S")
 _SILENT = {
     "\\,", "\\;", "\\:", "\\!", "\\ ", "\\quad", "\\qquad", "\\displaystyle", "\\limits", "\\nolimits", "~", "&", "$",
     "\\left", "\\right", "\\big", "\\Big", "\\bigl", "\\bigr", "\\Bigl", "\\Bigr", "\\bigg", "\\biggl", "\\biggr",
@@ -149,6 +149,8 @@ def _any_factor(cursor: Cursor, bare: bool) -> Node:
         return _root(cursor)
     if token == "\\sum":
         return _total(cursor)
+    if token == "\\begin":
+        return _cases(cursor)
     function = _function_name(cursor)
     if function:
         return _function(cursor, function)

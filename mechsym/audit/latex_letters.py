@@ -12,6 +12,7 @@ _GREEK = {
     "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
     "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
 }  # fmt: skip
+_DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
 WORDS = {"\\mathrm", "\\text", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
 
 
@@ -60,6 +61,10 @@ def letter(cursor: Cursor, bare: bool) -> Node:
         Whether it is the one token after a fraction or a power, without a subscript
     """
     start = cursor.position
+    while cursor.peek() in _DECORATED and cursor.peek(1) != "{":
+        cursor.take()
+    if cursor.peek() in _DECORATED:
+        return _decorated(cursor)
     dots = {"\\dot": 1, "\\ddot": 2}.get(cursor.peek(), 0)
     braced = False
     if dots:
@@ -75,6 +80,17 @@ def letter(cursor: Cursor, bare: bool) -> Node:
     if cursor.peek() == "'":
         raise BadInput(f"LaTeX: primes are not read {place(cursor)}; write \\frac{{dx}}{{d\\varphi}} for x'")
     found = plain(base, subscript, dots)
+    cursor.spelled.setdefault(found, _join(cursor.tokens[start : cursor.position]))
+    return name(found)
+
+
+def _decorated(cursor: Cursor) -> Node:
+    # \\vec{r} is r; a bar or a hat makes another letter
+    start, mark = cursor.position, _DECORATED[cursor.take()]
+    cursor.take("{")
+    base, subscript = _base(cursor), _subscript(cursor)
+    cursor.take("}")
+    found = plain(base, subscript or _subscript(cursor)) + mark
     cursor.spelled.setdefault(found, _join(cursor.tokens[start : cursor.position]))
     return name(found)
 
@@ -95,7 +111,7 @@ def _base(cursor: Cursor) -> str:
         return word
     if token[1:] in _GREEK and token.startswith("\\"):
         return token[1:]
-    if len(token) == 1 and token.isalpha() and token.isascii():
+    if len(token) == 1 and token.isalpha():
         return token
     cursor.position -= 1
     what = repr(token) if token else "an end"

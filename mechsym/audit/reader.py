@@ -2,21 +2,23 @@
 
 import ast
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import field
 
 from mechsym.audit import limits
 from mechsym.audit import tree as trees
+from mechsym.audit.functions import MEANINGS, MODULES, meaning
 from mechsym.audit.latex import read_latex
 from mechsym.audit.printer import to_latex, to_python
-from mechsym.audit.spelling import from_greek, resolve
+from mechsym.audit.spelling import bracketed, from_greek, resolve
+from mechsym.audit.statement import statement
 from mechsym.audit.tree import Node
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 MAX_TEXT = 6000
 CONSTANTS = ("pi",)
-_ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "tg": "tan", "ctg": "cot", "ln": "log", "Abs": "abs"}
+_ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "fabs": "abs", "tg": "tan", "ctg": "cot", "ln": "log", "Abs": "abs"}
 
 
 @record
@@ -30,7 +32,9 @@ class Formula:
     note: str = ""
 
 
-def read(text: str, known: Iterable[str], letters: Mapping[str, str] | None = None) -> Formula:
+def read(
+    text: str, known: Iterable[str], letters: Mapping[str, str] | None = None, more: Container[str] = ()
+) -> Formula:
     """Read a formula in Python syntax or LaTeX.
 
     Parameters
@@ -41,13 +45,17 @@ def read(text: str, known: Iterable[str], letters: Mapping[str, str] | None = No
         Author's letter to its expression in known letters
     """
     known = [*known, *CONSTANTS]
-    own = {key: read_expression(value, known)[0] for key, value in _author_letters(letters or {}).items()}
-    body, note = _right_side(text)
-    tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)])
+    own = {key: read_expression(value, known, more)[0] for key, value in _author_letters(letters or {}).items()}
+    said = statement(text)
+    if len(said.right) > 1:
+        raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
+    body, notes = said.right[0], [said.note, *_hidden(own, known)]
+    tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)], more)
+    note = "; ".join(n for n in notes if n)
     return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
 
 
-def read_expression(text: str, known: Iterable[str]) -> tuple[Node, dict[str, str]]:
+def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) -> tuple[Node, dict[str, str]]:
     """Read an expression without an equals sign.
 
     Returns
@@ -62,7 +70,7 @@ def read_expression(text: str, known: Iterable[str]) -> tuple[Node, dict[str, st
         raise BadInput("the formula is empty; write an expression such as r*sin(phi)")
     tree, spelled = read_latex(text) if is_latex(text) else (_read_python(text), {})
     limits.check(tree)
-    meant = {written: _known_letter(written, known) for written in trees.letters(tree)}
+    meant = {written: _known_letter(written, known, more) for written in trees.letters(tree)}
     tree = trees.substitute(tree, lambda n: trees.name(meant[n.id]) if isinstance(n, ast.Name) else None)
     return tree, {meant[plain]: latex for plain, latex in spelled.items() if plain in meant}
 
@@ -115,27 +123,22 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
         tree = read_latex(written)[0] if is_latex(written) else _read_python(written)
         if not isinstance(tree, ast.Name):
             raise BadInput(f"{written!r} is not a letter; write for example R=r1+r2")
+        if tree.id in (*CONSTANTS, *limits.FUNCTIONS, *_ALIASES, *MEANINGS):
+            raise BadInput(f"--letters {written!r} cannot be a letter: {tree.id} has its meaning already; name another")
         found[tree.id] = value
     return found
 
 
-def _right_side(text: str) -> tuple[str, str]:
-    parts = [p.strip() for p in re.split(r"(?<![=<>!])=(?!=)(?![^{]*\})", text)]
-    note = ""
-    if len(parts) == 3 and re.fullmatch(r"0\s*\.?", parts[2]):
-        parts.pop()
-        note = 'the trailing "= 0" was left out: with it the equation would say that the quantity vanishes'
-    if len(parts) > 2:
-        raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
-    if len(parts) == 2 and (re.search(r"[-+*/:]|\\frac|\\sqrt", parts[0]) or not parts[0]):
-        raise BadInput(f"the left side {parts[0][:40]!r} must be the quantity alone; solve the equation for it")
-    if len(parts) == 2 and re.fullmatch(r"0\s*\.?", parts[1]):
-        raise BadInput("the right side is 0; solve the equation for the quantity: 'name = expression'")
-    return parts[-1].rstrip(".,;"), note
+def _hidden(own: Mapping[str, Node], known: list[str]) -> Iterator[str]:
+    for letter, tree in own.items():
+        if letter in known and not (isinstance(tree, ast.Name) and tree.id == letter):
+            yield f"{letter} means {to_python(tree)} here, not the theory's {letter}"
 
 
-def _known_letter(written: str, known: list[str]) -> str:
+def _known_letter(written: str, known: list[str], more: Container[str]) -> str:
     found = resolve(written, known)
+    if found is None and written in more:
+        return written
     if found is None:
         raise BadInput(
             f"unknown letter {written[:40]!r}; letters are {', '.join(known)}; name others with --letters 'R=r1+r2'"
@@ -144,24 +147,58 @@ def _known_letter(written: str, known: list[str]) -> str:
 
 
 def _read_python(text: str) -> Node:
-    source = from_greek(text).replace("^", "**")
+    source = from_greek(bracketed(text)).replace("^", "**")
     try:
         tree = ast.parse(source.strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
-        hint = "write products with *, as in 2*r" if re.search(r"\d[A-Za-z(]|\)\s*[A-Za-z0-9(]", source) else ""
-        raise BadInput(f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {hint}".rstrip(" .")) from None
+        raise BadInput(f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {_hint(source)}".rstrip(" .")) from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
     limits.check_size(tree)
     return trees.substitute(tree, _tidy)
 
 
+def _hint(source: str) -> str:
+    missing = re.search(r"(?<![\w.])\d+(?:\.\d+)?\s*[A-Za-z(]|\)\s*[A-Za-z0-9(]", source)
+    if missing is None:
+        return ""
+    before, after = source[: missing.end() - 1].rstrip()[-12:], source[missing.end() - 1 :][:12]
+    return f"a * is missing between {before!r} and {after!r}: write products with *, as in 2*r"
+
+
 def _tidy(node: Node) -> Node | None:
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.UAdd):
         return trees.substitute(node.operand, _tidy)
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and len(node.args) == 1:
-        function = _ALIASES.get(node.func.id, node.func.id)
-        if not node.keywords:
-            return trees.call(function, trees.substitute(node.args[0], _tidy))
-    return None
+    if not isinstance(node, ast.Call):
+        return None
+    function = _function(node)
+    if node.keywords:
+        raise BadInput(f"{function}() takes no named arguments here")
+    arguments = [trees.substitute(a, _tidy) for a in node.args]
+    found = meaning(function, arguments)
+    return found if found is not None else _one(function, arguments)
+
+
+def _one(function: str, arguments: list[Node]) -> Node:
+    if len(arguments) != 1:
+        raise BadInput(f"{function} takes one argument, not {len(arguments)}")
+    plain = _ALIASES.get(function, function)
+    if plain not in limits.FUNCTIONS:
+        there = ", ".join([*limits.FUNCTIONS, *MEANINGS])
+        raise BadInput(
+            f"{function[:40]!r} is not a known function; a * is missing behind it if it is a letter; there are {there}"
+        )
+    return trees.call(plain, arguments[0])
+
+
+def _function(node: ast.Call) -> str:
+    if isinstance(node.func, ast.Name):
+        return node.func.id
+    if isinstance(node.func, ast.Attribute):
+        module = ast.unparse(node.func.value)
+        if module.split(".")[0] in MODULES:
+            return node.func.attr
+        raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; write sin, np.sin or math.sin")
+    after = ast.unparse(node.func)[:40]
+    raise BadInput(f"a * is missing behind {after!r}: write {after}*(..)")

@@ -26,6 +26,40 @@ _STEMS = "|".join([*sorted(_LATEX, key=len, reverse=True), "[A-Za-z]"])
 _NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A-Za-z0-9]+?))?(?P<dots>dd?)?")
 
 
+_CALLS = "arcsin|arccos|arctan|asin|acos|atan|sqrt|sin|cos|tan|cot|tg|ctg|exp|log|ln"
+_BARE = re.compile(rf"\b({_CALLS})\s+((?:\d+(?:\.\d+)?\s*\*?\s*)?[^\W\d]\w*)(?!\s*\()")
+_POWERED = re.compile(rf"\b({_CALLS})\s*(?:(²|³|⁴)|(?:\^|\*\*)\s*\{{?\(?(-?\d)\)?\}}?)\s*(?=[^\W\d]|\()")
+
+
+def bracketed(text: str) -> str:
+    """`sin²(φ)` as `sin(φ)**2`, `cos φ` as `cos(φ)`."""
+    while match := _POWERED.search(text):
+        power = {"²": "2", "³": "3", "⁴": "4"}.get(match[2] or "", match[3] or "")
+        end = _argument_end(text, match.end())
+        inside = text[match.end() : end]
+        if power.startswith("-") or not inside:
+            break
+        inner = inside if inside.startswith("(") else f"({inside})"
+        text = f"{text[: match.start()]}{match[1]}{inner}**{power}{text[end:]}"
+    return _BARE.sub(lambda m: f"{m[1]}({_joined(m[2])})", text)
+
+
+def _joined(argument: str) -> str:
+    return re.sub(r"^(\d+(?:\.\d+)?)\s*\*?\s*", r"\1*", argument)
+
+
+def _argument_end(text: str, start: int) -> int:
+    if text[start : start + 1] != "(":
+        found = re.compile(r"[^\W\d]\w*").match(text, start)
+        return found.end() if found else start
+    depth = 0
+    for i in range(start, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[i], 0)
+        if depth == 0:
+            return i + 1
+    return start
+
+
 def from_greek(text: str) -> str:
     """Replace Greek letters and typographic signs by the names and signs that Python reads.
 
@@ -40,7 +74,7 @@ def from_greek(text: str) -> str:
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
     """A letter's plain name from what LaTeX spells out."""
-    return _ALIASES.get(base, base) + re.sub(r"[^A-Za-z0-9]", "", subscript) + "d" * dots
+    return _ALIASES.get(base, base) + re.sub(r"[\W_]", "", subscript) + "d" * dots
 
 
 def resolve(written: str, known: Iterable[str]) -> str | None:

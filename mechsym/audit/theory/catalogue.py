@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from functools import cache, partial
+from importlib import resources
+from pathlib import Path
 
 from mechsym.audit.theory import drives, engines, guides, parts, rodless, sliders
+from mechsym.audit.theory.declared import read_theory, theory_of
 from mechsym.audit.theory.record import Theory
 from mechsym.cases.numbers import numbers, usual
 from mechsym.derive.build import scripts
@@ -28,9 +31,32 @@ _THEORIES: dict[str, tuple[Build, str]] = {
 }
 
 
+_SHIPPED = resources.files("mechsym.audit") / "theories"
+
+
+def shipped() -> dict[str, str]:
+    """Theories that are data: name to the text of their file."""
+    files = (f for f in _SHIPPED.iterdir() if f.name.endswith(".toml"))
+    return {f.name.removesuffix(".toml"): f.read_text(encoding="utf-8") for f in files}
+
+
 def names() -> list[str]:
-    """Names of all theories: those above, and every other derived mechanism."""
-    return sorted({*_THEORIES, *scripts()})
+    """Names of all theories: those above, those of `theories/`, and every other derived mechanism."""
+    return sorted({*_THEORIES, *scripts(), *shipped()})
+
+
+def named(name: str, case: str = "", file: str = "") -> Theory:
+    """A theory by its name: of a file of one's own, or one that is known here."""
+    if file and Path(file).suffix == ".toml":
+        own = read_theory(Path(file))
+        if name in (own.name, Path(file).stem):
+            return own
+    elif file:
+        raise BadInput(f"--theory {file}: a theory is a TOML file; a mechanism of your own is asked as ./FILE.py:QUANTITY")
+    try:
+        return theory(name, case)
+    except BadInput as error:
+        raise BadInput(f"{error}; of your own: {own.name}" if file else str(error)) from None
 
 
 @cache
@@ -43,7 +69,9 @@ def theory(name: str, case: str = "") -> Theory:
         Name of a built-in case or a path; empty for the source's data
     """
     if name not in names():
-        raise BadInput(f"there is no theory {name!r}; there are {', '.join(names())}")
+        raise BadInput(f"there is no theory {name!r}; theories are {', '.join(names())}, or one of your own by --theory")
+    if name in shipped() and name not in _THEORIES:
+        return theory_of(shipped()[name], name, f"theories/{name}.toml")
     build, own = _THEORIES.get(name) or (partial(drives.mechanism, name), usual(name))
     chosen = case or own
     return build(numbers(chosen, name if name in scripts() else "") if chosen else {}, chosen)
