@@ -103,6 +103,12 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
     }
 
 
+def unread_row(name: str, against: str, printed: str, why: str) -> Row:
+    """The row of a formula that could not be asked."""
+    head = {"source": "own", "equation": name or "-", "claim": against}
+    return head | _plain("untestable", None, f"not read: {why}", printed)
+
+
 def _edits(question: Question, verdict: Decision) -> str:
     if not verdict.repairs:
         return ""

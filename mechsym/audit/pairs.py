@@ -23,6 +23,7 @@ from mechsym.audit.repair import Examination, Repair, search_bench, simplicity, 
 from mechsym.audit.required import required
 from mechsym.audit.slips import node_edits
 from mechsym.audit.tree import Node, Path, at, binary, children, letters, negative, number, replace, value_of, walk
+from mechsym.audit.units_of import ANGLE, kind_of_letter
 from mechsym.quantities import record
 
 MAX_PARTS = 90
@@ -66,7 +67,8 @@ def paired_repair(exam: Examination, start: Repair) -> Repair | None:
 def _prepare(exam: Examination, tree: Node) -> _Known:
     asked = search_bench(exam, "exact")
     memo = part_values(asked, tree)
-    listed = sorted(_distinct(asked, tree, memo, listed_edits(exam.question, tree)), key=lambda e: simplicity(e, e.new))
+    edits = [e for e in listed_edits(exam.question, tree) if _plain_letter(exam, tree, e)]
+    listed = sorted(_distinct(asked, tree, memo, edits), key=lambda e: simplicity(e, e.new))
     words = vocabulary(asked, _plain_words(exam, tree))
     matrix = np.column_stack([np.ones(len(asked.expected)), words.logs[list(words.basis)].T])
     with np.errstate(all="ignore"):
@@ -77,6 +79,14 @@ def _prepare(exam: Examination, tree: Node) -> _Known:
         asked=asked, tree=tree, memo=memo, listed=listed, values=np.array(values, dtype=float).reshape(shape),
         words=words, solve=np.linalg.pinv(matrix),
     )  # fmt: skip
+
+
+def _plain_letter(exam: Examination, tree: Node, edit: Edit) -> bool:
+    # with two slips a derived name would mend anything; an angle may be taken for another
+    if edit.kind != "letter" or not isinstance(edit.new, ast.Name):
+        return True
+    used = {*letters(tree), *exam.question.theory.letters, *exam.question.formula.letters}
+    return edit.new.id in used or kind_of_letter(exam.question, edit.new.id) == ANGLE
 
 
 def _plain_words(exam: Examination, tree: Node) -> list[Node]:
@@ -193,6 +203,8 @@ def _left_out(known: _Known, tree: Node, spots: list[Any], wishes: Any, memo: di
     for i in np.flatnonzero(good & (off < 1e-4) & (used >= 1) & (used <= min(4, most))):
         place, factor = kinds[i]
         found = product(known.asked, known.words, missing[i])
+        if found is None or len(found[1]) > (2 if any(e < 0 for _, e in found[1]) else 3):
+            continue
         if factor:
             yield from lost_factor(nodes, place, found, most)
         else:

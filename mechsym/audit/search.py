@@ -6,15 +6,13 @@ from mechsym.audit.orders import EXACT
 from mechsym.audit.pairs import paired_repair
 from mechsym.audit.repair import Examination, Repair, exact_repair, raising_repairs
 from mechsym.audit.rounding import rounded_constant
-from mechsym.audit.tree import children, walk
 from mechsym.quantities import record
 
 # an error beyond this at the source's data is no approximation, whatever its powers
-LARGEST_ERROR = 1.0
+LARGEST_ERROR = 5.0
 # what makes a formula a truncation by taking its terms away does not repair it
 _TAKES_AWAY = {"left out"}
 _PLAIN = {"sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power"}
-_FEW_LEAVES = 3
 
 
 @record
@@ -51,15 +49,14 @@ def search(exam: Examination, start: Repair) -> Found:
     # in an honest approximation, a bracket moved or a factor taken away is a coincidence
     if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN):
         return Found(verdict="misprint", repairs=(single,))
-    lost = exact_repair(exam, start, insert=True)
-    if lost is not None and _leaves(lost) - _leaves(start) <= _FEW_LEAVES:
-        return Found(verdict="misprint", repairs=(lost,))
     raised = [r for r in raising_repairs(exam, start) if is_consistent(exam.question, r.tree)] if start.orders else []
     mended = [r for r in raised if _mends(exam, start, r)]
+    if mended and mended[0].edits[-1].kind in _PLAIN:
+        return Found(verdict="misprint", repairs=tuple(mended))
+    if lost := exact_repair(exam, start, insert=True):
+        return Found(verdict="misprint", repairs=(lost,))
     if mended:
         return Found(verdict="misprint", repairs=tuple(mended))
-    if lost is not None:
-        return Found(verdict="misprint", repairs=(lost,))
     if mixed:
         return Found(verdict="mixed", note=mixed)
     if pair := paired_repair(exam, start):
@@ -67,10 +64,6 @@ def search(exam: Examination, start: Repair) -> Found:
     if raised:
         return Found(verdict="nearer", nearer=raised[0])
     return Found(verdict="wrong")
-
-
-def _leaves(repair: Repair) -> int:
-    return sum(not children(node) for _, node in walk(repair.tree))
 
 
 def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:

@@ -13,8 +13,8 @@ from mechsym.audit.dimensions import is_consistent
 from mechsym.audit.orders import EXACT, lowest
 from mechsym.audit.prover import POINTS, Agreement, agreement, proves_equal
 from mechsym.audit.question import Question
-from mechsym.audit.repair import Examination, Repair, examine, standing
-from mechsym.audit.search import search, truncated
+from mechsym.audit.repair import Examination, Repair, exact_repair, examine, standing
+from mechsym.audit.search import Found, search, truncated
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, letters
 from mechsym.quantities import record
@@ -78,15 +78,20 @@ def _plain(exam: Examination) -> Decision | None:
 def _searched(exam: Examination) -> Decision:
     tree = exam.question.formula.tree
     start = standing(exam, tree)
-    found = search(exam, start)
     condition = next(conditions(exam.question), None)
-    note = found.note
-    if condition is not None and found.verdict != "misprint":
+    single = exact_repair(exam, start) if condition else None
+    if single is not None:
+        found, note = Found(verdict="misprint", repairs=(single,)), ""
+    elif condition is not None:
         # a slip in a formula for constant speed
         other = examine(under(exam.question, condition))
-        there = search(other, standing(other, tree))
-        if there.verdict in ("misprint", "nearer") and found.verdict != "mixed":
-            found, note = there, "; ".join(n for n in (there.note, f"compared at {condition.told}") if n)
+        start = standing(other, tree)
+        found = search(other, start)
+        note = "; ".join(n for n in (found.note, f"compared at {condition.told}") if n)
+        exam = other
+    else:
+        found = search(exam, start)
+        note = found.note
     met = agreement(exam.judged, tree)
     if found.verdict in ("wrong", "nearer") and 2 * met.valued <= met.expected:
         return _verdict(exam, "untestable", start, note=_without_value(met))

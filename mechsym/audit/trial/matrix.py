@@ -1,0 +1,108 @@
+"""Everything that the auditor is tried on, counted by what it said: the confusion matrix of docs/errata.md."""
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from mechsym.audit.formula import check_formula
+from mechsym.audit.trial.spoiled import Spoiled, content, doubles, singles
+from mechsym.files import to_json, write_text
+
+VERDICTS = ("exact", "truncation", "convention", "mixed", "untestable", "misprint", "nearer", "wrong")
+SEED = 2026
+SINGLE_KINDS, DOUBLES = 5, 2  # how often each form is spoiled
+_STORED = "results.json"
+
+
+def trial(done: Callable[[], Any] = lambda: None) -> dict[str, Any]:
+    """Try the auditor: right formulas, traps, formulas at constant speed, formulas spoiled once and twice."""
+    forms = content("forms.toml")["form"]
+    asked = {
+        "right": [(f["text"], f["against"]) for f in forms],
+        "traps": [(t, trap["against"]) for trap in content("traps.toml")["trap"] for t in trap["texts"]],
+        "constant speed": list(constant_speed()),
+    }
+    verdicts = {}
+    for name, pairs in asked.items():
+        verdicts[name] = Counter(check_formula(*pair)["verdict"] for pair in pairs)
+        done()
+    return {
+        "verdicts": {k: dict(sorted(v.items())) for k, v in verdicts.items()},
+        "one slip": counted(singles(SINGLE_KINDS, SEED)),
+        "two slips": counted(doubles(DOUBLES, SEED)),
+    }
+
+
+def constant_speed() -> Iterator[tuple[str, str]]:
+    """Textbook formulas at constant speed, and what they are."""
+    found = content("constant_speed.toml")
+    for quantity, place in found["places"].items():
+        for spelling in found["accelerations"]:
+            yield place.format(a=spelling), f"slider_crank.{quantity}"
+    for quantity, texts in found["also"].items():
+        for text in texts:
+            yield text, f"slider_crank.{quantity}"
+
+
+def counted(spoiled: Sequence[Spoiled]) -> dict[str, Any]:
+    """Counts of spoiled formulas: how many were refuted, corrected, and corrected to the right function."""
+    kinds = sorted({k for s in spoiled for k in s.kind.split(", ")})
+    by_kind = {k: [s for s in spoiled if k in s.kind.split(", ")] for k in kinds}
+    return {
+        "asked": len(spoiled),
+        "verdicts": dict(sorted(Counter(s.verdict for s in spoiled).items())),
+        "refuted": sum(not s.passed for s in spoiled),
+        "corrected": sum(bool(s.correction) for s in spoiled),
+        "repaired": sum(s.repaired for s in spoiled),
+        "by kind": {k: [sum(s.repaired for s in v), len(v)] for k, v in by_kind.items()},
+        "not repaired": [_told(s) for s in spoiled if not s.repaired],
+    }
+
+
+def _told(spoiled: Spoiled) -> str:
+    instead = spoiled.correction or f"judged {spoiled.verdict}"
+    return f"{spoiled.against} [{spoiled.kind}]: {spoiled.text} -> {instead}"
+
+
+def stored() -> dict[str, Any]:
+    """The results of the last trial that was recorded; empty where there is none."""
+    import json
+
+    file = resources.files("mechsym.audit.trial") / _STORED
+    return json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+
+
+def record(found: Mapping[str, Any]) -> Path:
+    """Record the results of a trial."""
+    path = Path(str(resources.files("mechsym.audit.trial") / _STORED))
+    return write_text(path, to_json(found) + "\n")
+
+
+def lines(found: Mapping[str, Any]) -> list[str]:
+    """The confusion matrix and the rates, as Markdown."""
+    rows = dict(found["verdicts"]) | {k: found[k]["verdicts"] for k in ("one slip", "two slips")}
+    head = [f"| what was asked | n | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 2) + "|"]
+    body = [
+        f"| {_ROWS[name]} | {sum(row.values())} | {' | '.join(str(row.get(v, 0)) for v in VERDICTS)} |"
+        for name, row in rows.items()
+    ]
+    return [*head, *body, "", *(_rates(k, found[k]) for k in ("one slip", "two slips"))]
+
+
+_ROWS = {
+    "right": "right formulas, exact", "traps": "traps: right on one branch only",
+    "constant speed": "textbook formulas at constant speed", "one slip": "spoiled once", "two slips": "spoiled twice",
+}  # fmt: skip
+
+
+def _rates(name: str, found: Mapping[str, Any]) -> str:
+    asked, corrected = found["asked"], found["corrected"]
+    kinds = ", ".join(f"{kind} {right}/{of}" for kind, (right, of) in found["by kind"].items())
+    return (
+        f"- {_ROWS[name]}: {100 * found['refuted'] / asked:.1f} % not passed ({found['refuted']} of {asked}), "
+        f"{100 * found['repaired'] / asked:.1f} % repaired to the right function ({found['repaired']}), "
+        f"{100 * found['repaired'] / max(corrected, 1):.1f} % of the corrections right ({found['repaired']} of "
+        f"{corrected}); repaired by slip: {kinds}"
+    )
