@@ -72,11 +72,16 @@ def confusable(question: Question, letter: str) -> list[str]:
     theory = question.theory
     needed = dependencies(theory, [question.quantity, *used_names(question.formula)])
     free = [k for k in theory.letters if k in needed]
-    derived = [k for k in known(theory) if k in theory.tape and k != question.quantity and k in needed]
+    names = [k for k in known(theory) if k in theory.tape and k != question.quantity]
+    derived = [k for k in names if k in needed]
     alike = [
         k for k in dict.fromkeys([*question.formula.letters, *free, *derived]) if kind_of_letter(question, k) == kind
     ]
-    return [k for k in sorted(alike, key=lambda k: re.sub(r"\d+$", "", k) != stem) if k != letter]
+    # m_fuel for mdot_fuel: another dimension, and still taken for each other
+    same = [k for k in names if "_" in letter and k[0] == letter[0] and k.partition("_")[2] == letter.partition("_")[2]]
+    return [
+        k for k in dict.fromkeys([*sorted(alike, key=lambda k: re.sub(r"\d+$", "", k) != stem), *same]) if k != letter
+    ]
 
 
 def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequence[Edit], insert: bool) -> list[Edit]:

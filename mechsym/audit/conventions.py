@@ -10,6 +10,7 @@ from mechsym.audit.bench import value
 from mechsym.audit.prover import agreement, judges
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read_expression
+from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import Tape
 from mechsym.audit.tree import Node, letters, name, negative, substitute
 from mechsym.errors import BadInput
@@ -47,7 +48,7 @@ def converted(question: Question, chosen: Iterable[str]) -> Question:
     angle, quantity, own = theory.angle, question.quantity, dict(formula.letters)
     for convention in chosen:
         if convention in ("sign", "rate"):
-            theory, quantity = _quantity(question, theory, quantity, convention)
+            theory, quantity = _quantity(theory, quantity, convention)
             continue
         shift = _meaning(convention, angle)
         if not angle or any(k not in theory.letters and k != "pi" for t in shift.values() for k in letters(t)):
@@ -72,7 +73,7 @@ def _put(tree: Node, shift: Mapping[str, Node]) -> Node:
     return substitute(tree, lambda n: shift.get(n.id) if isinstance(n, ast.Name) else None)
 
 
-def _quantity(question: Question, theory, quantity: str, convention: str):  # type: ignore[no-untyped-def]
+def _quantity(theory: Theory, quantity: str, convention: str) -> tuple[Theory, str]:
     new = f"{quantity}_{convention}"
     speed = name(f"{theory.angle}d")
     tree = negative(name(quantity)) if convention == "sign" else ast.BinOp(name(quantity), ast.Mult(), speed)

@@ -21,7 +21,7 @@ from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
 from mechsym.quantities import record
 
-_SLACK = 1.5  # a sign slip has twice the derived term, products of truncations have little more than it
+_SLACK = 1.8  # a sign slip has twice the derived term, products of truncations have little more than it
 _ANGLES = 8
 _STATES = 2
 _NODES = 12

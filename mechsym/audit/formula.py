@@ -125,9 +125,7 @@ def question_of(asked: Asked, said: Statement) -> Question:
     zero = [k for k, letter in theory.letters.items() if letter.value == 0 and k in needed and k != theory.angle]
     hold = {k: 0.0 for k in zero if k not in used} | dict(under.hold)
     note = "; ".join(n for n in (formula.note, said.note) if n)
-    return Question(
-        formula=replace(formula, note=note), theory=theory, quantity=quantity, hold=hold, where=under.where
-    )
+    return Question(formula=replace(formula, note=note), theory=theory, quantity=quantity, hold=hold, where=under.where)
 
 
 def _quantity(asked: Asked) -> tuple[Theory, str]:
@@ -225,7 +223,9 @@ def _content(path: Path) -> dict[str, Any]:
         raise BadInput(f"{path}: not valid TOML: {error}") from None
     tables = content.get("formula")
     if not isinstance(tables, list) or not tables or not all(isinstance(t, dict) for t in tables):
-        raise BadInput(f"{path}: there is no [[formula]] in it; each has text, against and perhaps {', '.join(_KEYS[2:])}")
+        raise BadInput(
+            f"{path}: there is no [[formula]] in it; each has text, against and perhaps {', '.join(_KEYS[2:])}"
+        )
     return content
 
 

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from fractions import Fraction
 from typing import NoReturn
 
+from mechsym.audit.functions import piecewise
 from mechsym.audit.latex_letters import WORDS, Cursor, derivative, letter, place
 from mechsym.audit.limits import MAX_DEPTH
 from mechsym.audit.tree import Node, binary, call, name, negative, number
@@ -18,7 +19,7 @@ from mechsym.errors import BadInput
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:(?:\.|,|\{,\})\d+)?|[^\W\d_]|\S")
 _SILENT = {
-    "\\,", "\\;", "\\:", "\\!", "\\ ", "\\quad", "\\qquad", "\\displaystyle", "\\limits", "\\nolimits", "~", "&", "$",
+    "\\,", "\\;", "\\:", "\\!", "\\ ", "\\quad", "\\qquad", "\\displaystyle", "\\limits", "\\nolimits", "~", "$",
     "\\left", "\\right", "\\big", "\\Big", "\\bigl", "\\bigr", "\\Bigl", "\\Bigr", "\\bigg", "\\biggl", "\\biggr",
 }  # fmt: skip
 _FUNCTIONS = {
@@ -44,7 +45,8 @@ def read_latex(text: str) -> tuple[Node, dict[str, str]]:
     spelled : dict of str to str
         Plain name to the LaTeX that the author wrote for it
     """
-    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in _SILENT])
+    silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
+    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent])
     tree = _sum(cursor)
     if cursor.peek():
         raise BadInput(f"LaTeX: {cursor.peek()!r} does not fit {place(cursor)}")
@@ -155,6 +157,39 @@ def _any_factor(cursor: Cursor, bare: bool) -> Node:
     if function:
         return _function(cursor, function)
     return letter(cursor, bare)
+
+
+def _cases(cursor: Cursor) -> Node:
+    # \begin{cases} a, & b < c \\ d, & \text{otherwise} \end{cases}
+    text = "".join(cursor.tokens[cursor.position :])
+    whole = re.match(r"\\begin\{cases\}(.*?)\\end\{cases\}", text, re.DOTALL)
+    if whole is None:
+        raise BadInput(
+            f"LaTeX: {text[:20]!r} is not read {place(cursor)}; cases are: \\begin{{cases}} .. \\end{{cases}}"
+        )
+    length = 0
+    while length < whole.end():
+        length += len(cursor.take())
+    rows = [row.partition("&")[::2] for row in whole[1].split(r"\\") if row.strip()]
+    arguments: list[Node] = []
+    for value, condition in rows[:-1]:
+        arguments += [_condition(cursor, condition), _inner(cursor, value)]
+    return piecewise([*arguments, _inner(cursor, rows[-1][0])]) if rows else piecewise([])
+
+
+def _condition(cursor: Cursor, text: str) -> Node:
+    relation = re.search(r"^(?:\\text\{[^{}]*\})?(.+?)(<|>|\\leq?|\\geq?|\\lt|\\gt)(.+)$", text.strip().rstrip(".,;"))
+    if relation is None:
+        raise BadInput(f"LaTeX: the condition {text.strip()[:40]!r} of a case is not read; write a < b")
+    left, right = (_inner(cursor, relation[i]) for i in (1, 3))
+    less = relation[2] in ("<", r"\le", r"\leq", r"\lt")
+    return ast.Compare(left=left, ops=[ast.Lt() if less else ast.Gt()], comparators=[right])
+
+
+def _inner(cursor: Cursor, text: str) -> Node:
+    tree, spelled = read_latex(text.strip().rstrip(".,;"))
+    cursor.spelled.update(spelled)
+    return tree
 
 
 def _fraction(cursor: Cursor) -> Node:

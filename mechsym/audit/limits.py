@@ -53,7 +53,7 @@ def _check_node(node: Node) -> None:
     elif isinstance(node, ast.Compare):
         if len(node.ops) != 1 or not isinstance(node.ops[0], COMPARISONS):
             raise BadInput("a condition compares two expressions with <, <=, > or >=")
-    elif not isinstance(node, (ast.Name, ast.IfExp)):
+    elif not isinstance(node, ast.Name) and not (isinstance(node, ast.IfExp) and isinstance(node.test, ast.Compare)):
         raise BadInput(f"{type(node).__name__} is not arithmetic; use + - * / **, numbers, letters and functions")
 
 

@@ -27,6 +27,7 @@ from mechsym.audit.units_of import ANGLE, kind_of_letter
 from mechsym.quantities import record
 
 MAX_PARTS = 90
+MIN_LEAVES = 5  # two edits make anything of less
 MAX_FIRST = 700
 _MET = 1e-7
 
@@ -39,15 +40,15 @@ class _Known:
     tree: Node
     memo: dict[Node, Any]
     listed: list[Edit]
-    values: np.ndarray  # shape (edits, states) [-]
+    values: np.ndarray  #: shape (edits, states): What stands at the place of each edit [-]
     words: Vocabulary
-    solve: np.ndarray  # exponents of words from logarithms [-]
+    solve: np.ndarray  #: shape (words + 1, states): Exponents of words from logarithms [-]
 
 
 def paired_repair(exam: Examination, start: Repair) -> Repair | None:
     """The simplest pair of edits after which a formula is the derived quantity; None where it is too large."""
     count = sum(1 for _ in walk(start.tree))
-    if count > MAX_PARTS:
+    if count > MAX_PARTS or sum(not children(node) for _, node in walk(start.tree)) < MIN_LEAVES:
         return None
     known = _prepare(exam, start.tree)
     found: list[tuple[tuple[int, int], Edit, Edit]] = []

@@ -33,6 +33,10 @@ def _python(node: Node) -> tuple[str, int]:
         return f"{function_of(node)}({_python(node.args[0])[0]})", _ATOM
     if isinstance(node, ast.UnaryOp):
         return f"-{_bracketed(node.operand, _POWER)}", _SIGN
+    if isinstance(node, ast.IfExp):
+        return f"piecewise({', '.join(_python(n)[0] for n in (node.test, node.body, node.orelse))})", _ATOM
+    if isinstance(node, ast.Compare):
+        return f"{_python(node.left)[0]} {_SIDES[type(node.ops[0])]} {_python(node.comparators[0])[0]}", _SUM
     assert isinstance(node, ast.BinOp)
     if isinstance(node.op, ast.Pow):
         return f"{_bracketed(node.left, _ATOM)}**{_bracketed(node.right, _ATOM)}", _POWER
@@ -41,6 +45,9 @@ def _python(node: Node) -> tuple[str, int]:
     following = level + 1 if isinstance(node.op, (ast.Sub, ast.Mult, ast.Div)) else level
     right = _bracketed(node.right, following if following != _SIGN else _POWER)
     return f"{_bracketed(node.left, level)}{sign}{right}", level
+
+
+_SIDES: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
 def _bracketed(node: Node, level: int) -> str:
@@ -73,6 +80,12 @@ def _latex(node: Node, spelled: Mapping[str, str]) -> tuple[str, int]:
         return f"-{_at_least(node.operand, _POWER, spelled)}", _SUM
     if isinstance(node, ast.Call):
         return _function(node, spelled)
+    if isinstance(node, ast.IfExp):
+        test, body, other = (_latex(n, spelled)[0] for n in (node.test, node.body, node.orelse))
+        return rf"\begin{{cases}} {body} & {test} \\ {other} & \text{{else}} \end{{cases}}", _ATOM
+    if isinstance(node, ast.Compare):
+        left, right = (_latex(n, spelled)[0] for n in (node.left, node.comparators[0]))
+        return f"{left} {_SIDES[type(node.ops[0])]} {right}", _SUM
     assert isinstance(node, ast.BinOp)
     return _operation(node, spelled)
 

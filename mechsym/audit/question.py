@@ -42,9 +42,7 @@ def random_fractions(question: Question, count: int, seed: int) -> dict[str, lis
             found[letter] = [low + Fraction(d - 6999, 7002) * (high - low) for d in draw]
         elif letter == theory.angle:
             # either sense of rotation, nearly a turn
-            found[letter] = [
-                generator.choice((1, -1)) * (Fraction(d * 6, 7000) - 6 + Fraction(1, 7)) for d in draw
-            ]
+            found[letter] = [generator.choice((1, -1)) * (Fraction(d * 6, 7000) - 6 + Fraction(1, 7)) for d in draw]
         else:
             value = Fraction(about.value).limit_denominator(10**9) or 1
             signs = [1] * count if about.positive else [generator.choice((1, -1)) for _ in range(count)]

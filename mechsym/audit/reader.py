@@ -18,7 +18,16 @@ from mechsym.quantities import record
 
 MAX_TEXT = 6000
 CONSTANTS = ("pi",)
-_ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "fabs": "abs", "tg": "tan", "ctg": "cot", "ln": "log", "Abs": "abs"}
+_ALIASES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "fabs": "abs",
+    "tg": "tan",
+    "ctg": "cot",
+    "ln": "log",
+    "Abs": "abs",
+}
 
 
 @record
@@ -152,7 +161,9 @@ def _read_python(text: str) -> Node:
         tree = ast.parse(source.strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
-        raise BadInput(f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {_hint(source)}".rstrip(" .")) from None
+        raise BadInput(
+            f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {_hint(source)}".rstrip(" .")
+        ) from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
     limits.check_size(tree)

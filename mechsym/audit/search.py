@@ -1,18 +1,21 @@
 """The order in which a formula that is not exact is searched: one slip, something lost, two slips, or only nearer."""
 
+import ast
+
 from mechsym.audit.dimensions import is_consistent
 from mechsym.audit.expansion import Powers, changed_powers, powers
 from mechsym.audit.orders import EXACT
 from mechsym.audit.pairs import paired_repair
 from mechsym.audit.repair import Examination, Repair, exact_repair, raising_repairs
 from mechsym.audit.rounding import rounded_constant
+from mechsym.audit.tree import is_operation
 from mechsym.quantities import record
 
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
 # what makes a formula a truncation by taking its terms away does not repair it
 _TAKES_AWAY = {"left out"}
-_PLAIN = {"sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power"}
+_PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power"}
 
 
 @record
@@ -53,7 +56,8 @@ def search(exam: Examination, start: Repair) -> Found:
     mended = [r for r in raised if _mends(exam, start, r)]
     if mended and mended[0].edits[-1].kind in _PLAIN:
         return Found(verdict="misprint", repairs=tuple(mended))
-    if lost := exact_repair(exam, start, insert=True):
+    lost = exact_repair(exam, start, insert=True)
+    if lost is not None and (not mixed or is_operation(lost.edits[-1].new, ast.Add, ast.Sub)):
         return Found(verdict="misprint", repairs=(lost,))
     if mended:
         return Found(verdict="misprint", repairs=tuple(mended))
@@ -74,7 +78,9 @@ def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
     for load in changed:
         found = powers(exam.expansions[load], repair.tree)
         truncates = found.pure or found.missing and min(found.missing) < min(found.wrong)
-        if not (found.honest and truncates) or set(found.wrong) & changed_powers(exam.expansions[load], start.tree, repair.tree):
+        if not (found.honest and truncates) or set(found.wrong) & changed_powers(
+            exam.expansions[load], start.tree, repair.tree
+        ):
             return False
     return True
 

@@ -161,7 +161,9 @@ def _lost_brackets(node: ast.BinOp) -> Iterator[Node]:
             if is_operation(left, ast.Add, ast.Sub):
                 assert isinstance(left, ast.BinOp)
                 inner = type(node.op) if is_operation(left, ast.Add) else _opposite(node)
-                yield binary(type(left.op), left.left, binary(type(right.op), binary(inner, left.right, right.left), right.right))
+                yield binary(
+                    type(left.op), left.left, binary(type(right.op), binary(inner, left.right, right.left), right.right)
+                )
     if is_operation(node, ast.Mult, ast.Div) and is_operation(right, ast.Pow):
         assert isinstance(right, ast.BinOp)
         yield binary(ast.Pow, binary(type(node.op), left, right.left), right.right)

@@ -12,7 +12,7 @@ _NUMBER = (
 _LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _SILENT = re.compile(r"\\(?:nonumber|notag|displaystyle|textstyle|centering)\b")
 _ALMOST = re.compile(r"\\approx|\\simeq|\\cong|\\sim\b|\\doteq|≈|≃|≅|~=")
-_EQUALS = re.compile(r"\\equiv|≡|:=|\\coloneqq|\\triangleq|(?<![=<>!:])==(?!=)")
+_EQUALS = re.compile(r"\\equiv|≡|(?<=\w) *:=|\\coloneqq|\\triangleq")
 _ORDER = re.compile(
     r"[+-]\s*(?:\\mathcal\s*\{\s*O\s*\}|\\mathcal\s+O|O|o)\s*(?:\\left)?\s*\(\s*(?:\\lambda|λ|lam(?:bda)?)"
     r"\s*(?:\^|\*\*)?\s*\{?\s*(\d*)\s*\}?\s*(?:\\right)?\s*\)"
@@ -45,7 +45,7 @@ def statement(text: str) -> Statement:
     if len(parts) == 2 and _ZERO.fullmatch(parts[1]):
         raise BadInput("the right side is 0; solve the equation for the quantity: 'name = expression'")
     if len(parts) > 1 and not all(parts):
-        raise BadInput("there is nothing on one side of an equals sign; write 'name = expression'")
+        raise BadInput("one side of the equals sign is empty; write 'name = expression'")
     left = parts[0] if len(parts) > 1 else ""
     right = tuple(p.rstrip(" .,;") for p in (parts[1:] if left else parts))
     return Statement(left=left, right=right, claim=claim, number=number, label=label, note=note)
@@ -69,4 +69,4 @@ def _claimed(text: str) -> tuple[str, str]:
         text, claim = _ORDER.sub("", text), f"lam^{int(order[1] or 1) - 1}"
     if _AND_SO_ON.search(text):
         text, claim = _AND_SO_ON.sub("", text), claim or "approx"
-    return _EQUALS.sub("=", text), claim
+    return text if re.search(r"\([^()]*:=", text) else _EQUALS.sub("=", text), claim

@@ -13,7 +13,7 @@ _MORE = 6  # draws for each state that is wanted
 
 
 def drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
-    """Random exact states; those without a value of the quantity, or outside the assumptions, only where others lack."""
+    """Random exact states; those without a value of the quantity or outside the assumptions come last."""
     values = random_fractions(question, _MORE * count, seed)
     asked = bench(question, float_values(values), FLOATS)
     good = np.isfinite(np.broadcast_to(asked.expected, (_MORE * count,))) & kept(question, asked)

@@ -139,7 +139,8 @@ def replace(tree: Node, path: Path, new: Node) -> Node:
     if isinstance(tree, ast.UnaryOp):
         return negative(below)
     if isinstance(tree, ast.IfExp):
-        return ast.IfExp(**{"test": tree.test, "body": tree.body, "orelse": tree.orelse, path[0]: below})
+        parts = {"test": tree.test, "body": tree.body, "orelse": tree.orelse, path[0]: below}
+        return ast.IfExp(test=parts["test"], body=parts["body"], orelse=parts["orelse"])
     if isinstance(tree, ast.Compare):
         sides = {"less": tree.left, "more": tree.comparators[0], path[0]: below}
         return ast.Compare(left=sides["less"], ops=tree.ops, comparators=[sides["more"]])

@@ -21,7 +21,9 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.option("--assume", default="", metavar="RELATIONS", help='What is taken for granted, e.g. "phidd = 0, r < l".')
 @click.option("--claim", default="", metavar="CLAIM", help='What is claimed: "=", "approx", "lam^2" or "within 1 %".')
 @click.option("--convention", default="", metavar="NAMES", help="Conventions of the author; show lists those that fit.")
-@click.option("--theory", default="", metavar="FILE", help="TOML file that declares letters and quantities of your own.")
+@click.option(
+    "--theory", default="", metavar="FILE", help="TOML file that declares letters and quantities of your own."
+)
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
 @click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
 @json_option
@@ -97,13 +99,14 @@ def _published(source: str | None, write: bool, as_json: bool) -> int:
 
 def _write(sources: Sequence[Any], rows: list[dict[str, Any]]) -> None:
     from mechsym.audit import errata, findings
-    from mechsym.audit.trust import lines, trust
+    from mechsym.audit.trial import matrix
     from mechsym.files import write_text
     from mechsym.papers import record
 
-    with progress(len(rows), "testing the auditor") as bar:
-        found = trust(sources, rows, lambda: bar.update(1))
-    click.echo("\n".join(lines(found)), err=True)
+    with progress(matrix.STEPS, "trying the auditor") as bar:
+        found = matrix.trial(lambda: bar.update(1))
+    click.echo("\n".join(matrix.lines(found)), err=True)
+    matrix.record(found)
     record.write("mechsym.audit", rows, (*findings.NAME, *findings.COMPARED))
     click.echo(str(write_text(errata.PATH, errata.text(sources, rows, found))), err=True)
 

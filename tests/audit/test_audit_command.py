@@ -28,7 +28,7 @@ def run(monkeypatch, capsys):
     ("formula", "status", "verdict"),
     [
         (r"\frac{R \sin(\varphi+\psi)}{\cos\psi}", 0, "exact"),
-        ("R*sin(phi)", 0, "approximate"),
+        ("R*sin(phi)", 0, "truncation"),
         ("R*sin(phi - psi)/cos(psi)", 1, "misprint"),
         ("R*R", 1, "wrong"),
     ],
@@ -88,14 +88,24 @@ def test_file_of_formulas(run, tmp_path):
     ("content", "reason"),
     [("x = [", "not valid TOML"), ("a = 1", "no [[formula]]"), ("[[formula]]\ntext = 'r'", "text and against"),
      ("[[formula]]\ntext = 'r'\nagainst = 'crosshead.x'\nwho = 'me'", "keys are"),
-     ("[[formula]]\ntext = 3\nagainst = 'crosshead.x'", "text in quotes"),
-     ("[[formula]]\ntext = 'q'\nagainst = 'crosshead.x'", "formula 1: unknown letter")],
+     ("[[formula]]\ntext = 3\nagainst = 'crosshead.x'", "text in quotes")],
 )  # fmt: skip
 def test_bad_files_are_refused(run, tmp_path, content, reason):
     file = tmp_path / "bad.toml"
     file.write_text(content)
     done = run("--file", str(file))
     assert done.returncode == 2 and reason in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_what_cannot_be_read_is_a_row_and_the_others_are_judged(run, tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        "[[formula]]\ntext = 'q'\nagainst = 'crosshead.x'\n[[formula]]\ntext = 'x'\nagainst = 'crosshead.x'"
+    )
+    done = run("--file", str(file), "--json")
+    rows = json.loads(done.stdout)
+    assert done.returncode == 3 and [r["verdict"] for r in rows] == ["untestable", "exact"]
+    assert "unknown letter 'q'" in rows[0]["note"]
 
 
 def test_one_source_agrees_with_the_record(run):

@@ -10,9 +10,11 @@ import sympy
 from mechsym.audit.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
 from mechsym.audit.bench import max_rel_error, turn
 from mechsym.audit.dimensions import is_consistent
-from mechsym.audit.orders import groups, is_truncation, orders
+from mechsym.audit.orders import groups, orders
 from mechsym.audit.prover import certified, is_exact, judges
 from mechsym.audit.reader import read_expression
+from mechsym.audit.repair import examine, standing
+from mechsym.audit.search import truncated
 
 EXACT = [
     ("r*sin(phi + psi)/cos(psi)", "dx_dphi"),
@@ -67,9 +69,10 @@ def test_orders_by_group(ask, inertia):
 )
 def test_orders_and_honest_truncations(ask, text, quantity, order, honest):
     question = ask(text, quantity, hold={"axis_tilt": 0.0})
-    found = groups(question)
-    assert min(orders(found, question.formula.tree).values()) == order
-    assert is_truncation(question, found, question.formula.tree) is honest
+    exam = examine(question)
+    start = standing(exam, question.formula.tree)
+    assert min(start.orders.values()) == order
+    assert (truncated(exam, start) is not None) is honest
 
 
 def test_without_rods_there_is_no_order(ask):

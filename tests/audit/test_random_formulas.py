@@ -14,9 +14,10 @@ from mechsym.audit.prover import is_exact
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read
 from mechsym.audit.repair import examine, fingerprint, standing
+from mechsym.audit.search import search
 from mechsym.audit.slips import single_edits
 from mechsym.audit.theory.record import Letter, Theory, known
-from mechsym.audit.verdict import decide, search
+from mechsym.audit.verdict import decide
 
 LETTERS = {
     "r": Letter(unit="m", value=0.4), "l": Letter(unit="m", value=1.4), "m": Letter(unit="kg", value=3.0),
@@ -70,8 +71,9 @@ def test_wrong_signs_squares_and_factors_are_repaired(text, seed):
     spoiled = apply(right, random.Random(seed).choice(edits))
     assume(fingerprint(exam, spoiled) != fingerprint(exam, right))
     assume(not is_exact(exam.judged, spoiled))
-    verdict, found = search(exam, standing(exam, spoiled))
-    assert verdict == "misprint", to_python(spoiled)
+    answer = search(exam, standing(exam, spoiled))
+    found = answer.repairs
+    assert answer.verdict == "misprint", to_python(spoiled)
     assert found[0].exact and fingerprint(exam, found[0].tree) == fingerprint(exam, right)
 
 
@@ -85,7 +87,8 @@ def test_a_lost_factor_is_put_back(text, seed):
     place = random.Random(seed).choice(products)
     lost = trees.replace(right, place.path, place.node.left)
     assume(fingerprint(exam, lost) != fingerprint(exam, right))
-    verdict, found = search(exam, standing(exam, lost))
+    answer = search(exam, standing(exam, lost))
+    found, verdict = answer.repairs, answer.verdict
     if found:  # a formula with little left of it is wrong, not misprinted
         assert found[0].exact
     else:

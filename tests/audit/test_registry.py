@@ -6,7 +6,9 @@ import pytest
 
 from mechsym.audit.entries import Listed, Printed, TextClaim
 from mechsym.audit.findings import question_of
+from mechsym.audit.formula import Asked
 from mechsym.audit.formula import question_of as asked_by_user
+from mechsym.audit.statement import statement
 from mechsym.audit.theory.catalogue import names, theory
 from mechsym.errors import BadInput
 from mechsym.papers import sources
@@ -74,6 +76,9 @@ def test_a_case_of_another_mechanism_is_refused():
 
 
 def test_letters_at_zero_that_are_not_mentioned_stay_at_zero():
-    assert asked_by_user("F", "crosshead.generalized_force", "", "").hold == {"axis_tilt": 0.0}
-    assert asked_by_user("F*cos(axis_tilt)", "crosshead.generalized_force", "", "").hold == {}
-    assert asked_by_user("r", "crosshead.dx_dphi", "", "").hold == {}
+    def hold(text, against):
+        return asked_by_user(Asked(text=text, against=against), statement(text)).hold
+
+    assert hold("F", "crosshead.generalized_force") == {"axis_tilt": 0.0}
+    assert hold("F*cos(axis_tilt)", "crosshead.generalized_force") == {}
+    assert hold("r", "crosshead.dx_dphi") == {}

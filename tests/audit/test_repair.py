@@ -19,7 +19,7 @@ REPAIRED = [
     ("r*(1 - cos(phi)) + l*1 - cos(psi)", "x", "r*(1 - cos(phi)) + l*(1 - cos(psi))", "bracket"),
     ("l*(1 - cos(psi))", "x", "l*(1 - cos(psi)) + r - r*cos(phi)", None),
     ("r*cos(phi) + r**2*sin(2*phi)/(2*sqrt(l**2 + r**2*sin(phi)**2))", "dx_dphi",
-     "r*sin(phi) + r**2*sin(2*phi)/(2*sqrt(l**2 - r**2*sin(phi)**2))", "sine and cosine, sign"),
+     "r*sin(phi) + r**2*sin(2*phi)/(2*sqrt(l**2 - r**2*sin(phi)**2))", "sign, sine and cosine"),
     ("sqrt(sum(P_jy**2 + P_jx**2))", "rodless.inertia_resultant", "sqrt(sum(P_jy)**2 + sum(P_jx)**2)", "squares"),
     ("2*pi*N/60*Tq", "cylinder.power_kw", "2*pi*N/60*Tq/1000", "unit"),
     ("CR**(-gamma)", "otto.p4", "CR**(-gamma)*p3", "put back"),
@@ -64,17 +64,17 @@ def test_sign_of_the_rod_term_is_found_by_search(ask, inertia):
 )
 def test_honest_approximations_are_no_misprints(ask, text, quantity, order):
     verdict = decide(ask(text, quantity))
-    assert verdict.verdict == "approximate" and verdict.order == order and not verdict.repairs
+    assert verdict.verdict == "truncation" and verdict.order == order and not verdict.repairs
 
 
 def test_sign_turned_inertia_is_an_honest_approximation(ask, inertia):
     verdict = decide(ask(inertia["+"], "inertia"))
-    assert verdict.verdict == "approximate" and verdict.order == 3
+    assert verdict.verdict == "mixed" and verdict.order == 3
 
 
 def test_rounded_constants_are_no_misprints(ask):
     verdict = decide(ask("6.28*n_R*Tq/V_displaced", "cylinder.mep", {}))
-    assert verdict.verdict == "approximate" and "6.28" in verdict.note
+    assert verdict.verdict == "truncation" and "6.28" in verdict.note
 
 
 @pytest.mark.parametrize("text", ["m2", "0.785*inertia*phid**2", "0", "phid", "inertia + phid"])

@@ -52,7 +52,9 @@ def named(name: str, case: str = "", file: str = "") -> Theory:
         if name in (own.name, Path(file).stem):
             return own
     elif file:
-        raise BadInput(f"--theory {file}: a theory is a TOML file; a mechanism of your own is asked as ./FILE.py:QUANTITY")
+        raise BadInput(
+            f"--theory {file}: a theory is a TOML file; a mechanism of your own is asked as ./FILE.py:QUANTITY"
+        )
     try:
         return theory(name, case)
     except BadInput as error:
@@ -69,7 +71,9 @@ def theory(name: str, case: str = "") -> Theory:
         Name of a built-in case or a path; empty for the source's data
     """
     if name not in names():
-        raise BadInput(f"there is no theory {name!r}; theories are {', '.join(names())}, or one of your own by --theory")
+        raise BadInput(
+            f"there is no theory {name!r}; theories are {', '.join(names())}, or one of your own by --theory"
+        )
     if name in shipped() and name not in _THEORIES:
         return theory_of(shipped()[name], name, f"theories/{name}.toml")
     build, own = _THEORIES.get(name) or (partial(drives.mechanism, name), usual(name))

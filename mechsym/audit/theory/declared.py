@@ -1,16 +1,16 @@
 """Theories that anyone declares: a TOML file of letters and definitions, or a mechanism in a Python file.
 
-    angle = "phi"                       # runs over a turn; phid and phidd are its rates
-    small = ["lam"]                     # numbers that go to zero; rods = ["l"]: lengths that grow without limit
-    [letters]
-    r = "30 mm"                         # a value with its unit; "rad" alone: the value is 1
-    F = { unit = "N", value = 100.0, sign = "any", domain = [0.0, 200.0] }
-    [define]
-    s = "r*(1 - cos(phi))"              # language.py says what may stand here
-    [units]
-    s = "m"                             # only where dimensions do not tell it
-    [conditions]
-    "no friction" = ["mu"]              # what sources take for granted
+angle = "phi"                       # runs over a turn; phid and phidd are its rates
+small = ["lam"]                     # numbers that go to zero; rods = ["l"]: lengths that grow without limit
+[letters]
+r = "30 mm"                         # a value with its unit; "rad" alone: the value is 1
+F = { unit = "N", value = 100.0, sign = "any", domain = [0.0, 200.0] }
+[define]
+s = "r*(1 - cos(phi))"              # language.py says what may stand here
+[units]
+s = "m"                             # only where dimensions do not tell it
+[conditions]
+"no friction" = ["mu"]              # what sources take for granted
 """
 
 import re
@@ -120,7 +120,9 @@ def _letter(own: str, about: Any) -> Letter:
         return _short(own, about)
     unknown = sorted(about.keys() - {"unit", "value", "sign", "domain", "about"})
     if unknown or about.get("sign", "") not in ("", "any", "positive"):
-        raise BadInput(f'letters.{own} has unit, value, sign ("any" or "positive"), domain and about; found {sorted(about)}')
+        raise BadInput(
+            f'letters.{own} has unit, value, sign ("any" or "positive"), domain and about; found {sorted(about)}'
+        )
     unit, domain = str(about.get("unit", "-")), about.get("domain")
     dimension(unit)
     if domain is not None:

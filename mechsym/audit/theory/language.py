@@ -1,12 +1,12 @@
 """The language of `define` lines: arithmetic with derivatives, roots of equations, curves, sums and cases.
 
-    d(e, phi), d(e, phi, 2)            derivative by a letter
-    dt(e)                              derivative in time
-    root("equation", u, start)         the u near start for which the equation vanishes; only as a whole definition
-    curve(x, y).curvature .radius      of the curve that the angle runs through
-    curve(x, y).normal.x  .offset(R).y its unit normal, to the left of its sense, and the curve at a distance along it
-    sum(e, k, 1, 4)                    e for k = 1 to 4
-    piecewise(a < b, e, f)             e where a < b, else f; also atan2, min, max, hypot, radians
+d(e, phi), d(e, phi, 2)            derivative by a letter
+dt(e)                              derivative in time
+root("equation", u, start)         the u near start for which the equation vanishes; only as a whole definition
+curve(x, y).curvature .radius      of the curve that the angle runs through
+curve(x, y).normal.x  .offset(R).y its unit normal, to the left of its sense, and the curve at a distance along it
+sum(e, k, 1, 4)                    e for k = 1 to 4
+piecewise(a < b, e, f)             e where a < b, else f; also atan2, min, max, hypot, radians
 """
 
 import ast

@@ -3,6 +3,7 @@
 import ast
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,9 @@ class Letter:
 
     unit: str  #: SI unit, `"-"` for a pure number
     value: float  #: Value in the source's data, or a plausible one where it prints none [unit]
-    sign: str = ""  #: `positive`, `any`, or by the unit: lengths, masses, pressures, temperatures and numbers are positive
+    sign: str = (
+        ""  #: `positive`, `any`, or by the unit: lengths, masses, pressures, temperatures and numbers are positive
+    )
     domain: tuple[float, float] | None = None  #: Ends of the range, where it is known [unit]
 
     @property
@@ -76,7 +79,7 @@ def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algeb
             continue
         entry = theory.tape[wish]
         if isinstance(entry, Harmonic):
-            names[wish] = harmonic(entry, names, algebra, lambda n: complete(theory, n, [entry.of], algebra))
+            names[wish] = harmonic(entry, names, algebra, partial(_fill, theory, entry.of, algebra))
             continue
         complete(theory, names, needed(entry), algebra)
         if isinstance(entry, Root):
@@ -84,6 +87,10 @@ def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algeb
             continue
         found = [evaluate(part, names, algebra) for part in (entry if isinstance(entry, tuple) else (entry,))]
         names[wish] = np.stack(np.broadcast_arrays(*found)) if isinstance(entry, tuple) else found[0]
+
+
+def _fill(theory: Theory, wish: str, algebra: Algebra, names: dict[str, Any]) -> None:
+    complete(theory, names, [wish], algebra)
 
 
 def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:

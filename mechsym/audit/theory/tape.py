@@ -1,7 +1,7 @@
 """The tape of a theory: named expressions, and by themselves their slopes, rates and harmonics.
 
-`dx_dphi`, `d2x_dphi2` by any letter, `x_d`, `x_dd` in time (the letter phi has the rates phid, phidd), `x_mean`, `x_cos2`,
-`x_sin2` over a turn of the angle. Each is made when it is first asked for, and its own parts are names again.
+`dx_dphi`, `d2x_dphi2` by any letter, `x_d`, `x_dd` in time (the letter phi has the rates phid, phidd), `x_mean`,
+`x_cos2`, `x_sin2` over a turn of the angle. Each is made when it is first asked for, and its own parts are names again.
 """
 
 import re
@@ -81,7 +81,12 @@ class Tape(Mapping[str, Entry]):
 
     def timed(self, of: str) -> Node | None:
         """Derivative of a name in time; None where nothing turns."""
-        return self._rate(of, lambda k: name(f"{k}d") if f"{k}d" in self.free else self.rate_name(k, f"{k}d" if _TIMED.match(k) else f"{k}_d"))
+        return self._rate(
+            of,
+            lambda k: (
+                name(f"{k}d") if f"{k}d" in self.free else self.rate_name(k, f"{k}d" if _TIMED.match(k) else f"{k}_d")
+            ),
+        )
 
     def _rate(self, of: str, rate: Rate) -> Node | None:
         entry = self[of]

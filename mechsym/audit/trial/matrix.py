@@ -1,18 +1,22 @@
 """Everything that the auditor is tried on, counted by what it said: the confusion matrix of docs/errata.md."""
 
+import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mechsym.audit.formula import check_formula
+from mechsym.audit.formula import Asked, check_formula, question_of
+from mechsym.audit.prover import agreement, judges
+from mechsym.audit.statement import statement
 from mechsym.audit.trial.spoiled import Spoiled, content, doubles, singles
 from mechsym.files import to_json, write_text
 
 VERDICTS = ("exact", "truncation", "convention", "mixed", "untestable", "misprint", "nearer", "wrong")
 SEED = 2026
 SINGLE_KINDS, DOUBLES = 5, 2  # how often each form is spoiled
+STEPS = 5  # how often `done` is called
 _STORED = "results.json"
 
 
@@ -21,18 +25,27 @@ def trial(done: Callable[[], Any] = lambda: None) -> dict[str, Any]:
     forms = content("forms.toml")["form"]
     asked = {
         "right": [(f["text"], f["against"]) for f in forms],
-        "traps": [(t, trap["against"]) for trap in content("traps.toml")["trap"] for t in trap["texts"]],
         "constant speed": list(constant_speed()),
     }
-    verdicts = {}
+    verdicts = {"traps": Counter(trapped())}
     for name, pairs in asked.items():
         verdicts[name] = Counter(check_formula(*pair)["verdict"] for pair in pairs)
         done()
+    once = counted(singles(SINGLE_KINDS, SEED))
+    done()
+    twice = counted(doubles(DOUBLES, SEED))
+    done()
     return {
-        "verdicts": {k: dict(sorted(v.items())) for k, v in verdicts.items()},
-        "one slip": counted(singles(SINGLE_KINDS, SEED)),
-        "two slips": counted(doubles(DOUBLES, SEED)),
-    }
+        "verdicts": {k: dict(sorted(v.items())) for k, v in verdicts.items()}, "one slip": once, "two slips": twice,
+    }  # fmt: skip
+
+
+def trapped() -> Iterator[str]:
+    """Of every trap, whether it is called exact; what else is said of it does not matter."""
+    for trap in content("traps.toml")["trap"]:
+        for text in trap["texts"]:
+            question = question_of(Asked(text=text, against=trap["against"]), statement(text))
+            yield "exact" if agreement(judges(question), question.formula.tree).exact else "not exact"
 
 
 def constant_speed() -> Iterator[tuple[str, str]]:
@@ -68,8 +81,6 @@ def _told(spoiled: Spoiled) -> str:
 
 def stored() -> dict[str, Any]:
     """The results of the last trial that was recorded; empty where there is none."""
-    import json
-
     file = resources.files("mechsym.audit.trial") / _STORED
     return json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
 
@@ -82,17 +93,23 @@ def record(found: Mapping[str, Any]) -> Path:
 
 def lines(found: Mapping[str, Any]) -> list[str]:
     """The confusion matrix and the rates, as Markdown."""
-    rows = dict(found["verdicts"]) | {k: found[k]["verdicts"] for k in ("one slip", "two slips")}
+    traps = found["verdicts"]["traps"]
+    rows = {k: v for k, v in found["verdicts"].items() if k != "traps"} | {
+        k: found[k]["verdicts"] for k in ("one slip", "two slips")
+    }
     head = [f"| what was asked | n | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 2) + "|"]
     body = [
         f"| {_ROWS[name]} | {sum(row.values())} | {' | '.join(str(row.get(v, 0)) for v in VERDICTS)} |"
         for name, row in rows.items()
     ]
-    return [*head, *body, "", *(_rates(k, found[k]) for k in ("one slip", "two slips"))]
+    trap = (
+        f"- traps, right for one sign or on one branch: {traps.get('exact', 0)} of {sum(traps.values())} called exact"
+    )
+    return [*head, *body, "", trap, *(_rates(k, found[k]) for k in ("one slip", "two slips"))]
 
 
 _ROWS = {
-    "right": "right formulas, exact", "traps": "traps: right on one branch only",
+    "right": "right formulas, exact",
     "constant speed": "textbook formulas at constant speed", "one slip": "spoiled once", "two slips": "spoiled twice",
 }  # fmt: skip
 

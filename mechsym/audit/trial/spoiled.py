@@ -2,17 +2,17 @@
 
 import random
 import tomllib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
 from mechsym.audit.formula import check_formula
 from mechsym.audit.trial.spoiler import KINDS, one
 from mechsym.audit.trial.truth import same
+from mechsym.quantities import record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Spoiled:
     """A right formula, how it was spoiled, and the auditor's row."""
 
@@ -35,7 +35,7 @@ def content(name: str) -> dict[str, Any]:
     return tomllib.loads((resources.files("mechsym.audit.trial") / name).read_text(encoding="utf-8"))
 
 
-def singles(each: int, seed: int, done: Callable[[], Any] = lambda: None) -> list[Spoiled]:
+def singles(each: int, seed: int) -> list[Spoiled]:
     """Every form spoiled once by every kind of slip that applies, `each` kinds a form."""
     generator, forms, found = random.Random(seed), content("forms.toml"), []
     for form in forms["form"]:
@@ -43,11 +43,10 @@ def singles(each: int, seed: int, done: Callable[[], Any] = lambda: None) -> lis
             spoiled = _different(forms, form, form["text"], generator, kind)
             if spoiled is not None:
                 found.append(_asked(forms, form, *spoiled))
-            done()
     return found
 
 
-def doubles(each: int, seed: int, done: Callable[[], Any] = lambda: None) -> list[Spoiled]:
+def doubles(each: int, seed: int) -> list[Spoiled]:
     """Every form spoiled twice, `each` times."""
     generator, forms, found = random.Random(seed), content("forms.toml"), []
     for form in forms["form"]:
@@ -56,7 +55,6 @@ def doubles(each: int, seed: int, done: Callable[[], Any] = lambda: None) -> lis
             second = first and _different(forms, form, first[1], generator)
             if first and second:
                 found.append(_asked(forms, form, f"{first[0]}, {second[0]}", second[1]))
-            done()
     return found
 
 
@@ -74,7 +72,9 @@ def _different(
         spoiled = one(text, form.get("alike", {}), generator, kind)
         if spoiled is None:
             return None
-        if not any(same(spoiled[1], other, forms["ranges"], defined(forms, form["against"])) for other in {text, form["text"]}):
+        if not any(
+            same(spoiled[1], other, forms["ranges"], defined(forms, form["against"])) for other in {text, form["text"]}
+        ):
             return spoiled
     return None
 

@@ -99,8 +99,10 @@ def _bracket(node: ast.expr) -> Iterator[ast.expr]:
 
 
 def _exponent(node: ast.expr) -> Iterator[ast.expr]:
-    if _is(node, ast.Pow) and isinstance(node.right, ast.Constant):  # type: ignore[attr-defined]
-        yield _make(ast.Pow, node.left, ast.Constant(value=node.right.value + 1))  # type: ignore[attr-defined]
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant):
+        value = node.right.value
+        assert isinstance(value, (int, float))
+        yield _make(ast.Pow, node.left, ast.Constant(value=value + 1))
 
 
 def _square(node: ast.expr) -> Iterator[ast.expr]:

@@ -1,0 +1,106 @@
+"""Quantities that anyone declares: a cam, a burn rate, a four-bar; derivatives and harmonics of every name."""
+
+import math
+
+import numpy as np
+import pytest
+
+from mechsym.audit.algebra import FLOATS
+from mechsym.audit.formula import check_formula
+from mechsym.audit.theory.catalogue import shipped, theory
+from mechsym.audit.theory.declared import theory_of
+from mechsym.audit.theory.record import complete
+from mechsym.errors import BadInput
+
+CAM = """
+angle = "phi"
+[letters]
+R_b = "30 mm"
+h = "10 mm"
+[define]
+s = "h*(1 - cos(phi))/2"
+x = "-(R_b + s)*sin(phi) - d(s, phi)*cos(phi)"
+y = "(R_b + s)*cos(phi) - d(s, phi)*sin(phi)"
+rho = "curve(x, y).radius"
+"""
+BURN = """
+angle = "theta"
+[letters]
+theta = { unit = "rad", domain = [0.3, 1.0] }
+theta_s = { unit = "rad", domain = [0.05, 0.2] }
+duration = { unit = "rad", value = 1.0, sign = "positive" }
+a = 5.0
+m = 2.0
+[define]
+xb = "1 - exp(-a*((theta - theta_s)/duration)**(m + 1))"
+rate = "d(xb, theta)"
+"""
+FOUR_BAR = """
+angle = "alpha"
+[letters]
+a = "40 mm"
+b = "120 mm"
+c = "80 mm"
+d0 = "100 mm"
+[define]
+gamma = "root('(a*cos(alpha) - d0 - c*cos(g))**2 + (a*sin(alpha) - c*sin(g))**2 - b**2', g, 2)"
+beta = "atan2(c*sin(gamma) - a*sin(alpha), d0 + c*cos(gamma) - a*cos(alpha))"
+"""
+WIEBE = "a*(m + 1)*((theta - theta_s)/duration)**m*exp(-a*((theta - theta_s)/duration)**(m + 1))"
+ASKED = [
+    (CAM, "rho", "R_b + s - d2s_dphi2", "R_b + s + d2s_dphi2"),
+    (BURN, "rate", WIEBE, f"{WIEBE}/duration"),
+    (
+        FOUR_BAR,
+        "dgamma_dalpha",
+        "a*sin(alpha + beta)/(c*sin(gamma - beta))",
+        "a*sin(alpha - beta)/(c*sin(gamma - beta))",
+    ),
+]
+
+
+@pytest.mark.parametrize(("declared", "quantity", "wrong", "right"), ASKED, ids=["cam", "burn", "four-bar"])
+def test_anyone_may_ask(tmp_path, declared, quantity, wrong, right):
+    file = tmp_path / "mine.toml"
+    file.write_text(declared)
+    assert len(declared.strip().splitlines()) <= 12
+    assert check_formula(right, f"mine.{quantity}", theory=str(file))["verdict"] == "exact"
+    row = check_formula(wrong, f"mine.{quantity}", theory=str(file))
+    assert row["verdict"] == "misprint" and row["corrected_max_rel_error"] < 1e-9
+
+
+def test_rates_and_harmonics_are_those_of_numbers():
+    found = theory_of(CAM, "cam", "cam")
+    names = {"R_b": np.array([0.03]), "h": np.array([0.01]), "phi": np.array([0.7]), "phid": np.array([2.0])}
+    names |= {"phidd": np.array([0.5]), "pi": np.float64(math.pi)}
+    complete(found, names, ["s_d", "s_dd", "s_mean", "s_cos1", "s_sin1"], FLOATS)
+    assert names["s_d"] == pytest.approx(0.005 * math.sin(0.7) * 2)
+    assert names["s_dd"] == pytest.approx(0.005 * (math.cos(0.7) * 4 + math.sin(0.7) * 0.5))
+    assert names["s_mean"] == pytest.approx(0.005) and names["s_cos1"] == pytest.approx(-0.005)
+    assert names["s_sin1"] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("name", sorted(shipped()))
+def test_shipped_theories_have_values_everywhere(name):
+    found = theory(name)
+    names = {k: np.array([v.value]) for k, v in found.letters.items()} | {"pi": np.float64(math.pi)}
+    complete(found, names, found.results, FLOATS)
+    assert all(np.isfinite(names[k]).all() for k in found.results)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("x = 1", "is not a key of a theory"),
+        ("[letters]\nr = 'm'", r"nothing in \[define\]"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'q'", "define.x: unknown letter 'q'"),
+        ("[letters]\nr = '3 furlongs'\n[define]\nx = 'r'", "unit"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'd(r, q)'", "not a free letter"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'curve(r, r).curvature'", "needs the angle"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'root(r, u, 1)'", "root is written"),
+        ("[letters]\npi = 3.0\n[define]\nx = 'pi'", "not pi"),
+    ],
+)
+def test_bad_declarations_name_the_place(text, reason):
+    with pytest.raises(BadInput, match=reason):
+        theory_of(text, "mine", "mine.toml")

@@ -1,0 +1,104 @@
+"""Verdicts that can be trusted: domains of both signs, pure truncations, conditions, claims, laws, traps."""
+
+import ast
+import inspect
+
+import pytest
+
+from mechsym.audit.formula import check_formula
+from mechsym.audit.trial import spoiler
+from mechsym.audit.trial.matrix import trapped
+from mechsym.errors import BadInput
+
+ACCELERATION = "r*omega**2*(cos(phi) + lam*cos(2*phi))"
+MORE = {"letters": "omega=phid"}
+
+
+@pytest.mark.parametrize(
+    ("text", "against"),
+    [
+        ("abs(F)*dx_dphi", "crosshead.gas_torque"),
+        ("sqrt(F**2)*dx_dphi", "crosshead.gas_torque"),
+        ("dx_dphi*abs(phid)", "slider_crank.x_d"),
+    ],
+)
+def test_one_sign_is_not_exact(text, against):
+    assert check_formula(text, against)["verdict"] not in ("exact", "truncation", "convention")
+
+
+def test_no_trap_is_called_exact():
+    found = list(trapped())
+    assert len(found) >= 200 and set(found) == {"not exact"}
+
+
+def test_an_error_beyond_bounds_is_not_passed():
+    row = check_formula("F*sin(phi)*r*(1+100*lam**2)", "slider_crank.torque", "F=total_force")
+    assert row["verdict"] in ("misprint", "nearer", "mixed", "wrong") and row["max_rel_error"] > 15
+
+
+def test_constant_speed_is_named():
+    row = check_formula(ACCELERATION, "slider_crank.piston_acceleration", **MORE)
+    assert row["verdict"] == "convention" and "constant speed (phidd = 0)" in row["note"]
+    row = check_formula(ACCELERATION, "slider_crank.piston_acceleration", **MORE, assume="phidd = 0")
+    assert row["verdict"] == "truncation" and row["order"] == 3
+
+
+@pytest.mark.parametrize(
+    ("claim", "kept"), [("lam^2", True), ("lam^3", False), ("approx", True), ("=", False), ("within 2 %", True)]
+)
+def test_claims(claim, kept):
+    row = check_formula("r*sin(phi) + r*lam/2*sin(2*phi)", "slider_crank.dx_dphi", claim=claim)
+    assert row["claim_kept"] is kept and claim in row["note"]
+
+
+def test_a_law_is_compared_side_with_side():
+    assert check_formula(r"l\sin\beta = r\sin\varphi", "slider_crank.beta")["verdict"] == "exact"
+    assert check_formula(r"l\sin\beta = r\cos\varphi", "slider_crank.beta")["verdict"] == "misprint"
+
+
+def test_a_sign_slip_of_the_rod_says_which_convention_would_hide_it():
+    row = check_formula("r*sin(phi) - r*lam*sin(phi)*cos(phi)/cos(beta)", "slider_crank.dx_dphi")
+    assert row["verdict"] == "misprint" and "bottom dead centre" in row["note"]
+    row = check_formula(row["printed"], "slider_crank.dx_dphi", convention="bottom, sign")
+    assert row["verdict"] == "convention"
+
+
+def test_a_relation_ties_a_letter():
+    row = check_formula(
+        "V_displacement/(CR - 1) + 2*A_piston*x",
+        "opposed_slider_crank.chamber_volume",
+        assume="V_c = V_displacement/(CR - 1)",
+    )
+    assert row["verdict"] == "exact"
+
+
+@pytest.mark.parametrize(
+    ("more", "reason"),
+    [
+        ({"letters": "pi=3"}, "has its meaning already"),
+        ({"letters": "sin=r"}, "has its meaning already"),
+        ({"assume": "nothing"}, "is no relation"),
+        ({"assume": "x = 0"}, "must be one free letter"),
+        ({"claim": "nearly"}, "within 1 %"),
+        ({"convention": "upwards"}, "is not known"),
+    ],
+)
+def test_bad_words_are_refused_with_the_way_out(more, reason):
+    with pytest.raises(BadInput, match=reason):
+        check_formula("r", "slider_crank.x", **more)
+
+
+@pytest.mark.parametrize(
+    ("text", "place"), [("r*2(1-cos(phi))", "behind '2'"), ("2r", "between '2' and 'r'"), ("r(1-cos(phi))", "'r'")]
+)
+def test_a_missing_product_sign_is_shown(text, place):
+    with pytest.raises(BadInput, match="missing") as refused:
+        check_formula(text, "slider_crank.x")
+    assert place in str(refused.value)
+
+
+def test_the_spoiler_shares_no_code_with_the_repair_search():
+    tree = ast.parse(inspect.getsource(spoiler))
+    modules = {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
+    names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
+    assert not {m for m in modules | names if m and m.startswith("mechsym")}
