@@ -24,6 +24,7 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.option(
     "--theory", default="", metavar="FILE", help="TOML file that declares letters and quantities of your own."
 )
+@click.option("--code", metavar="FILE::FUNCTION", help="A function or model in Python, C, Java, MATLAB or Modelica.")
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
 @click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
 @json_option
@@ -33,6 +34,7 @@ def audit(
     source: str | None,
     formula: str | None,
     against: str | None,
+    code: str | None,
     file: Path | None,
     write: bool,
     as_json: bool,
@@ -47,10 +49,10 @@ def audit(
     Example: mechsym audit --source zotov2024
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
     """
-    if formula is not None or file is not None:
-        if source or write or (formula is not None and file is not None):
-            raise BadInput("--formula and --file stand alone; use one of them without --source and --write")
-        rows = _own(formula, against, file, said)
+    if own := [o for o in (formula, file, code) if o is not None]:
+        if source or write or len(own) > 1:
+            raise BadInput("--formula, --file and --code stand alone; use one of them without --source and --write")
+        rows = _own(formula, against, file, code, said)
         emit(rows[0] if formula is not None else rows, as_json, lambda: "\n\n".join(map(_told, rows)))
         ctx.exit(_status(rows))
     if against or any(said.values()):
@@ -58,9 +60,14 @@ def audit(
     ctx.exit(_published(source, write, as_json))
 
 
-def _own(formula: str | None, against: str | None, file: Path | None, said: dict[str, str]) -> list[dict[str, Any]]:
-    from mechsym.audit.formula import check_file, check_formula
+def _own(
+    formula: str | None, against: str | None, file: Path | None, code: str | None, said: dict[str, str]
+) -> list[dict[str, Any]]:
+    from mechsym.audit.code_rows import check_code
+    from mechsym.audit.formula import Asked, check_file, check_formula
 
+    if code is not None:
+        return check_code(code, against or "", Asked(text="", against=against or "", **said))
     if file is not None:
         return check_file(file, said["theory"])
     if against is None:

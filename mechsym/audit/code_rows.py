@@ -1,0 +1,96 @@
+"""Formulas of programs compared with derived quantities: a variable claims to be what its name or comment says."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from mechsym.audit.code import Assigned, read_code
+from mechsym.audit.findings import Row, unread_row
+from mechsym.audit.formula import Asked, answer
+from mechsym.audit.reader import letter_pairs
+from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.record import Theory
+from mechsym.errors import BadInput
+
+
+def check_code(place: str, against: str, asked: Asked) -> list[Row]:
+    """Rows of `FILE::FUNCTION`.
+
+    Parameters
+    ----------
+    against : str
+        `THEORY.QUANTITY`: the variable of that name or description, or else what the function returns. `THEORY` or
+        nothing: every variable whose name or description is that of a quantity
+    asked : Asked
+        Letters, assumptions and the rest, for every formula
+    """
+    found = read_code(place)
+    theory, dot, quantity = against.strip().rpartition(".")
+    pairs = list(_one(found, f"{theory}.{quantity}", quantity) if dot else _every(found, quantity, asked))
+    if not pairs:
+        names = ", ".join(dict.fromkeys(a.name for a in found))
+        raise BadInput(
+            f"--code {place}: none of {names} is called as a quantity; name one with --against THEORY.QUANTITY"
+        )
+    return [_row(assigned, target, asked) for assigned, target in pairs]
+
+
+def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
+    name = (
+        f"{assigned.name} ({assigned.about})" if assigned.about and assigned.about != assigned.name else assigned.name
+    )
+    try:
+        letters = _letters(assigned.text, target, asked)
+        note = ", ".join(f"{k} taken for {v}" for k, v in letters.items() if k not in str(asked.letters))
+        row = answer(
+            Asked(
+                text=assigned.text, against=target, letters=letters, case=asked.case, name=name,
+                assume=asked.assume, claim=asked.claim, convention=asked.convention, theory=asked.theory,
+            )
+        )  # fmt: skip
+        return row | {"note": "; ".join(n for n in (row["note"], note) if n)}
+    except BadInput as error:
+        return unread_row(name, target, assigned.text, str(error))
+
+
+def _letters(text: str, target: str, asked: Asked) -> dict[str, str]:
+    # omega_m is omega where the theory has omega and the author gave nothing for omega_m
+    given = letter_pairs(asked.letters) if isinstance(asked.letters, str) else dict(asked.letters)
+    theory = named(target.rpartition(".")[0], asked.case, asked.theory)
+    for used in dict.fromkeys(re.findall(r"(?<![\w.])[A-Za-z_]\w*", text)):
+        stem = used.partition("_")[0]
+        if used not in given and used not in theory.letters and used not in theory.tape and stem in theory.letters:
+            given[used] = stem
+    return given
+
+
+def _one(found: list[Assigned], target: str, quantity: str) -> Iterator[tuple[Assigned, str]]:
+    called = [a for a in found if _is_called(a, quantity)]
+    returned = [a for a in found if a.name == "return"]
+    chosen = (called or returned or found)[-1]
+    yield chosen, target
+
+
+def _every(found: list[Assigned], theory: str, asked: Asked) -> Iterator[tuple[Assigned, str]]:
+    theories = [named(theory, asked.case, asked.theory)] if theory else list(_theories(asked))
+    for assigned in found:
+        for other in theories:
+            for quantity in other.results:
+                if _is_called(assigned, quantity):
+                    yield assigned, f"{other.name}.{quantity}"
+
+
+def _theories(asked: Asked) -> Iterator[Theory]:
+    if asked.theory:
+        yield named(Path(asked.theory).stem, asked.case, asked.theory)
+    for name in shipped():
+        yield named(name)
+
+
+def _is_called(assigned: Assigned, quantity: str) -> bool:
+    wanted = _words(quantity)
+    return _words(assigned.name) == wanted or len(wanted) > 1 and set(wanted) <= set(_words(assigned.about))
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[a-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text).lower())

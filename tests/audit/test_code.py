@@ -1,0 +1,83 @@
+"""Formulas of programs: a mean piston speed in Modelica, a rod's angular acceleration in C, Python and MATLAB."""
+
+import pytest
+
+from mechsym.audit.code import read_code
+from mechsym.audit.code_rows import check_code
+from mechsym.audit.formula import Asked
+from mechsym.errors import BadInput
+
+MODELICA = """
+partial model HeatTransfer
+  Modelica.SIunits.Velocity c_m "Mean piston speed";
+equation
+  if time > 0 then
+    omega_m = crankshaftAngle/time "Use continuous input";
+  end if;
+  c_m = omega_m/2/pi*stroke;
+end HeatTransfer;
+"""
+C = """
+double rod_alpha(double t, double r, double l, double w)
+{
+    const double lam = r/l;           // crank over rod
+    double s = sin(t), q = sqrt(1.0 - lam*lam*s*s);
+    return lam*w*w*(lam*lam {sign} 1.0)*s/pow(q, 3);
+}
+"""
+PYTHON = """def velocity(r, l, phi, w):
+    lam = r/l
+    b = np.arcsin(lam*np.sin(phi))
+    return r*w*np.sin(phi + b)/np.cos(b)
+"""
+MATLAB = "function v = velocity(r, l, t, w)\nlam = r/l; % ratio\nv = r*w*(sin(t) - lam/2*sin(2*t));\n"
+NONE = Asked(text="", against="")
+LETTERS = Asked(text="", against="", letters="t=phi,w=phid")
+
+
+def write(path, text):
+    path.write_text(text)
+    return str(path)
+
+
+def test_a_mean_piston_speed_is_found_by_what_is_said_of_it(tmp_path):
+    (row,) = check_code(write(tmp_path / "h.mo", MODELICA) + "::HeatTransfer", "", NONE)
+    assert row["verdict"] == "misprint" and row["max_rel_error"] == pytest.approx(0.5)
+    assert "c_m" in row["equation"] and row["claim"] == "piston_speed.mean_piston_speed"
+    assert "omega_m taken for omega" in row["note"]
+
+
+@pytest.mark.parametrize(("sign", "verdict"), [("-", "convention"), ("+", "misprint")])
+def test_a_sign_in_c(tmp_path, sign, verdict):
+    file = write(tmp_path / "rod.c", C.replace("{sign}", sign))
+    (row,) = check_code(f"{file}::rod_alpha", "slider_crank.beta_dd", LETTERS)
+    assert row["verdict"] == verdict and (row["correction"] is None) == (verdict == "convention")
+
+
+def test_python_and_matlab(tmp_path):
+    (row,) = check_code(write(tmp_path / "v.py", PYTHON) + "::velocity", "slider_crank.x_d", LETTERS)
+    assert row["verdict"] == "exact"
+    (row,) = check_code(write(tmp_path / "v.m", MATLAB) + "::velocity", "slider_crank.x_d", LETTERS)
+    assert row["verdict"] == "misprint" and row["corrected_max_rel_error"] < 0.02
+
+
+def test_own_variables_are_put_in(tmp_path):
+    found = {a.name: a.text for a in read_code(write(tmp_path / "rod.c", C.replace("{sign}", "-")) + "::rod_alpha")}
+    assert found["q"] == "sqrt(1.0 - (r/l)*(r/l)*(sin(t))*(sin(t)))"
+
+
+@pytest.mark.parametrize(
+    ("place", "reason"),
+    [
+        ("v.py", "is not FILE::FUNCTION"),
+        ("/nowhere.py::f", "cannot be read"),
+        ("v.txt::f", "files that are read"),
+        ("v.py::nothing", "there is no function nothing"),
+    ],
+)
+def test_bad_places_are_refused(tmp_path, monkeypatch, place, reason):
+    monkeypatch.chdir(tmp_path)
+    for name in ("v.py", "v.txt"):
+        write(tmp_path / name, PYTHON)
+    with pytest.raises(BadInput, match=reason):
+        check_code(place, "slider_crank.x_d", NONE)
