@@ -45,6 +45,7 @@ def read_latex(text: str) -> tuple[Node, dict[str, str]]:
     spelled : dict of str to str
         Plain name to the LaTeX that the author wrote for it
     """
+    text = text.replace("²", "^{2}").replace("³", "^{3}")
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
     cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent])
     tree = _sum(cursor)
@@ -119,7 +120,7 @@ def _argument(cursor: Cursor) -> Node:
     if cursor.peek() == "{":
         return _group(cursor)
     token = cursor.peek()
-    if token[:1].isdigit() and len(token) > 1:
+    if token[:1].isdecimal() and len(token) > 1:
         cursor.tokens[cursor.position : cursor.position + 1] = [token[0], token[1:]]
     if token == "-":
         raise BadInput(f"LaTeX: put the exponent in braces {place(cursor)}")
@@ -143,7 +144,7 @@ def _any_factor(cursor: Cursor, bare: bool) -> Node:
     token = cursor.peek()
     if token in _CLOSING:
         return _group(cursor)
-    if token[:1].isdigit():
+    if token[:1].isdecimal():
         return number(Fraction(cursor.take().replace("{,}", ".").replace(",", ".")), decimal=True)
     if token in _FRACTIONS:
         return _fraction(cursor)
@@ -267,7 +268,7 @@ def _run(cursor: Cursor, function: str) -> Node:
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:
         raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}")
-    if cursor.peek() in _OVER and cursor.peek(1)[:1].isdigit():
+    if cursor.peek() in _OVER and cursor.peek(1)[:1].isdecimal():
         _ask(cursor, function, f"{cursor.peek()}{cursor.peek(1)}")
     return tree
 

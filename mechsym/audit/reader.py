@@ -2,6 +2,7 @@
 
 import ast
 import re
+import warnings
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import field
 
@@ -158,7 +159,9 @@ def _known_letter(written: str, known: list[str], more: Container[str]) -> str:
 def _read_python(text: str) -> Node:
     source = from_greek(bracketed(text)).replace("^", "**")
     try:
-        tree = ast.parse(source.strip(), mode="eval").body
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)  # of 2if: what is no formula is refused below
+            tree = ast.parse(source.strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
         raise BadInput(

@@ -59,7 +59,7 @@ def search(exam: Examination, start: Repair) -> Found:
     lost = exact_repair(exam, start, insert=True)
     if lost is not None and (not mixed or is_operation(lost.edits[-1].new, ast.Add, ast.Sub)):
         return Found(verdict="misprint", repairs=(lost,))
-    if mended:
+    if mended and not mixed:
         return Found(verdict="misprint", repairs=tuple(mended))
     if mixed:
         return Found(verdict="mixed", note=mixed)

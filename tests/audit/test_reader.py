@@ -143,3 +143,17 @@ def test_printed_text_reads_back_to_the_same_value(tree):
         for text in (to_python(tree), f"${to_latex(tree, {})}$"):
             back = evaluate(read_expression(text, [*VALUES])[0], VALUES, FLOATS)
             assert np.isclose(back, value, rtol=1e-12, equal_nan=True), text
+
+
+PIECES = ["r1", "phi", "sin", "(", ")", "+", "-", "*", "/", "^", "2", "0.5", " ", "=", "\\frac", "{", "}", "\\sin",
+          "\\varphi", "_", "\\left(", "\\right)", "|", "&", "\\\\", "\\begin{cases}", "\\end{cases}", "<", ",", "np.",
+          "atan2", "piecewise", "\\sum", "\\dot", "\\vec", "²", "φ", "O(\\lambda^3)", "\\tag{3}", "\\approx", "if", "["]  # fmt: skip
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.lists(st.sampled_from(PIECES), max_size=14).map("".join))
+def test_whatever_is_typed_is_read_or_refused_in_one_line(text):
+    try:
+        read(text, KNOWN)
+    except BadInput as refused:
+        assert "\n" not in str(refused)
