@@ -29,6 +29,8 @@ def text(sources: Sequence[Audited], rows: Sequence[Row], found: Mapping[str, An
         ]
         if remarks:
             parts += ["### Remarks on the other relations", "\n".join(remarks)]
+    if not found:
+        return "\n\n".join(parts) + "\n"
     parts += ["## How far the auditor can be trusted", _TRUST, "\n".join(lines(found))]
     misses = [f"- `{line}`" for name in ("one slip", "two slips") for line in found[name]["not repaired"]]
     parts += ["Spoiled formulas that did not come back (theory.quantity [slip]: spoiled -> what was said):"]

@@ -145,9 +145,11 @@ def test_printed_text_reads_back_to_the_same_value(tree):
             assert np.isclose(back, value, rtol=1e-12, equal_nan=True), text
 
 
-PIECES = ["r1", "phi", "sin", "(", ")", "+", "-", "*", "/", "^", "2", "0.5", " ", "=", "\\frac", "{", "}", "\\sin",
-          "\\varphi", "_", "\\left(", "\\right)", "|", "&", "\\\\", "\\begin{cases}", "\\end{cases}", "<", ",", "np.",
-          "atan2", "piecewise", "\\sum", "\\dot", "\\vec", "²", "φ", "O(\\lambda^3)", "\\tag{3}", "\\approx", "if", "["]  # fmt: skip
+PIECES = [
+    "r1", "phi", "sin", "(", ")", "+", "-", "*", "/", "^", "2", "0.5", " ", "=", "\\frac", "{", "}", "\\sin",
+    "\\varphi", "_", "\\left(", "\\right)", "|", "&", "\\\\", "\\begin{cases}", "\\end{cases}", "<", ",", "np.",
+    "atan2", "piecewise", "\\sum", "\\dot", "\\vec", "²", "φ", "O(\\lambda^3)", "\\tag{3}", "\\approx", "if", "[",
+]  # fmt: skip
 
 
 @settings(deadline=None, max_examples=300)
