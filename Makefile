@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup derive check-derive audit reproduce demo test test-slow bench lint format clean
+.PHONY: setup setup-all derive check-derive audit reproduce demo test test-slow bench dist lint format clean
 
 setup: $(READY)
 
@@ -12,6 +12,13 @@ $(READY): pyproject.toml setup.py
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { echo "Python's venv is missing; on Debian: apt-get install python3-venv"; exit 1; }
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev]'
+	@touch $@
+
+# what exports need and what checks them; heavy, so only the slow tests and the packages ask for it
+setup-all: .venv/ready-all
+
+.venv/ready-all: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,check]'
 	@touch $@
 
 derive: | $(READY)
@@ -33,11 +40,19 @@ demo: | $(READY)
 test: | $(READY)
 	$(BIN)/python -m pytest -n 2 -q -m "not slow"
 
-test-slow: | $(READY)
+test-slow: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 -q -m slow
 
 bench: | $(READY)
 	$(BIN)/python -m benchmarks
+
+# wheel and source archive, checked, and tried in a clean environment of every Python at hand
+dist: | .venv/ready-all
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist .
+	$(BIN)/python -m twine check --strict dist/*
+	$(BIN)/check-wheel-contents dist/*.whl
+	$(BIN)/python tests/everywhere.py dist
 
 lint: | $(READY)
 	$(BIN)/ruff check .
@@ -49,4 +64,4 @@ format: | $(READY)
 	$(BIN)/ruff format .
 
 clean:
-	rm -rf .venv demo build *.egg-info
+	rm -rf .venv demo build dist *.egg-info

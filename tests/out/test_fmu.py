@@ -1,7 +1,9 @@
 """FMUs: what the standard wants, numbers against `simulate`, derivatives, state, sources, and other importers."""
 
+import dataclasses
 import io
 import json
+import re
 import subprocess
 import sys
 import zipfile
@@ -224,3 +226,63 @@ def test_without_the_extra_one_line_names_it(tmp_path):
     done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.strip() == "mechsym: running an FMU needs the extra fmu: pip install 'mechsym[fmu]'"
+
+
+HOST = r"""
+#include <dlfcn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "fmi2Functions.h"
+static void say(void *e, fmi2String n, fmi2Status s, fmi2String c, fmi2String m, ...)
+{
+    (void)e, (void)n, (void)s, (void)c;
+    puts(m);
+}
+#define GET(NAME) NAME##TYPE *NAME##_ = (NAME##TYPE *)dlsym(library, #NAME); if (!NAME##_) return 2;
+int main(int count, char **words)
+{
+    void *library = dlopen(words[1], RTLD_NOW);
+    if (count < 3 || !library) return 1;
+    GET(fmi2Instantiate) GET(fmi2SetupExperiment) GET(fmi2EnterInitializationMode) GET(fmi2ExitInitializationMode)
+    GET(fmi2DoStep) GET(fmi2GetReal) GET(fmi2Terminate) GET(fmi2FreeInstance)
+    const fmi2CallbackFunctions call = {say, calloc, free, NULL, NULL};
+    fmi2Component c = fmi2Instantiate_("host", fmi2CoSimulation, words[2], "", &call, fmi2False, fmi2False);
+    if (!c || fmi2SetupExperiment_(c, fmi2True, 1e-13, 0.0, fmi2False, 0.0) || fmi2EnterInitializationMode_(c)
+        || fmi2ExitInitializationMode_(c)) return 3;
+    for (int i = 0; i < 50; i++)
+        if (fmi2DoStep_(c, 0.1 * i, 0.1 * (i + 1) - 0.1 * i, fmi2True)) return 4;
+    const fmi2ValueReference states[2] = {1, 2};
+    double value[2];
+    if (fmi2GetReal_(c, states, 2, value)) return 5;
+    printf("%.17g %.17g", value[0], value[1]);
+    fmi2Terminate_(c);
+    fmi2FreeInstance_(c);
+    return 0;
+}
+"""
+
+
+@pytest.mark.slow
+def test_a_program_in_c_runs_it_without_python(unit, exported, tmp_path):
+    with zipfile.ZipFile(unit("zotov-89", 2)) as archive:
+        archive.extractall(tmp_path)
+    token = re.search(r'guid="([^"]+)"', (tmp_path / "modelDescription.xml").read_text())[1]
+    (tmp_path / "host.c").write_text(HOST)
+    words = ["gcc", "-std=gnu11", f"-I{tmp_path}/sources", str(tmp_path / "host.c"), "-o", str(tmp_path / "host")]
+    subprocess.run([*words, "-ldl", "-lm"], check=True, capture_output=True)
+    library = tmp_path / "binaries" / "linux64" / "zotov_89.so"
+    found = subprocess.check_output([tmp_path / "host", library, token]).split()
+    problem = dataclasses.replace(exported("zotov-89")[0].problem, output=(5.0,), t_end=5.0, turns=None)
+    wanted = simulate(problem, Settings(tolerance=1e-13, check="none"))
+    truth = [wanted.columns["phi"][-1], wanted.columns["phid"][-1]]
+    np.testing.assert_allclose(np.array(found, dtype=float), truth, rtol=1e-10)
+
+
+@pytest.mark.slow
+def test_a_library_for_windows_is_inside_when_asked_for(exported):
+    pytest.importorskip("ziglang", reason="the extra web is not installed")
+    made = fmu(exported("zotov-89")[1], 2, ("linux64", "win64"))
+    with zipfile.ZipFile(io.BytesIO(made.data)) as archive:
+        assert archive.read("binaries/win64/zotov_89.dll").startswith(b"MZ")
+        assert b"fmi2DoStep" in archive.read("binaries/win64/zotov_89.dll")

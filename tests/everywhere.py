@@ -1,0 +1,74 @@
+"""The wheel of a folder in a clean environment of every Python at hand: `python tests/everywhere.py dist`.
+
+Each one designs a hinge, proves a formula, checks the derivations and writes an FMU that fmpy validates, from an empty
+folder and from the folder that holds the clone, where a folder of the same name must not hide what is installed.
+"""
+
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+VERSIONS = ("3.11", "3.12", "3.13", "3.14")
+CLONE = Path(__file__).resolve().parents[1]
+COMMANDS = (
+    ("hinge", "zotov-89", "--json"),
+    ("audit", "--formula", "r*(1 - cos(phi))", "--against", "hypocycloid.x", "--letters", "r=2*e,phi=theta", "--json"),
+    ("derive", "--check"),
+    ("fmu", "zotov-89", "--out", "{home}/e.fmu", "--compare"),
+    ("export", "crosshead", "--to", "c,julia", "--out", "{home}/text"),
+)
+
+
+def interpreters():
+    """One working interpreter for each version: of PATH, or of pyenv."""
+    for version in VERSIONS:
+        own = sorted(glob.glob(str(Path.home() / f".pyenv/versions/{version}.*/bin/python3")))
+        places = [shutil.which(f"python{version}"), *own]
+        for place in filter(None, places):
+            if (
+                subprocess.run([place, "-c", "import venv, ensurepip"], capture_output=True, check=False).returncode
+                == 0
+            ):
+                yield version, place
+                break
+
+
+def tried(place, wheel, home):
+    """Install the wheel with the extra fmu and run every command in both folders; the words of what failed."""
+    subprocess.run([place, "-m", "venv", home], check=True)
+    python = home / "bin" / "python"
+    subprocess.run([python, "-m", "pip", "install", "--quiet", f"{wheel}[fmu]"], check=True)
+    failed = []
+    for folder in (home / "empty", CLONE.parent):
+        folder.mkdir(exist_ok=True)
+        for name, *words in COMMANDS:
+            words = [word.format(home=home) for word in words]
+            command = [home / "bin" / "mechsym", name, *words]
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+            if done.returncode:
+                failed.append(f"{name} in {folder}: {done.returncode} {done.stderr.strip()[-300:]}")
+    check = "import sys; from fmpy.validation import validate_fmu as v; sys.exit(len(v(sys.argv[1])))"
+    if subprocess.run([python, "-c", check, home / "e.fmu"], capture_output=True, check=False).returncode:
+        failed.append("fmpy validate")
+    return failed
+
+
+def main(folder):
+    """Try the wheel of a folder everywhere; 1 when anything failed."""
+    (wheel,) = Path(folder).resolve().glob("*.whl")
+    failures = 0
+    for version, place in interpreters():
+        with tempfile.TemporaryDirectory() as home:
+            failed = tried(place, wheel, Path(home) / "venv")
+        print(f"Python {version}: {'; '.join(failed) or 'all commands run'}", flush=True)
+        failures += len(failed)
+    return int(failures > 0)
+
+
+if __name__ == "__main__":
+    os.environ.pop("PYTHONPATH", None)
+    sys.exit(main(sys.argv[1]))
