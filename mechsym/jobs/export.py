@@ -22,6 +22,7 @@ from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import engine_with, one_cylinder
 from mechsym.jobs.machine import load, machine
+from mechsym.jobs.own import is_own
 from mechsym.jobs.problem import problem_of
 from mechsym.jobs.turn import turn
 from mechsym.machine.loads import Load, settle
@@ -51,13 +52,18 @@ class Ready:
 
 def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
-    if "drive" in case.sections or case.mechanism == "crank_train":
+    hinged = {"cycle", "spring", "guide"} <= set(case.sections)
+    if is_own(case.mechanism) and not hinged or "drive" in case.sections or case.mechanism == "crank_train":
         return Ready(problem=problem_of(_running(case)))
-    if case.mechanism == "crosshead" and not isinstance(case.sections.get("cycle"), SparkIgnition):
+    if is_own(case.mechanism) or case.mechanism == "crosshead" and not _by_spark(case):
         return _engine(case, diagram)
     if diagram is not None:
         raise BadInput(f"{case.file}: --diagram needs an engine with crosshead, a case of kind generator")
     return _at_speed(case)
+
+
+def _by_spark(case: Case) -> bool:
+    return isinstance(case.sections.get("cycle"), SparkIgnition)
 
 
 def named(name: str, settings: Mapping[str, str]) -> Ready:
@@ -148,7 +154,7 @@ def _spline(once: Turn, name: str, first: float, last: float) -> PPoly:
 def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
     """Angles in a period where a gas force is not smooth [rad]: ends of the closed period and of its combustion."""
     angles = list(once.gas.pressure.kinks if once.gas else ())
-    if isinstance(case.sections.get("cycle"), SparkIgnition):
+    if _by_spark(case):
         closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
         angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
     firing = getattr(case.sections.get("faces"), "firing", (0.0,))

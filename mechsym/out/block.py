@@ -83,6 +83,9 @@ class Block:
 
 def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> Block:
     """The block of a problem; `laws` say how its parts depend on parameters."""
+    if "constraints" in problem.mechanism.functions or problem.mechanism.dependents:
+        why = "an export takes independent coordinates"
+        raise BadInput(f"{problem.mechanism.name} is closed by constraints and {why}; simulate it with mechsym")
     given = {law.part: law for law in laws}
     chosen = [given.get(part.name) or law_of(problem, part) for part in problem.parts]
     mechanism, own = _tunable(problem.mechanism)
@@ -177,6 +180,8 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
     known = listing(mechanism.name, mechanism)
     units = {n: unit for key in ("coordinates", "inputs", "outputs") for n, unit in known[key].items()}
     q = mechanism.coordinates
+    # a machine may add a hinge torque to what its mechanism declares
+    units = dict.fromkeys(mechanism.inputs, "N*m") | units
     units |= {n: f"{units[c]}/s" for n, c in zip(velocities(mechanism), q, strict=True)}
     return units | {n: f"{units[c]}/s^2" for n, c in zip(accelerations(mechanism), q, strict=True)}
 

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
@@ -15,6 +16,7 @@ from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
+from mechsym.errors import BadInput
 from mechsym.jobs.export import ready
 from mechsym.out.fmi import fmu
 from mechsym.out.laws import block_of
@@ -286,3 +288,30 @@ def test_a_library_for_windows_is_inside_when_asked_for(exported):
     with zipfile.ZipFile(io.BytesIO(made.data)) as archive:
         assert archive.read("binaries/win64/zotov_89.dll").startswith(b"MZ")
         assert b"fmi2DoStep" in archive.read("binaries/win64/zotov_89.dll")
+
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
+
+
+@pytest.mark.slow
+def test_a_mechanism_of_ones_own_is_an_fmu_too(tmp_path, monkeypatch):
+    for name in ("scotch_yoke.py", "scotch-yoke.toml"):
+        (tmp_path / name).write_text((EXAMPLES / name).read_text())
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    for settings in ({}, {"simulation.hinge": "none", "simulation.turns": "3"}):
+        case = cases.load("scotch-yoke.toml", settings)
+        run = ready(case)
+        (tmp_path / "own.fmu").write_bytes(fmu(block_of(case.name, case.about, run), 3).data)
+        for found in compare(tmp_path / "own.fmu", run.problem):
+            assert found.largest < 1e-9, f"{settings} {found.kind}: {found.largest:.2g}"
+
+
+def test_constraints_are_refused_not_left_out(tmp_path, monkeypatch):
+    for name in ("watt_six_bar.py", "watt-six-bar.toml"):
+        (tmp_path / name).write_text((EXAMPLES / name).read_text())
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    done = CliRunner().invoke(mechsym, ["fmu", "watt-six-bar.toml", "--out", "w.fmu"])
+    assert isinstance(done.exception, BadInput) and "closed by constraints" in str(done.exception)
+    assert not (tmp_path / "w.fmu").exists()
