@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,3 +81,13 @@ def test_missing_losses_are_named():
     with pytest.raises(BadInput, match=r"\[stirling\]"):
         turn(type(case)(**{**vars(case), "sections": bare}))
     assert isinstance(case.need("parameters"), CrankTrainParameters)
+
+
+def test_rhombic_drive_is_a_crank_train():
+    """The GPU-3 on the derived train is the one of test_stirling_second_order, whose drive is written out."""
+    file = Path(__file__).with_name("gpu-3.toml")
+    found = CliRunner().invoke(mechsym, ["cycle", str(file), "--json"])
+    assert found.exit_code == 0, found.output
+    result = json.loads(found.stdout)
+    assert result["power_kw"][0] == pytest.approx(4.438, abs=0.002)
+    assert result["efficiency"][0] == pytest.approx(0.357, abs=0.001)

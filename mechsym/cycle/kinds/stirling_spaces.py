@@ -7,7 +7,7 @@
 
 each plus what makes its smallest volume the clearance. x_i is the travel of piston i away from its own head, A_r the
 area of the displacer's rod. A rhombic drive is a crank train with two cylinders on one throw, the displacer's axis
-turned by half a turn, both with an offset.
+turned by half a turn, their offsets mirrored.
 """
 
 import math
