@@ -7,20 +7,12 @@ import click
 from mechsym.cli.common import emit, json_option
 
 
-@click.group()
-def new() -> None:
-    """Write a commented start for something of your own.
-
-    \b
-    Example: mechsym new mechanism toggle_press
-    """
-
-
-@new.command()
+@click.command(short_help="Write a commented start for something of your own.")
+@click.argument("kind", type=click.Choice(["mechanism"]))
 @click.argument("name")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=Path("."), help="Folder to write to.")
 @json_option
-def mechanism(name: str, out: Path, as_json: bool) -> None:
+def new(kind: str, name: str, out: Path, as_json: bool) -> None:
     """Write declaration, case and test of a new mechanism.
 
     \b
