@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit reproduce demo test test-slow bench dist lint format clean
+.PHONY: setup setup-all derive check-derive audit reproduce demo test test-slow bench fuzz mutate dist lint format clean
 
 setup: $(READY)
 
@@ -53,6 +53,14 @@ dist: | .venv/ready-all
 	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/check-wheel-contents dist/*.whl
 	$(BIN)/python tests/everywhere.py dist
+
+# machine-made inputs against the command line, FUZZ of them; finds go to tests/corpus
+fuzz: | $(READY)
+	$(BIN)/python -m fuzz
+
+# small mistakes in a module: make mutate MODULE=mechsym.hinge.springs [TESTS=tests/hinge/test_springs.py]
+mutate: | $(READY)
+	$(BIN)/python -m fuzz.mutants $(MODULE) $(if $(TESTS),--tests $(TESTS))
 
 lint: | $(READY)
 	$(BIN)/ruff check .

@@ -1,0 +1,99 @@
+"""What the command line owes whatever it is given; the rule that `make fuzz` and the replay of its finds hold."""
+
+import json
+import multiprocessing
+import os
+import resource
+import signal
+import sys
+import tempfile
+import time
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+LIMIT = 30.0  # time of a processor that an input may take [s]
+PATIENCE = 8.0  # times the limit by the clock: other work may share the processor
+ALLOWED = (0, 1, 2, 3)
+# a design, a run or a claim may fail; everything else that goes wrong is bad input
+MAY_FAIL = ("hinge", "size", "simulate", "audit", "reproduce", "derive", "codesign", "check")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of an input."""
+
+    code: int | None  # None when it was stopped at the limit; negative for a signal
+    out: str
+    err: str
+    seconds: float  # by the clock
+
+
+def judged(argv: list[str], answer: Answer) -> str | None:
+    """What is wrong with an answer; None when it is as the interface says."""
+    lines = answer.err.splitlines()
+    if answer.code in (None, -signal.SIGXCPU):
+        return f"took more than {LIMIT:g} s"
+    if "Traceback" in answer.err or answer.code not in ALLOWED:
+        return f"exit {answer.code}: {lines[-1] if lines else 'nothing said'}"
+    if any("Warning" in line for line in lines):
+        return f"a warning of Python: {next(line for line in lines if 'Warning' in line)}"
+    if answer.code == 1 and argv[0] not in MAY_FAIL:
+        return f"exit 1 of {argv[0]}"
+    if answer.code == 2:
+        if len(lines) != 1 or not lines[0].startswith("mechsym: "):
+            return f"{len(lines)} lines of error"
+        return "output beside an error" if answer.out else None
+    return _json_fault(answer.out) if "--json" in argv else None
+
+
+def _json_fault(text: str) -> str | None:
+    def refuse(word: str) -> None:
+        raise ValueError(f"{word} in JSON")
+
+    try:
+        json.loads(text, parse_constant=refuse)
+    except ValueError as error:
+        return str(error)
+    return None
+
+
+def answer(made: dict[str, Any], limit: float = LIMIT * PATIENCE) -> Answer:
+    """Give an input to the command line in a process of its own, forked off this one, in an empty folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        for name, text in made["files"].items():
+            (place / name).write_text(text, encoding="utf-8")
+        began = time.monotonic()
+        child = multiprocessing.get_context("fork").Process(target=_child, args=(made["argv"], folder))
+        child.start()
+        child.join(limit)
+        code = child.exitcode
+        if code is None:
+            child.kill()
+            child.join()
+        out, err = ((place / name).read_text("utf-8", "replace") for name in (".out", ".err"))
+        return Answer(code, out, err, time.monotonic() - began)
+
+
+def _child(argv: list[str], folder: str) -> None:
+    resource.setrlimit(resource.RLIMIT_CPU, (int(LIMIT), int(LIMIT) + 5))
+    os.chdir(folder)
+    for handle, name in ((1, ".out"), (2, ".err")):
+        os.dup2(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), handle)
+    sys.stdout, sys.stderr = (open(handle, "w", encoding="utf-8", closefd=False) for handle in (1, 2))
+    sys.argv = ["mechsym", *argv]
+    from mechsym.cli import main
+
+    code: Any = 0
+    try:
+        main()
+    except SystemExit as ended:
+        code = ended.code or 0
+    except BaseException:
+        traceback.print_exc()
+        code = 70
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
