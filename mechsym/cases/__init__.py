@@ -15,9 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cases import schema
+from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
+from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
 
 __all__ = ["Case", "load", "locate", "names", "text", "underlaid"]
@@ -38,6 +40,8 @@ class Case:
     #: What `load` was given: name or path, and values that replace the file's
     path: str = ""
     overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    doubts: tuple[Doubt, ...] = ()  #: What of its values is possible and not usual, accepted or not
+    acceptances: Mapping[str, Acceptance] = dataclasses.field(default_factory=dict)  #: Section `[doubts]`, by code
 
     def need(self, section: str) -> Any:
         """The record of a section that the caller cannot do without.
@@ -90,11 +94,16 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
+        accepted = acceptances(_tables(*_read(name)).get("doubts", {}))
         records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
+        found = judged(records)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     short = Path(name).stem if name not in names() else name
-    return Case(name=short, file=file, sections=records, path=name, overrides=overrides or {}, **head)
+    return Case(
+        name=short, file=file, sections=records, path=name, overrides=overrides or {}, doubts=found,
+        acceptances=accepted, **head,
+    )  # fmt: skip
 
 
 def _beside(found: Any, name: str) -> Any:
@@ -147,7 +156,7 @@ def _raw(name: str, overrides: Mapping[str, Any] | None) -> tuple[str, dict[str,
     usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
     head = {key: _head(usual | tables, key, file) for key in _HEAD}
     head["mechanism"] = own.located(head["mechanism"], Path(name).parent)
-    sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in _HEAD}
+    sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in (*_HEAD, "doubts")}
     for key, value in (overrides or {}).items():
         override(sections, head["mechanism"], key, value)
     return file, head, sections

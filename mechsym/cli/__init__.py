@@ -65,7 +65,36 @@ class LazyGroup(click.Group):
         command : click.Command or None
             None when there is no such command
         """
-        return load(COMMANDS[cmd_name]) if cmd_name in COMMANDS else None
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = load(COMMANDS[cmd_name])
+        if all(option.name != "strict" for option in command.params):
+            command.params.append(
+                click.Option(
+                    ["--strict"],
+                    is_flag=True,
+                    expose_value=False,
+                    callback=_strict,
+                    help="Exit status 3 when there are doubts.",
+                )
+            )
+        return command
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; one that ends well and has doubts ends with 3 under --strict."""
+        value = None
+        try:
+            value = super().invoke(ctx)
+        except click.exceptions.Exit as ended:
+            if ended.exit_code:
+                raise
+        if ctx.meta.get("mechsym.strict") and ctx.meta.get("mechsym.doubted"):
+            ctx.exit(3)
+        return value
+
+
+def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    ctx.meta["mechsym.strict"] = wanted
 
     def make_context(self, *args: Any, **options: Any) -> click.Context:
         """Parse; help may be printed here."""

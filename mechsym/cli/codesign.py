@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 
 
 @click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
@@ -33,13 +33,12 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     Examples: mechsym codesign zotov-89 --ripple 5%
               mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
     """
-    from mechsym import cases
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
     from mechsym.jobs.codesign import STEPS, for_report
     from mechsym.jobs.codesign import codesign as design
 
-    case = cases.load(case_name, pairs(overrides))
+    case = case_of(case_name, pairs(overrides))
     settings, ripples = _settings(case.need("codesign"), options)
     if out is not None:
         make_folder(out)

@@ -1,14 +1,20 @@
 """Options and output that every command shares."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import click
 
+from mechsym import cases
+from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import appear, to_json, together, try_folder
+from mechsym.plausible import Doubt, results, sifted
+
+_CASES, DOUBTED = "mechsym.cases", "mechsym.doubted"
 
 
 def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
@@ -61,18 +67,50 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
     return values
 
 
+def case_of(name: str, overrides: Mapping[str, Any]) -> Case:
+    """The case that a command is about; its doubts go into what the command prints."""
+    case = cases.load(name, overrides)
+    click.get_current_context().meta.setdefault(_CASES, []).append(case)
+    return case
+
+
 def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
-    """Print a result, as JSON or as text for people.
+    """Print a result with its doubts, as JSON or as text for people.
 
     Parameters
     ----------
     value : object
-        The result with its documented keys
+        The result with its documented keys; an object gets `doubts` and `accepted` besides, of a list they go to
+        standard error
     text : callable
         Makes the text for people; called only when needed
     """
     appear()  # files that the text names are in place before it is printed
-    click.echo(to_json(value) if as_json else text())
+    doubts, accepted = _doubts(value)
+    told = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
+    if isinstance(value, Mapping) and not isinstance(value.get("doubts"), Mapping):  # a printed case has that section
+        value = {**value, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
+    elif told:
+        click.echo("\n".join(told), err=True)
+        told = []
+    click.echo(to_json(value) if as_json else "\n".join([text(), *told]))
+    click.get_current_context().meta[DOUBTED] = bool(doubts)
+
+
+def _doubts(value: Any) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
+    """Doubts of the cases of this command and of its results; a result may bring doubts of its own."""
+    loaded = click.get_current_context().meta.get(_CASES, [])
+    acceptances = {code: a for case in loaded for code, a in case.acceptances.items()}
+    found = [d for case in loaded for d in case.doubts]
+    if loaded:
+        found += results(value)
+    own = value.get("doubts", ()) if isinstance(value, Mapping) else ()
+    found += [d if isinstance(d, Doubt) else Doubt(**d) for d in (() if isinstance(own, Mapping) else own)]
+    return sifted(tuple(dict.fromkeys(found)), acceptances)
+
+
+def _told(doubt: Doubt) -> str:
+    return f"{doubt.quantity} = {doubt.value:g}, usual is {doubt.usual}: {doubt.why}"
 
 
 def progress(total: int, label: str) -> Any:

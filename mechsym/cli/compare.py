@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
 
 
@@ -26,12 +26,11 @@ def compare(
     """
     import numpy as np
 
-    from mechsym.cases import load
     from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.compare import compare as side_by_side
     from mechsym.jobs.cycle import engine, speed_range
 
-    cases = [load(name, pairs(overrides)) for name in (case_a, case_b)]
+    cases = [case_of(name, pairs(overrides)) for name in (case_a, case_b)]
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
     found = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
     a, b = found.values() if len(found) == 2 else [*found.values()] * 2

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli import cycle_stirling
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
 
@@ -39,10 +39,9 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle nunes-hypocycloid --loop 10
               mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
     """
-    from mechsym.cases import load
     from mechsym.cli import cycle_loop, cycle_measured
 
-    loaded = load(case, pairs(overrides))
+    loaded = case_of(case, pairs(overrides))
     if diagram or motored or hasattr(loaded.need("cycle"), "alignment"):
         cycle_measured.show(loaded, (diagram, motored), as_json, out)
     elif loop:

@@ -38,10 +38,7 @@ def _text(found: dict[str, Any]) -> str:
         f"dead centre {_known(found['dead_centre'])}; one degree later changes work by "
         f"{100 * per_degree['work']:+.2f} % and heat by {100 * per_degree['heat']:+.2f} %",
     ]
-    doubts = [
-        f"doubt {d['code']}: {d['quantity']} {d['value']:.4g}, usual {d['usual']}: {d['why']}" for d in found["doubts"]
-    ]
-    return "\n".join([*lines, *_fits(found), *doubts])
+    return "\n".join([*lines, *_fits(found)])
 
 
 def _known(centre: dict[str, Any]) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
 
 
@@ -26,11 +26,10 @@ def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides:
     Examples: mechsym flywheel zotov-89 --ripple 2%
               mechsym flywheel opposed-pistons --ripple 0.005 --set load.law=constant
     """
-    from mechsym.cases import load
     from mechsym.jobs.flywheel import flywheel as size
     from mechsym.jobs.flywheel import summary
 
-    found = size(load(case, pairs(overrides)), _share(ripple))
+    found = size(case_of(case, pairs(overrides)), _share(ripple))
     files = _write(out, found) if out else []
     result = summary(found)
     emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))

@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym import cases
-from mechsym.cli.common import emit, file_option, json_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, file_option, json_option, pairs, set_option
 
 
 @click.command(short_help="Write a functional mock-up unit (FMI 2.0 or 3.0).")
@@ -45,7 +44,7 @@ def fmu(
     from mechsym.out.fmi import write
     from mechsym.out.laws import block_of
 
-    found = cases.load(case, pairs(overrides))
+    found = case_of(case, pairs(overrides))
     run = ready(found, diagram)
     wanted = [] if platforms == "none" else platforms.split(",")
     unit = make(block_of(found.name, found.about, run), int(version), wanted)

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
 
 
@@ -37,14 +37,13 @@ def forces(
               mechsym forces generator --diagram measured.csv
               mechsym forces nunes-hypocycloid --law 1000:8000:1000
     """
-    from mechsym import cases
     from mechsym.forces.summary import summary
     from mechsym.jobs.forces import forces as run
     from mechsym.jobs.forces import write
     from mechsym.jobs.gas import measured
     from mechsym.jobs.own import is_own
 
-    loaded = cases.load(case, pairs(overrides))
+    loaded = case_of(case, pairs(overrides))
     if is_own(loaded.mechanism):
         _own(loaded, out, as_json)
         return

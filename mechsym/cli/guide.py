@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym import cases
-from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, parse
 
@@ -46,7 +45,7 @@ def guide(
     if dxf is None and sheet is None:
         raise BadInput("nothing to write: give --dxf FILE, --sheet FILE or both")
     hole = parse(bore, "m", "--bore")
-    shop = workshop(cases.load(case, pairs(overrides)), diagram)
+    shop = workshop(case_of(case, pairs(overrides)), diagram)
     curves = track(shop.guide, shop.rollers, parse(tolerance, "m", "--tolerance"), shop.kinks)
     _refuse_bore(hole, curves)
     written = [*_dxf(dxf, shop, curves, hole), *_sheet(sheet, shop, curves, hole)]

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
@@ -32,14 +32,13 @@ def hinge(
     Examples: mechsym hinge zotov-89 --set spring.p0="8 MPa" --out demo
               mechsym hinge zotov-89 --loads 0.5,0.75,0.9,1
     """
-    from mechsym import cases
     from mechsym.files import make_folder
     from mechsym.hinge.setting import setting_text
     from mechsym.hinge.summary import summary
     from mechsym.jobs.hinge import STEPS
     from mechsym.jobs.hinge import hinge as design
 
-    case, shares = cases.load(case_name, pairs(overrides)), _shares(loads)
+    case, shares = case_of(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
         make_folder(out)
     with progress(STEPS + bool(out), f"hinge of {case.name}") as bar:

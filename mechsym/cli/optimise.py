@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
 
 
 @click.command(short_help="Best design of a case under its limits.")
@@ -23,10 +23,9 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
               mechsym optimise nunes-hypocycloid --set optimise.against=p_max --out front
     Exit status 1: no feasible design, or the solver did not converge.
     """
-    from mechsym.cases import load
     from mechsym.jobs.optimise import optimise
 
-    loaded = load(case, pairs(overrides))
+    loaded = case_of(case, pairs(overrides))
     section = loaded.need("optimise")
     done = optimise(loaded)
     found, front = done.best, done.front

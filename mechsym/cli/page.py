@@ -4,8 +4,7 @@ from pathlib import Path
 
 import click
 
-from mechsym import cases
-from mechsym.cli.common import emit, file_option, json_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, file_option, json_option, pairs, set_option
 from mechsym.files import write_text
 
 
@@ -28,7 +27,7 @@ def page(case: str, out: Path | None, diagram: str | None, overrides: tuple[str,
     from mechsym.out.laws import block_of
     from mechsym.out.web import page as make
 
-    found = cases.load(case, pairs(overrides))
+    found = case_of(case, pairs(overrides))
     text = make(block_of(found.name, found.about, ready(found, diagram)))
     path = write_text(out or Path(f"{found.name}.html"), text)
     emit({"written": [str(path)], "checks": {"bytes": len(text.encode())}}, as_json, lambda: f"wrote {path}")

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym import cases
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.quantities import ranges
@@ -52,7 +51,7 @@ def simulate(
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
-    found = cases.load(case, pairs(overrides) | given)
+    found = case_of(case, pairs(overrides) | given)
     done = run(found, _dampings(dampings), "none" if no_check else "tolerance")
     report = _report(found.name, done)
     report["files"] = [] if out is None else _write(done, out)

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
 
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
 
@@ -27,11 +27,10 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
               mechsym size nunes-hypocycloid --as-printed --json
               mechsym size nunes-slider-crank --set sizing.life="500 h"
     """
-    from mechsym import cases
     from mechsym.jobs.size import check_printed
     from mechsym.jobs.size import size as sized
 
-    loaded = cases.load(case, pairs(overrides))
+    loaded = case_of(case, pairs(overrides))
     found = check_printed(loaded) if as_printed else sized(loaded)
     files = _write(out, found) if out else []
     emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))

@@ -11,12 +11,12 @@ from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
-from mechsym.cycle.measured.doubt import Doubt
 from mechsym.cycle.measured.facts import cycle_work, read_and_used
 from mechsym.cycle.measured.fits import Fit
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.motion import piston_travel
 from mechsym.jobs.gas import of, one_cylinder
+from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, record
 
 _DEG = 180 / math.pi

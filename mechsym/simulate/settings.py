@@ -45,6 +45,14 @@ class Simulation:
     def __post_init__(self) -> None:
         if self.t_end is None and self.turns is None:
             raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
+        if self.t_end is not None and self.turns is None:
+            self._inside("output_step", self.output_step, self.t_end)
+            self._inside("window", self.window or 0.0, self.t_end)
+
+    @staticmethod
+    def _inside(name: str, value: float, t_end: float) -> None:
+        if value > t_end:
+            raise BadInput(f"{name} = {value:g} s is longer than the run, t_end = {t_end:g} s; shorten it")
 
 
 @record

@@ -8,11 +8,11 @@ from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.alignment import between
 from mechsym.cycle.measured.charge_line import log_pressure, mean_exponent
 from mechsym.cycle.measured.diagram import Diagram, line_prior
-from mechsym.cycle.measured.doubt import Doubt
 from mechsym.cycle.measured.heat_release import burnt_fraction, heat_release, polytropic_fit
 from mechsym.cycle.measured.joint_fit import Prior, joint_fit
 from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
 from mechsym.cycle.measured.smoothing import noise
+from mechsym.plausible import Doubt
 
 _DEG = math.radians(1.0)
 _WIDEST, _DRIFT = 3.5 * _DEG, 0.25

@@ -1,0 +1,91 @@
+"""What of a case is nonsense or unusual, and which doubts its author accepts.
+
+[doubts]
+twist = { up_to = "2 rad", why = "the source's model; a real shaft breaks" }
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from mechsym.errors import BadInput, shown, suggest
+from mechsym.plausible import INPUTS, RESULTS, Acceptance, Doubt, inputs, proportions
+from mechsym.quantities import parse
+
+# doubts about measured diagrams, in the units that they name
+_MEASURED = (
+    "compression_exponent",
+    "dead_centre",
+    "dead_centre_width",
+    "drift",
+    "early_heat",
+    "even_angles",
+    "expansion_exponent",
+    "free_exponent",
+    "heat",
+    "loss_angle",
+    "mechanical_efficiency",
+    "peak_angle",
+    "scale",
+)
+_UNITS = (
+    {k.code: k.unit for k in (*INPUTS, *RESULTS)}
+    | {"piston_speed": "m/s", "rod_ratio": "-", "drive_start": "s"}
+    | dict.fromkeys(_MEASURED, "-")
+)
+
+
+def acceptances(table: Any) -> dict[str, Acceptance]:
+    """The section `[doubts]` of a case file."""
+    if not isinstance(table, dict):
+        raise BadInput("doubts is no section; write [doubts] and codes below it")
+    return {code: _acceptance(code, row) for code, row in table.items()}
+
+
+def _acceptance(code: str, row: Any) -> Acceptance:
+    if not isinstance(row, dict) or set(row) != {"up_to", "why"} or not isinstance(row["why"], str):
+        raise BadInput(f'doubts.{code} = {shown(row)}: write {code} = {{ up_to = "..", why = ".." }}')
+    if code not in _UNITS:
+        raise BadInput(f"doubts.{code} is not known; {suggest(code, sorted(_UNITS))}")
+    return Acceptance(code=code, up_to=parse(row["up_to"], _UNITS[code], f"doubts.{code}.up_to"), why=row["why"])
+
+
+def judged(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:
+    """Doubts about the values of a case; nonsense is refused with its key."""
+    values = {
+        f"{section}.{field.name}": value
+        for section, record in sections.items()
+        if dataclasses.is_dataclass(record)
+        for field in dataclasses.fields(record)
+        if isinstance(value := getattr(record, field.name), float) and math.isfinite(value)
+    }
+    stroke, ratio = _crank(sections.get("parameters"))
+    operation = sections.get("operation")
+    return inputs(values) + proportions(stroke, ratio, getattr(operation, "speed", None)) + _run(sections)
+
+
+def _crank(parameters: Any) -> tuple[float | None, float | None]:
+    """Stroke and rod ratio by the letters that mechanisms use: r, or r1 + r2, or e; l, or l1 + l2."""
+
+    def letter(*names: str) -> float | None:
+        found = [getattr(parameters, name, None) for name in names]
+        numbers = [max(v) if isinstance(v, tuple) else v for v in found]
+        return sum(numbers) if all(isinstance(v, float) for v in numbers) else None  # type: ignore[arg-type]
+
+    if (throw := letter("e")) is not None:
+        return 4 * throw, None
+    if hasattr(parameters, "m_link"):  # rodless: the sliders move twice as far as a crank of that radius
+        return 4 * parameters.r, None
+    crank = letter("r") if hasattr(parameters, "r") else letter("r1", "r2")
+    rod = letter("l") if hasattr(parameters, "l") else letter("l1", "l2")
+    return (None if crank is None else 2 * crank), (rod / crank if crank and rod is not None else None)
+
+
+def _run(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:
+    simulation, drive = sections.get("simulation"), sections.get("drive")
+    end = getattr(simulation, "t_end", None)
+    if drive is None or end is None or drive.time < end:
+        return ()
+    why = "the run ends before the drive is switched on: nothing happens in it"
+    return (Doubt(code="drive_start", quantity="drive.time", value=drive.time, usual=f"below {end:g} s", why=why),)

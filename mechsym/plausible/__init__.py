@@ -1,0 +1,18 @@
+"""What is possible and what is usual: nonsense is refused, the unusual is a doubt.
+
+    ranges    hard and usual range of each kind of value, with its reason
+    judge     numbers by name against those ranges; acceptance of a doubt up to a value
+    engine    what several values say together: piston speed, rod ratio
+
+Takes numbers and names, so that case files and results are judged alike.
+"""
+
+from mechsym.plausible.engine import proportions
+from mechsym.plausible.judge import Acceptance, Doubt, inputs, results, sifted
+from mechsym.plausible.ranges import INPUTS, RESULTS, Range
+
+__all__ = ["INPUTS", "RESULTS", "Acceptance", "Doubt", "Range", "inputs", "proportions", "results", "sifted"]
+
+
+def __dir__() -> list[str]:
+    return __all__

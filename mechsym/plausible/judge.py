@@ -1,0 +1,115 @@
+"""Numbers by name against the ranges of their kind; what a case accepts is told apart from what is doubted."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from mechsym.errors import BadInput
+from mechsym.plausible.ranges import INPUTS, RESULTS, Range
+from mechsym.quantities import record
+
+
+@record
+class Doubt:
+    """A value that is possible and not usual."""
+
+    code: str  #: One word by which a case can accept it
+    quantity: str
+    value: float  #: In the unit that `quantity` names, else SI [unit]
+    usual: str
+    why: str
+
+
+@record
+class Acceptance:
+    """A doubt that a case accepts up to a value, with its reason."""
+
+    code: str
+    up_to: float  #: Farthest value from the usual range that is accepted, in the unit of the quantity [unit]
+    why: str
+
+
+def inputs(values: Mapping[str, float]) -> tuple[Doubt, ...]:
+    """Values of a case against hard and usual ranges.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        By dotted key, `section.field` [SI]
+
+    Returns
+    -------
+    doubts : tuple of Doubt
+        Values that are possible and not usual
+
+    Raises
+    ------
+    BadInput
+        A value that no engine has, with what is possible
+
+    Examples
+    --------
+    >>> [d.code for d in inputs({"cycle.compression_ratio": 60.0, "cycle.bore": 0.08})]
+    ['compression_ratio']
+    """
+    found = []
+    for key, value in values.items():
+        section, _, name = key.rpartition(".")
+        for kind in INPUTS:
+            if name in kind.keys and kind.section in ("", section):
+                _refuse(key, value, kind)
+                found += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
+    return tuple(found)
+
+
+def results(report: Any) -> tuple[Doubt, ...]:
+    """Numbers of a report, wherever they stand in it, against the usual ranges of results."""
+    worst: dict[tuple[str, str], Doubt] = {}
+    for name, value in _numbers(report):
+        for kind in RESULTS:
+            if name in kind.keys and not kind.low <= value <= kind.high:
+                known = worst.get((kind.code, name))
+                if known is None or abs(value) > abs(known.value):
+                    worst[kind.code, name] = _doubt(name, value, kind)
+    return tuple(worst.values())
+
+
+def sifted(
+    doubts: Sequence[Doubt], acceptances: Mapping[str, Acceptance]
+) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
+    """Doubts that remain, and those that a case accepts."""
+    accepted = tuple(d for d in doubts if d.code in acceptances and _within(d, acceptances[d.code]))
+    return tuple(d for d in doubts if d not in accepted), accepted
+
+
+def _within(doubt: Doubt, acceptance: Acceptance) -> bool:
+    kind = next((k for k in (*INPUTS, *RESULTS) if k.code == doubt.code), None)
+    low_side = kind is not None and doubt.value < kind.low
+    slack = 1e-9 * abs(acceptance.up_to)
+    return doubt.value >= acceptance.up_to - slack if low_side else abs(doubt.value) <= abs(acceptance.up_to) + slack
+
+
+def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
+    if isinstance(report, Mapping):
+        for key, value in report.items():
+            yield from _numbers(value, str(key))
+    elif hasattr(report, "tolist"):
+        yield from _numbers(report.tolist(), name)
+    elif isinstance(report, (list, tuple)):
+        for value in report:
+            yield from _numbers(value, name)
+    elif isinstance(report, (int, float)) and not isinstance(report, bool) and math.isfinite(report):
+        yield name, float(report)
+
+
+def _refuse(key: str, value: float, kind: Range) -> None:
+    if not kind.lowest <= value <= kind.highest:
+        unit = "" if kind.unit == "-" else f" {kind.unit}"
+        possible = f"possible is {kind.lowest:g} to {kind.highest:g}{unit}"
+        raise BadInput(f"{key} = {value:g}{unit}: {possible} ({kind.why})")
+
+
+def _doubt(key: str, value: float, kind: Range) -> Doubt:
+    unit = "" if kind.unit == "-" else f" {kind.unit}"
+    ends = [f"at least {kind.low:g}"] * math.isfinite(kind.low) + [f"at most {kind.high:g}"] * math.isfinite(kind.high)
+    return Doubt(code=kind.code, quantity=key, value=value, usual=f"{' and '.join(ends)}{unit}", why=kind.why)
