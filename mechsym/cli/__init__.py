@@ -80,11 +80,17 @@ class LazyGroup(click.Group):
             )
         return command
 
+    def make_context(self, *args: Any, **options: Any) -> click.Context:
+        """Parse; help may be printed here."""
+        with _pipe():
+            return super().make_context(*args, **options)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; one that ends well and has doubts ends with 3 under --strict."""
         value = None
         try:
-            value = super().invoke(ctx)
+            with _pipe():
+                value = super().invoke(ctx)
         except click.exceptions.Exit as ended:
             if ended.exit_code:
                 raise
@@ -95,16 +101,6 @@ class LazyGroup(click.Group):
 
 def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     ctx.meta["mechsym.strict"] = wanted
-
-    def make_context(self, *args: Any, **options: Any) -> click.Context:
-        """Parse; help may be printed here."""
-        with _pipe():
-            return super().make_context(*args, **options)
-
-    def invoke(self, ctx: click.Context) -> Any:
-        """Run the command."""
-        with _pipe():
-            return super().invoke(ctx)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

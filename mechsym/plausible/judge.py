@@ -9,6 +9,9 @@ from mechsym.plausible.ranges import INPUTS, RESULTS, Range
 from mechsym.quantities import record
 
 
+_USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
+
+
 @record
 class Doubt:
     """A value that is possible and not usual."""
@@ -84,7 +87,7 @@ def sifted(
 
 def _within(doubt: Doubt, acceptance: Acceptance) -> bool:
     kind = next((k for k in (*INPUTS, *RESULTS) if k.code == doubt.code), None)
-    low_side = kind is not None and doubt.value < kind.low
+    low_side = doubt.value < (kind.low if kind is not None else _USUAL_RATIO.get(doubt.code, -math.inf))
     slack = 1e-9 * abs(acceptance.up_to)
     return doubt.value >= acceptance.up_to - slack if low_side else abs(doubt.value) <= abs(acceptance.up_to) + slack
 
