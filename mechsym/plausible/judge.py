@@ -8,7 +8,6 @@ from mechsym.errors import BadInput
 from mechsym.plausible.ranges import INPUTS, RESULTS, Range
 from mechsym.quantities import record
 
-
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
 
 
