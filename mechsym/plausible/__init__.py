@@ -9,9 +9,9 @@ Takes numbers and names, so that case files and results are judged alike.
 
 from mechsym.plausible.engine import proportions
 from mechsym.plausible.judge import Acceptance, Doubt, inputs, results, sifted
-from mechsym.plausible.ranges import INPUTS, RESULTS, UsualRange
+from mechsym.plausible.ranges import INPUTS, RESULTS, Usual
 
-__all__ = ["INPUTS", "RESULTS", "Acceptance", "Doubt", "UsualRange", "inputs", "proportions", "results", "sifted"]
+__all__ = ["INPUTS", "RESULTS", "Acceptance", "Doubt", "Usual", "inputs", "proportions", "results", "sifted"]
 
 
 def __dir__() -> list[str]:

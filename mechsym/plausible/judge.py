@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, RESULTS, UsualRange
+from mechsym.plausible.ranges import INPUTS, RESULTS, Usual
 from mechsym.quantities import record
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
@@ -104,14 +104,14 @@ def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
         yield name, float(report)
 
 
-def _refuse(key: str, value: float, kind: UsualRange) -> None:
+def _refuse(key: str, value: float, kind: Usual) -> None:
     if not kind.lowest <= value <= kind.highest:
         unit = "" if kind.unit == "-" else f" {kind.unit}"
         possible = f"possible is {kind.lowest:g} to {kind.highest:g}{unit}"
         raise BadInput(f"{key} = {value:g}{unit}: {possible} ({kind.why})")
 
 
-def _doubt(key: str, value: float, kind: UsualRange) -> Doubt:
+def _doubt(key: str, value: float, kind: Usual) -> Doubt:
     unit = "" if kind.unit == "-" else f" {kind.unit}"
     ends = [f"at least {kind.low:g}"] * math.isfinite(kind.low) + [f"at most {kind.high:g}"] * math.isfinite(kind.high)
     return Doubt(code=kind.code, quantity=key, value=value, usual=f"{' and '.join(ends)}{unit}", why=kind.why)

@@ -11,7 +11,7 @@ from mechsym.quantities import record
 
 
 @record
-class UsualRange:
+class Usual:
     """One kind of value."""
 
     code: str  #: One word by which a case can accept a doubt
@@ -26,47 +26,47 @@ class UsualRange:
 
 
 INPUTS = (
-    UsualRange(code="intake_temperature", keys=("intake_temperature", "T_evc"), unit="K", low=230, high=500, lowest=100,
+    Usual(code="intake_temperature", keys=("intake_temperature", "T_evc"), unit="K", low=230, high=500, lowest=100,
           highest=1000, why="absolute temperature of the charge; 15 degrees Celsius are 288.15 K"),
-    UsualRange(code="wall_temperature", keys=("wall_temperature",), unit="K", low=300, high=700, lowest=150, highest=1500,
+    Usual(code="wall_temperature", keys=("wall_temperature",), unit="K", low=300, high=700, lowest=150, highest=1500,
           why="absolute temperature of the chamber's wall; 77 degrees Celsius are 350 K"),
-    UsualRange(code="hot_temperature", keys=("T_e",), unit="K", low=400, high=1300, lowest=100, highest=3000,
+    Usual(code="hot_temperature", keys=("T_e",), unit="K", low=400, high=1300, lowest=100, highest=3000,
           why="absolute temperature of the hot space; metals bear about 1300 K"),
-    UsualRange(code="cold_temperature", keys=("T_c",), unit="K", low=250, high=500, lowest=3, highest=1500,
+    Usual(code="cold_temperature", keys=("T_c",), unit="K", low=250, high=500, lowest=3, highest=1500,
           why="absolute temperature of the cold space"),
-    UsualRange(code="charge_pressure", keys=("intake_pressure", "p_s", "inlet_pressure", "exhaust_pressure"), unit="Pa",
+    Usual(code="charge_pressure", keys=("intake_pressure", "p_s", "inlet_pressure", "exhaust_pressure"), unit="Pa",
           low=2e4, high=1e6, lowest=1e3, highest=1e8, why="absolute pressure; one atmosphere is 101325 Pa"),
-    UsualRange(code="heating_value", keys=("heating_value", "lhv"), unit="J/kg", low=1.5e7, high=1.25e8, lowest=1e6,
+    Usual(code="heating_value", keys=("heating_value", "lhv"), unit="J/kg", low=1.5e7, high=1.25e8, lowest=1e6,
           highest=1.5e8, why="fuels lie between wood and hydrogen; petrol has 43.5 MJ/kg"),
-    UsualRange(code="bore", keys=("bore",), unit="m", low=0.01, high=1.2, lowest=1e-3, highest=3.0,
+    Usual(code="bore", keys=("bore",), unit="m", low=0.01, high=1.2, lowest=1e-3, highest=3.0,
           why="pistons of engines are 10 mm to 1 m wide"),
-    UsualRange(code="gamma", keys=("gamma",), unit="-", low=1.15, high=1.67, lowest=1.01, highest=1.7,
+    Usual(code="gamma", keys=("gamma",), unit="-", low=1.15, high=1.67, lowest=1.01, highest=1.7,
           why="ratio of specific heats: 5/3 of a monatomic gas, 1.4 of air, above 1 of any"),
-    UsualRange(code="gas_constant", keys=("gas_constant", "R"), unit="J/kg/K", low=150, high=4200, lowest=30, highest=4200,
+    Usual(code="gas_constant", keys=("gas_constant", "R"), unit="J/kg/K", low=150, high=4200, lowest=30, highest=4200,
           why="287 of air, 2077 of helium, 4124 of hydrogen"),
-    UsualRange(code="compression_ratio", keys=("compression_ratio",), unit="-", low=3, high=30, lowest=1.0, highest=1000,
+    Usual(code="compression_ratio", keys=("compression_ratio",), unit="-", low=3, high=30, lowest=1.0, highest=1000,
           why="spark ignition 7 to 14, diesel 12 to 24"),
-    UsualRange(code="friction", keys=("mu_main", "mu_pin", "mu_guide", "mu_mesh", "mu", "seal_mu", "bearing_mu"), unit="-",
+    Usual(code="friction", keys=("mu_main", "mu_pin", "mu_guide", "mu_mesh", "mu", "seal_mu", "bearing_mu"), unit="-",
           low=0, high=0.3, lowest=0, highest=1.0, why="lubricated 0.001 to 0.1, dry metal up to about 0.3"),
-    UsualRange(code="elastic_modulus", keys=("E",), unit="Pa", low=5e9, high=7e11, lowest=1e9, highest=1.3e12,
+    Usual(code="elastic_modulus", keys=("E",), unit="Pa", low=5e9, high=7e11, lowest=1e9, highest=1.3e12,
           why="steel has 206 GPa, tungsten carbide 600 GPa"),
-    UsualRange(code="polytropic_index", keys=("n",), unit="-", low=1.35, high=1.67, lowest=1.0, highest=1.7,
+    Usual(code="polytropic_index", keys=("n",), unit="-", low=1.35, high=1.67, lowest=1.0, highest=1.7,
           section="spring", why="a gas spring faster than its heat exchange has n = gamma = 1.4; an index "
           "between 1 and gamma means heat through the wall, which costs work every turn"),
 )  # fmt: skip
 
 
 RESULTS = (
-    UsualRange(code="peak_pressure", keys=("p_max_bar",), unit="bar", low=3, high=300, why="peak pressure of engines"),
-    UsualRange(code="peak_pressure", keys=("p_max_mpa",), unit="MPa", low=0.3, high=30, why="peak pressure of engines"),
-    UsualRange(code="mean_pressure", keys=("mep_bar",), unit="bar", high=40, why="mean effective pressure of engines"),
-    UsualRange(code="mean_pressure", keys=("mep_kpa",), unit="kPa", high=4000, why="mean effective pressure of engines"),
-    UsualRange(code="efficiency", keys=("efficiency", "mechanical_efficiency"), unit="-", low=0, high=0.999,
+    Usual(code="peak_pressure", keys=("p_max_bar",), unit="bar", low=3, high=300, why="peak pressure of engines"),
+    Usual(code="peak_pressure", keys=("p_max_mpa",), unit="MPa", low=0.3, high=30, why="peak pressure of engines"),
+    Usual(code="mean_pressure", keys=("mep_bar",), unit="bar", high=40, why="mean effective pressure of engines"),
+    Usual(code="mean_pressure", keys=("mep_kpa",), unit="kPa", high=4000, why="mean effective pressure of engines"),
+    Usual(code="efficiency", keys=("efficiency", "mechanical_efficiency"), unit="-", low=0, high=0.999,
           why="an engine gives less than it takes"),
-    UsualRange(code="power_balance", keys=("power_residual",), unit="-", low=-1e-3, high=1e-3,
+    Usual(code="power_balance", keys=("power_residual",), unit="-", low=-1e-3, high=1e-3,
           why="the power of all forces must balance"),
-    UsualRange(code="energy_balance", keys=("energy_residual",), unit="-", low=-1e-5, high=1e-5,
+    Usual(code="energy_balance", keys=("energy_residual",), unit="-", low=-1e-5, high=1e-5,
           why="energy in, out and kept must balance"),
-    UsualRange(code="twist", keys=("twist_peak",), unit="rad", low=-0.2, high=0.2,
+    Usual(code="twist", keys=("twist_peak",), unit="rad", low=-0.2, high=0.2,
           why="a section of a real shaft yields or breaks beyond about 0.2 rad"),
 )  # fmt: skip
