@@ -17,7 +17,7 @@ LIMIT = 30.0  # time of a processor that an input may take [s]
 PATIENCE = 8.0  # times the limit by the clock: other work may share the processor
 ALLOWED = (0, 1, 2, 3)
 # a design, a run or a claim may fail; everything else that goes wrong is bad input
-MAY_FAIL = ("hinge", "size", "simulate", "audit", "reproduce", "derive", "codesign", "check")
+MAY_FAIL = ("hinge", "size", "forces", "simulate", "audit", "reproduce", "derive", "codesign", "check")
 
 
 @dataclass(frozen=True)
