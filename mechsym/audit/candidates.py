@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsym.audit.algebra import evaluate
 from mechsym.audit.bench import Bench, names, part_values, shaped, used_names
-from mechsym.audit.edits import Edit, is_product, places, scaled, without_double_signs
+from mechsym.audit.edits import Edit, is_exponent, is_product, places, scaled, without_double_signs
 from mechsym.audit.insertion import candidate_words, is_unit, simple, vocabulary
 from mechsym.audit.printer import to_python
 from mechsym.audit.put_back import insertions
@@ -20,7 +20,20 @@ from mechsym.audit.question import Question
 from mechsym.audit.required import Required, quotient, required
 from mechsym.audit.slips import single_edits
 from mechsym.audit.theory.record import dependencies, known
-from mechsym.audit.tree import Node, Path, binary, children, letters, negative, number, replace, substitute, value_of
+from mechsym.audit.tree import (
+    Node,
+    Path,
+    binary,
+    children,
+    is_operation,
+    letters,
+    name,
+    negative,
+    number,
+    replace,
+    substitute,
+    value_of,
+)
 from mechsym.audit.units_of import kind_of_letter
 from mechsym.quantities import record
 
@@ -36,7 +49,20 @@ def listed_edits(question: Question, tree: Node) -> list[Edit]:
     edits : list of Edit
         Changes; some give the same function
     """
-    return list(single_edits(tree, lambda letter: confusable(question, letter)))
+    return [*single_edits(tree, lambda letter: confusable(question, letter)), *_lost_exponents(question, tree)]
+
+
+def _lost_exponents(question: Question, tree: Node) -> Iterator[Edit]:
+    # (V1/V2) for (V1/V2)**(gamma - 1): an exponent that is a pure number of the theory, or one less
+    needed = dependencies(question.theory, [question.quantity, *used_names(question.formula)])
+    free = [k for k, v in question.theory.letters.items() if v.unit == "-" and k in needed]
+    less = [(n, o) for k in free for n, o in ((name(k), number(1)), (number(1), name(k)))]
+    exponents: list[Node] = [name(k) for k in free] + [binary(ast.Sub, a, b) for a, b in less]
+    for place in places(tree) if free else ():
+        bare = isinstance(place.node, ast.Name) or is_operation(place.node, ast.Add, ast.Sub, ast.Div)
+        if bare and not is_exponent(place) and not (place.parent and is_operation(place.parent, ast.Pow)):
+            for exponent in exponents:
+                yield Edit(kind="power", path=place.path, new=binary(ast.Pow, place.node, exponent))
 
 
 def repeated_edits(tree: Node) -> list[Edit]:
@@ -73,7 +99,7 @@ def confusable(question: Question, letter: str) -> list[str]:
     needed = dependencies(theory, [question.quantity, *used_names(question.formula)])
     free = [k for k in theory.letters if k in needed]
     names = [k for k in known(theory) if k in theory.tape and k != question.quantity]
-    derived = [k for k in names if k in needed]
+    derived = [k for k in names if k in needed and not _is_number(theory.tape[k])]
     alike = [
         k for k in dict.fromkeys([*question.formula.letters, *free, *derived]) if kind_of_letter(question, k) == kind
     ]
@@ -82,6 +108,10 @@ def confusable(question: Question, letter: str) -> list[str]:
     return [
         k for k in dict.fromkeys([*sorted(alike, key=lambda k: re.sub(r"\d+$", "", k) != stem), *same]) if k != letter
     ]
+
+
+def _is_number(entry: object) -> bool:
+    return isinstance(entry, ast.expr) and value_of(entry) is not None
 
 
 def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequence[Edit], insert: bool) -> list[Edit]:

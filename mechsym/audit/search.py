@@ -75,6 +75,9 @@ def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
     if repair.edits[-1].kind in _TAKES_AWAY or min(repair.orders.values(), default=EXACT) < 1:
         return False
     changed = [k for k in repair.orders if repair.orders[k] != start.orders[k] and repair.orders[k] != EXACT]
+    kept = [k for k, order in repair.orders.items() if k not in changed and order != EXACT]
+    if not all(powers(exam.expansions[load], repair.tree).honest for load in kept):
+        return False  # another slip is left
     for load in changed:
         found = powers(exam.expansions[load], repair.tree)
         truncates = found.pure or found.missing and min(found.missing) < min(found.wrong)

@@ -14,7 +14,7 @@ from mechsym.audit.trial.spoiled import Spoiled, content, doubles, singles
 from mechsym.files import to_json, write_text
 
 VERDICTS = ("exact", "truncation", "convention", "mixed", "untestable", "misprint", "nearer", "wrong")
-SEED = 2026
+SEED = 31  # not the one that the search was looked at with
 SINGLE_KINDS, DOUBLES = 5, 2  # how often each form is spoiled
 STEPS = 5  # how often `done` is called
 _STORED = "results.json"
