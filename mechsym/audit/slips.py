@@ -109,7 +109,7 @@ def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
     if is_operation(node, ast.Pow):
         base, exponent = node.left, value_of(node.right)  # type: ignore[attr-defined]
         if exponent is not None:
-            for new in dict.fromkeys((exponent - 1, exponent + 1, exponent / 2, exponent * 2)):
+            for new in dict.fromkeys((exponent - 1, exponent + 1, exponent / 2, exponent * 2, Fraction(1))):
                 yield "power", base if new == 1 else binary(ast.Pow, base, number(new)) if new else number(1)
     elif _is_factor(place):
         yield from (("power", binary(ast.Pow, node, number(n))) for n in (2, 3, 4))

@@ -37,7 +37,7 @@ def statement(text: str) -> Statement:
     """Take an equation apart; number, label and what only says that it goes on are set aside."""
     text, number, label = _numbered(text)
     text, claim = _claimed(text)
-    parts = [p.strip(" \t\n$") for p in re.split(r"(?<![=<>!])=(?!=)(?![^{]*\})", text)]
+    parts = [p.strip() for p in re.split(r"(?<![=<>!])=(?!=)(?![^{]*\})", text)]
     note = ""
     if len(parts) > 2 and _ZERO.fullmatch(parts[-1]):
         parts.pop()
