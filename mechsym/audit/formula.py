@@ -15,7 +15,7 @@ from mechsym.audit.reader import Formula, letter_pairs, read, read_expression
 from mechsym.audit.statement import Statement, statement
 from mechsym.audit.theory.catalogue import named
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
-from mechsym.audit.theory.tape import Tape
+from mechsym.audit.theory.tape import TheoryTape
 from mechsym.audit.tree import letters as letters_of
 from mechsym.audit.verdict import PASSED, Decision, decide
 from mechsym.errors import BadInput
@@ -151,9 +151,9 @@ def _with_left(theory: Theory, quantity: str, said: Statement, formula: Formula)
         return theory, quantity
     if not set(letters_of(left)) & {quantity, *dependencies(theory, [quantity])}:
         raise BadInput(f"the left side {said.left[:40]!r} has nothing of {quantity}; write '{quantity} = expression'")
-    tape = theory.tape.base if isinstance(theory.tape, Tape) else dict(theory.tape)
+    tape = theory.tape.base if isinstance(theory.tape, TheoryTape) else dict(theory.tape)
     full = {k: t for k, t in formula.letters.items() if k not in theory.letters and k not in tape}
-    return replace(theory, tape=Tape({**tape, **full, _IDENTITY: left}, theory.letters, theory.angle)), _IDENTITY
+    return replace(theory, tape=TheoryTape({**tape, **full, _IDENTITY: left}, theory.letters, theory.angle)), _IDENTITY
 
 
 def _is_name(text: str) -> bool:

@@ -43,7 +43,7 @@ from sympy import (
     tan,
 )
 
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration as Mechanism
 from mechsym.derive.lagrange import Equations, derive, given_equations
 from mechsym.derive.outputs import output, output_dynamic
 from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
 from mechsym.derive.listing import listing
@@ -39,7 +39,7 @@ def scripts() -> list[str]:
     return sorted(p.stem for p in folders()[0].glob("*.py") if p.stem != "__init__")
 
 
-def declared(name: str) -> Mechanism:
+def declared(name: str) -> Declaration:
     """The declaration that a script makes.
 
     Parameters
@@ -49,7 +49,7 @@ def declared(name: str) -> Mechanism:
 
     Returns
     -------
-    mechanism : Mechanism
+    mechanism : Declaration
         A fresh declaration
 
     Raises

@@ -13,31 +13,31 @@ from mechsym.derive.dyads import DYADS, SINGLES, line_of_centres, on_line, place
 from mechsym.derive.linkage import Joint, Link, LinkLine, named_point
 from mechsym.derive.refuse import refuse
 
-Mechanism = Any  # the declaration, which imports this module
+Declaration = Any  # the declaration, which imports this module
 
 
-def advance(m: Mechanism) -> None:
+def advance(m: Declaration) -> None:
     """Place every link whose joints so far give a closed form."""
     while any(_single(m, link) for link in _free(m)) or any(_dyad(m, *pair) for pair in _pairs(m)):
         pass
 
 
-def _free(m: Mechanism) -> list[Link]:
+def _free(m: Declaration) -> list[Link]:
     return [link for link in m.links if not link.placed]
 
 
-def _pairs(m: Mechanism) -> list[tuple[Link, Link]]:
+def _pairs(m: Declaration) -> list[tuple[Link, Link]]:
     free = _free(m)
     return [(a, b) for i, a in enumerate(free) for b in free[i + 1 :]]
 
 
-def _open(m: Mechanism, link: Link) -> list[Joint]:
+def _open(m: Declaration, link: Link) -> list[Joint]:
     """Unused joints between a link and placed ones."""
     found = [j for j in m.link_joints if not j.used and link in (j.first.link, j.second.link)]
     return [j for j in found if j.other(link).link.placed]
 
 
-def _single(m: Mechanism, link: Link) -> bool:
+def _single(m: Declaration, link: Link) -> bool:
     joints = _open(m, link)
     if link.given:
         pins = [j for j in joints if j.kind == "pin"]
@@ -52,7 +52,7 @@ def _single(m: Mechanism, link: Link) -> bool:
     return False
 
 
-def _dyad(m: Mechanism, a: Link, b: Link) -> bool:
+def _dyad(m: Declaration, a: Link, b: Link) -> bool:
     between = [j for j in m.link_joints if {j.first.link, j.second.link} == {a, b} and not j.used]
     if len(between) != 1 or a.given or b.given:
         return False
@@ -66,7 +66,7 @@ def _dyad(m: Mechanism, a: Link, b: Link) -> bool:
     return False
 
 
-def settle(m: Mechanism, wanted: Link | None = None) -> None:
+def settle(m: Declaration, wanted: Link | None = None) -> None:
     """Place a link, or all of them, with dependent coordinates where there is no closed form."""
     advance(m)
     while free := [link for link in _free(m) if wanted in (None, link) or not wanted.placed]:
@@ -78,7 +78,7 @@ def settle(m: Mechanism, wanted: Link | None = None) -> None:
         advance(m)
 
 
-def _by_constraint(m: Mechanism, link: Link, joint: Joint) -> None:
+def _by_constraint(m: Declaration, link: Link, joint: Joint) -> None:
     if joint.kind == "pin":
         if link.turns is None:
             link.turns = _dependent(m, f"theta_{link.name}", "rad", link)
@@ -89,11 +89,11 @@ def _by_constraint(m: Mechanism, link: Link, joint: Joint) -> None:
     place(m, link, rail.reference, (rail.start[0] + s * rail.e[0], rail.start[1] + s * rail.e[1]))
 
 
-def _dependent(m: Mechanism, name: str, unit: str, link: Link) -> Symbol:
+def _dependent(m: Declaration, name: str, unit: str, link: Link) -> Symbol:
     return m.dependents(name, unit, guess=link.guess)
 
 
-def finish(m: Mechanism) -> None:
+def finish(m: Declaration) -> None:
     """Place what is left, close the remaining joints by constraint, and count the freedoms."""
     if not m.links:
         return
@@ -116,7 +116,7 @@ def finish(m: Mechanism) -> None:
         refuse(f"{-free} constraint(s) too many: the joint {spare.name!r} or another holds what is held", spare.where)
 
 
-def _draw(m: Mechanism) -> None:
+def _draw(m: Declaration) -> None:
     """Every link as a line through what its joints hold, where the declaration draws nothing."""
     if m.shapes:
         return
@@ -134,12 +134,12 @@ def _between(joint: Joint) -> str:
     return f"{joint.first.link.name} on {joint.second.link.name}, {joint.kind} {joint.name}"
 
 
-def _closed_pin(m: Mechanism, joint: Joint) -> None:
+def _closed_pin(m: Declaration, joint: Joint) -> None:
     (x1, y1), (x2, y2) = joint.first.xy, joint.second.xy
     m.constraint(joint.name, (x2 - x1, y2 - y1), between=_between(joint))
 
 
-def _closed_slider(m: Mechanism, joint: Joint) -> None:
+def _closed_slider(m: Declaration, joint: Joint) -> None:
     one, other = joint.first, joint.second
     angle = one.link.turns + one.tilt
     (x1, y1), (x2, y2) = one.link.out((one.u, one.v)), other.link.out((other.u, other.v))
@@ -148,7 +148,7 @@ def _closed_slider(m: Mechanism, joint: Joint) -> None:
     m.constraint(f"turn_{joint.name}", turned, between=_between(joint), reaction=f"M_{joint.name}")
 
 
-def _closed_slot(m: Mechanism, joint: Joint) -> None:
+def _closed_slot(m: Declaration, joint: Joint) -> None:
     line, point, s = (
         (joint.first, joint.second, 1) if isinstance(joint.first, LinkLine) else (joint.second, joint.first, -1)
     )
@@ -157,7 +157,7 @@ def _closed_slot(m: Mechanism, joint: Joint) -> None:
     m.constraint(f"n_{joint.name}", s * ((y2 - y1) * cos(angle) - (x2 - x1) * sin(angle)), between=_between(joint))
 
 
-def _closed_gear(m: Mechanism, joint: Joint) -> None:
+def _closed_gear(m: Declaration, joint: Joint) -> None:
     gamma = line_of_centres(m, joint, named_point(m, joint.name, joint.second.xy))
     m.constraint(
         f"t_{joint.name}",

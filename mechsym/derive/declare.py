@@ -16,12 +16,12 @@ from mechsym.derive.letters import Letters
 from mechsym.derive.linkage import Link, Linkage
 from mechsym.derive.refuse import place, refuse
 from mechsym.derive.roles import Roles
-from mechsym.derive.tape import Tape
+from mechsym.derive.tape import Intermediates
 
 _RANGE = ("above", "below", "low", "high", "default")
 
 
-class Mechanism(Letters, Linkage, Roles):
+class Declaration(Letters, Linkage, Roles):
     """What a mechanism is made of.
 
     Parameters
@@ -37,7 +37,7 @@ class Mechanism(Letters, Linkage, Roles):
     def __init__(self, name: str, source: str = "own", about: str = "") -> None:
         self.name, self.source, self.about = name, source, about
         self.where = {name: place()}
-        self.tape = Tape()
+        self.tape = Intermediates()
         self.units: dict[str, str] = {}
         self.dimensions: dict[Symbol, dimensions.Dimension | None] = {}
         self.ranges: dict[str, dict[str, Any]] = {}

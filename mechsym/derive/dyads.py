@@ -15,10 +15,10 @@ from sympy import Expr, Integer, Symbol, cos, sin, sqrt
 
 from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint, Pair, named_point
 
-Mechanism = Any  # the declaration, which imports this module
+Declaration = Any  # the declaration, which imports this module
 
 
-def target(m: Mechanism, link: Link, joint: Joint) -> Pair:
+def target(m: Declaration, link: Link, joint: Joint) -> Pair:
     """Where a pin holds the point of a link that is to be placed."""
     dx, dy = m.displace(joint)
     x, y = named_point(m, joint.name, joint.other(link).xy)
@@ -26,7 +26,7 @@ def target(m: Mechanism, link: Link, joint: Joint) -> Pair:
     return x + s * dx, y + s * dy
 
 
-def place(m: Mechanism, link: Link, local: Pair, position: Pair) -> None:
+def place(m: Declaration, link: Link, local: Pair, position: Pair) -> None:
     """Place a link of known angle by one of its points, and give it its body."""
     if link.turns is not None and not link.turns.is_Symbol and not link.turns.is_number:
         link.turns = m.let(f"angle_{link.name}", link.turns, "rad")
@@ -41,13 +41,13 @@ def place(m: Mechanism, link: Link, local: Pair, position: Pair) -> None:
         m.body(link.name, turns=link.turns, inertia=link.inertia)
 
 
-def place_by_pin(m: Mechanism, link: Link, joint: Joint, position: Pair) -> None:
+def place_by_pin(m: Declaration, link: Link, joint: Joint, position: Pair) -> None:
     """Place a link of known angle by the point of it that a pin holds."""
     point = joint.side(link)
     place(m, link, (point.u, point.v), position)
 
 
-def _along(m: Mechanism, link: Link, start: LinkPoint, end: LinkPoint, way: Pair) -> None:
+def _along(m: Declaration, link: Link, start: LinkPoint, end: LinkPoint, way: Pair) -> None:
     """Angle of a link from the way between two of its points."""
     (wx, wy), u, v = way, end.u - start.u, end.v - start.v
     square = u**2 + v**2
@@ -55,7 +55,7 @@ def _along(m: Mechanism, link: Link, start: LinkPoint, end: LinkPoint, way: Pair
     link.turns = _direction(m, f"angle_{link.name}", c, s)
 
 
-def _direction(m: Mechanism, name: str, c: Expr, s: Expr) -> Symbol:
+def _direction(m: Declaration, name: str, c: Expr, s: Expr) -> Symbol:
     found = m.tape.define_direction(name, c, s)
     m.units[name], m.dimensions[found] = "rad", (0, 0, 0, 0)
     return found
@@ -70,7 +70,7 @@ class Rail:
     reference: Pair  # in the link's axes
 
 
-def on_line(m: Mechanism, link: Link, joint: Joint) -> Rail:
+def on_line(m: Declaration, link: Link, joint: Joint) -> Rail:
     """Angle of a link from a slider on a placed line, and the line that its reference point follows."""
     own, rail, s = joint.side(link), joint.other(link), joint.sign(link)
     n, turn = m.displace(joint)
@@ -88,7 +88,7 @@ def _offset(link: Link, rail: Rail, point: Any) -> Pair:
     return rail.start[0] + x, rail.start[1] + y
 
 
-def _slide(m: Mechanism, link: Link, rail: Rail, s: Expr) -> None:
+def _slide(m: Declaration, link: Link, rail: Rail, s: Expr) -> None:
     s = m.let(f"slide_of_{link.name}", s, "m")
     place(m, link, rail.reference, (rail.start[0] + s * rail.e[0], rail.start[1] + s * rail.e[1]))
 
@@ -113,7 +113,7 @@ def _square(start: LinkPoint, end: LinkPoint) -> Expr:
     return (end.u - start.u) ** 2 + (end.v - start.v) ** 2
 
 
-def _rrr(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rrr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, B = target(m, a, ja), target(m, b, jb)
     d, s, k = m.displace(inner), inner.sign(b), inner.name
@@ -129,13 +129,13 @@ def _rrr(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link,
     place_by_pin(m, b, jb, B)
 
 
-def _reach(m: Mechanism, name: str, w: Pair, e: Pair, square: Expr, branch: int) -> Expr:
+def _reach(m: Declaration, name: str, w: Pair, e: Pair, square: Expr, branch: int) -> Expr:
     """How far along a line a point lies at a distance from another."""
     across = m.let(f"across_{name}", _cross(w, e), "m")
     return m.let(f"along_{name}", branch * sqrt(square - across**2) - _dot(w, e), "m")
 
 
-def _rrp(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rrp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, rail = target(m, a, ja), on_line(m, b, jb)
     w = _minus(_offset(b, rail, inner.side(b)), A, inner.sign(b), m.displace(inner))
@@ -152,7 +152,7 @@ def _in_line(line: LinkLine, point: Any) -> Pair:
     return u * c + v * s, v * c - u * s
 
 
-def _aim(m: Mechanism, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
+def _aim(m: Declaration, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
     """Direction of a line at a signed distance: its normal component of D is h."""
     D = m.let(f"way_x_{name}", D[0], "m"), m.let(f"way_y_{name}", D[1], "m")
     square, h = m.let(f"square_{name}", _dot(D, D), "m^2"), m.let(f"off_{name}", h, "m")
@@ -160,7 +160,7 @@ def _aim(m: Mechanism, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
     return _direction(m, f"beta_{name}", (D[0] * along + D[1] * h) / square, (D[1] * along - D[0] * h) / square)
 
 
-def _rpr(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rpr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = (one, other) if inner.first.link is one[0] else (other, one)
     A, B = target(m, a, ja), target(m, b, jb)
     n, turn = m.displace(inner)
@@ -173,7 +173,7 @@ def _rpr(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link,
     place_by_pin(m, b, jb, B)
 
 
-def _prp(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _prp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     ra, rb = on_line(m, a, ja), on_line(m, b, jb)
     W = _minus(_offset(b, rb, inner.side(b)), _offset(a, ra, inner.side(a)), inner.sign(b), m.displace(inner))
@@ -181,7 +181,7 @@ def _prp(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link,
     _slide(m, b, rb, _cross(W, ra.e) / _cross(ra.e, rb.e))
 
 
-def _rpp(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rpp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, rail = target(m, a, ja), on_line(m, b, jb)
     la, lb, s, (n, turn) = inner.side(a), inner.side(b), inner.sign(a), m.displace(inner)
@@ -194,7 +194,7 @@ def _rpp(m: Mechanism, one: tuple[Link, Joint], inner: Joint, other: tuple[Link,
     _slide(m, b, rail, (_dot(normal, gap) - s * n) / _dot(normal, rail.e))
 
 
-def _slider_and_slot(m: Mechanism, link: Link, slider: Joint, slot: Joint) -> bool:
+def _slider_and_slot(m: Declaration, link: Link, slider: Joint, slot: Joint) -> bool:
     rail, (n,) = on_line(m, link, slider), m.displace(slot)
     n = n if isinstance(slot.second, LinkPoint) else -n
     own, fixed = slot.side(link), slot.other(link)
@@ -207,7 +207,7 @@ def _slider_and_slot(m: Mechanism, link: Link, slider: Joint, slot: Joint) -> bo
     return True
 
 
-def _pin_and_slot(m: Mechanism, link: Link, pin: Joint, slot: Joint) -> bool:
+def _pin_and_slot(m: Declaration, link: Link, pin: Joint, slot: Joint) -> bool:
     A, (n,) = target(m, link, pin), m.displace(slot)
     n = n if isinstance(slot.second, LinkPoint) else -n
     own, fixed, branch = slot.side(link), slot.other(link), _branch(slot, pin)
@@ -230,7 +230,7 @@ def rolled(joint: Joint, gamma: Expr, first: Expr, second: Expr) -> Expr:
     return (r1 - s * r2) * gamma + s * r2 * second - r1 * first
 
 
-def line_of_centres(m: Mechanism, joint: Joint, second: Pair) -> Symbol:
+def line_of_centres(m: Declaration, joint: Joint, second: Pair) -> Symbol:
     """Angle through which the line of centres has turned; its rates are those of the geometry."""
     x, y = _minus(second, joint.first.xy)
     roots = _roots(m, (x, y))
@@ -238,14 +238,14 @@ def line_of_centres(m: Mechanism, joint: Joint, second: Pair) -> Symbol:
     return m.tape.define_turn(f"gamma_{joint.name}", carriers[0] if carriers else Integer(0), x, y)
 
 
-def _roots(m: Mechanism, pair: Pair) -> set[Symbol]:
+def _roots(m: Declaration, pair: Pair) -> set[Symbol]:
     needed = m.tape.needed([m.tape.named(e) for e in pair])
     held = set(m.joint_list)
     found = {s for n in needed for s in m.tape.entries[n].free_symbols} | {s for e in pair for s in e.free_symbols}
     return {s for s in found if s in m.q and s not in held}
 
 
-def _pin_and_gear(m: Mechanism, link: Link, pin: Joint, gear: Joint) -> bool:
+def _pin_and_gear(m: Declaration, link: Link, pin: Joint, gear: Joint) -> bool:
     own, held = gear.side(link), pin.side(link)
     if (own.u, own.v) != (held.u, held.v) or gear.first.link is link:
         return False

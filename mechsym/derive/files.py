@@ -9,7 +9,7 @@ from types import ModuleType
 from typing import Any
 
 from mechsym.derive.autodiff import disagreement
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
 from mechsym.derive.listing import listing
@@ -62,7 +62,7 @@ def _refusal(path: Path, error: BaseException) -> BadInput:
     return BadInput(f"{place}{type(error).__name__}: {text}")
 
 
-def declared_in(path: Path) -> dict[str, Mechanism]:
+def declared_in(path: Path) -> dict[str, Declaration]:
     """The mechanisms of a file: what its functions without arguments return, or what stands in it.
 
     Parameters
@@ -72,7 +72,7 @@ def declared_in(path: Path) -> dict[str, Mechanism]:
 
     Returns
     -------
-    mechanisms : dict of str to Mechanism
+    mechanisms : dict of str to Declaration
         By name, in the order of the file
 
     Raises
@@ -81,14 +81,14 @@ def declared_in(path: Path) -> dict[str, Mechanism]:
         It declares none, or two of one name
     """
     module = run(path)
-    found: list[Mechanism] = [v for v in vars(module).values() if isinstance(v, Mechanism)]
+    found: list[Declaration] = [v for v in vars(module).values() if isinstance(v, Declaration)]
     for name, value in vars(module).items():
         if inspect.isfunction(value) and value.__module__ == module.__name__ and _bare(name, value):
             try:
                 made = value()
             except Exception as error:
                 raise _refusal(path, error) from None
-            found += [made] if isinstance(made, Mechanism) else []
+            found += [made] if isinstance(made, Declaration) else []
     by_name = {m.name: m for m in found}
     if not found:
         raise BadInput(f"{path} declares no mechanism; write a function that makes one and returns it")
@@ -103,7 +103,7 @@ def _bare(name: str, function: Any) -> bool:
     return all(p.default is not p.empty for p in inspect.signature(function).parameters.values())
 
 
-def chosen(path: Path, name: str = "") -> Mechanism:
+def chosen(path: Path, name: str = "") -> Declaration:
     """The mechanism of a file, by name where there are several.
 
     Parameters
@@ -115,7 +115,7 @@ def chosen(path: Path, name: str = "") -> Mechanism:
 
     Returns
     -------
-    mechanism : Mechanism
+    mechanism : Declaration
         Its declaration
 
     Raises

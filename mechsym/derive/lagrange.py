@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from sympy import Expr, Integer, Rational, Symbol, sympify
 
 from mechsym.derive.closing import finish
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration
 from mechsym.derive.elements import Body
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
 from mechsym.derive.refuse import refuse
@@ -25,7 +25,7 @@ class Equations:
 
     Parameters
     ----------
-    mechanism : Mechanism
+    mechanism : Declaration
         The declaration, with its tape
     mass_matrix : tuple of tuple of Expr, shape (n, n)
         Mass matrix
@@ -45,7 +45,7 @@ class Equations:
         Velocity terms of the constraints' second derivatives
     """
 
-    mechanism: Mechanism
+    mechanism: Declaration
     mass_matrix: tuple[tuple[Expr, ...], ...]
     bias: tuple[Expr, ...]
     generalized_force: tuple[Expr, ...]
@@ -58,12 +58,12 @@ class Equations:
     constraint_bias: tuple[Expr, ...] = ()
 
 
-def given_equations(m: Mechanism, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
+def given_equations(m: Declaration, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
     """Declare a model by its equations only: mass_matrix * qdd + bias = force. It has no energies.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration, without bodies
     mass_matrix : list of list of Expr
         Coefficients of the accelerations
@@ -77,12 +77,12 @@ def given_equations(m: Mechanism, mass_matrix: list[list[Expr]], bias: list[Expr
     m.given = (rows, [named(sympify(e)) for e in bias], [named(sympify(e)) for e in force])
 
 
-def derive(m: Mechanism) -> Equations:
+def derive(m: Declaration) -> Equations:
     """Exact equations of a declared mechanism.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
 
     Returns
@@ -130,7 +130,7 @@ def derive(m: Mechanism) -> Equations:
     )
 
 
-def _count_constraints(m: Mechanism) -> None:
+def _count_constraints(m: Declaration) -> None:
     # without dependents only the rank is wanted, see mechsym.mechanisms.constraints
     held, made = len(m.dependent_list), len(m.constraints)
     if held != made and (held or (made and m.joint_list)):
@@ -141,7 +141,7 @@ def _count_constraints(m: Mechanism) -> None:
         )
 
 
-def _require_mass(m: Mechanism, mass: list[list[Expr]]) -> None:
+def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:
     for i, q in enumerate(m.q):
         # a dependent coordinate may move without mass, as a massless rod does
         if mass[i][i].is_zero and (q not in m.dependent_list or all(row[j].is_zero for j, row in enumerate(mass))):
@@ -149,11 +149,11 @@ def _require_mass(m: Mechanism, mass: list[list[Expr]]) -> None:
             refuse(why, m.where[q.name])
 
 
-def _mass(m: Mechanism, a: Symbol, b: Symbol) -> Expr:
+def _mass(m: Declaration, a: Symbol, b: Symbol) -> Expr:
     return sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0))
 
 
-def _body_mass(m: Mechanism, body: Body, a: Symbol, b: Symbol) -> Expr:
+def _body_mass(m: Declaration, body: Body, a: Symbol, b: Symbol) -> Expr:
     d = m.tape.diff
     turning = body.inertia * d(body.turns, a) * d(body.turns, b)
     if body.about_axis:
@@ -161,11 +161,11 @@ def _body_mass(m: Mechanism, body: Body, a: Symbol, b: Symbol) -> Expr:
     return body.mass * sum((d(p, a) * d(p, b) for p in body.at), Integer(0)) + turning
 
 
-def _bias(m: Mechanism, a: Symbol) -> Expr:
+def _bias(m: Declaration, a: Symbol) -> Expr:
     return sum((_body_bias(m, body, a) for body in m.bodies), Integer(0))
 
 
-def _body_bias(m: Mechanism, body: Body, a: Symbol) -> Expr:
+def _body_bias(m: Declaration, body: Body, a: Symbol) -> Expr:
     d = m.tape.diff
     turning = body.inertia * d(body.turns, a) * curvature(m, body.turns)
     if body.about_axis:
@@ -173,12 +173,12 @@ def _body_bias(m: Mechanism, body: Body, a: Symbol) -> Expr:
     return body.mass * sum((d(p, a) * curvature(m, p) for p in body.at), Integer(0)) + turning
 
 
-def generalized_force(m: Mechanism, a: Symbol) -> Expr:
+def generalized_force(m: Declaration, a: Symbol) -> Expr:
     r"""Generalised force by virtual work, :math:`Q_a = \sum f\,\partial s / \partial a`.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     a : Symbol
         Coordinate or joint displacement
@@ -196,7 +196,7 @@ def generalized_force(m: Mechanism, a: Symbol) -> Expr:
     return m.tape.named(sum([*weight, *applied, *springs, *dampers], Integer(0)))
 
 
-def _reactions(m: Mechanism) -> dict[str, Expr]:
+def _reactions(m: Declaration) -> dict[str, Expr]:
     # friction and separating forces depend on other reactions: these are put in, in the order of the joints
     found: dict[Symbol, Expr] = {}
     for joint in m.joint_list:
@@ -213,7 +213,7 @@ def _reactions(m: Mechanism) -> dict[str, Expr]:
     return outputs
 
 
-def _reaction(m: Mechanism, joint: Symbol) -> Expr:
+def _reaction(m: Declaration, joint: Symbol) -> Expr:
     d, total = m.tape.diff, Integer(0)
     for body in m.bodies:
         total += body.mass * sum((acceleration(m, p) * d(p, joint) for p in body.at), Integer(0))
@@ -222,12 +222,12 @@ def _reaction(m: Mechanism, joint: Symbol) -> Expr:
     return total - generalized_force(m, joint) - sum(held, Integer(0))
 
 
-def multiplier(m: Mechanism, constraint: str) -> Symbol:
+def multiplier(m: Declaration, constraint: str) -> Symbol:
     """Letter of a constraint's multiplier: the reaction of the joint that it closes, or `force_<constraint>`.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     constraint : str
         Name of the constraint
@@ -240,7 +240,7 @@ def multiplier(m: Mechanism, constraint: str) -> Symbol:
     return m.multiplier_of.get(constraint, Symbol(f"force_{constraint}", real=True))
 
 
-def _momentum(m: Mechanism) -> dict[str, Expr]:
+def _momentum(m: Declaration) -> dict[str, Expr]:
     x, y, turning = Integer(0), Integer(0), Integer(0)
     for body in m.bodies:
         (px, py), (ax, ay) = body.at, (acceleration(m, p) for p in body.at)
@@ -250,13 +250,13 @@ def _momentum(m: Mechanism) -> dict[str, Expr]:
     return {"momentum_rate_x": x, "momentum_rate_y": y, "angular_momentum_rate": turning}
 
 
-def _kinetic_energy(m: Mechanism, mass: list[list[Expr]]) -> Expr:
+def _kinetic_energy(m: Declaration, mass: list[list[Expr]]) -> Expr:
     u = velocities(m)
     terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
     return Rational(1, 2) * sum(terms, Integer(0))
 
 
-def _potential_energy(m: Mechanism) -> Expr:
+def _potential_energy(m: Declaration) -> Expr:
     weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
     springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
     return m.tape.named(sum([*weight, *springs], Integer(0)))

@@ -6,14 +6,14 @@ from sympy import Expr, Symbol, sympify
 
 from mechsym.derive.dimensions import PURE, Dimension, dimension_of, in_words, of_unit
 from mechsym.derive.refuse import place, refuse
-from mechsym.derive.tape import Tape
+from mechsym.derive.tape import Intermediates
 
 
 class Letters:
     """The part of a declaration that knows its letters."""
 
     name: str
-    tape: Tape
+    tape: Intermediates
     q: list[Symbol]
     units: dict[str, str]
     where: dict[str, str]

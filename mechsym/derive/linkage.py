@@ -211,7 +211,7 @@ class Linkage:
         self.advance()
 
     def advance(self) -> None:
-        """Place what has a closed form (see `Mechanism`)."""
+        """Place what has a closed form (see `Declaration`)."""
         raise NotImplementedError
 
     def displace(self, joint: Joint) -> tuple[Symbol, ...]:

@@ -5,7 +5,7 @@ from typing import Any
 
 from sympy import Eq, Expr, Integer, Symbol, cos, latex, mathml, sin
 
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import groups
 from mechsym.derive.lagrange import Equations
 from mechsym.derive.rates import accelerations, velocities
@@ -48,7 +48,7 @@ def listing(equations: Equations) -> dict[str, Any]:
     }
 
 
-def _own(m: Mechanism) -> dict[str, Any]:
+def _own(m: Declaration) -> dict[str, Any]:
     """What only some declarations say."""
     said: dict[str, Any] = {
         "dependents": [s.name for s in m.dependent_list],
@@ -61,7 +61,7 @@ def _own(m: Mechanism) -> dict[str, Any]:
     return {key: value for key, value in said.items() if value}
 
 
-def _unit(m: Mechanism, name: str) -> str:
+def _unit(m: Declaration, name: str) -> str:
     if name in m.units:
         return m.units[name]
     root, by = m.tape.derived_from(Symbol(name, real=True))
@@ -86,7 +86,7 @@ def _rows(equations: Equations) -> list[tuple[str, Expr, Expr]]:
     return rows
 
 
-def _equation(m: Mechanism, title: str, left: Expr, right: Expr) -> dict[str, str]:
+def _equation(m: Declaration, title: str, left: Expr, right: Expr) -> dict[str, str]:
     equation = Eq(_physical(m, left), _physical(m, right), evaluate=False)
     names = {s: _latex_name(m, s) for s in equation.free_symbols}
     letters = {s: Symbol(_math_name(m, s)) for s in equation.free_symbols}
@@ -97,7 +97,7 @@ def _equation(m: Mechanism, title: str, left: Expr, right: Expr) -> dict[str, st
     }
 
 
-def _physical(m: Mechanism, expression: Expr) -> Expr:
+def _physical(m: Declaration, expression: Expr) -> Expr:
     """Names such as sin_phi turned back into sin(phi); their derivatives stay names."""
     values: dict[Symbol, Expr] = {}
     for symbol in expression.free_symbols:
@@ -108,13 +108,13 @@ def _physical(m: Mechanism, expression: Expr) -> Expr:
     return expression.xreplace(values)
 
 
-def _circular(m: Mechanism, symbol: Symbol) -> tuple[str, Symbol] | None:
+def _circular(m: Declaration, symbol: Symbol) -> tuple[str, Symbol] | None:
     kind, _, angle = m.tape.derived_from(symbol)[0].name.partition("_")
     inner = Symbol(angle, real=True)
     return (kind, inner) if kind in ("sin", "cos") and inner in (*m.tape.variables, *m.tape.entries) else None
 
 
-def _stem(m: Mechanism, symbol: Symbol) -> tuple[str, int]:
+def _stem(m: Declaration, symbol: Symbol) -> tuple[str, int]:
     for order, found in enumerate((velocities(m), accelerations(m)), 1):
         names = [s.name for s in found]
         if symbol.name in names:
@@ -130,14 +130,14 @@ def _split(name: str) -> tuple[str, str]:
     return stem, ", ".join(part for part in (letters[len(stem) :], index) if part)
 
 
-def _marks(m: Mechanism, by: tuple[Symbol, ...], name: Callable[[Mechanism, Symbol], str]) -> tuple[str, str]:
+def _marks(m: Declaration, by: tuple[Symbol, ...], name: Callable[[Declaration, Symbol], str]) -> tuple[str, str]:
     """Primes where there is one coordinate, else the variables as further indices after a comma."""
     if not by:
         return "", ""
     return ("\u2032" * len(by), "") if len(m.q) == 1 else ("", "," + "".join(name(m, v) for v in by))
 
 
-def _latex_name(m: Mechanism, symbol: Symbol) -> str:
+def _latex_name(m: Declaration, symbol: Symbol) -> str:
     root, by = m.tape.derived_from(symbol)
     primes, further = _marks(m, by, _latex_name)
     primes = "'" * len(primes)
@@ -152,7 +152,7 @@ def _latex_name(m: Mechanism, symbol: Symbol) -> str:
     return (f"{{{body}{primes}}}" if primes else body) + (f"_{{{index}{further}}}" if index or further else "")
 
 
-def _math_name(m: Mechanism, symbol: Symbol) -> str:
+def _math_name(m: Declaration, symbol: Symbol) -> str:
     root, by = m.tape.derived_from(symbol)
     primes, further = _marks(m, by, _math_name)
     if circular := _circular(m, symbol):

@@ -4,15 +4,15 @@ from typing import Any
 
 from sympy import Expr, Symbol, sympify
 
-Mechanism = Any  # the declaration, which imports this module
+Declaration = Any  # the declaration, which imports this module
 
 
-def output(m: Mechanism, *symbols: Symbol, order: int = 0) -> None:
+def output(m: Declaration, *symbols: Symbol, order: int = 0) -> None:
     """Make names part of the kinematic outputs, with their derivatives by the coordinates.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     *symbols : Symbol
         Names on the tape
@@ -28,18 +28,18 @@ def output(m: Mechanism, *symbols: Symbol, order: int = 0) -> None:
     m.kinematic_outputs = list(dict.fromkeys(m.kinematic_outputs))
 
 
-def _named(m: Mechanism, symbol: Symbol, v: Symbol) -> Expr:
+def _named(m: Declaration, symbol: Symbol, v: Symbol) -> Expr:
     """A derivative by its own name, also where it is another name with its sign turned."""
     value = m.tape.derivative(symbol, v)
     return m.tape.name_derivative(symbol, v, value) if (-value).is_Symbol else value
 
 
-def output_dynamic(m: Mechanism, name: str, value: Expr, unit: str) -> None:
+def output_dynamic(m: Declaration, name: str, value: Expr, unit: str) -> None:
     """Add an output that needs velocities, accelerations or inputs.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     name : str
         Name of the output

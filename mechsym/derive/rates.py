@@ -2,15 +2,15 @@
 
 from sympy import Expr, Integer, Symbol
 
-from mechsym.derive.declare import Mechanism
+from mechsym.derive.declare import Declaration
 
 
-def velocities(m: Mechanism) -> list[Symbol]:
+def velocities(m: Declaration) -> list[Symbol]:
     """Symbols of the velocities, `phid` for `phi`.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
 
     Returns
@@ -21,12 +21,12 @@ def velocities(m: Mechanism) -> list[Symbol]:
     return [Symbol(f"{v.name}d", real=True) for v in m.q]
 
 
-def accelerations(m: Mechanism) -> list[Symbol]:
+def accelerations(m: Declaration) -> list[Symbol]:
     """Symbols of the accelerations, `phidd` for `phi`.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
 
     Returns
@@ -37,12 +37,12 @@ def accelerations(m: Mechanism) -> list[Symbol]:
     return [Symbol(f"{v.name}dd", real=True) for v in m.q]
 
 
-def velocity(m: Mechanism, value: Expr) -> Expr:
+def velocity(m: Declaration, value: Expr) -> Expr:
     r"""Rate of an expression, :math:`\dot s = \sum (\partial s/\partial q) \dot q`.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     value : Expr
         Expression in names and coordinates
@@ -55,12 +55,12 @@ def velocity(m: Mechanism, value: Expr) -> Expr:
     return sum((m.tape.diff(value, v) * u for v, u in zip(m.q, velocities(m), strict=True)), Integer(0))
 
 
-def acceleration(m: Mechanism, value: Expr) -> Expr:
+def acceleration(m: Declaration, value: Expr) -> Expr:
     """Second time derivative of an expression.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     value : Expr
         Expression in names and coordinates
@@ -74,12 +74,12 @@ def acceleration(m: Mechanism, value: Expr) -> Expr:
     return sum(linear, curvature(m, value))
 
 
-def curvature(m: Mechanism, value: Expr) -> Expr:
+def curvature(m: Declaration, value: Expr) -> Expr:
     """The part of the second time derivative that is quadratic in the velocities.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     value : Expr
         Expression in names and coordinates
@@ -94,12 +94,12 @@ def curvature(m: Mechanism, value: Expr) -> Expr:
     return sum((velocity(m, f) * u for f, u in pairs), Integer(0)).expand()
 
 
-def reaction(m: Mechanism, joint: Symbol) -> Symbol:
+def reaction(m: Declaration, joint: Symbol) -> Symbol:
     """The reaction of a joint, for forces that depend on it and for outputs.
 
     Parameters
     ----------
-    m : Mechanism
+    m : Declaration
         The declaration
     joint : Symbol
         Joint displacement

@@ -29,7 +29,7 @@ class Roles:
         self.shape_points: dict[str, Expr] = {}
 
     def let(self, name: str, value: Any, unit: str = "") -> Symbol:
-        """Name an intermediate (see `Mechanism`)."""
+        """Name an intermediate (see `Declaration`)."""
         raise NotImplementedError
 
     def _role(self, role: str, **facts: Any) -> None:

@@ -13,7 +13,7 @@ from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, sin, sqrt, sym
 Rule = Callable[[Symbol], Expr]
 
 
-class Tape:
+class Intermediates:
     """Ordered assignments with derivatives by the chain rule.
 
     Parameters

@@ -5,7 +5,7 @@ import sympy as sp
 
 from mechsym.derive import Mechanism, cos, derive, sin
 from mechsym.derive.emit import module_text
-from mechsym.derive.tape import Tape, derivative_name
+from mechsym.derive.tape import Intermediates, derivative_name
 from mechsym.derive.textbook import disagreements, proved
 
 
@@ -103,7 +103,7 @@ def test_constraints_give_jacobian_and_bias():
 
 def test_derivatives_are_named_once():
     phi = letter("phi")
-    tape = Tape([phi])
+    tape = Intermediates([phi])
     x = tape.define("x", sp.sin(phi) ** 3)
     first = tape.derivative(x, phi)
     assert first.name == "dx_dphi"
@@ -123,7 +123,7 @@ def test_names_of_derivatives_stay_readable():
 )
 def test_unusable_names_and_floats_are_refused(name, value, message):
     with pytest.raises(ValueError, match=message):
-        Tape([letter("phi")]).define(name, value)
+        Intermediates([letter("phi")]).define(name, value)
 
 
 def test_undeclared_letters_are_refused_by_name():

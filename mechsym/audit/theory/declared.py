@@ -21,7 +21,7 @@ from typing import Any
 
 from mechsym.audit.theory.language import define
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import Tape
+from mechsym.audit.theory.tape import TheoryTape
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, parse
 
@@ -59,7 +59,7 @@ def _theory(content: Mapping[str, Any], name: str, where: str) -> Theory:
     letters = _letters(_table(content, "letters"), angle)
     if angle and angle not in letters:
         letters |= {angle: Letter(unit="rad", value=1.0)}
-    tape = Tape({}, letters, angle)
+    tape = TheoryTape({}, letters, angle)
     for own, text in _table(content, "define").items():
         if not _NAME.fullmatch(own) or own in letters:
             raise BadInput(f"define.{own}: a name of letters and digits that is no letter yet is needed")

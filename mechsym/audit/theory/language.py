@@ -15,7 +15,7 @@ from mechsym.audit import limits
 from mechsym.audit.calculus import derivative, minus, over, plus, times
 from mechsym.audit.functions import meaning
 from mechsym.audit.spelling import from_greek
-from mechsym.audit.theory.tape import Entry, Root, Tape, slope_name
+from mechsym.audit.theory.tape import Entry, Root, TheoryTape, slope_name
 from mechsym.audit.tree import Node, binary, call, letters, name, number, substitute, value_of
 from mechsym.errors import BadInput
 
@@ -23,7 +23,7 @@ _ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "ln": "log"}
 _MOST = 40  # terms of a sum
 
 
-def define(own: str, text: str, tape: Tape) -> Entry:
+def define(own: str, text: str, tape: TheoryTape) -> Entry:
     """What a definition puts on the tape; earlier names of the tape and its letters may be used."""
     tree = _parsed(text)
     if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "root":
@@ -40,7 +40,7 @@ def _parsed(text: str) -> ast.expr:
         raise BadInput(f"{text.strip()[:60]!r} cannot be read: {getattr(error, 'msg', 'nested too deep')}") from None
 
 
-def _check(tree: Node, tape: Tape, also: tuple[str, ...]) -> None:
+def _check(tree: Node, tape: TheoryTape, also: tuple[str, ...]) -> None:
     limits.check(tree)
     for letter in letters(tree):
         if letter not in tape.free and letter not in tape and letter != "pi" and letter not in also:
@@ -48,11 +48,11 @@ def _check(tree: Node, tape: Tape, also: tuple[str, ...]) -> None:
             raise BadInput(f"unknown letter {letter!r}; letters and names defined above it are {known}")
 
 
-def _root(own: str, tree: ast.Call, tape: Tape) -> Root:
+def _root(own: str, tree: ast.Call, tape: TheoryTape) -> Root:
     if len(tree.args) != 3 or not isinstance(tree.args[0], ast.Constant) or not isinstance(tree.args[1], ast.Name):
         raise BadInput('root is written root("equation that vanishes", unknown, start near the root)')
     unknown = tree.args[1].id
-    free = Tape({**tape.base, unknown: number(0)}, tape.free, tape.angle)
+    free = TheoryTape({**tape.base, unknown: number(0)}, tape.free, tape.angle)
     renamed = substitute(
         _expanded(_parsed(str(tree.args[0].value)), free),
         lambda n: name(own) if isinstance(n, ast.Name) and n.id == unknown else None,
@@ -65,7 +65,7 @@ def _root(own: str, tree: ast.Call, tape: Tape) -> Root:
     return Root(equation=renamed, unknown=own, start=start)
 
 
-def _expanded(node: ast.expr, tape: Tape) -> Node:
+def _expanded(node: ast.expr, tape: TheoryTape) -> Node:
     if isinstance(node, (ast.Constant, ast.Name)):
         return node
     if isinstance(node, ast.UnaryOp):
@@ -83,7 +83,7 @@ def _expanded(node: ast.expr, tape: Tape) -> Node:
     raise BadInput(f"{ast.unparse(node)[:60]!r} is not read in a definition")
 
 
-def _called(function: str, node: ast.Call, tape: Tape) -> Node:
+def _called(function: str, node: ast.Call, tape: TheoryTape) -> Node:
     if function == "sum":
         return _sum(node, tape)
     if function in ("d", "dt"):
@@ -97,7 +97,7 @@ def _called(function: str, node: ast.Call, tape: Tape) -> Node:
     return call(_ALIASES.get(function, function), arguments[0])
 
 
-def _derived(function: str, node: ast.Call, tape: Tape) -> Node:
+def _derived(function: str, node: ast.Call, tape: TheoryTape) -> Node:
     if function == "dt" and len(node.args) == 1:
         return in_time(_expanded(node.args[0], tape), tape)
     order = value_of(node.args[2]) if len(node.args) == 3 else 1
@@ -111,24 +111,24 @@ def _derived(function: str, node: ast.Call, tape: Tape) -> Node:
     return tree
 
 
-def by_letter(tree: Node, by: str, tape: Tape) -> Node:
+def by_letter(tree: Node, by: str, tape: TheoryTape) -> Node:
     """Derivative of an expression by a letter; names on the tape change with it."""
     return derivative(tree, lambda k: number(1) if k == by else tape.rate_name(k, slope_name(k, by)))
 
 
-def in_time(tree: Node, tape: Tape) -> Node:
+def in_time(tree: Node, tape: TheoryTape) -> Node:
     """Derivative of an expression in time."""
     return derivative(tree, lambda k: name(f"{k}d") if f"{k}d" in tape.free else tape.rate_name(k, f"{k}_d"))
 
 
-def _sum(node: ast.Call, tape: Tape) -> Node:
+def _sum(node: ast.Call, tape: TheoryTape) -> Node:
     if len(node.args) != 4 or not isinstance(node.args[1], ast.Name):
         raise BadInput("a sum is written sum(e, k, 1, 4)")
     first, last = (value_of(a) for a in node.args[2:])
     if first is None or last is None or not 0 <= last - first < _MOST:
         raise BadInput(f"a sum runs between whole numbers and has at most {_MOST} terms")
     index, found = node.args[1].id, number(0)
-    inner = Tape(tape.base, {**tape.free, index: None}, tape.angle)
+    inner = TheoryTape(tape.base, {**tape.free, index: None}, tape.angle)
     body = _expanded(node.args[0], inner)
     for k in range(int(first), int(last) + 1):
         put = number(k)
@@ -136,7 +136,7 @@ def _sum(node: ast.Call, tape: Tape) -> Node:
     return found
 
 
-def _of_curve(node: ast.expr, tape: Tape) -> Node:
+def _of_curve(node: ast.expr, tape: TheoryTape) -> Node:
     asked = node.attr if isinstance(node, ast.Attribute) else ""
     inside = node.value if isinstance(node, ast.Attribute) else node
     if asked in ("x", "y") and isinstance(inside, (ast.Attribute, ast.Call)):
@@ -153,7 +153,7 @@ def _of_curve(node: ast.expr, tape: Tape) -> Node:
     raise BadInput(f"a curve has curvature, radius, x, y, normal and offset(R), not {asked or 'a value of its own'!r}")
 
 
-def _points(node: ast.expr, tape: Tape) -> tuple[Node, Node]:
+def _points(node: ast.expr, tape: TheoryTape) -> tuple[Node, Node]:
     # x and y of curve(x, y), of its offset or of its normal
     if not tape.angle:
         raise BadInput('a curve needs the angle that runs through it: angle = "phi"')
@@ -172,7 +172,7 @@ def _points(node: ast.expr, tape: Tape) -> tuple[Node, Node]:
     raise BadInput(f"{ast.unparse(node)[:60]!r} is no curve; write curve(x, y)")
 
 
-def _normal(x: Node, y: Node, tape: Tape) -> tuple[Node, Node]:
+def _normal(x: Node, y: Node, tape: TheoryTape) -> tuple[Node, Node]:
     dx, dy = (by_letter(p, tape.angle, tape) for p in (x, y))
     length = call("sqrt", _square_sum(dx, dy))
     return minus(number(0), over(dy, length)), over(dx, length)

@@ -11,7 +11,7 @@ import numpy as np
 from mechsym.audit.algebra import Algebra, evaluate
 from mechsym.audit.reader import CONSTANTS, read_expression
 from mechsym.audit.theory.implicit import harmonic, root
-from mechsym.audit.theory.tape import Entry, Harmonic, Root, Tape, needed
+from mechsym.audit.theory.tape import Entry, Harmonic, Root, TheoryTape, needed
 from mechsym.audit.tree import Node, children, function_of, walk
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
@@ -62,8 +62,8 @@ class Theory:
 
     def __post_init__(self) -> None:
         """Every name gets its slopes, rates and harmonics."""
-        if not isinstance(self.tape, Tape):
-            object.__setattr__(self, "tape", Tape(self.tape, self.letters, self.angle))
+        if not isinstance(self.tape, TheoryTape):
+            object.__setattr__(self, "tape", TheoryTape(self.tape, self.letters, self.angle))
 
 
 def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algebra: Algebra) -> None:

@@ -38,7 +38,7 @@ _TIMED = re.compile(r"(?P<of>\w+?)_(?P<dots>d{1,3})$")
 _HARMONIC = re.compile(r"(?P<of>\w+?)_(?:mean|(?P<kind>cos|sin)(?P<order>[1-9]\d?))$")
 
 
-class Tape(Mapping[str, Entry]):
+class TheoryTape(Mapping[str, Entry]):
     """Entries by name; the derived ones are made on demand and do not show in iteration."""
 
     def __init__(self, base: Mapping[str, Entry], free: Mapping[str, object], angle: str) -> None:
