@@ -130,7 +130,11 @@ def test_a_recorded_diagram_drives_the_chain(recorded):
     assert measured["max"]["torque"] != own["max"]["torque"]  # read from the file: with its rounding and its fit
 
 
-def test_spark_ignition_gives_a_diagram_its_chamber(recorded):
+def test_spark_ignition_gives_a_diagram_its_chamber(tmp_path):
+    angles = np.arange(0, 720, 0.5)  # two turns: the cycle of the case is a four-stroke one
+    rows = (f"{a},{p:.6g}\n" for a, p in zip(angles, 1 + 30 * np.exp(-(((angles - 370) / 40) ** 2)), strict=True))
+    (tmp_path / "two-turns.csv").write_text("crank_angle_deg,pressure_bar\n" + "".join(rows))
+    recorded = str(tmp_path / "two-turns.csv")
     case = measured(cases.load("nunes-slider-crank"), recorded)
     cycle, room = case.sections["cycle"], case.sections["chamber"]
     assert (cycle.bore, cycle.compression_ratio, cycle.p_back) == (
