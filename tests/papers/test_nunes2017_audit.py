@@ -159,10 +159,6 @@ def test_journal_load_by_hand(monkeypatch):
 
 def test_readable_errata_have_them(audited):
     source = sources("nunes2017")[0]
-    trusted = SimpleNamespace(
-        kills=SimpleNamespace(mutants=1, equivalent=0, refuted=1, survivors=()),
-        returns=SimpleNamespace(spoiled=1, returned=1, by_kind={}, misses=()),
-    )
-    text = errata.text([source], audited, trusted)
+    text = errata.text([source], audited, {})
     for needed in ("### Unsupported claim: (4.35), the output shaft needs 7.82 mm", "2423 MPa", "### Misprint: (4.26)"):
         assert needed in text
