@@ -36,7 +36,8 @@ def mechsym(*arguments, status=0):
 
 def test_a_scotch_yoke_goes_through_the_commands(folder):
     assert len(mechsym("derive", "./scotch_yoke.py", "--out", "derived")["written"]) == 2
-    assert mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check") == {"written": [], "differs": []}
+    checked = mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check")
+    assert (checked["written"], checked["differs"]) == ([], [])
     (folder / "derived" / "scotch_yoke.py").write_text("spoiled")
     assert mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check", status=1)["differs"]
 
