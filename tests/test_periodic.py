@@ -106,6 +106,25 @@ def test_extremes_of_a_constant():
     assert (low, high) == (pytest.approx(3, abs=1e-13), pytest.approx(3, abs=1e-13))
 
 
+@given(st.floats(-3, 3), st.integers(0, 11))
+def test_extremes_beside_a_break_are_found_on_the_right_side(offset, piece):
+    # the top stands a little off an even break, where the points of the wrong piece may lie higher
+    top = piece * TURN / 12 + 10.0**offset * 1e-3
+    poly = periodic.fit(lambda phi: np.cos(phi - top) + 0.3 * np.cos(2 * (phi - top)), (), TURN)
+    assert periodic.extremes(poly)[2] == pytest.approx(1.3, abs=1e-12)
+
+
+def test_noise_of_the_function_ends_the_halving_and_much_of_it_is_refused():
+    def noisy(level):
+        return lambda phi: np.sin(phi) + level * np.sin(1e9 * phi)
+
+    poly = periodic.fit(noisy(1e-11), (), TURN)
+    assert poly.x.size < 20_000
+    assert poly(1.0) == pytest.approx(np.sin(1.0), abs=1e-9)
+    with pytest.raises(BadInput, match="noise"):
+        periodic.fit(noisy(1e-6), (), TURN)
+
+
 def test_pieces_see_both_sides_of_a_kink():
     slope = periodic.fit(lambda phi: np.abs(np.mod(phi, TURN) - 3), (3.0,), TURN).derivative()
     values = periodic.piece_values(slope, periodic.piece_points(slope))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from hinges import HIGHER, LOWER, built_four_stroke, exact_torque, section, whole
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mechsym import periodic
@@ -222,6 +222,8 @@ def test_cases_choose_what_can_be_cut():
     st.sampled_from(["air_gauge", "air_absolute", "coil"]),
     st.sampled_from(list(RATIOS)),
 )
+@example([0.607421875, 0.75, 0.328125], 1.0, 2.0, "coil", "two_tracks")
+@example([-0.5078125, -0.5078125, 0.0], 1.0, 2.0, "coil", "two_tracks")
 def test_any_spring_that_holds_the_work_returns_any_torque(harmonics, n, stiffness, kind, arrangement):
     """A random torque with a kink; the spring's size is the work swing times `stiffness`."""
 
