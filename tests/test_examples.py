@@ -45,6 +45,7 @@ def test_short_and_public(file):
             assert not node.attr.startswith("_")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stem", FILES)
 def test_runs(stem, tmp_path):
     command = [sys.executable, FOLDER / f"{stem}.py", tmp_path]

@@ -28,6 +28,7 @@ def test_changes_of_a_function():
     ])  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["hinge/springs", "hinge/guide", "files"])
 def test_every_mutant_compiles_and_differs(name):
     tree = ast.parse((ROOT / "mechsym" / f"{name}.py").read_text(encoding="utf-8"))

@@ -26,6 +26,7 @@ REPAIRED = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "quantity", "wanted", "kind"), REPAIRED, ids=[t for t, *_ in REPAIRED])
 def test_slips_are_repaired(ask, text, quantity, wanted, kind):
     question = ask(text, quantity, {}, hold={"alphadd": 0.0} if "rodless" in quantity else {})
@@ -41,6 +42,7 @@ def test_slips_are_repaired(ask, text, quantity, wanted, kind):
     assert max_rel_error(turn(question), same) < 1e-12  # what is wanted is right, so the repair is the same function
 
 
+@pytest.mark.slow
 def test_sign_of_the_rod_term_is_found_by_search(ask, inertia):
     question = ask(inertia["-"], "inertia")
     verdict = decide(question)
@@ -67,6 +69,7 @@ def test_honest_approximations_are_no_misprints(ask, text, quantity, order):
     assert verdict.verdict == "truncation" and verdict.order == order and not verdict.repairs
 
 
+@pytest.mark.slow
 def test_sign_turned_inertia_is_an_honest_approximation(ask, inertia):
     verdict = decide(ask(inertia["+"], "inertia"))
     assert verdict.verdict == "mixed" and verdict.order == 3

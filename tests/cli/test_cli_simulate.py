@@ -66,6 +66,7 @@ def test_engine_without_hinge_stalls_and_that_is_no_failure():
     assert found["event"]["name"] == "stall" and found["event"]["t"] == found["t_end"]
 
 
+@pytest.mark.slow
 def test_exit_status_of_a_run_that_does_not_converge():
     found, status = numbers("chmielewski", "--set", "t_end=60 s", "--tolerance", "1e-3", "--backend", "scipy-rk45")
     assert status == 1 and found["status"] == "not converged" and found["reason"]

@@ -214,6 +214,7 @@ def rounded(value, name=""):
     return [f"{name} = {value}"]
 
 
+@pytest.mark.slow
 def test_other_loads_have_their_own_key_table_and_picture(tmp_path, monkeypatch, capsys):
     words = ["--set", "trials.turns=4", "--loads", "0.5,0.9,1", "--out", str(tmp_path)]
     monkeypatch.setattr(sys, "argv", ["mechsym", "hinge", "zotov-89", "--json", *words])

@@ -26,6 +26,7 @@ def test_flywheels_without_roller_mass_and_with_two_springs():
     assert np.nanmax(verified(springs=2).steady_ripple) == pytest.approx(0.02, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_three_ways_agree():
     steady, in_time = verified().steady_ripple, verified().time_ripple
     assert steady == pytest.approx(verified().programme_ripple, rel=3e-3)
@@ -55,6 +56,7 @@ def test_multipliers_are_the_change_of_the_flywheel():
         assert change == pytest.approx(limit.multiplier * step, rel=0.03)
 
 
+@pytest.mark.slow
 def test_order_of_the_four_machines_and_the_bound():
     bare = bare_flywheel(task().points, 0.02)
     assert design().flywheel < cut().flywheel < bare
@@ -75,6 +77,7 @@ def test_one_point_needs_no_flywheel():
     assert exact.ripple.max() < 1e-4
 
 
+@pytest.mark.slow
 def test_a_narrower_range_needs_less():
     assert solve(task(at=(2, 5))).flywheel < design().flywheel
 
@@ -94,6 +97,7 @@ def test_random_starts_find_the_same(seed):
     assert again.flywheel == pytest.approx(design().flywheel, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_an_error_of_pressure_costs_flywheel_and_is_borne():
     asked = dataclasses.replace(task(at=(0, 5)), robust=0.01)
     robust, plain = solve(asked), solve(task(at=(0, 5)))
@@ -107,6 +111,7 @@ def test_an_error_of_pressure_costs_flywheel_and_is_borne():
             assert running.steady(machine).speed_ripple < 0.0203
 
 
+@pytest.mark.slow
 def test_impossible_tasks_end_with_a_status():
     for limit, value in (("roller_reaction", 50e3), ("pressure_angle", 0.0175), ("spring_pressure", 1e6)):
         bounds = dataclasses.replace(task().bounds, **{limit: value})
@@ -116,6 +121,7 @@ def test_impossible_tasks_end_with_a_status():
             assert made.flywheel > design().flywheel
 
 
+@pytest.mark.slow
 def test_constant_load_is_held_by_a_governor():
     points = tuple(dataclasses.replace(p, law="constant") for p in task(at=(2, 5)).points)
     made = solve(dataclasses.replace(task(), points=points))

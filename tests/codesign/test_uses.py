@@ -33,6 +33,7 @@ def test_lost_combustion(inertia, shares):
     assert all(abs(s.run.energy_residual) < 1e-5 for s in found)
 
 
+@pytest.mark.slow
 def test_a_small_flywheel_stalls_and_is_made_heavy_enough():
     assert scenarios.misfire(design(), 0, 700.0).run.stalled
     needed = scenarios.misfire_flywheel(design(0.05), 0.5)
@@ -147,6 +148,7 @@ def test_points_from_a_file(tmp_path):
         places(settings)
 
 
+@pytest.mark.slow
 def test_scenarios_of_a_point_are_told_in_words():
     rows = scenarios.table(design(), [5])
     assert {row.name for row in rows} == {"misfire", "load step", "scatter 1%", "scatter 3%", "burst"}

@@ -179,6 +179,7 @@ def test_large_maps_are_made_in_blocks():
     assert found.torque_avg[1500] == pytest.approx(over_speeds(machine, omega[1500:1501]).torque_avg[0], rel=1e-14)
 
 
+@pytest.mark.slow
 def test_friction_of_the_mechanism_makes_brake_figures():
     case = {"friction_pressure.law": "mechanism"}
     rod, planet = (engine(load(f"nunes-{name}", case)) for name in ("slider-crank", "hypocycloid"))

@@ -57,6 +57,7 @@ def test_interval_holds_the_truth_as_often_as_it_says():
     assert np.median(limit) > 0.3  # no method gets far below what is printed
 
 
+@pytest.mark.slow
 def test_interval_of_some_records():
     off, half = errors(records(np.random.default_rng(4), 24, 3), by_compression)
     assert np.mean(np.abs(off) < half) >= 0.85
@@ -72,6 +73,7 @@ def test_motored_records_tell_it_to_half_a_degree():
     assert np.median(loss) > 0.1
 
 
+@pytest.mark.slow
 def test_combustion_is_told_from_none():
     fired, motored = (records(np.random.default_rng(6), 16, 2, fired=f) for f in (True, False))
     for r, nothing_burns in ((fired, False), (motored, True)):

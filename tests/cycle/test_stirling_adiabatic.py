@@ -99,6 +99,7 @@ def test_gamma_to_one_is_schmidts_closed_form(ratio, error):
     assert abs(2 * near - far) < error
 
 
+@pytest.mark.slow
 def test_film_to_infinity_is_schmidts_closed_form():
     isothermal = schmidt_closed_form(0.5)
 
@@ -150,6 +151,7 @@ def test_against_an_independent_integration():
     assert turn(case).work == pytest.approx(y[2], rel=2e-6)
 
 
+@pytest.mark.slow
 def test_derivatives_are_those_of_finite_differences():
     def build(z):
         area = math.pi / 4 * 0.09**2
@@ -169,6 +171,7 @@ def test_derivatives_are_those_of_finite_differences():
         assert slope[k] == pytest.approx((two[0] - two[1]) / (2 * h), rel=1e-5)
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(
     share=st.floats(0, 1), lead=st.floats(0.9, 2.2), T_h=st.floats(500, 1200), dead=st.floats(2e-5, 4e-4),

@@ -60,6 +60,7 @@ def test_files_and_text(tmp_path):
     assert table[pressure].max() == pytest.approx(1.0374e6, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["schmidt", "stirling-adiabatic", "stirling-second-order"])
 def test_mean_torque_on_the_train_is_the_work_of_the_gas(kind):
     case = cases.load("alpha-stirling", {"cycle.kind": kind})

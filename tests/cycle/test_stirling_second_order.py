@@ -49,6 +49,7 @@ def test_swept_volumes_of_the_rhombic_drive():
     assert np.ptp(found.V_c) * 1e6 == pytest.approx(113.14, rel=0.01)
 
 
+@pytest.mark.slow
 def test_base_point_of_the_literature():
     """977 K, 288 K, 4.13 MPa helium, 2503 rpm: Timoumi et al., Renewable Energy 33 (2008), quote 3958 W and 35 %."""
     cycle, volumes = gpu3()
@@ -81,6 +82,7 @@ def test_books_balance():
     assert all(value >= 0 for value in (found.work_losses | found.heat_losses).values())
 
 
+@pytest.mark.slow
 def test_fine_exchangers_and_no_losses_are_the_adiabatic_cycle():
     cycle, volumes = gpu3()
     ideal = turn(five_spaces(cycle, volumes))
@@ -99,6 +101,7 @@ def test_fine_exchangers_and_no_losses_are_the_adiabatic_cycle():
     assert less < lost / 2
 
 
+@pytest.mark.slow
 def test_losses_grow_with_speed_and_films_lag():
     cycle, volumes = gpu3()
     slow, fast = (second_order(cycle, LOSSES, volumes, rpm * RPM) for rpm in (1000, 3500))

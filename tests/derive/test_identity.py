@@ -57,6 +57,7 @@ def test_digits_refute_what_floats_cannot_tell_from_zero():
     assert not vanishes_at_random_points(x * sympy.Rational(1, 10**30), x, states)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [n for n in scripts() if not n.endswith("_printed")])
 def test_every_derivation_is_proved_for_all_states(name):
     assert proved(derive(declared(name)))

@@ -35,6 +35,7 @@ def assert_newton_and_euler(equations, mechanism, given, torque):
         assert np.abs(left).max() < 1e-9 * size, (name, left, size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", STATES, ids=["forward", "backward"])
 @pytest.mark.parametrize("flip", [False, True], ids=["as named", "flipped"])
 @pytest.mark.parametrize("name", linkages.ALL)
@@ -49,6 +50,7 @@ def test_closed_forms_obey_newton_and_euler(name, flip, given):
     assert wrong < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flip", [False, True], ids=["as named", "flipped"])
 @pytest.mark.parametrize("name", linkages.ALL)
 def test_closing_by_constraint_gives_the_same_motion_and_reactions(name, flip):

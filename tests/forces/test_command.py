@@ -19,6 +19,7 @@ def run(*words):
     return CliRunner().invoke(mechsym, ["forces", *words], catch_exceptions=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_chain_and_pictures_are_written(name, tmp_path):
     result = run(name, "--json", "--out", str(tmp_path))
@@ -37,6 +38,7 @@ def test_chain_and_pictures_are_written(name, tmp_path):
         assert "{{" not in page and 'src="http' not in page and 'href="http' not in page
 
 
+@pytest.mark.slow
 def test_equal_runs_give_equal_files(tmp_path):
     for folder in ("a", "b"):
         run("moroianu", "--out", str(tmp_path / folder))
@@ -77,6 +79,7 @@ def test_balance_that_is_not_reached_ends_with_status_1():
     assert not json.loads(result.output)["balance"]["reached"]
 
 
+@pytest.mark.slow
 def test_report_shows_comparison_and_claims(tmp_path):
     run("nunes-hypocycloid", "--comparison", "--out", str(tmp_path))
     page = (tmp_path / "report.html").read_text()
@@ -84,6 +87,7 @@ def test_report_shows_comparison_and_claims(tmp_path):
         assert text in page
 
 
+@pytest.mark.slow
 def test_friction_as_a_section_of_the_case(tmp_path):
     """The printed lines make a law of the cycle whose brake efficiency is that of the mechanism's friction."""
     result = run("nunes-slider-crank", "--law", "6000:8000:1000")
@@ -119,6 +123,7 @@ def recorded(tmp_path_factory):
     return str(path)
 
 
+@pytest.mark.slow
 def test_a_recorded_diagram_drives_the_chain(recorded):
     own, measured = (
         json.loads(run("moroianu", "--json", *words).output) for words in ([], ["--diagram", recorded, "--comparison"])
@@ -145,6 +150,7 @@ def test_spark_ignition_gives_a_diagram_its_chamber(tmp_path):
     assert cycle.working_cycle == "four-stroke" and cycle.file == recorded
 
 
+@pytest.mark.slow
 def test_a_measured_diagram_of_the_generator(measured_data):
     found = json.loads(run("generator", "--json", "--diagram", str(measured_data / "generator-half-load.csv")).output)
     assert found["power_residual"] < 1e-10 and 3e3 < found["max"]["F"] < 7e3

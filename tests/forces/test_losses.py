@@ -51,6 +51,7 @@ def test_without_coefficients_nothing_is_lost(name):
     assert found.friction_mean_pressure == 0
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(st.sampled_from(sorted(CASES)), st.sampled_from(COEFFICIENTS), st.floats(0.001, 0.2))
 def test_each_coefficient_costs_in_proportion(name, letter, mu):

@@ -19,6 +19,7 @@ def admissible(names, rng):
     return {n: float(rng.uniform(0.1, 1.0)) + (2.0 if n[0] == "l" else 0.0) for n in names}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", scripts())
 def test_generated_functions_equal_the_derivation(name, rng):
     equations = derive(declared(name))

@@ -177,6 +177,7 @@ def test_unknown_balance_is_refused():
         balance.balance(built(), "half")
 
 
+@pytest.mark.slow
 def test_measured_diagram_drives_the_hinge_of_the_generator(measured_data, rng):
     case = cases.load("generator")
     found = torque(jobs.machine(case, str(measured_data / "generator-half-load.csv")))

@@ -29,6 +29,7 @@ def generator(diagram):
     return design(cases.load("generator"), diagram)
 
 
+@pytest.mark.slow
 def test_hinge_on_a_half_speed_shaft_can_be_built(generator):
     numbers = summary(generator)
     assert numbers["guide"]["feasible"] and numbers["guide"]["margin"] > 0
@@ -79,6 +80,7 @@ def test_flywheel_is_found_although_the_diagram_has_noise(generator):
     assert 0.01 < summary(generator)["flywheel_inertia_saved"] < 0.2
 
 
+@pytest.mark.slow
 def test_files_hold_two_turns(generator, tmp_path):
     files = {file.name: file for file in report.write(generator, tmp_path)}
     table = np.genfromtxt(files["hinge.csv"], delimiter=",", names=True)
@@ -91,6 +93,7 @@ def test_files_hold_two_turns(generator, tmp_path):
     assert json.loads(files["summary.json"].read_text()) == json.loads(to_json(summary(generator)))
 
 
+@pytest.mark.slow
 def test_report_tells_what_was_measured_and_assumed(generator, tmp_path):
     text = report.write(generator, tmp_path)[0].read_text(encoding="utf-8")
     for words in (
@@ -101,6 +104,7 @@ def test_report_tells_what_was_measured_and_assumed(generator, tmp_path):
     assert "kN m" not in text
 
 
+@pytest.mark.slow
 def test_command_for_the_other_way(diagram, monkeypatch, capsys):
     settings = ("guide.balance=every_turn", "guide.shaft_ratio=1", "trials.turns=4")
     options = [word for text in settings for word in ("--set", text)]
@@ -113,6 +117,7 @@ def test_command_for_the_other_way(diagram, monkeypatch, capsys):
     assert numbers["check"]["speed_ripple"] > 0.1
 
 
+@pytest.mark.slow
 def test_command_with_a_track_that_does_not_close(diagram, monkeypatch, capsys):
     monkeypatch.setattr(
         sys, "argv", ["mechsym", "hinge", "generator", "--diagram", diagram, "--set", "guide.shaft_ratio=1"]

@@ -151,6 +151,7 @@ def t_minus_v(p: CrankTrainParameters, s):
     return lagrange(kinetic, potential, force, 3)
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True, max_examples=25)
 @given(trains, states)
 def test_acceleration_agrees_with_t_minus_v_in_the_common_frame(p, s):
@@ -160,6 +161,7 @@ def test_acceleration_agrees_with_t_minus_v_in_the_common_frame(p, s):
     assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-10, abs=1e-10 * (1 + np.abs(truth).max()))
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True, max_examples=25)
 @given(trains, states)
 def test_power_is_balanced(p, s):
@@ -228,6 +230,7 @@ def pose(p, phi):
     return np.array(rows)
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True, max_examples=25)
 @given(trains, states)
 def test_reactions_agree_with_absolute_coordinates(p, s):

@@ -77,6 +77,7 @@ def test_a_scotch_yoke_goes_through_the_commands(folder):
     assert abs(hinge["hinge_torque_mean"]) < 1e-6 * hinge["hinge_torque_max"]
 
 
+@pytest.mark.slow
 def test_a_six_bar_closed_by_constraint_goes_through_the_commands(folder):
     run = mechsym("simulate", "watt-six-bar.toml", "--set", "simulation.t_end=1 s")
     assert run["status"] == "converged" and abs(run["energy_residual"]) < 1e-8
@@ -104,6 +105,7 @@ def test_the_code_is_derived_once(folder):
     assert own.load("./scotch_yoke.py").name == "scotch_yoke"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -6,9 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 PAGE = Path(__file__).parents[2] / "docs" / "own-mechanism.md"
 
 
+@pytest.mark.slow
 def test_every_block_of_the_page_runs(tmp_path):
     blocks = re.findall(r"```(\w+)(?: file=(\S+))?\n(.*?)```", PAGE.read_text(), re.S)
     ran = 0

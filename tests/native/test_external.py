@@ -66,6 +66,7 @@ def test_optimum_is_the_interpreted_one():
     np.testing.assert_allclose(solve(external(node())), solve(node()), rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 @needs_compiler
 @pytest.mark.parametrize("kind", ["MX", "SX"])
 def test_whole_problem_compiled(kind):

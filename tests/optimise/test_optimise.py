@@ -71,6 +71,7 @@ def test_best_spark_timing_is_that_of_a_fine_grid(machine):
     assert found.objective >= efficiency.max()
 
 
+@pytest.mark.slow
 def test_active_limits_and_their_multipliers(machine):
     limits = {"p_max": {"high": "8 MPa"}}
     found = solve(task(machine, IGNITION | RATIO, limits))
@@ -144,6 +145,7 @@ def test_command(tmp_path):
     assert {p.name for p in tmp_path.iterdir()} == {"optimum.json", "pareto.csv", "pareto.svg"}
 
 
+@pytest.mark.slow
 def test_command_ends_with_1_where_nothing_is_feasible(tmp_path):
     case = tmp_path / "impossible.toml"
     case.write_text(text("nunes-hypocycloid").replace('"8 MPa"', '"1 bar"'))

@@ -39,6 +39,7 @@ def shops():
     return get
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-6, 1e-7])
 @pytest.mark.parametrize("name", WITH_GUIDE)
 def test_a_file_read_again_keeps_its_tolerance(shops, tmp_path, name, tolerance):
@@ -53,6 +54,7 @@ def test_a_file_read_again_keeps_its_tolerance(shops, tmp_path, name, tolerance)
         assert row.area_error * row.area <= tolerance * row.length
 
 
+@pytest.mark.slow
 def test_a_fine_drawing_has_area_and_length_to_nine_digits(shops, tmp_path):
     shop = shops("zotov-89")
     path = write(track(shop.guide, shop.rollers, 1e-9, shop.kinks), tmp_path / "g.dxf", 0.06, [])
@@ -151,6 +153,7 @@ def test_bad_input_is_one_line(tmp_path, monkeypatch, words, said):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_without_the_extra_one_line_names_it(tmp_path):
     code = "import sys; sys.modules['ezdxf'] = None; from mechsym.cli import main; main()"
     words = ["guide", "zotov-89", "--dxf", str(tmp_path / "g.dxf")]

@@ -222,6 +222,7 @@ def test_the_command_says_what_it_wrote(tmp_path):
     assert answer["checks"]["binaries"] == ["binaries/x86_64-linux/zotov_89.so"]
 
 
+@pytest.mark.slow
 def test_without_the_extra_one_line_names_it(tmp_path):
     code = "import sys; sys.modules['fmpy'] = None; from mechsym.cli import main; main()"
     words = ["fmu", "zotov-89", "--compare", "--platforms", "none", "--out", str(tmp_path / "e.fmu")]

@@ -115,6 +115,7 @@ def test_the_file_is_small_and_names_nothing_outside(files):
     assert "http" not in text and "src=" not in text and "{{" not in text
 
 
+@pytest.mark.slow
 def test_without_the_extra_one_line_names_it(tmp_path):
     code = (
         "import sys, importlib.util as u; f = u.find_spec; "

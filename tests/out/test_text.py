@@ -204,6 +204,7 @@ def test_the_machine_in_c_runs_as_simulate_runs(exported, tmp_path):
     assert found == pytest.approx([wanted.columns["phi"][-1], wanted.columns["phid"][-1]], rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["zotov-89", "chmielewski"])
 def test_a_machine_in_jax_has_the_rates_of_its_block(exported, tmp_path, name):
     """Curves and switches included, run with numpy in the place of jax.numpy where jax is not installed."""

@@ -31,6 +31,7 @@ def curves():
     return found
 
 
+@pytest.mark.slow
 def test_every_number_but_the_unsettled_one_is_reproduced(reproduced):
     assert {row["item"] for row in reproduced if row["verdict"] == "not reproduced"} == UNSETTLED
     assert len(reproduced) > 130
@@ -126,6 +127,7 @@ def test_converged_crossover(curves, rod, speed):
     assert crossovers(rpm, a, b) == pytest.approx([speed], abs=2)
 
 
+@pytest.mark.slow
 def test_errata():
     found = errata()
     assert found["E2"]["compression_ratio"] == pytest.approx(5.5, rel=1e-12)

@@ -67,6 +67,7 @@ def found(rows, where, words):
     return row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("erratum", ERRATA)
 def test_errata_stand_with_their_numbers(audited, erratum):
     where, words, error, told = ERRATA[erratum]

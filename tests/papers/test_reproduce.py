@@ -70,6 +70,7 @@ def test_unknown_source_and_write_of_one_source_are_refused():
     assert isinstance(run("prymak", "--write").exception, BadInput)
 
 
+@pytest.mark.slow
 def test_files(tmp_path):
     assert run("prymak", "--out", str(tmp_path)).exit_code == 0
     text = (tmp_path / "reproduction.html").read_text()

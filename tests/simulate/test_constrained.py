@@ -45,6 +45,7 @@ def closure(mechanism, result):
     return np.abs(np.asarray(mechanism.functions["constraints"](*q, *u)[0])).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rrr", "rrp"])
 def test_the_run_is_that_of_the_closed_form(name):
     closed, held = (bound(linkages.ALL[name](by), linkages.VALUES) for by in (False, True))

@@ -42,6 +42,7 @@ def test_text_marks_what_is_below():
     assert "BELOW  output shaft" in result.stdout and "are below the wanted ones" in result.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("args", [
     ("zotov-142",), ("nunes-slider-crank", "--as-printed"), ("nunes-hypocycloid", "--set", "sizing.life=5 m"),
     ("nunes-hypocycloid", "--set", "sizing.gears=steel"), ("nunes-hypocycloid", "--set", "part_bearings.main=6099"),

@@ -101,6 +101,7 @@ def test_it_does_not_hold_by_luck(job, design, forces_of):
         assert any(check.component.startswith(name) for check in failing), name
 
 
+@pytest.mark.slow
 def test_more_wanted_life_is_refused_and_the_nearest_engine_named():
     found = size(load("nunes-hypocycloid", {**COARSE, "sizing.life": "300 h"}))
     assert [(check.component[:11], check.quantity) for check in found.failing] == [("rod bearing", "life")]

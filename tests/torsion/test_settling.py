@@ -45,6 +45,7 @@ def test_a_run_that_still_rises_is_not_settled():
     assert not settling(risen(80.0, time=8.0), "phi_f", PERIOD, (189.0,), 80.0).settled
 
 
+@pytest.mark.slow
 def test_adiabatic_engine_finds_the_balance_of_gas_and_load():
     case = cases.load("alpha-stirling", ADIABATIC | {"simulation.turns": "300", "c": "5 N*m*s/rad"})
     found = run(case, check="none").settling
@@ -52,6 +53,7 @@ def test_adiabatic_engine_finds_the_balance_of_gas_and_load():
     assert found.speed_end == pytest.approx(found.speed_rigid, rel=0.02)
 
 
+@pytest.mark.slow
 def test_adiabatic_engine_with_half_the_load_is_held_by_order_two():
     half = {"operation.speed": "1200 rpm", "load.torque": "8", "load.speed": "600 rpm", "simulation.turns": "1200"}
     found = run(cases.load("alpha-stirling", ADIABATIC | half), check="none").settling
