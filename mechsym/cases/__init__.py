@@ -58,7 +58,13 @@ class Case:
 
 def names() -> list[str]:
     """Names of the built-in cases."""
-    return sorted(p.name.removesuffix(".toml") for p in _folder().iterdir() if p.name.endswith(".toml"))
+    return list(_built_in())
+
+
+# a sweep asks at every point
+@functools.lru_cache(maxsize=1)
+def _built_in() -> tuple[str, ...]:
+    return tuple(sorted(p.name.removesuffix(".toml") for p in _folder().iterdir() if p.name.endswith(".toml")))
 
 
 def text(name: str) -> str:
@@ -108,8 +114,10 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
 
 def _beside(found: Any, name: str) -> Any:
     """The record with its paths of files that lie beside the case file and not in the working folder."""
-    folder = Path(str(_folder())) if name in names() else Path(name).parent
     written = {f.name: getattr(found, f.name) for f in dataclasses.fields(found) if f.metadata.get("path")}
+    if not any(written.values()):
+        return found
+    folder = Path(str(_folder())) if name in names() else Path(name).parent
     moved = {k: str(folder / v) for k, v in written.items() if v and not Path(v).exists() and (folder / v).exists()}
     return dataclasses.replace(found, **moved) if moved else found
 
@@ -166,9 +174,14 @@ def _folder() -> Any:
     return resources.files("mechsym.cases")
 
 
+@functools.lru_cache(maxsize=32)
+def _built_in_text(name: str) -> str:
+    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+
+
 def _read(name: str) -> tuple[str, str]:
     if name in names():
-        return f"case {name}", (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+        return f"case {name}", _built_in_text(name)
     path = Path(name)
     try:
         return str(path), path.read_text(encoding="utf-8")
@@ -199,12 +212,34 @@ def _head(tables: dict[str, Any], key: str, file: str) -> str:
 
 
 def _section(mechanism: str, section: str, table: Any) -> Any:
+    # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
+    return (_made if own.is_file(mechanism) else _kept)(mechanism, section, _Written(table, repr(table)))
+
+
+class _Written:
+    """The keys of a section, equal where they are written alike."""
+
+    def __init__(self, values: Any, text: str) -> None:
+        self.values, self.text = values, text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Written) and self.text == other.text
+
+
+def _made(mechanism: str, section: str, written: _Written) -> Any:
+    table = written.values
     cls = _record_class(mechanism, section, table)
     values = _values(cls, section, table)
     try:
         return cls(**values)
     except BadInput as error:
         raise BadInput(f"[{section}] {error}") from None
+
+
+_kept = functools.lru_cache(maxsize=256)(_made)
 
 
 def _record_class(mechanism: str, section: str, table: Any) -> Any:

@@ -33,16 +33,16 @@ def hinge(
               mechsym hinge zotov-89 --loads 0.5,0.75,0.9,1
     """
     from mechsym.files import make_folder
+    from mechsym.hinge.result import LATER, complete
     from mechsym.hinge.setting import setting_text
     from mechsym.hinge.summary import summary
-    from mechsym.jobs.hinge import STEPS
     from mechsym.jobs.hinge import hinge as design
 
     case, shares = case_of(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
         make_folder(out)
-    with progress(STEPS + bool(out), f"hinge of {case.name}") as bar:
-        found = design(case, diagram, lambda: bar.update(1), shares)
+    with progress(len(LATER) + bool(out), f"hinge of {case.name}") as bar:
+        found = complete(design(case, diagram, shares), lambda: bar.update(1))
         files: list[Path] = []
         if out is not None:
             from mechsym.hinge.report import write

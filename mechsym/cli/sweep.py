@@ -17,7 +17,7 @@ _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 @click.option("--of", "analysis", type=click.Choice(["simulate", "hinge", "cycle"]), help="What to compute.")
 @click.option("--samples", type=click.IntRange(min=1), help="Monte Carlo: so many samples of ranges a..b and m+-s.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the samples.")
-@click.option("--show", multiple=True, metavar="NAME", help="Result to show in place of the main ones.")
+@click.option("--show", multiple=True, metavar="NAME", help="Compute only this result or group; all: everything.")
 @set_option
 @out_option
 @json_option
@@ -28,6 +28,9 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
     A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
     With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg.
+
+    Of a hinge only torque, guide, verdict and flywheel are computed; --show check.speed_ripple runs it too, and
+    --show retune, --show losses, --show all cost a hundred times as much.
 
     A point that cannot be computed is a gap with a reason: null, an empty cell, NaN. Exit status 1 when all are gaps.
     An interrupt (Ctrl-C) keeps the points that are finished, writes the files and ends with status 130.
@@ -104,11 +107,16 @@ def _text(found: Any, report: dict[str, Any]) -> str:
     if rows:
         spread = ["mean", "std"] if sampled else []
         lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]), ""]
-        lines += [f"{len(report['data']) - len(rows)} more results with --json, --out or --show NAME"]
+        lines += [f"{len(report['data']) - len(rows)} more results with --json or --out" + _more(found)]
     lines += [f"failed at {_place(found, f['index'])}: {f['reason']}" for f in report["failed"][:5]]
     if len(report["failed"]) > 5:
         lines.append(f"and {len(report['failed']) - 5} more")
     return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
+
+
+def _more(found: Any) -> str:
+    runs = found.analysis == "hinge" and not found.show
+    return "; check, runs, retune, sensitivity, losses, misfire_speed_share with --show" if runs else ""
 
 
 def _row(found: Any, name: str, column: Any) -> dict[str, Any]:

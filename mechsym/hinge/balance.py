@@ -5,6 +5,7 @@ once per cycle) and `every_turn` (the track turns with the crank and takes the p
 the two turns). For a two-stroke both are the same.
 """
 
+import functools
 import math
 
 import numpy as np
@@ -38,6 +39,8 @@ class Balance:
     ripple_propeller_load: float | None
 
 
+# the springs of a sweep share one torque
+@functools.lru_cache(maxsize=8)
 def balance(hinge: Hinge, kind: str) -> Balance:
     """The part of the hinge torque that the hinge takes.
 

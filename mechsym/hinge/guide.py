@@ -16,6 +16,7 @@ Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `
 `mechsym.hinge.choices`.
 """
 
+import functools
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -84,7 +85,7 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
         raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
-    low, _, high, _ = periodic.extremes(wanted.work)
+    low, high = _work_range(wanted)
     at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
     status, reason = _status(wanted, spring, parameters, at_start - high, at_start - low)
     rho, closure = _path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
@@ -185,11 +186,24 @@ def torque_function(guide: Guide) -> Callable[[float], float]:
     return torque
 
 
+# the springs of a sweep share what they have to give
+@functools.lru_cache(maxsize=8)
+def _work_range(wanted: Hinge | Balance) -> tuple[float, float]:
+    """Smallest and largest work that the hinge takes [J]."""
+    low, _, high, _ = periodic.extremes(wanted.work)
+    return low, high
+
+
+@functools.lru_cache(maxsize=8)
+def _exists(wanted: Hinge | Balance) -> bool:
+    return exists(wanted.torque)
+
+
 def _status(
     wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float
 ) -> tuple[str, str]:
     functions = law(spring)
-    if not exists(wanted.torque):
+    if not _exists(wanted):
         return "takes_work", f"the torque has a mean of {periodic.mean(wanted.torque):.6g} N*m; no spring gives that"
     if energy_max >= functions.energy_high:
         return "spring_bottoms", (

@@ -1,20 +1,28 @@
-"""A designed hinge: what it balances, the guide that gives it, how it runs, and where the data came from."""
+"""A designed hinge: what it balances, the guide that gives it, how it runs, and where the data came from.
 
-from collections.abc import Mapping
+Torque, guide and verdict are there at once. How the engine runs with them costs a hundred times as much and is
+computed when it is first asked for.
+"""
+
+import functools
+from collections.abc import Callable, Mapping
 from typing import Any
 
+from mechsym.hinge import steady, trials
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.limits import Verdict
-from mechsym.hinge.price import Price
+from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.price import Price, price
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.steady import Flywheels, Retuned, Sensitivity
-from mechsym.hinge.torque import Hinge
+from mechsym.hinge.torque import Hinge, torque
 from mechsym.hinge.trials import Trial
 from mechsym.hinge.ways import Offer
+from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.quantities import record
-from mechsym.simulate.steady import Steady
+from mechsym.simulate.steady import Flywheel, Steady
 
 
 @record
@@ -53,10 +61,71 @@ class Design:
     verdict: Verdict
     #: The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
     instead: tuple[Offer, ...]
-    trials: tuple[Trial, ...]
-    flywheels: Flywheels  #: What the hinge saves, and what a faulty one needs
-    sensitivities: tuple[Sensitivity, ...]  #: Ripple for each per cent of error
-    retuned: Retuned | None  #: The same guide at the other speed of the case
     flywheel_kept: float  #: Flywheel of the case [kg*m^2]
-    price: Price | None = None  #: What the ideal design leaves out; None without a guide
-    loads: tuple[AtLoad, ...] = ()  #: The same guide at other loads, as far as they were asked for
+    turns: float  #: Turns of each trial [-]
+    assumed: HingeLosses = HingeLosses()  #: What an ideal hinge leaves out
+    other: Callable[[], Machine | None] = lambda: None  #: The engine at the other speed of the case, if it has one
+    at_loads: Callable[[Guide], tuple[AtLoad, ...]] = lambda guide: ()  #: A guide at the loads that were asked for
+
+    @functools.cached_property
+    def usable(self) -> Guide | None:
+        """The guide, if it could be cut."""
+        return None if self.guide.rho is None else self.guide
+
+    @functools.cached_property
+    def check(self) -> Trial | None:
+        """The run that proves the design: with the hinge, under the load of the case; None without a guide."""
+        if self.usable is None:
+            return None
+        law = "propeller" if isinstance(self.machine.load, PropellerLoad) else "constant"
+        return trials.trial(f"hinge_{law}", self.machine, self.hinge, self.usable, self.turns)
+
+    @functools.cached_property
+    def trials(self) -> tuple[Trial, ...]:
+        """All runs in time, the proof among them."""
+        runs = trials.side_by_side(self.machine, self.hinge, self.usable, self.turns, self.check)
+        if inertia := self.flywheels.steady.inertia:
+            runs.append(trials.with_flywheel(self.machine, self.hinge, inertia, self.turns))
+        return tuple(runs)
+
+    @property
+    def flywheels(self) -> Flywheels:
+        """What the hinge saves; the same for every guide of one engine."""
+        return steady.flywheels(self.machine, self.hinge)
+
+    @functools.cached_property
+    def beside_faulty(self) -> Flywheel | None:
+        """The flywheel that a faulty hinge needs; None without a guide."""
+        return steady.beside_faulty(self.machine, self.hinge, self.usable) if self.usable else None
+
+    @functools.cached_property
+    def sensitivities(self) -> tuple[Sensitivity, ...]:
+        """Ripple for each per cent of error."""
+        return tuple(steady.sensitivities(self.machine, self.hinge, self.usable)) if self.usable else ()
+
+    @functools.cached_property
+    def retuned(self) -> Retuned | None:
+        """The same guide at the other speed of the case."""
+        other = self.other() if self.usable else None
+        return steady.retuned(other, torque(other), self.usable, self.turns) if other and self.usable else None
+
+    @functools.cached_property
+    def price(self) -> Price | None:
+        """What the ideal design leaves out; None without a guide."""
+        return price(self.machine, self.hinge, self.usable, self.rollers, self.assumed) if self.usable else None
+
+    @functools.cached_property
+    def loads(self) -> tuple[AtLoad, ...]:
+        """The same guide at the loads that were asked for."""
+        return self.at_loads(self.usable) if self.usable else ()
+
+
+LATER = ("check", "trials", "flywheels", "beside_faulty", "sensitivities", "retuned", "price", "loads")
+
+
+def complete(design: Design, progress: Callable[[], Any] = lambda: None) -> Design:
+    """Compute all of a design; `progress` is called after each part named in `LATER`."""
+    for part in LATER:
+        getattr(design, part)
+        progress()
+    return design

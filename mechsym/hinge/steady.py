@@ -5,6 +5,7 @@ torque comes from the geometry of the guide and the law of the spring.
 """
 
 import dataclasses
+import functools
 
 from scipy.optimize import minimize_scalar
 
@@ -34,12 +35,10 @@ RIPPLE = 1 / 50
 
 @record
 class Flywheels:
-    """Flywheels that would do without the hinge, or beside a faulty one."""
+    """Flywheels that would do without the hinge."""
 
     turns: Flywheel  #: Smallest with which the bare engine completes turns at all
     steady: Flywheel  #: For a ripple of 1/50 without hinge
-    #: For a ripple of 1/50 with the hinge when p0 is 2 per cent high; None without a guide
-    beside_faulty: Flywheel | None
 
 
 @record
@@ -70,25 +69,21 @@ class Retuned:
     trial: Trial | None  #: Run in time from the design speed; None when no setting turns steadily
 
 
-def flywheels(machine: Machine, wanted: Hinge, guide: Guide | None) -> Flywheels:
-    """Flywheels that replace the hinge, or that a faulty hinge needs.
-
-    Returns
-    -------
-    flywheels : Flywheels
-        Inertias on top of what the case keeps
-    """
+# the springs of a sweep share one engine
+@functools.lru_cache(maxsize=8)
+def flywheels(machine: Machine, wanted: Hinge) -> Flywheels:
+    """Flywheels that replace the hinge: inertias on top of what the case keeps."""
     bare = _panels(machine, wanted)
-    faulty = None
-    if guide is not None:
-        spring = with_setting(guide.spring, 1.02 * setting_of(guide.spring))
-        beside = _panels(machine, wanted, refit(guide, spring))
-        faulty = flywheel_for_ripple(beside, machine.omega, RIPPLE)
     return Flywheels(
         turns=smallest_flywheel_that_turns(bare, machine.omega),
         steady=flywheel_for_ripple(bare, machine.omega, RIPPLE),
-        beside_faulty=faulty,
     )
+
+
+def beside_faulty(machine: Machine, wanted: Hinge, guide: Guide) -> Flywheel:
+    """The flywheel for a ripple of 1/50 with a hinge whose p0 is 2 per cent high."""
+    spring = with_setting(guide.spring, 1.02 * setting_of(guide.spring))
+    return flywheel_for_ripple(_panels(machine, wanted, refit(guide, spring)), machine.omega, RIPPLE)
 
 
 def sensitivities(machine: Machine, wanted: Hinge, guide: Guide) -> list[Sensitivity]:

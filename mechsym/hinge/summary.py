@@ -1,6 +1,7 @@
 """The numbers of a hinge design under the keys that scripts rely on, and its tables for files."""
 
 import dataclasses
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -10,59 +11,47 @@ from mechsym.hinge.result import AtLoad, Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.steady import RIPPLE
 from mechsym.hinge.ways import Offer
-from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import gas_of
 from mechsym.quantities import RPM
 
 
-def summary(design: Design) -> dict[str, Any]:
+def summary(design: Design, only: Collection[str] | None = None) -> dict[str, Any]:
     """Results of a design by name, in SI unless a key names another unit.
+
+    Parameters
+    ----------
+    only : collection of str, optional
+        Keys that are wanted; what the others need is not computed
 
     Returns
     -------
     summary : dict
         Keys of the command `hinge`; what was not reached is None
     """
-    hinge, verdict, runs = design.hinge, design.verdict, {t.name: t for t in design.trials}
-    check = runs.get(f"hinge_{_law(design)}")
+    return {key: value(design) for key, value in _VALUES.items() if only is None or key in only}
+
+
+def _guide(design: Design) -> dict[str, Any]:
+    verdict = design.verdict
+    numbers = (
+        "rho_min", "rho_max", "z_min", "z_max", "pressure_angle_max", "curvature_radius_min", "roller_reaction_max",
+        "spring_force_max", "spring_pressure_max", "hertz_stress_max", "tilting_couple_max", "undercut_radius",
+    )  # fmt: skip
     return {
-        "speed_rpm": design.machine.omega / RPM,
-        "p_max_bar": gas_of(design.machine).pressure.p_max / 1e5,
-        "mep_bar": gas_of(design.machine).pressure.mean_indicated / 1e5,
-        "load_torque": hinge.load_torque,
-        "hinge_torque_max": hinge.torque_max,
-        "hinge_torque_min": hinge.torque_min,
-        "hinge_torque_mean": hinge.mean_torque,
-        "hinge_work_max": hinge.work_max,
-        "hinge_work_min": hinge.work_min,
-        "guide": {
-            "feasible": verdict.feasible,
-            "reason": verdict.reason,
-            "margin": verdict.margin,
-            **{
-                key: getattr(verdict, key)
-                for key in (
-                    "rho_min", "rho_max", "z_min", "z_max", "pressure_angle_max", "curvature_radius_min",
-                    "roller_reaction_max", "spring_force_max", "spring_pressure_max", "hertz_stress_max",
-                    "tilting_couple_max", "undercut_radius",
-                )
-            },
-        },
-        "check": {
-            "speed_ripple": check.speed_ripple if check else None,
-            "energy_residual": check.result.energy.residual if check else None,
-            "tolerance_difference": check.result.tolerance_difference if check else None,
-        },
-        "offers": offers(design),
-        "runs": {t.name: _run(t) for t in design.trials},
-        "retune": _retune(design),
-        "sensitivity": {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in design.sensitivities},
-        "loads": [_at_load(row) for row in design.loads],
-        **_saved(design),
-        "flywheel_inertia_to_turn": design.flywheels.turns.inertia,
-        "flywheel_inertia_beside_faulty": getattr(design.flywheels.beside_faulty, "inertia", None),
-        "ripple_wanted": RIPPLE,
-    }  # fmt: skip
+        "feasible": verdict.feasible,
+        "reason": verdict.reason,
+        "margin": verdict.margin,
+        **{key: getattr(verdict, key) for key in numbers},
+    }
+
+
+def _check(design: Design) -> dict[str, Any]:
+    check = design.check
+    return {
+        "speed_ripple": check.speed_ripple if check else None,
+        "energy_residual": check.result.energy.residual if check else None,
+        "tolerance_difference": check.result.tolerance_difference if check else None,
+    }
 
 
 def offers(design: Design) -> list[dict[str, Any]]:
@@ -82,34 +71,25 @@ def offers(design: Design) -> list[dict[str, Any]]:
     ]
 
 
-def _law(design: Design) -> str:
-    return "propeller" if isinstance(design.machine.load, PropellerLoad) else "constant"
-
-
-def _saved(design: Design) -> dict[str, Any]:
-    """The flywheel saved, and what it does not say: losses in N m and shares of the load, and a lost combustion."""
-    # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
-    saved, price = {"flywheel_inertia_saved": design.flywheels.steady.inertia}, design.price
+def _losses(design: Design) -> dict[str, Any] | None:
+    """What the flywheel saved does not say: losses in N m and shares of the load."""
+    price = design.price
     if price is None:
-        return {**saved, "losses": None, "misfire_speed_share": None}
+        return None
     kinds = ("bearing", "seal", "guide", "rolling", "gas")
     torques = {kind: getattr(price.losses, kind) for kind in kinds}
     load = abs(design.hinge.load_torque)
     assumed = {f.name: getattr(price.assumed, f.name) for f in dataclasses.fields(price.assumed)}
     return {
-        **saved,
-        "losses": {
-            **torques,
-            "total": price.losses.total,
-            "shares": {kind: value / load for kind, value in torques.items()},
-            "share": price.losses.total / load,
-            "speed_ripple": price.speed_ripple,
-            "fill": price.fill,
-            "gas_index": price.gas_index,
-            "assumed": assumed | {"bearing_radius": price.assumed.bearing_radius or design.rollers.radius / 2,
-                                  "tau": price.tau},
-        },
-        "misfire_speed_share": price.misfire_speed_share,
+        **torques,
+        "total": price.losses.total,
+        "shares": {kind: value / load for kind, value in torques.items()},
+        "share": price.losses.total / load,
+        "speed_ripple": price.speed_ripple,
+        "fill": price.fill,
+        "gas_index": price.gas_index,
+        "assumed": assumed | {"bearing_radius": price.assumed.bearing_radius or design.rollers.radius / 2,
+                              "tau": price.tau},
     }  # fmt: skip
 
 
@@ -204,3 +184,36 @@ def guide_columns(design: Design, contact: Contact) -> dict[str, np.ndarray]:
         "hertz_stress": contact.hertz_stress, "torque": contact.torque,
     }  # fmt: skip
     return columns | ({} if contact.pressure is None else {"spring_excess_pressure": contact.pressure})
+
+
+_VALUES: dict[str, Callable[[Design], Any]] = {
+    "speed_rpm": lambda d: d.machine.omega / RPM,
+    "p_max_bar": lambda d: gas_of(d.machine).pressure.p_max / 1e5,
+    "mep_bar": lambda d: gas_of(d.machine).pressure.mean_indicated / 1e5,
+    "load_torque": lambda d: d.hinge.load_torque,
+    "hinge_torque_max": lambda d: d.hinge.torque_max,
+    "hinge_torque_min": lambda d: d.hinge.torque_min,
+    "hinge_torque_mean": lambda d: d.hinge.mean_torque,
+    "hinge_work_max": lambda d: d.hinge.work_max,
+    "hinge_work_min": lambda d: d.hinge.work_min,
+    "guide": _guide,
+    "check": _check,
+    "offers": offers,
+    "runs": lambda d: {t.name: _run(t) for t in d.trials},
+    "retune": _retune,
+    "sensitivity": lambda d: {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in d.sensitivities},
+    "loads": lambda d: [_at_load(row) for row in d.loads],
+    # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
+    "flywheel_inertia_saved": lambda d: d.flywheels.steady.inertia,
+    "losses": _losses,
+    "misfire_speed_share": lambda d: getattr(d.price, "misfire_speed_share", None),
+    "flywheel_inertia_to_turn": lambda d: d.flywheels.turns.inertia,
+    "flywheel_inertia_beside_faulty": lambda d: getattr(d.beside_faulty, "inertia", None),
+    "ripple_wanted": lambda d: RIPPLE,
+}
+KEYS = tuple(_VALUES)
+#: Keys that need no run besides what all guides of one engine share: a hundredth of the time of all
+QUICK = (
+    "speed_rpm", "p_max_bar", "mep_bar", "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean",
+    "hinge_work_max", "hinge_work_min", "guide", "flywheel_inertia_saved", "flywheel_inertia_to_turn", "ripple_wanted",
+)  # fmt: skip

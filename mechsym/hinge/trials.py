@@ -9,7 +9,7 @@ from dataclasses import replace
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.torque import Hinge
-from mechsym.machine.loads import ConstantLoad, PropellerLoad
+from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, period_of
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.shaft_inertia import with_inertia
@@ -19,6 +19,8 @@ from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import problem, reduced
 from mechsym.simulate.steady import steady_state
 from mechsym.simulate.summary import speed_ripple
+
+_LAWS: dict[str, Load] = {"constant": ConstantLoad(), "propeller": PropellerLoad()}
 
 
 @record
@@ -49,28 +51,47 @@ def run(name: str, about: str, machine: Machine, speed: float, turns: float, set
     return Trial(name=name, about=about, result=result, speed_ripple=ripple)
 
 
-def side_by_side(machine: Machine, wanted: Hinge, guide: Guide | None, turns: float) -> list[Trial]:
+def trial(name: str, machine: Machine, wanted: Hinge, guide: Guide, turns: float) -> Trial:
+    """One run with a guide.
+
+    Parameters
+    ----------
+    name : str
+        `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 per cent fast
+    turns : float
+        Turns to run [-]
+    """
+    kind, law = name.split("_")
+    engine = fitted(replace(machine, load=_LAWS[law]), wanted, guide)
+    if kind == "hinge":
+        return run(name, f"hinge, {law} load", engine, machine.omega, turns, Settings())
+    return run(name, f"hinge, {law} load, started 1 % fast", engine, 1.01 * machine.omega, turns)
+
+
+def side_by_side(
+    machine: Machine, wanted: Hinge, guide: Guide | None, turns: float, known: Trial | None
+) -> list[Trial]:
     """The runs of the report: without anything, and the hinge at the design speed and 1 per cent off.
 
     Parameters
     ----------
     turns : float
         Turns to run [-]
+    known : Trial or None
+        One of them that has been run
 
     Returns
     -------
     trials : list of Trial
-        Keys without, hinge_constant, hinge_propeller, off_constant, off_propeller
+        Keys without, hinge_constant, off_constant, hinge_propeller, off_propeller
     """
-    omega = machine.omega
-    trials = [run("without", "no hinge, no flywheel", fitted(machine, wanted), omega, turns)]
+    runs = [run("without", "no hinge, no flywheel", fitted(machine, wanted), machine.omega, turns)]
     if guide is None:
-        return trials
-    for law, words in ((ConstantLoad(), "constant load"), (PropellerLoad(), "propeller load")):
-        engine, key = fitted(replace(machine, load=law), wanted, guide), words.split()[0]
-        trials.append(run(f"hinge_{key}", f"hinge, {words}", engine, omega, turns, Settings()))
-        trials.append(run(f"off_{key}", f"hinge, {words}, started 1 % fast", engine, 1.01 * omega, turns))
-    return trials
+        return runs
+    for name in (f"{kind}_{law}" for law in _LAWS for kind in ("hinge", "off")):
+        again = known is not None and known.name == name
+        runs.append(known if known and again else trial(name, machine, wanted, guide, turns))
+    return runs
 
 
 def with_flywheel(machine: Machine, wanted: Hinge, inertia: float, turns: float) -> Trial:

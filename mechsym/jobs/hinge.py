@@ -1,17 +1,16 @@
-"""Case -> hinge: machine -> torque wanted -> guide -> verdict -> trials -> flywheels -> retuning and other loads."""
+"""Case -> hinge: machine -> torque wanted -> guide -> verdict; how it runs on first use."""
 
-from collections.abc import Callable, Sequence
+import functools
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.settings import TrialSettings
 from mechsym.errors import BadInput
-from mechsym.hinge import steady, trials
+from mechsym.hinge import steady
 from mechsym.hinge.guide import Guide, refit
 from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.price import price
 from mechsym.hinge.result import AtLoad, Design, Origin
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
@@ -20,16 +19,9 @@ from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine
 from mechsym.machine.record import Machine
 
-STEPS = 6  # how often `hinge` calls `progress`
 
-
-def hinge(
-    case: Case,
-    diagram: str | None = None,
-    progress: Callable[[], Any] = lambda: None,
-    loads: Sequence[float] = (),
-) -> Design:
-    """Design the elastic hinge of an engine and prove it by simulation.
+def hinge(case: Case, diagram: str | None = None, loads: Sequence[float] = ()) -> Design:
+    """Design the elastic hinge of an engine; how it runs is computed on first use, see `Design`.
 
     Parameters
     ----------
@@ -37,8 +29,6 @@ def hinge(
         With sections parameters, operation, cycle, spring, guide, rollers, limits
     diagram : str, optional
         CSV file of a measured diagram in place of the case's cycle
-    progress : callable, optional
-        Called after each of the six steps
     loads : sequence of float
         Other loads to try the guide at, as shares of the case's mean indicated pressure [-]
 
@@ -53,31 +43,15 @@ def hinge(
         A section is missing, a value is impossible, or the cycle has one load only and others are asked for
     """
     spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
-    turns = case.sections.get("trials", TrialSettings()).turns
-    pressures = _pressures(case, diagram, loads)
-    engine, other = machine(case, diagram), _other(case)
-    progress()
+    pressures, engine = _pressures(case, diagram, loads), machine(case, diagram)
     wanted = torque(engine)
     chosen, *instead = offers(wanted, spring, choices, rollers, limits)
-    usable = chosen.guide if chosen.guide.rho is not None else None
-    progress()
-    runs = trials.side_by_side(engine, wanted, usable, turns)
-    progress()
-    wheels = steady.flywheels(engine, wanted, usable)
-    if wheels.steady.inertia:
-        runs.append(trials.with_flywheel(engine, wanted, wheels.steady.inertia, turns))
-    progress()
-    errors = steady.sensitivities(engine, wanted, usable) if usable else []
-    progress()
-    again = steady.retuned(other, torque(other), usable, turns) if usable and other else None
-    progress()
     return Design(
         origin=Origin(name=case.name, about=case.about, source=case.source, sections=case.sections),
         machine=engine, rollers=rollers, hinge=wanted, balance=chosen.balance, guide=chosen.guide,
-        verdict=chosen.verdict, instead=tuple(instead), trials=tuple(runs), flywheels=wheels,
-        sensitivities=tuple(errors), retuned=again, flywheel_kept=kept_flywheel(case),
-        price=price(engine, wanted, usable, rollers, case.sections.get("losses", HingeLosses())) if usable else None,
-        loads=tuple(at_loads(case, usable, pressures) if usable else ()),
+        verdict=chosen.verdict, instead=tuple(instead), flywheel_kept=kept_flywheel(case),
+        turns=case.sections.get("trials", TrialSettings()).turns, assumed=case.sections.get("losses", HingeLosses()),
+        other=functools.partial(_other, case), at_loads=lambda guide: tuple(at_loads(case, guide, pressures)),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_csv, write_with
-from mechsym.sweep.outcomes import WORDS, Gap, flat
+from mechsym.sweep.outcomes import WORDS, Gap, asked
 from mechsym.sweep.run import Sweep
 from mechsym.sweep.units import unit_of
 
@@ -16,7 +16,7 @@ MAIN = {
     "simulate": ("speed_mean", "speed_min", "speed_max", "twist_peak", "torque_peak", "t_end"),
     "hinge": (
         "guide.margin", "guide.z_max", "guide.roller_reaction_max", "hinge_torque_max", "hinge_torque_min",
-        "flywheel_inertia_saved", "check.speed_ripple",
+        "flywheel_inertia_saved",
     ),
     "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa"),
 }  # fmt: skip
@@ -41,7 +41,7 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
     columns : dict of str to ndarray, shape (n,)
         Not a number in a gap, an empty text for words [SI, or as the name says]
     """
-    rows = [{} if isinstance(o, Gap) else flat(o) for o in result.outcomes]
+    rows = [{} if isinstance(o, Gap) else o for o in result.outcomes]
     gaps = {name: "" if name in WORDS else math.nan for row in rows for name in row}
     return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
 
@@ -55,8 +55,8 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
         Those that there are [SI, or as the name says]
     """
     found = columns(result)
-    wanted = result.show or MAIN[result.analysis]
-    numbers = {n: found[n] for n in wanted if n in found and found[n].dtype.kind == "f"}
+    wanted = MAIN[result.analysis] if not result.show or "all" in result.show else result.show
+    numbers = {n: found[n] for w in wanted for n in found if asked(n, w) and found[n].dtype.kind == "f"}
     # a limit that is never reached is as far away as a gap
     return {n: np.where(np.isfinite(v), v, math.nan) for n, v in numbers.items() if np.isfinite(v).any()}
 

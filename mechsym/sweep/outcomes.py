@@ -1,7 +1,7 @@
-"""What comes out at a point of a sweep: a nested result, or a gap with a reason."""
+"""What comes out at a point of a sweep: results by name, or a gap with a reason."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -67,3 +67,28 @@ def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
         elif np.size(value) == 1 and np.asarray(value).dtype.kind in "bif":
             found[name] = float(np.ravel(value)[0])
     return found
+
+
+def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float | str]:
+    """The results of a point that are shown; all where none is named.
+
+    Parameters
+    ----------
+    row : mapping of str to float or str
+        Results by dotted name [SI, or as the name says]
+    show : sequence of str
+        Names, groups (`guide` for `guide.z_max` and its like), or `all`
+
+    Returns
+    -------
+    row : dict of str to float or str
+        In the same order [SI, or as the name says]
+    """
+    if not show or "all" in show:
+        return dict(row)
+    return {name: value for name, value in row.items() if any(asked(name, s) for s in show)}
+
+
+def asked(name: str, show: str) -> bool:
+    """Whether a name or group that is shown means a result."""
+    return name == show or name.startswith(f"{show}.")

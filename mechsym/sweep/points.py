@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mechsym.cases import Case
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
 from mechsym.sweep import cycles
 from mechsym.sweep.outcomes import Gap, Outcome, known
@@ -28,13 +28,15 @@ class Route:
     together: int  #: Most cases in one call; an interrupt loses one call
 
 
-def route(case: Case, analysis: str | None) -> Route:
+def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route:
     """The fastest safe way to compute points like a case.
 
     Parameters
     ----------
     analysis : str or None
         `simulate`, `hinge` or `cycle`; None takes what the case is for
+    show : tuple of str
+        Results that are wanted; others need not be computed
 
     Returns
     -------
@@ -46,7 +48,7 @@ def route(case: Case, analysis: str | None) -> Route:
         # the integrator puts blocks of lanes on threads; threads around it would only wait for Python
         return Route(analysis=analysis, run=_simulated, together=_LANES * (os.cpu_count() or 1))
     if analysis == "hinge":
-        return Route(analysis=analysis, run=_each(_hinged), together=1)
+        return Route(analysis=analysis, run=_each(_hinges(show)), together=1)
     if cycles.mapped(case):
         return Route(analysis=analysis, run=_maps, together=cycles.BLOCK)
     return Route(analysis=analysis, run=_each(cycles.single), together=1)
@@ -74,11 +76,16 @@ def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
         return known(error)
 
 
-def _hinged(case: Case) -> dict[str, Any]:
-    from mechsym.hinge.summary import summary
+def _hinges(show: tuple[str, ...]) -> Callable[[Case], dict[str, Any]]:
+    """Designs with what is shown; how they run is computed only where a name asks for it."""
+    from mechsym.hinge.summary import KEYS, QUICK, summary
     from mechsym.jobs.hinge import hinge
 
-    return summary(hinge(case))
+    for name in show:
+        if name != "all" and name.partition(".")[0] not in KEYS:
+            raise BadInput(f"--show {name} is no result here; {suggest(name, [*KEYS, 'all'])}")
+    only = KEYS if "all" in show else {name.partition(".")[0] for name in show} or QUICK
+    return lambda case: summary(hinge(case), only)
 
 
 def _maps(found: Sequence[Case]) -> list[Outcome]:

@@ -11,7 +11,7 @@ from mechsym import cases
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
 from mechsym.sweep.axes import Axis, override, parse_axis, points, split
-from mechsym.sweep.outcomes import Gap, Outcome, flat, known
+from mechsym.sweep.outcomes import Gap, Outcome, asked, flat, kept, known
 from mechsym.sweep.points import ANALYSES, Route, route
 
 Progress = Callable[[int], Any]
@@ -28,7 +28,7 @@ class Plan:
     analysis: str | None = None  #: `simulate`, `hinge` or `cycle`; None takes what the case is for
     samples: int | None = None  #: Number of samples instead of a grid
     seed: int = 0
-    show: tuple[str, ...] = ()  #: Results to show in place of the main ones
+    show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones; `all` of them
 
     def __post_init__(self) -> None:
         if self.analysis not in (None, *ANALYSES):
@@ -46,8 +46,8 @@ class Sweep:
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
     points: tuple[tuple[Any, ...], ...]  #: Values of the axes at each point, the last axis fastest
-    outcomes: tuple[Outcome, ...]  #: Nested results of each point, or why there are none
-    show: tuple[str, ...] = ()  #: Results to show in place of the main ones
+    outcomes: tuple[Outcome, ...]  #: Results of each point by name, or why there are none
+    show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
     interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
 
 
@@ -102,15 +102,15 @@ def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
         The case or an axis is bad, or every point fails for one and the same reason
     """
     base, place = cases.load(plan.case, plan.overrides), layout(plan)
-    chosen = route(base, plan.analysis)
+    chosen = route(base, plan.analysis, plan.show)
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
     with _asked_to_stop() as asked:
         for members in _chunks(len(place.points), chosen.together):
             if asked.is_set():
                 break
             found = _run(plan, place, chosen, members)
-            outcomes[members.start : members.stop] = found
             _check_shown(plan.show, found)
+            outcomes[members.start : members.stop] = [o if isinstance(o, Gap) else kept(o, plan.show) for o in found]
             progress(len(members))
         else:
             asked.clear()  # too late to change anything
@@ -166,14 +166,14 @@ def _run(plan: Plan, place: Layout, chosen: Route, members: range) -> list[Outco
         except BadInput as error:
             outcomes[i] = known(error)
     outcomes |= dict(zip(loaded, chosen.run(list(loaded.values())), strict=True))
-    return [outcomes[i] for i in members]
+    return [o if isinstance(o, Gap) else flat(o) for o in (outcomes[i] for i in members)]
 
 
 def _check_shown(show: tuple[str, ...], found: list[Outcome]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
-    names = {name for outcome in found if not isinstance(outcome, Gap) for name in flat(outcome)}
+    names = {name for outcome in found if not isinstance(outcome, Gap) for name in outcome}
     for name in show if names else ():
-        if name not in names:
+        if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")
 
 

@@ -1,5 +1,6 @@
 """Sweeps: axes as written, keys against the case, grids and samples, gaps with reasons, interrupts, single runs."""
 
+import dataclasses
 import math
 import shutil
 import signal
@@ -340,12 +341,37 @@ def test_hinges_over_the_spring():
     assert data["guide.z_max"][1] < data["guide.z_max"][0]
 
 
+def test_a_hinge_is_not_run_unless_a_name_asks_for_it(monkeypatch):
+    plan = Plan(case="zotov-89", over=("spring.p0=5,8 MPa",))
+    usual = columns(sweep(plan))
+    for place in ("trials.run", "steady.with_guide", "result.price", "steady.beside_faulty"):
+        monkeypatch.setattr(f"mechsym.hinge.{place}", lambda *_, **__: pytest.fail("ran"))
+    again = columns(sweep(plan))
+    np.testing.assert_equal(again, usual)
+    some = columns(sweep(dataclasses.replace(plan, show=("guide.z_max", "speed_rpm"))))
+    assert {n: v.tolist() for n, v in some.items()} == {n: usual[n].tolist() for n in ("speed_rpm", "guide.z_max")}
+    assert list(columns(sweep(dataclasses.replace(plan, show=("guide",))))) == [n for n in usual if "guide." in n]
+    with pytest.raises(pytest.fail.Exception, match="ran"):
+        sweep(dataclasses.replace(plan, show=("check.speed_ripple",)))
+
+
+def test_a_hinge_that_is_shown_is_run():
+    found = sweep(Plan(case="zotov-89", over=("spring.p0=8 MPa",), show=("check.speed_ripple",)))
+    assert list(columns(found)) == ["check.speed_ripple"] and 0 < columns(found)["check.speed_ripple"][0] < 1e-9
+
+
+def test_what_a_hinge_has_not_is_refused_before_it_is_designed():
+    with pytest.raises(BadInput, match="--show retuned.p0 is no result here; did you mean 'retune'"):
+        sweep(Plan(case="zotov-89", over=("spring.p0=5,8 MPa",), show=("retuned.p0",)))
+
+
 @pytest.mark.slow
 def test_hinges_are_those_of_single_designs():
     from mechsym.hinge.summary import summary
     from mechsym.jobs import hinge as design
 
-    found = sweep(Plan(case="zotov-89", over=("spring.p0=5,8 MPa", "speed_rpm=80,89")))
+    show = ("check.speed_ripple", "hinge_torque_max", "flywheel_inertia_saved", "guide", "losses.total", "retune.p0")
+    found = sweep(Plan(case="zotov-89", over=("spring.p0=5,8 MPa", "speed_rpm=80,89"), show=show))
     data = columns(found)
     assert np.all(data["check.speed_ripple"] < 1e-6)
     for i, (p0, speed) in enumerate(found.points):
@@ -353,6 +379,8 @@ def test_hinges_are_those_of_single_designs():
         for name in ("hinge_torque_max", "flywheel_inertia_saved"):
             assert data[name][i] == pytest.approx(alone[name], rel=1e-9)
         assert data["guide.margin"][i] == pytest.approx(alone["guide"]["margin"], rel=1e-9)
+        assert data["losses.total"][i] == alone["losses"]["total"]
+        assert data["retune.p0"][i] == alone["retune"]["p0"]
 
 
 def test_simulated_hinges_share_their_engine():
