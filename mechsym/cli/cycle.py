@@ -11,6 +11,7 @@ from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
 
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
+_ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
 
 
 @click.command(short_help="Engine cycle at one or many speeds.")
@@ -25,7 +26,9 @@ _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g
 @set_option
 def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, motored: str | None,
           loop: float | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:  # fmt: skip
-    """Engine cycle of CASE, one cylinder: torque, power, consumption, energy shares, peak pressure.
+    """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
+
+    Torque and power are the engine's, all cylinders together; of several cylinders those of one stand beside them.
 
     With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle; --motored, a
     record of the same encoder without combustion, gives its dead centre. With --loop: gas and motion integrated
@@ -55,12 +58,14 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import columns_of_cylinder, engine
     from mechsym.jobs.gas import one_cylinder
+    from mechsym.jobs.whole_engine import cylinders, of_engine
 
     as_json, out = output
     given = kind_of(case.need("cycle")).given
     if given == "train" and not over:
         cycle_stirling.show(case, _array(omega), as_json, out)
         return
+    cylinders(case)  # what is wrong with them is said before the work begins
     if given == "engine":
         machine = engine(one_cylinder(case))
         found = _map(machine, omega, over)
@@ -68,6 +73,7 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
         raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
     else:
         machine, found = None, columns_of_cylinder(case, _array(omega))
+    found = of_engine(case, found, None if over else omega)
     files = _write(out, machine, found, case.need("operation").speed) if out else []
     units = _units(machine) if over else {}
     emit(found, as_json, lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]))
@@ -105,10 +111,18 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     every = max(1, -(-count // 20))
     shown = [k for k in found if "." in k] + list(_SHOWN)
     names = {k: f"{k} [{units[k]}]" if k in units else k for k in shown}
-    rows = [{name: float(found[k][i]) for k, name in names.items()} for i in range(0, count, every)]
-    lines = [table(rows, list(names.values()))]
+    lines = [_rows(found, names, every)]
+    if found["cylinders"] > 1:
+        one = {"speed_rpm": found["speed_rpm"], **found["per_cylinder"]}
+        lines = [
+            f"engine of {found['cylinders']} cylinders",
+            *lines,
+            "",
+            "one cylinder",
+            _rows(one, {key: key for key in _ONE}, every),
+        ]
     if every > 1:
-        lines.append(f"{len(rows)} of {count} points shown; all with --json or --out")
+        lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
     if count > 1 and shown[0] == "speed_rpm":
         peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
         lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]
@@ -117,12 +131,19 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
 
 
+def _rows(found: dict[str, Any], names: dict[str, str], every: int) -> str:
+    shown = range(0, len(found["speed_rpm"]), every)
+    return table([{name: float(found[k][i]) for k, name in names.items()} for i in shown], list(names.values()))
+
+
 def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
     from mechsym.cycle.engine import curves
     from mechsym.cycle.plots import cycle_picture, performance_picture
     from mechsym.files import write_csv
 
-    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads")}
+    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder")}
+    if found["cylinders"] > 1:
+        flat |= {f"{k}_per_cylinder": v for k, v in found["per_cylinder"].items()}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]
     files = [write_csv(out / "performance.csv", flat)]
     if machine is not None:

@@ -49,7 +49,7 @@ def forces(
         return
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
-    report = summary(found, loaded.name)
+    report = summary(found, loaded.name, loaded.source)
     report["friction_law"] = _law(loaded, law) if law else None
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
     emit(report, as_json, lambda: _text(report))

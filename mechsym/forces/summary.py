@@ -21,8 +21,13 @@ _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no lo
 _RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
-def summary(found: Forces, case: str) -> dict[str, Any]:
+def summary(found: Forces, case: str, source: str = "") -> dict[str, Any]:
     """The result under the names of the command line.
+
+    Parameters
+    ----------
+    case, source : str
+        Name of the case, and the source whose engine it is: only the claims of that source are judged
 
     Returns
     -------
@@ -50,7 +55,7 @@ def summary(found: Forces, case: str) -> dict[str, Any]:
         "rodless": _rodless(one) if one.drive.name == "rodless" else None,
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
-        "claims": _claims(found),
+        "claims": [row for row in _claims(found) if row["source"] == source],
         "facts": _facts(found),
     }
 

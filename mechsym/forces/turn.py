@@ -70,9 +70,7 @@ def turn(drive: CrankDrive, gas: Gas | None, omega: float) -> Turn:
     omega : float
         Crank speed [rad/s]
     """
-    period = gas.pressure.period if gas else 2 * math.pi
-    steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
-    return at(drive, gas, omega, np.arange(steps) * period / steps)
+    return at(drive, gas, omega, angles(gas))
 
 
 def crank_drive(
@@ -117,7 +115,7 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
     kinematics, reactions, momentum = (
         _along(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
     )
-    force = _along(_virtual_work(mechanism), letters)
+    work, slope = _work_and_slope(mechanism, letters)
     return Turn(
         drive=drive,
         gas=gas,
@@ -128,9 +126,39 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
         kinematics=kinematics,
         reactions=reactions,
         momentum=momentum,
-        torque=force["gas"] - _along(_energy_slope(mechanism), letters)["slope"],
-        gas_power=force["gas"] * omega,
+        torque=work - slope,
+        gas_power=work * omega,
     )
+
+
+def shaft_torque(drive: CrankDrive, gas: Gas | None, omega: float) -> np.ndarray:
+    """Torque for the load over a cycle, without the reactions.
+
+    Parameters
+    ----------
+    omega : float
+        Crank speed [rad/s]
+
+    Returns
+    -------
+    torque : ndarray, shape (n,)
+        As `Turn.torque` [N*m]
+    """
+    phi = angles(gas)
+    work, slope = _work_and_slope(drive.mechanism, _letters(drive.mechanism, omega, phi) | pushes(drive, gas, phi))
+    return work - slope
+
+
+def angles(gas: Gas | None) -> np.ndarray:
+    """Evenly spaced angles of a cycle without the last [rad]."""
+    period = gas.pressure.period if gas else 2 * math.pi
+    steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
+    return np.arange(steps) * period / steps
+
+
+def _work_and_slope(mechanism: Mechanism, letters: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    work = _along(_virtual_work(mechanism), letters)["gas"]
+    return work, _along(_energy_slope(mechanism), letters)["slope"]
 
 
 def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, np.ndarray]:
@@ -158,7 +186,7 @@ def pushes(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.
     if gas.pistons:
         return {f"F{i + 1}": net(phi) * area for i, area in enumerate(gas.pistons)}
     if drive.name == "crank_train":
-        forces = gas_forces(drive.parameters, net, gas.chamber.area, phi)
+        forces = gas_forces(drive.parameters, net, gas.chamber.area, phi, gas.pressure.period)
         return {f"F{i + 1}": force for i, force in enumerate(forces)}
     return {"F": net(phi) * gas.chamber.area}
 

@@ -17,6 +17,7 @@ from mechsym.cycle.kinds.stirling import stirling_columns
 from mechsym.forces import turn
 from mechsym.jobs.gas import engine_with, of, one_cylinder
 from mechsym.jobs.turn import drive_of, fitted_law
+from mechsym.jobs.whole_engine import of_engine
 from mechsym.quantities import RPM
 
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
@@ -35,13 +36,18 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> dict[str, Any]:
     Returns
     -------
     columns : dict of str to ndarray
-        The names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on
+        The names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the engine;
+        `per_cylinder` of one cylinder
     """
     speeds = np.array([case.need("operation").speed]) if omega is None else omega
     given = kind_of(case.need("cycle")).given
+    if given == "train":
+        return columns_of_stirling(case, speeds)
     if given == "engine":
-        return columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
-    return columns_of_stirling(case, speeds) if given == "train" else columns_of_cylinder(case, speeds)
+        found = columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
+    else:
+        found = columns_of_cylinder(case, speeds)
+    return of_engine(case, found, speeds)
 
 
 def engine(case: Case) -> ClosedEngine:

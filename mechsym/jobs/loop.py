@@ -57,7 +57,7 @@ def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
     parameters = case.need("parameters")
     if not isinstance(parameters, CrankTrainParameters):
         return (LoopCylinder(input="F", coordinate=mechanism.coordinates[0], firing=0.0),)
-    refuse_wrong_firing(parameters)
+    refuse_wrong_firing(parameters, 4 * math.pi)
     firing = parameters.firing if isinstance(parameters.firing, tuple) else (parameters.firing,) * len(parameters.throw)
     return tuple(
         LoopCylinder(input=f"F{i}", coordinate=mechanism.coordinates[throw - 1], firing=float(angle) % (4 * math.pi))

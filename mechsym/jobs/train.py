@@ -68,7 +68,7 @@ def cylinders(case: Case) -> Cylinders:
 def _starts(case: Case, found: Gas, parameters: CrankTrainParameters) -> tuple[float, ...]:
     """Shaft angle at which each cylinder's pressure has its angle 0."""
     if not found.pistons:
-        refuse_wrong_firing(parameters)
+        refuse_wrong_firing(parameters, found.pressure.period)
         return each(parameters, "firing")
     if len(set(parameters.throw)) > 1:
         raise BadInput(

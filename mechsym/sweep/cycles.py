@@ -37,11 +37,15 @@ def single(case: Case) -> dict[str, Any]:
     Returns
     -------
     figures : dict
-        As `mechsym.cycle.engine.columns`, each with one value
+        As `mechsym.jobs.cycle` of the engine, each with one value
     """
-    from mechsym.jobs.cycle import columns_of_cylinder
+    from mechsym.jobs.cycle import cycle
 
-    return columns_of_cylinder(case, np.array([case.need("operation").speed]))
+    return _of_the_engine(cycle(case))
+
+
+def _of_the_engine(found: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: values for name, values in found.items() if name not in ("cylinders", "per_cylinder")}
 
 
 def families(found: Sequence[Case]) -> list[list[int]]:
@@ -79,11 +83,12 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     Returns
     -------
     figures : list of dict or Gap
-        As `mechsym.cycle.engine.columns`, each with one value; a gap where there is no cycle
+        As `mechsym.jobs.cycle` of the engine, each with one value; a gap where there is no cycle
     """
     from mechsym.cycle.engine import columns, over_design
     from mechsym.jobs.cycle import engine
     from mechsym.jobs.gas import one_cylinder
+    from mechsym.jobs.whole_engine import of_engine
 
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
@@ -92,7 +97,8 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
     for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
         found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
-        outcomes |= {int(i): _at(found, k) for k, i in enumerate(group)}
+        for k, i in enumerate(group):
+            outcomes[int(i)] = _of_the_engine(of_engine(family[i], _at(found, k), design["omega"][[i]]))
     return [outcomes[i] for i in range(len(family))]
 
 

@@ -183,3 +183,12 @@ def test_the_engines_of_the_hinge_lose_a_few_per_cent(name):
     assert sum(found["places"].values()) == pytest.approx(found["power"], rel=1e-12)
     # the coefficients are small and the shoes carry little: the rings take most, as in large engines
     assert max(found["places"], key=found["places"].get) == "rings"
+
+
+@pytest.mark.slow
+def test_claims_of_a_source_are_judged_for_its_own_engines_only(tmp_path):
+    assert {row["source"] for row in json.loads(run("moroianu", "--json").output)["claims"]} == {"001_a140ef4f7e005dde"}
+    assert json.loads(run("zotov-89", "--json").output)["claims"] == []
+    mine = tmp_path / "mine.toml"
+    mine.write_text(cases.text("moroianu").replace("001_a140ef4f7e005dde", "own"))
+    assert "supported claim" not in run(str(mine)).output

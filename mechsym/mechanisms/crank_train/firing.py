@@ -58,23 +58,68 @@ def crank_phases(firing: Sequence[float], bank: Sequence[float]) -> tuple[float,
     return tuple((b - f) % _TURN for f, b in zip(firing, bank, strict=True))
 
 
-def refuse_wrong_firing(parameters: CrankTrainParameters) -> None:
-    """Refuse a cylinder that fires far from its top dead centre."""
+def refuse_wrong_firing(parameters: CrankTrainParameters, period: float = _TURN) -> None:
+    """Refuse a cylinder that fires far from its top dead centre, with the line that could stand there.
+
+    Parameters
+    ----------
+    period : float
+        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
+    """
     if not parameters.firing:
-        raise BadInput("firing is missing: gas forces need the shaft angle at which each cylinder fires")
+        raise BadInput(
+            "firing is missing: gas forces need the shaft angle at which each cylinder fires; "
+            f"evenly spaced as far as the cranks allow: {_line(even_firing(parameters, period))}"
+        )
     rows = zip(each(parameters, "firing"), local_shift(parameters), dead_centre(parameters), strict=True)
     for i, (fires, shift, top) in enumerate(rows, 1):
         late = math.remainder(fires + shift - top, _TURN)
         if abs(late) > _LARGEST_LEAD:
-            right = math.degrees((fires - late) % (2 * _TURN))
             raise BadInput(
                 f"firing of cylinder {i} = {math.degrees(fires):g} deg is {abs(math.degrees(late)):.4g} deg off its "
-                f"top dead centre; with this phase and bank it fires at {right:g} deg or a turn later"
+                "top dead centre; with these phases and banks, spaced as evenly as they allow: "
+                f"{_line(even_firing(parameters, period))}"
             )
 
 
+def even_firing(parameters: CrankTrainParameters, period: float) -> tuple[float, ...]:
+    """Firing angles at the cylinders' top dead centres, spaced as evenly as the cranks allow.
+
+    Parameters
+    ----------
+    period : float
+        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
+
+    Returns
+    -------
+    angles : tuple of float
+        Shaft angle at which cylinder 1, 2, .. fires; of four-stroke cylinders each may fire a turn later [rad]
+    """
+    tops = [(top - shift) % _TURN for top, shift in zip(dead_centre(parameters), local_shift(parameters), strict=True)]
+    turns = round(period / _TURN)
+    found = [tops[0]]
+    # the next cylinder fires in the turn that leaves it furthest from those that are placed
+    for top in tops[1:]:
+        places = [top + k * _TURN for k in range(turns)]
+        found.append(max(places, key=lambda angle: _room(angle, found, period)))
+    return tuple(found)
+
+
+def _room(angle: float, others: Sequence[float], period: float) -> tuple[float, ...]:
+    """Distances to the others, the smallest first [rad]."""
+    return tuple(sorted(round(abs(math.remainder(angle - other, period)), 9) for other in others))
+
+
+def _line(angles: Sequence[float]) -> str:
+    return "firing = [" + ", ".join(f'"{round(math.degrees(a), 6):g} deg"' for a in angles) + "]"
+
+
 def gas_forces(
-    parameters: CrankTrainParameters, net_pressure: Callable[[np.ndarray], np.ndarray], area: float, phi: np.ndarray
+    parameters: CrankTrainParameters,
+    net_pressure: Callable[[np.ndarray], np.ndarray],
+    area: float,
+    phi: np.ndarray,
+    period: float = _TURN,
 ) -> np.ndarray:
     """Gas force on every piston at shaft angles.
 
@@ -86,13 +131,15 @@ def gas_forces(
         Area of a piston [m^2]
     phi : ndarray, shape (n,)
         Shaft angles [rad]
+    period : float
+        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
 
     Returns
     -------
     F : ndarray, shape (cylinders, n)
         Forces, positive away from the head [N]
     """
-    refuse_wrong_firing(parameters)
+    refuse_wrong_firing(parameters, period)
     return np.array([net_pressure(phi - fires) * area for fires in each(parameters, "firing")])
 
 

@@ -1,0 +1,103 @@
+"""From one cylinder's figures to the engine's: how many there are, what adds up, and the largest torque at the shaft.
+
+Cycles are computed for one cylinder. Power and mean torque of equal cylinders add; their largest torques do not, for
+they fire one after the other, so that one is taken from the whole mechanism at constant speed, with all its masses.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cycle.kinds import kind_of
+from mechsym.errors import BadInput
+from mechsym.forces.turn import shaft_torque
+from mechsym.jobs.gas import gas, of
+from mechsym.jobs.turn import drive_of
+from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.quantities import record
+
+_ADD = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw")
+_NOT_LARGER = "torque_max"
+_SAME = ("r", "l1", "l2", "offset")
+
+
+@record
+class Cylinders:
+    """The cylinders of an engine as its cycle counts them."""
+
+    count: int  #: Chambers of a crank train, working faces of a rodless engine
+    share: float  #: What one cylinder's figures are multiplied with for the engine [-]
+
+
+def cylinders(case: Case) -> Cylinders:
+    """The cylinders of a case.
+
+    Raises
+    ------
+    BadInput
+        They fire off their dead centres, move differently, or the pistons of a chamber do not divide them
+    """
+    parameters = case.need("parameters")
+    if case.mechanism == "rodless" and "faces" in case.sections:
+        areas = case.need("faces").areas
+        bore = getattr(case.sections.get("chamber"), "bore", None) or case.need("cycle").bore
+        return Cylinders(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
+    if not isinstance(parameters, CrankTrainParameters):
+        return Cylinders(count=1, share=1.0)
+    with of(case):
+        _refuse_unlike(case, parameters)
+    count = len(parameters.throw) // int(getattr(case.sections.get("chamber"), "pistons", 1))
+    return Cylinders(count=count, share=float(count))
+
+
+def _refuse_unlike(case: Case, parameters: CrankTrainParameters) -> None:
+    four_stroke = kind_of(case.need("cycle")).given == "engine"
+    refuse_wrong_firing(parameters, 4 * math.pi if four_stroke else 2 * math.pi)
+    count, pistons = len(parameters.throw), getattr(case.sections.get("chamber"), "pistons", 1)
+    if count % pistons:
+        raise BadInput(f"[chamber] pistons = {pistons} does not divide the {count} cylinders; give 1 or a divisor")
+    for name in _SAME:
+        if len(set(each(parameters, name))) > 1:
+            raise BadInput(
+                f"{name} differs between the cylinders: the cycle is computed for one of them and holds for equal "
+                "cylinders; give one value, or use 'mechsym forces'"
+            )
+
+
+def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.ndarray | None) -> dict[str, Any]:
+    """Figures of the whole engine, with those of one cylinder beside them.
+
+    Parameters
+    ----------
+    found : mapping
+        `cycle.columns` of one cylinder
+    omega : ndarray, shape (n,)
+        Crank speeds; None leaves the largest torque of several cylinders open [rad/s]
+
+    Returns
+    -------
+    figures : dict
+        The same columns for the engine, `cylinders`, and `per_cylinder` with those that differ
+    """
+    counted = cylinders(case)
+    own = {name: found[name] for name in (*_ADD, _NOT_LARGER) if name in found}
+    if counted.count == 1:
+        return {**found, "cylinders": 1, "per_cylinder": own}
+    whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
+    whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else _largest(case, omega)
+    return {**found, **whole, "cylinders": counted.count, "per_cylinder": own}
+
+
+def _largest(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
+    drive, operation = drive_of(case), case.need("operation")
+    found = []
+    for speed in omega:
+        there = dataclasses.replace(operation, speed=float(speed))
+        at = dataclasses.replace(case, sections={**case.sections, "operation": there})
+        found.append(float(shaft_torque(drive, gas(at), float(speed)).max()))
+    return np.array(found)
