@@ -97,8 +97,8 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
     for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
         found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
-        for k, i in enumerate(group):
-            outcomes[int(i)] = _of_the_engine(of_engine(family[i], _at(found, k), design["omega"][[i]]))
+        for k, i in enumerate(group.tolist()):
+            outcomes[i] = _of_the_engine(of_engine(family[i], _at(found, k), design["omega"][[i]]))
     return [outcomes[i] for i in range(len(family))]
 
 
