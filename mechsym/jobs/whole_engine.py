@@ -27,14 +27,14 @@ _SAME = ("r", "l1", "l2", "offset")
 
 
 @record
-class Cylinders:
+class CylinderCount:
     """The cylinders of an engine as its cycle counts them."""
 
     count: int  #: Chambers of a crank train, working faces of a rodless engine
     share: float  #: What one cylinder's figures are multiplied with for the engine [-]
 
 
-def cylinders(case: Case) -> Cylinders:
+def cylinders(case: Case) -> CylinderCount:
     """The cylinders of a case.
 
     Raises
@@ -46,13 +46,13 @@ def cylinders(case: Case) -> Cylinders:
     if case.mechanism == "rodless" and "faces" in case.sections:
         areas = case.need("faces").areas
         bore = getattr(case.sections.get("chamber"), "bore", None) or case.need("cycle").bore
-        return Cylinders(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
+        return CylinderCount(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
     if not isinstance(parameters, CrankTrainParameters):
-        return Cylinders(count=1, share=1.0)
+        return CylinderCount(count=1, share=1.0)
     with of(case):
         _refuse_unlike(case, parameters)
     count = len(parameters.throw) // int(getattr(case.sections.get("chamber"), "pistons", 1))
-    return Cylinders(count=count, share=float(count))
+    return CylinderCount(count=count, share=float(count))
 
 
 def _refuse_unlike(case: Case, parameters: CrankTrainParameters) -> None:
