@@ -70,12 +70,10 @@ def _refuse_unlike(case: Case, parameters: CrankTrainParameters) -> None:
 
 
 def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.ndarray | None) -> dict[str, Any]:
-    """Figures of the whole engine, with those of one cylinder beside them.
+    """Figures of the whole engine from those of one cylinder (`cycle.columns`), which stand beside them.
 
     Parameters
     ----------
-    found : mapping
-        `cycle.columns` of one cylinder
     omega : ndarray, shape (n,)
         Crank speeds; None leaves the largest torque of several cylinders open [rad/s]
 
