@@ -31,7 +31,7 @@ def main(arguments: list[str]) -> int:
         importlib.import_module(name)
     codes: Counter[str] = Counter()
     faults: dict[str, str] = {}
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         found = pool.map(lambda i: _one(make(seed, i, texts)), range(count))
         for done, (made, code, fault) in enumerate(found, 1):
             codes[str(code)] += 1

@@ -16,6 +16,14 @@ from typing import Any
 LIMIT = 30.0  # time of a processor that an input may take [s]
 PATIENCE = 8.0  # times the limit by the clock: other work may share the processor
 ALLOWED = (0, 1, 2, 3)
+# what an answer may say without a doubt, by the name of its key: laws of physics, and engines that were built; written
+# down here again, since the ranges of the package would prove nothing about themselves
+POSSIBLE = {
+    "efficiency": (0, 1), "mechanical_efficiency": (0, 1), "power_residual": (-0.01, 0.01),
+    "energy_residual": (-1e-3, 1e-3), "p_max_bar": (1, 400), "p_max_mpa": (0.1, 40), "mep_bar": (-10, 60),
+    "mep_kpa": (-1000, 6000), "speed_rpm": (-2e4, 1e5), "sfc_g_kwh": (25, 1e6), "misfire_speed_share": (0, 1),
+    "twist_peak": (-1, 1),
+}  # fmt: skip
 # a design, a run or a claim may fail; everything else that goes wrong is bad input
 MAY_FAIL = ("hinge", "size", "forces", "simulate", "audit", "reproduce", "derive", "codesign", "check")
 
@@ -45,18 +53,41 @@ def judged(argv: list[str], answer: Answer) -> str | None:
         if len(lines) != 1 or not lines[0].startswith("mechsym: "):
             return f"{len(lines)} lines of error"
         return "output beside an error" if answer.out else None
-    return _json_fault(answer.out) if "--json" in argv else None
+    return _json_fault(answer.out, answer.err) if "--json" in argv else None
 
 
-def _json_fault(text: str) -> str | None:
+def _json_fault(text: str, err: str) -> str | None:
     def refuse(word: str) -> None:
         raise ValueError(f"{word} in JSON")
 
     try:
-        json.loads(text, parse_constant=refuse)
+        found = json.loads(text, parse_constant=refuse)
     except ValueError as error:
         return str(error)
-    return None
+    # a list has no place for doubts: they stand in standard error
+    told = bool(found.get("doubts") or found.get("accepted")) if isinstance(found, dict) else "doubt: " in err
+    return None if told else impossible(found)
+
+
+def impossible(found: Any, name: str = "") -> str | None:
+    """The first number of an answer that no engine shows; such a number must not come without a doubt."""
+    if isinstance(found, dict):
+        shares = found.get("fractions")
+        if isinstance(shares, dict) and (off := _shares_off(shares)) is not None:
+            return f"shares of the heat add up to {off:g}, and no doubt"
+        return next((fault for key, value in found.items() if (fault := impossible(value, key))), None)
+    if isinstance(found, list):
+        return next((fault for value in found if (fault := impossible(value, name))), None)
+    if isinstance(found, bool) or not isinstance(found, int | float) or name not in POSSIBLE:
+        return None
+    low, high = POSSIBLE[name]
+    return None if low <= found <= high else f"{name} = {found:g} and no doubt"
+
+
+def _shares_off(shares: dict[str, list[float]]) -> float | None:
+    """What the shares of the heat add up to where that is not 1."""
+    sums = [sum(at) for at in zip(*shares.values(), strict=True) if None not in at]
+    return next((total for total in sums if abs(total - 1) > 1e-3), None)
 
 
 def answer(made: dict[str, Any], limit: float = LIMIT * PATIENCE) -> Answer:

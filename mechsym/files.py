@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import hashlib
 import json
 import math
 import os
@@ -16,6 +17,7 @@ from mechsym.errors import BadInput
 
 # what another place or name mends; any other failure (disk full, device broken) is the system's
 _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
+SUMMARY = "summary.json"
 _folders: list[Path] = []  # folders whose files wait for each other
 _waiting: dict[Path, str] = {}  # file: its temporary name, complete and on the disk
 
@@ -130,6 +132,24 @@ def _place(name: str, path: Path) -> None:
     if target in _waiting:
         Path(_waiting[target]).unlink(missing_ok=True)
     _waiting[target] = name
+
+
+def write_summary(folder: Path, numbers: Mapping[str, Any]) -> Path:
+    """Write `summary.json`: the numbers, and the files of this run in a folder by the digest of what is in them.
+
+    Notes
+    -----
+    `run.id` is the digest of all of them: a folder whose files do not give it holds files of several runs.
+    """
+    root = folder.absolute()
+    parts = {path: Path(part) for path, part in sorted(_waiting.items()) if path.is_relative_to(root)}
+    digests = {p.relative_to(root).as_posix(): _digest(q.read_bytes()) for p, q in parts.items() if p.name != SUMMARY}
+    run = {"id": _digest(json.dumps([to_json(numbers), digests]).encode())[:16], "files": digests}
+    return write_text(folder / SUMMARY, to_json({**numbers, "run": run}) + "\n")
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
 
 
 def _unwritable(path: Path, error: OSError) -> BadInput:

@@ -46,6 +46,7 @@ def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
             Asked(
                 text=assigned.text, against=target, letters=letters, case=asked.case, name=name,
                 assume=asked.assume, claim=asked.claim, convention=asked.convention, theory=asked.theory,
+                hidden="noted",
             )
         )  # fmt: skip
         return row | {"note": "; ".join(n for n in (row["note"], note) if n)}

@@ -10,6 +10,7 @@ from typing import Any
 from mechsym.audit import claims, conventions
 from mechsym.audit.assumptions import assumed
 from mechsym.audit.findings import Row, formula_row, unread_row
+from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.reader import Formula, letter_pairs, read, read_expression
 from mechsym.audit.statement import Statement, statement
@@ -41,6 +42,8 @@ class Asked:
     claim: str = ""
     convention: str = ""
     theory: str = ""  #: TOML file that declares the theory
+    #: What an author's letter that is one of the theory's, too, comes to: a program cannot be told to rename its own
+    hidden: str = "refused"
 
 
 def check_formula(text: str, against: str, letters: str | Mapping[str, str] = "", case: str = "", **more: Any) -> Row:
@@ -117,6 +120,8 @@ def question_of(asked: Asked, said: Statement) -> Question:
     pairs = letter_pairs(asked.letters) if isinstance(asked.letters, str) else dict(asked.letters)
     text = said.right[0]
     formula = read(text, known(theory), pairs, theory.tape)
+    if asked.hidden == "refused":
+        _refuse_redefinition(theory, formula)
     check_sums(theory, formula.tree)
     under = assumed(theory, asked.assume, formula.letters)
     theory, quantity = _with_left(under.theory, quantity, said, formula)
@@ -126,6 +131,17 @@ def question_of(asked: Asked, said: Statement) -> Question:
     hold = {k: 0.0 for k in zero if k not in used} | dict(under.hold)
     note = "; ".join(n for n in (formula.note, said.note) if n)
     return Question(formula=replace(formula, note=note), theory=theory, quantity=quantity, hold=hold, where=under.where)
+
+
+def _refuse_redefinition(theory: Theory, formula: Formula) -> None:
+    for letter, meant in formula.letters.items():
+        # an author's F may be the derived total force, but no datum may become another one
+        named_quantity = isinstance(meant, ast.Name) and (meant.id in theory.tape or meant.id == letter)
+        if letter in known(theory) and not named_quantity:
+            raise BadInput(
+                f"--letters '{letter}={to_python(meant)}': {letter} is a letter of {theory.name} already; write "
+                f"another letter for it in the formula, for example {letter}_own, and --letters '{letter}_own=..'"
+            )
 
 
 def _quantity(asked: Asked) -> tuple[Theory, str]:

@@ -29,6 +29,11 @@ _ALIASES = {
     "ln": "log",
     "Abs": "abs",
 }
+# two operands without a sign between them: 2r, (a)b, r sin(phi); not the words of Python
+_PRODUCT = re.compile(
+    r"(?<![\w.])\d+(?:\.\d+)?\s*[A-Za-z(]|\)\s*[A-Za-z0-9(]|"
+    r"\b(?!(?:if|else|for|in|and|or|not|is)\b)\w+\s+(?!(?:if|else|for|in|and|or|not|is)\b)[\w(]"
+)
 
 
 @record
@@ -174,7 +179,7 @@ def _read_python(text: str) -> Node:
 
 
 def _hint(source: str) -> str:
-    missing = re.search(r"(?<![\w.])\d+(?:\.\d+)?\s*[A-Za-z(]|\)\s*[A-Za-z0-9(]", source)
+    missing = _PRODUCT.search(source)
     if missing is None:
         return ""
     before, after = source[: missing.end() - 1].rstrip()[-12:], source[missing.end() - 1 :][:12]
@@ -215,4 +220,5 @@ def _function(node: ast.Call) -> str:
             return node.func.attr
         raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; write sin, np.sin or math.sin")
     after = ast.unparse(node.func)[:40]
+    after = after if isinstance(node.func, ast.Call | ast.Constant) else f"({after})"
     raise BadInput(f"a * is missing behind {after!r}: write {after}*(..)")

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_option, set_option, table
 
 
 @click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
@@ -21,7 +21,7 @@ from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, pr
 @click.option("--misfire-speed", metavar="S", help="Share of the speed that a lost combustion must leave: 0.5.")
 @click.option("--free", metavar="KEY,KEY..", help="Chosen too: spring.A, spring.H, guide.rho0, rollers.radius, ..")
 @click.option("--pareto", metavar="D,D..", help="Ripples of a front: 1,2,5,8%.")
-@out_option
+@run_option
 @set_option
 @json_option
 def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:

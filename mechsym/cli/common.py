@@ -11,10 +11,10 @@ import click
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.files import appear, to_json, together, try_folder
+from mechsym.files import appear, to_json, together, try_folder, write_summary
 from mechsym.plausible import Doubt, results, sifted
 
-_CASES, DOUBTED = "mechsym.cases", "mechsym.doubted"
+_CASES, DOUBTED, _RUN = "mechsym.cases", "mechsym.doubted", "mechsym.run"
 
 
 def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
@@ -27,12 +27,25 @@ def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path
     return path
 
 
+def tried_run(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
+    """As `tried`, for a command whose folder gets a summary of the run."""
+    if path is not None and not ctx.resilient_parsing:
+        ctx.meta[_RUN] = path
+    return tried(ctx, param, path)
+
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value to standard output.")
 out_option = click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
     callback=tried,
     help="Folder for files; made when missing.",
+)
+run_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    callback=tried_run,
+    help="Folder for the files of the run and summary.json; made when missing.",
 )
 set_option = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help='Override a value, e.g. --set spring.p0="9.5 MPa".'
@@ -85,12 +98,16 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
     text : callable
         Makes the text for people; called only when needed
     """
-    appear()  # files that the text names are in place before it is printed
     doubts, accepted = _doubts(value)
     told = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
-    if isinstance(value, Mapping) and not isinstance(value.get("doubts"), Mapping):  # a printed case has that section
+    carries = isinstance(value, Mapping) and not isinstance(value.get("doubts"), Mapping)  # as a printed case does
+    if carries:
         value = {**value, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
-    elif told:
+    folder = click.get_current_context().meta.get(_RUN)
+    if folder is not None:
+        write_summary(folder, value)
+    appear()  # files that the text names are in place before it is printed
+    if told and not carries:
         click.echo("\n".join(told), err=True)
         told = []
     click.echo(to_json(value) if as_json else "\n".join([text(), *told]))

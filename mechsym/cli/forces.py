@@ -5,8 +5,9 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, pairs, run_option, set_option, table
 from mechsym.cli.speeds import parse_speeds
+from mechsym.files import SUMMARY
 
 
 @click.command(short_help="Force chain over one cycle at constant speed.")
@@ -15,7 +16,7 @@ from mechsym.cli.speeds import parse_speeds
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")
 @click.option("--law", metavar="A:B:STEP", help="Fit the friction over these speeds (rpm) for [friction_pressure].")
 @set_option
-@out_option
+@run_option
 @json_option
 @click.pass_context
 def forces(
@@ -61,7 +62,8 @@ def _own(case: Any, out: Path | None, as_json: bool) -> None:
 
     found = own_turn.turn(case)
     report = own_turn.summary(found, case)
-    report["files"] = [] if out is None else [str(file) for file in own_turn.write(found, case, out)]
+    files = [] if out is None else [*own_turn.write(found, case, out), out / SUMMARY]
+    report["files"] = [str(file) for file in files]
     emit(report, as_json, lambda: _own_text(report))
 
 

@@ -77,6 +77,7 @@ def test_a_relation_ties_a_letter():
     [
         ({"letters": "pi=3"}, "has its meaning already"),
         ({"letters": "sin=r"}, "has its meaning already"),
+        ({"letters": "l=r"}, "l is a letter of slider_crank already; write another letter"),
         ({"assume": "nothing"}, "is no relation"),
         ({"assume": "x = 0"}, "must be one free letter"),
         ({"claim": "nearly"}, "within 1 %"),
@@ -89,7 +90,16 @@ def test_bad_words_are_refused_with_the_way_out(more, reason):
 
 
 @pytest.mark.parametrize(
-    ("text", "place"), [("r*2(1-cos(phi))", "behind '2'"), ("2r", "between '2' and 'r'"), ("r(1-cos(phi))", "'r'")]
+    ("text", "place"),
+    [
+        ("r*2(1-cos(phi))", "behind '2'"),
+        ("2r", "between '2' and 'r'"),
+        ("r(1-cos(phi))", "'r'"),
+        ("2*r sin(phi)", "between '2*r' and 'sin(phi)'"),
+        ("r l", "between 'r' and 'l'"),
+        ("(r+l)(1-cos(phi))", "write (r + l)*(..)"),
+        ("(r) l", "between '(r)' and 'l'"),
+    ],  # fmt: skip
 )
 def test_a_missing_product_sign_is_shown(text, place):
     with pytest.raises(BadInput, match="missing") as refused:

@@ -1,6 +1,8 @@
 """What the command line owes its caller: 74 where the system fails, --out tried first, files that appear together."""
 
 import errno
+import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -118,6 +120,21 @@ def test_trying_leaves_no_folder(monkeypatch, capsys, tmp_path):
     code, _, err = ended(monkeypatch, capsys, ["cycle", "no-such-case", "--out", str(tmp_path / "a" / "b")])
     assert code == 2 and "no-such-case" in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_summary_tells_the_files_of_its_run(monkeypatch, capsys, tmp_path):
+    def run(*more):
+        ended(monkeypatch, capsys, ["forces", "moroianu", *more, "--out", str(tmp_path)])
+        numbers = json.loads((tmp_path / "summary.json").read_text())
+        of = numbers.pop("run")
+        at = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in tmp_path.iterdir() if p.is_file()}
+        assert of["files"] == {name: digest for name, digest in at.items() if name != "summary.json"}
+        assert len(of["files"]) > 3 and numbers["doubts"] == []
+        return of["id"]
+
+    first = run()
+    assert run() == first and len(first) == 16
+    assert run("--set", "operation.speed=90 rpm") != first
 
 
 TOO_MUCH = [
