@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, json_option, pairs, set_option, tried
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, parse
 
@@ -14,8 +14,8 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 
 @click.command(short_help="Draw the guide for the workshop: DXF, sheet.")
 @click.argument("case")
-@click.option("--dxf", type=_FILE, help="DXF file to write (extra cad).")
-@click.option("--sheet", type=_FILE, help="Dimensioned sheet to write, .svg or .pdf.")
+@click.option("--dxf", type=_FILE, callback=tried, help="DXF file to write (extra cad).")
+@click.option("--sheet", type=_FILE, callback=tried, help="Dimensioned sheet to write, .svg or .pdf.")
 @click.option("--tolerance", default="1 um", help="Largest distance of the curves from the exact ones.")
 @click.option("--bore", default="60 mm", help="Diameter of the hole for the shaft, 0 for none.")
 @click.option("--diagram", type=click.Path(), help="CSV file of a measured diagram in place of the cycle.")

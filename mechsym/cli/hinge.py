@@ -60,7 +60,7 @@ def _shares(loads: str | None) -> list[float]:
     from mechsym.errors import BadInput
     from mechsym.quantities.ranges import values
 
-    shares = values(loads, "-", "--loads") if loads is not None else []
+    shares = values(loads, "-", "--loads", most=100) if loads is not None else []
     if len(set(shares)) < len(shares):
         raise BadInput(f"--loads {loads}: each share once")
     for share in shares:

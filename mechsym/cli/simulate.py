@@ -60,7 +60,7 @@ def simulate(
 
 
 def _dampings(text: str | None) -> tuple[float, ...]:
-    return tuple(ranges.values(text, "N*m*s/rad", "--dampings")) if text is not None else ()
+    return tuple(ranges.values(text, "N*m*s/rad", "--dampings", most=1000)) if text is not None else ()
 
 
 def _report(name: str, run: "FinishedRun") -> dict[str, Any]:

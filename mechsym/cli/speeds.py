@@ -14,7 +14,7 @@ def parse_speeds(text: str, option: str = "--speeds") -> list[float]:
     omega : list of float
         Crank speeds [rad/s]
     """
-    omega = values(text, "rad/s", option, "rpm")
+    omega = values(text, "rad/s", option, "rpm", most=20_000)
     if min(omega) <= 0:
         raise BadInput(f"{option} {text}: speeds must be > 0 rpm")
     return omega

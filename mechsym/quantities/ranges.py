@@ -68,7 +68,7 @@ def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
     return Range(kind="grid" if whole else kind, values=numbers, unit="".join(units))
 
 
-def values(text: str, unit: str, option: str, plain: str = "", key: str = "") -> list[float]:
+def values(text: str, unit: str, option: str, plain: str = "", key: str = "", most: int = MOST) -> list[float]:
     """The values of a list or a range in SI.
 
     Parameters
@@ -77,6 +77,8 @@ def values(text: str, unit: str, option: str, plain: str = "", key: str = "") ->
         The SI unit wanted, `"-"` for pure numbers
     plain : str
         What a number without a unit is in; SI when left out
+    most : int
+        How many there may be where each is a run of its own
 
     Returns
     -------
@@ -92,6 +94,7 @@ def values(text: str, unit: str, option: str, plain: str = "", key: str = "") ->
     where = f"{option} {key}".strip()
     if found.kind != "grid":
         raise BadInput(f"{where}: {text.strip()} does not say how many; write {text.strip()}:5 or a list")
+    _check_count(where, len(found.values), most)
     written = found.unit or plain
     return [parse(f"{value!r} {written}" if written else value, unit, where) for value in found.values]
 
@@ -127,6 +130,6 @@ def _even(where: str, ends: tuple[float, ...], count: int) -> tuple[float, ...]:
     return tuple(np.linspace(ends[0], ends[1], count).tolist())
 
 
-def _check_count(where: str, count: float) -> None:
-    if not 1 <= count < MOST + 1:
-        raise BadInput(f"{where}: {count:.0f} values; allowed are 1 to {MOST}")
+def _check_count(where: str, count: float, most: int = MOST) -> None:
+    if not 1 <= count < most + 1:
+        raise BadInput(f"{where}: {count:.0f} values; allowed are 1 to {most}")

@@ -116,6 +116,13 @@ def test_a_file_is_tried_too(monkeypatch, capsys, tmp_path, command):
     assert code == 2 and "taken" in err and "--out" in err
 
 
+@pytest.mark.parametrize("option", ["--dxf", "--sheet"])
+def test_drawings_are_tried_too(monkeypatch, capsys, tmp_path, option):
+    (tmp_path / "taken").write_text("")
+    code, _, err = ended(monkeypatch, capsys, ["guide", "no-such-case", option, str(tmp_path / "taken" / "file.dxf")])
+    assert code == 2 and "taken" in err and "cannot be written" in err
+
+
 def test_trying_leaves_no_folder(monkeypatch, capsys, tmp_path):
     code, _, err = ended(monkeypatch, capsys, ["cycle", "no-such-case", "--out", str(tmp_path / "a" / "b")])
     assert code == 2 and "no-such-case" in err
@@ -141,6 +148,9 @@ TOO_MUCH = [
     (["simulate", "chmielewski", "--set", "output_step=1e-7"], ["output_step = 1e-07 s", "1e+09", "0.0001 s"]),
     (["simulate", "zotov-89", "--set", "simulation.turns=1e9"], ["turns = 1e+09", "3.6e+11", "2777 turns"]),
     (["simulate", "alpha-stirling", "--set", "simulation.turns=1e9"], ["turns = 1e+09", "3.6e+11", "2777 turns"]),
+    (["cycle", "nunes-slider-crank", "--speeds", "1000:8000:0.01"], ["700001 values", "1 to 20000"]),
+    (["hinge", "zotov-89", "--loads", "0.1..1:101"], ["101 values", "1 to 100"]),
+    (["simulate", "chmielewski", "--dampings", "0.1..1:1001"], ["1001 values", "1 to 1000"]),
     (["sweep", "zotov-89", "--over", "m3=1..2:9999", "--over", "r1=1..2:9999"], ["99980001 points", "1000000"]),
 ]
 
