@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mechsym.errors import BadInput, shown, suggest
-from mechsym.plausible import INPUTS, RESULTS, Acceptance, Doubt, inputs, proportions
+from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, proportions, scaled
 from mechsym.quantities import parse
 
 # doubts about measured diagrams, in the units that they name
@@ -30,9 +30,7 @@ _MEASURED = (
     "scale",
 )
 _UNITS = (
-    {k.code: k.unit for k in (*INPUTS, *RESULTS)}
-    | {"piston_speed": "m/s", "rod_ratio": "-", "drive_start": "s"}
-    | dict.fromkeys(_MEASURED, "-")
+    {k.code: k.unit for k in (*INPUTS, *RESULTS, *PROPORTIONS)} | {"drive_start": "s"} | dict.fromkeys(_MEASURED, "-")
 )
 
 
@@ -51,8 +49,14 @@ def _acceptance(code: str, row: Any) -> Acceptance:
     return Acceptance(code=code, up_to=parse(row["up_to"], _UNITS[code], f"doubts.{code}.up_to"), why=row["why"])
 
 
-def judged(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:
-    """Doubts about the values of a case; nonsense is refused with its key."""
+def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
+    """Doubts about the values of a case; nonsense is refused with its key.
+
+    Parameters
+    ----------
+    own : bool
+        Whether the mechanism is the user's own, whose letters may mean anything
+    """
     values = {
         f"{section}.{field.name}": value
         for section, record in sections.items()
@@ -60,9 +64,34 @@ def judged(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:
         for field in dataclasses.fields(record)
         if isinstance(value := getattr(record, field.name), float) and math.isfinite(value)
     }
+    found = inputs(values) + _run(sections)
+    if own:
+        return found
     stroke, ratio = _crank(sections.get("parameters"))
-    operation = sections.get("operation")
-    return inputs(values) + proportions(stroke, ratio, getattr(operation, "speed", None)) + _run(sections)
+    area, spring = _piston_area(sections), getattr(sections.get("spring"), "A", None)
+    found += proportions(stroke, ratio, getattr(sections.get("operation"), "speed", None))
+    return found + scaled(_masses(sections, area), spring, area)
+
+
+def _piston_area(sections: Mapping[str, Any]) -> float | None:
+    bores = [getattr(sections.get(name), "bore", None) for name in ("chamber", "cycle")]
+    return next((math.pi / 4 * bore**2 for bore in bores if bore), None)
+
+
+def _masses(sections: Mapping[str, Any], area: float | None) -> dict[str, tuple[float, float]]:
+    """What moves to and fro with the piston, by the letters of the mechanisms, and the area of what drives it."""
+    parameters: Any = sections.get("parameters")
+    faces = sections.get("faces")
+    if faces is not None and hasattr(parameters, "m_link"):  # rodless: all pistons of an axis on one slider
+        sizes = {axis: sum(a for s, a in zip(faces.sides, faces.areas, strict=True) if s[0] == axis) for axis in "ab"}
+        return {f"m_{axis}": (getattr(parameters, f"m_{axis}"), size) for axis, size in sizes.items() if size}
+    if area is None:
+        return {}
+    if hasattr(parameters, "m_piston"):
+        masses = parameters.m_piston if isinstance(parameters.m_piston, tuple) else (parameters.m_piston,)
+        return {f"m_piston[{i}]" if masses[1:] else "m_piston": (m, area) for i, m in enumerate(masses)}
+    names = ("m3", "m4", "m5") if hasattr(parameters, "m5") else ("m3",) if hasattr(parameters, "alpha_n") else ()
+    return {" + ".join(names): (sum(getattr(parameters, name) for name in names), area)} if names else {}
 
 
 def _crank(parameters: Any) -> tuple[float | None, float | None]:

@@ -58,6 +58,7 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import columns_of_cylinder, engine
     from mechsym.jobs.gas import one_cylinder
+    from mechsym.jobs.judged import of_cycle
     from mechsym.jobs.whole_engine import cylinders, of_engine
 
     as_json, out = output
@@ -76,7 +77,12 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     found = of_engine(case, found, None if over else omega)
     files = _write(out, machine, found, case.need("operation").speed) if out else []
     units = _units(machine) if over else {}
-    emit(found, as_json, lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]))
+    doubts = () if over else of_cycle(case, found)
+    emit(
+        found | {"doubts": doubts},
+        as_json,
+        lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]),
+    )
 
 
 def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:

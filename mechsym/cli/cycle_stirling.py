@@ -19,10 +19,15 @@ def show(case: Any, omega: Any, as_json: bool, out: Path | None) -> None:
         Shaft speeds [rad/s]
     """
     from mechsym.jobs.cycle import columns_of_stirling
+    from mechsym.jobs.judged import of_cycle
 
     found = columns_of_stirling(case, omega)
     files = _write(out, case, found, float(omega[0])) if out else []
-    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    emit(
+        found | {"doubts": of_cycle(case, found)},
+        as_json,
+        lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]),
+    )
 
 
 def _text(found: dict[str, Any]) -> str:

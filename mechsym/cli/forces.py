@@ -42,6 +42,7 @@ def forces(
     from mechsym.jobs.forces import forces as run
     from mechsym.jobs.forces import write
     from mechsym.jobs.gas import measured
+    from mechsym.jobs.judged import of_forces
     from mechsym.jobs.own import is_own
 
     loaded = case_of(case, pairs(overrides))
@@ -51,6 +52,7 @@ def forces(
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
     report = summary(found, loaded.name, loaded.source)
+    report["doubts"] = of_forces(found)
     report["friction_law"] = _law(loaded, law) if law else None
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
     emit(report, as_json, lambda: _text(report))

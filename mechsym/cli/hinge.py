@@ -37,6 +37,8 @@ def hinge(
     from mechsym.hinge.setting import setting_text
     from mechsym.hinge.summary import summary
     from mechsym.jobs.hinge import hinge as design
+    from mechsym.jobs.judged import of_gas
+    from mechsym.machine.record import gas_of
 
     case, shares = case_of(case_name, pairs(overrides)), _shares(loads)
     if out is not None:
@@ -51,7 +53,7 @@ def hinge(
             bar.update(1)
     numbers = summary(found)
     setting = partial(setting_text, case.need("spring"))
-    emit(numbers, as_json, lambda: _text(numbers, setting, files))
+    emit(numbers | {"doubts": of_gas(gas_of(found.machine))}, as_json, lambda: _text(numbers, setting, files))
     if not numbers["guide"]["feasible"]:
         sys.exit(1)
 

@@ -76,6 +76,7 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
         "findings": list(run.findings),
         "start_up": [numbers(s) for s in run.start_ups],
         "settling": dataclasses.asdict(run.settling) if run.settling else None,
+        "doubts": run.doubts,
     }
 
 

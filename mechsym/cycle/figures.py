@@ -61,5 +61,5 @@ def _at(pressure: Pressure, fuel: dict[str, float], room: Chamber, omega: float)
         "torque_avg": work / (2 * math.pi), "torque_max": float(np.max(force * travel(room.motion, phi)[1])),
         "power_kw": work * omega / (2 * math.pi) / 1e3, "mep_kpa": pressure.mean_indicated / 1e3,
         "p_max_mpa": pressure.p_max / 1e6, "p_max_angle_deg": math.degrees(pressure.phi_p_max),
-        "force_max": float(np.max(force)),
+        "t_max_k": pressure.t_max, "force_max": float(np.max(force)),
     } | (fuel or dict.fromkeys(_UNKNOWN, math.nan))  # fmt: skip

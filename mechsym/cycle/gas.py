@@ -90,7 +90,10 @@ def gas_of_engine(engine: ClosedEngine, omega: float) -> Gas:
 
     facts = ("gas exchange takes place at intake pressure: assumed, the cycle models the closed period only",)
     absolute = periodic(closed_or_open, 4 * math.pi, -2 * math.pi)
-    return Gas(pressure=pressure_over("spark-ignition", absolute, 4 * math.pi, (), room, facts=facts), chamber=room)
+    pressure = pressure_over(
+        "spark-ignition", absolute, 4 * math.pi, (), room, t_max=float(found["t_k"].max()), facts=facts
+    )
+    return Gas(pressure=pressure, chamber=room)
 
 
 def gas_of_train(

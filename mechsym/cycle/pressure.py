@@ -39,6 +39,7 @@ class Pressure:
     p_max: float
     phi_p_max: float
     mean_indicated: float  #: Mean indicated pressure, net over the period [Pa]
+    t_max: float | None = None  #: Highest mean temperature of the gas; None where its mass is not known [K]
     #: Names and crank angles of the events, for tables and plots [rad]
     phases: Mapping[str, float] = dataclasses.field(default_factory=dict)
     facts: tuple[str, ...] = ()  #: What was assumed and what came out, one sentence each
@@ -150,7 +151,7 @@ def pressure_over(
     kinks : tuple of float
         Angles in [0, period) where the pressure is not smooth [rad]
     rest : keyword arguments
-        Fields `phases`, `facts` and `doubts` of the record, as far as there are any
+        Fields `t_max`, `phases`, `facts` and `doubts` of the record, as far as there are any
     """
     p_max, phi_p_max = peak(absolute, period, kinks)
     mean = mean_indicated_pressure(absolute, period, kinks, cylinder)

@@ -6,10 +6,12 @@ from typing import Any
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
+from mechsym.jobs.judged import of_run
 from mechsym.jobs.problem import problem_of, settings_of, window_of
 from mechsym.jobs.settling import settled
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
+from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.simulate import Result, simulate
 from mechsym.simulate.settings import Settings
@@ -32,6 +34,7 @@ class FinishedRun:
     start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
     settling: Settling | None  #: Where an engine settles after a start against a load
     findings: tuple[str, ...]
+    doubts: tuple[Doubt, ...] = ()  #: Of gas and window, that no number of the summary tells
 
 
 def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> FinishedRun:
@@ -63,6 +66,7 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
         twist=sections(case.need("parameters"), result, result.t[-1] - told["window"]),
         start_ups=starts,
         settling=settles,
+        doubts=of_run(case, float(result.t[-1] - result.t[0])),
         findings=(*remarks(case), *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ())),
     )
 

@@ -2,16 +2,29 @@
 
     ranges    hard and usual range of each kind of value, with its reason
     judge     numbers by name against those ranges; acceptance of a doubt up to a value
-    engine    what several values say together: piston speed, rod ratio
+    engine    what several values say together: piston speed, rod ratio, masses and spring by the piston's area
 
 Takes numbers and names, so that case files and results are judged alike.
 """
 
-from mechsym.plausible.engine import proportions
-from mechsym.plausible.judge import Acceptance, Doubt, inputs, results, sifted
-from mechsym.plausible.ranges import INPUTS, RESULTS, Usual
+from mechsym.plausible.engine import proportions, scaled
+from mechsym.plausible.judge import Acceptance, Doubt, inputs, proportion, results, sifted
+from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 
-__all__ = ["INPUTS", "RESULTS", "Acceptance", "Doubt", "Usual", "inputs", "proportions", "results", "sifted"]
+__all__ = [
+    "INPUTS",
+    "PROPORTIONS",
+    "RESULTS",
+    "Acceptance",
+    "Doubt",
+    "Usual",
+    "inputs",
+    "proportion",
+    "proportions",
+    "results",
+    "scaled",
+    "sifted",
+]
 
 
 def __dir__() -> list[str]:

@@ -1,15 +1,12 @@
-r"""What crank, rod and speed say together.
+r"""What crank, rod, masses, spring and speed say together.
 
 .. math:: c_m = 2 S n, \qquad S = 2 r \text{ (slider crank)}, \quad 4 e \text{ or } 4 r \text{ (hypocycloid, rodless)}
 """
 
 import math
+from collections.abc import Mapping
 
-from mechsym.errors import BadInput
-from mechsym.plausible.judge import Doubt
-
-_FAST, _IMPOSSIBLE = 30.0, 100.0  # mean piston speed: racing engines reach 27 m/s [m/s]
-_SHORT, _LONG = 1.8, 8.0  # rod length over crank radius [-]
+from mechsym.plausible.judge import Doubt, proportion
 
 
 def proportions(stroke: float | None, ratio: float | None, omega: float | None) -> tuple[Doubt, ...]:
@@ -43,17 +40,50 @@ def proportions(stroke: float | None, ratio: float | None, omega: float | None) 
     >>> [f"{d.code} {d.value:.0f} m/s" for d in proportions(0.1, 3.5, 1000.0)]
     ['piston_speed 32 m/s']
     """
-    found = []
+    found: tuple[Doubt, ...] = ()
     if stroke is not None and omega is not None:
-        speed = 2 * stroke * abs(omega) / (2 * math.pi)
-        if speed > _IMPOSSIBLE:
-            mean = f"speed = {omega:g} rad/s with a stroke of {stroke:g} m is a mean piston speed of {speed:.4g} m/s"
-            raise BadInput(f"operation.{mean}; engines stay below {_FAST:g} m/s: check speed, crank and units")
-        if speed > _FAST:
-            why = "racing engines reach 27 m/s"
-            found.append(Doubt(code="piston_speed", quantity="mean piston speed [m/s]", value=speed,
-                               usual=f"at most {_FAST:g} m/s", why=why))  # fmt: skip
-    if ratio is not None and not _SHORT <= ratio <= _LONG:
-        why, usual = "rods of engines are 3 to 5 crank radii long", f"{_SHORT:g} to {_LONG:g}"
-        found.append(Doubt(code="rod_ratio", quantity="rod length / crank radius", value=ratio, usual=usual, why=why))
-    return tuple(found)
+        what = f"mean piston speed (operation.speed = {omega:g} rad/s, stroke {stroke:g} m)"
+        found += proportion("piston_speed", what, stroke * abs(omega) / math.pi)
+    if ratio is not None:
+        found += proportion("rod_ratio", "rod length / crank radius", ratio)
+    return found
+
+
+def scaled(masses: Mapping[str, tuple[float, float]], spring: float | None, piston: float | None) -> tuple[Doubt, ...]:
+    """Masses and spring of an engine by the area of its piston.
+
+    Parameters
+    ----------
+    masses : mapping of str to tuple of float
+        Name of what moves to and fro, to its mass and the area of its pistons [kg, m^2]
+    spring : float or None
+        Piston area of the spring of a hinge; None without one [m^2]
+    piston : float or None
+        Piston area of the engine; None where it is not known [m^2]
+
+    Returns
+    -------
+    doubts : tuple of Doubt
+        `reciprocating_mass` outside 20 to 20,000 kg/m^2, `spring_area` outside 0.01 to 3
+
+    Raises
+    ------
+    BadInput
+        More than a factor of fifty to a hundred beyond
+
+    Notes
+    -----
+    Source: masses by area of engines in Heywood (1988), chapter 2, and of slow marine engines with crosshead.
+
+    Examples
+    --------
+    >>> [f"{d.code} {d.value:.0f}" for d in scaled({"m5": (250.0, 2.83e-3)}, 0.031, 0.0707)]
+    ['reciprocating_mass 88339']
+    """
+    found: tuple[Doubt, ...] = ()
+    for name, (mass, area) in masses.items():
+        if mass:  # without mass is a model, not a mistake
+            found += proportion("reciprocating_mass", f"parameters.{name} / piston area", mass / area)
+    if spring is not None and piston:
+        found += proportion("spring_area", "spring.A / piston area", spring / piston)
+    return found

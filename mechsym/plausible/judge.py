@@ -5,10 +5,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, RESULTS, Usual
+from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 from mechsym.quantities import record
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
+_BY_CODE = {kind.code: kind for kind in PROPORTIONS}
 
 
 @record
@@ -64,6 +65,31 @@ def inputs(values: Mapping[str, float]) -> tuple[Doubt, ...]:
     return tuple(found)
 
 
+def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
+    """A number that several values make together, against the range of its kind.
+
+    Parameters
+    ----------
+    quantity : str
+        What it is, with the values that make it, for messages
+    value : float
+        In the unit of its kind [unit]
+
+    Raises
+    ------
+    BadInput
+        A value that no engine has
+
+    Examples
+    --------
+    >>> [d.usual for d in proportion("spring_area", "spring area / piston area", 4.0)]
+    ['at least 0.01 and at most 3']
+    """
+    kind = _BY_CODE[code]
+    _refuse(quantity, value, kind)
+    return () if kind.low <= value <= kind.high else (_doubt(quantity, value, kind),)
+
+
 def results(report: Any) -> tuple[Doubt, ...]:
     """Numbers of a report, wherever they stand in it, against the usual ranges of results."""
     worst: dict[tuple[str, str], Doubt] = {}
@@ -85,7 +111,7 @@ def sifted(
 
 
 def _within(doubt: Doubt, acceptance: Acceptance) -> bool:
-    kind = next((k for k in (*INPUTS, *RESULTS) if k.code == doubt.code), None)
+    kind = next((k for k in (*INPUTS, *RESULTS, *PROPORTIONS) if k.code == doubt.code), None)
     low_side = doubt.value < (kind.low if kind is not None else _USUAL_RATIO.get(doubt.code, -math.inf))
     slack = 1e-9 * abs(acceptance.up_to)
     return doubt.value >= acceptance.up_to - slack if low_side else abs(doubt.value) <= abs(acceptance.up_to) + slack
@@ -107,11 +133,13 @@ def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
 def _refuse(key: str, value: float, kind: Usual) -> None:
     if not kind.lowest <= value <= kind.highest:
         unit = "" if kind.unit == "-" else f" {kind.unit}"
-        possible = f"possible is {kind.lowest:g} to {kind.highest:g}{unit}"
-        raise BadInput(f"{key} = {value:g}{unit}: {possible} ({kind.why})")
+        raise BadInput(f"{key} = {value:g}{unit}: possible is {_ends(kind.lowest, kind.highest)}{unit} ({kind.why})")
 
 
 def _doubt(key: str, value: float, kind: Usual) -> Doubt:
     unit = "" if kind.unit == "-" else f" {kind.unit}"
-    ends = [f"at least {kind.low:g}"] * math.isfinite(kind.low) + [f"at most {kind.high:g}"] * math.isfinite(kind.high)
-    return Doubt(code=kind.code, quantity=key, value=value, usual=f"{' and '.join(ends)}{unit}", why=kind.why)
+    return Doubt(code=kind.code, quantity=key, value=value, usual=f"{_ends(kind.low, kind.high)}{unit}", why=kind.why)
+
+
+def _ends(low: float, high: float) -> str:
+    return " and ".join([f"at least {low:g}"] * math.isfinite(low) + [f"at most {high:g}"] * math.isfinite(high))

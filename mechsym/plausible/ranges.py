@@ -67,6 +67,27 @@ RESULTS = (
           why="the power of all forces must balance"),
     Usual(code="energy_balance", keys=("energy_residual",), unit="-", low=-1e-5, high=1e-5,
           why="energy in, out and kept must balance"),
+    Usual(code="efficiency", keys=("brake_efficiency", "indicated_efficiency"), unit="-", low=0, high=0.999,
+          why="an engine gives less than it takes"),
+    Usual(code="gas_temperature", keys=("t_max_k",), unit="K", low=200, high=3500,
+          why="flames of fuel in air reach about 2800 K, in oxygen 3500 K"),
     Usual(code="twist", keys=("twist_peak",), unit="rad", low=-0.2, high=0.2,
           why="a section of a real shaft yields or breaks beyond about 0.2 rad"),
+)  # fmt: skip
+
+
+# what several values of an engine say together; one number each, so without names of values
+PROPORTIONS = (
+    Usual(code="rod_ratio", keys=(), unit="-", low=1.8, high=8,
+          why="rods of engines are 3 to 5 crank radii long"),
+    Usual(code="piston_speed", keys=(), unit="m/s", high=30, highest=100, why="racing engines reach 27 m/s"),
+    Usual(code="reciprocating_mass", keys=(), unit="kg/m^2", low=20, high=2e4, lowest=0, highest=1e6,
+          why="mass that moves with a piston by its area: 100 of small petrol engines, 10,000 of marine ones"),
+    Usual(code="spring_area", keys=(), unit="-", low=0.01, high=3, lowest=1e-4, highest=100,
+          why="the spring of a hinge works against the gas: its piston is about as large as the engine's"),
+    Usual(code="force_ratio", keys=(), unit="-", low=0, high=100,
+          why="bearing forces are of the order of the gas force; check masses, speed and units"),
+    Usual(code="efficiency_bound", keys=(), unit="-", low=0, high=1,
+          why="no cycle beats that of its compression ratio (Otto) or of its temperatures (Carnot)"),
+    Usual(code="window", keys=(), unit="-", low=0, high=1, why="the run is shorter than what is summed up"),
 )  # fmt: skip

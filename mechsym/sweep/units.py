@@ -3,6 +3,7 @@
 # names that carry their unit
 _ENDINGS = {
     "_rpm": "rpm", "_bar": "bar", "_mpa": "MPa", "_kpa": "kPa", "_kw": "kW", "_deg": "deg", "_g_kwh": "g/(kW*h)",
+    "_k": "K",
 }  # fmt: skip
 # the last part of a dotted name that contains one of these
 _PARTS = {

@@ -40,6 +40,7 @@ class Performance:
     #: Peak pressure [Pa] and its angle from firing top dead centre [rad]
     p_max: np.ndarray
     p_max_angle: np.ndarray
+    t_max: np.ndarray  #: Highest mean temperature of the gas [K]
     force_max: np.ndarray  #: Largest force of one piston, from absolute pressure and inertia [N]
     #: Shares of the heating value [-]
     heat: np.ndarray
@@ -69,13 +70,14 @@ def performance(engine: ClosedEngine, design: Mapping[str, Any]) -> Performance:
     result = run(functools.partial(closed_period, engine), design)
     scalars = dict(result.scalars)
     scalars["work"] = scalars["work"] + scalars["exchange_work"]
-    phi, p, _ = dense(result)
+    phi, p, t = dense(result)
     p_max, p_max_angle = peak(phi, p)
     along = _along(engine, design, phi, p)
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
     return Performance(
         **figures(_friction(engine, design), scalars, p_max), **_shares(scalars),
-        p_max=p_max, p_max_angle=p_max_angle, torque_max=largest.pop("torque"), force_max=largest.pop("force"),
+        p_max=p_max, p_max_angle=p_max_angle, t_max=t.max(axis=1),
+        torque_max=largest.pop("torque"), force_max=largest.pop("force"),
         energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
     )  # fmt: skip
 

@@ -7,6 +7,8 @@ The phases and their formulas stand in `two_stroke`.
 
 import math
 
+import numpy as np
+
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
@@ -21,6 +23,7 @@ from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
+_CLOSED_POINTS = 881  # of the closed period, where the highest temperature is looked for
 _AIR_BY_FUEL = 14.6  # stoichiometric, marine fuel oil
 
 
@@ -111,8 +114,10 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     """
     state = solve(cycle, cylinder)
     absolute = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp)
+    closed = np.linspace(cycle.evc, cycle.evo, _CLOSED_POINTS)
+    hottest = float(np.max(absolute(closed) * volume(cylinder, closed))) / (state.mass * cycle.R)
     return pressure_over(
-        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder,
+        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
         phases=events(cycle), facts=_facts(cycle, cylinder, state), doubts=_doubts(cycle, state),
     )  # fmt: skip
 

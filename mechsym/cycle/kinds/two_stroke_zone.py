@@ -146,7 +146,8 @@ def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
     return Pressure(
         kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
-        phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated, facts=_facts(cycle, zone),
+        phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated,
+        t_max=float(zone.result.t.max()), facts=_facts(cycle, zone),
         phases={"exhaust closes": cycle.evc, "combustion starts": cycle.soc, "end of combustion":
                 cycle.soc + cycle.duration, "exhaust opens": cycle.evo, "scavenge ports open": cycle.spo},
     )  # fmt: skip

@@ -1,0 +1,79 @@
+"""Case and results -> doubts that no single number tells: gas of a run, forces by its force, bound of efficiency."""
+
+from typing import Any
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.mixture import ConstantGamma
+from mechsym.forces.result import Forces
+from mechsym.jobs.gas import gas
+from mechsym.jobs.own import is_own
+from mechsym.plausible import Doubt, proportion, results
+
+_COLD_AIR = 1.4  # no mixture of air, fuel and products has more
+
+
+def of_gas(found: Gas | None) -> tuple[Doubt, ...]:
+    """Peak pressure, mean pressure and temperature of the gas that drives a machine; none without gas."""
+    if found is None:
+        return ()
+    pressure = found.pressure
+    told = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}
+    return results(told if pressure.t_max is None else told | {"t_max_k": pressure.t_max})
+
+
+def of_run(case: Case, length: float) -> tuple[Doubt, ...]:
+    """Doubts of a run in time.
+
+    Parameters
+    ----------
+    length : float
+        How long it ran [s]
+    """
+    wanted, known = case.sections.get("simulation"), "cycle" in case.sections and not is_own(case.mechanism)
+    found = of_gas(gas(case)) if known else ()
+    if wanted is None or wanted.window is None or not length > 0:
+        return found
+    return found + proportion("window", "simulation.window / length of the run", wanted.window / length)
+
+
+def of_forces(found: Forces) -> tuple[Doubt, ...]:
+    """Doubts of the forces of a turn: its gas, and pins, bearings and guides by the largest gas force."""
+    pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
+    largest = max((float(np.hypot(x, y).max()) for x, y in _vectors(found)), default=0.0)
+    largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
+    doubts = of_gas(found.turn.gas)
+    if found.turn.gas is None or not max(pushes, default=0.0) > 0:
+        return doubts
+    return doubts + proportion("force_ratio", "largest bearing force / gas force", largest / max(pushes))
+
+
+def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:
+    return [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
+
+
+def of_cycle(case: Case, columns: dict[str, Any]) -> tuple[Doubt, ...]:
+    r"""Efficiency by the bound of its cycle.
+
+    .. math:: \eta \le 1 - \varepsilon^{1 - \gamma} \text{ (Otto)}, \qquad \eta \le 1 - T_c/T_e \text{ (Carnot)}
+
+    Parameters
+    ----------
+    columns : dict
+        With `efficiency`; nan where no fuel is known [-]
+    """
+    best, bound = float(np.nanmax(np.append(columns["efficiency"], -np.inf))), _bound(case)
+    return proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
+
+
+def _bound(case: Case) -> float | None:
+    cycle, given = case.need("cycle"), kind_of(case.need("cycle")).given
+    if given == "train":
+        return 1 - cycle.T_c / cycle.T_e if cycle.T_e > cycle.T_c else None
+    mixture = case.sections.get("gas", ConstantGamma())
+    gamma = mixture.gamma if isinstance(mixture, ConstantGamma) and given == "engine" else _COLD_AIR
+    ratio = case.need("chamber").compression_ratio if given == "engine" else cycle.compression_ratio
+    return float(1 - ratio ** (1 - gamma))
