@@ -21,6 +21,8 @@ from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_
 @click.option("--misfire-speed", metavar="S", help="Share of the speed that a lost combustion must leave: 0.5.")
 @click.option("--free", metavar="KEY,KEY..", help="Chosen too: spring.A, spring.H, guide.rho0, rollers.radius, ..")
 @click.option("--pareto", metavar="D,D..", help="Ripples of a front: 1,2,5,8%.")
+@click.option("--cylinders", type=click.IntRange(1, 24), help="Also what 1 to N of these cylinders on a shaft need.")
+@click.option("--realise", metavar="GOAL", help="Hardware of least bearing_loss, roller_reaction, gas_volume, ..")
 @run_option
 @set_option
 @json_option
@@ -35,16 +37,17 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     """
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
-    from mechsym.jobs.codesign import STEPS, for_report
+    from mechsym.jobs.codesign import STEPS, beside, for_report
     from mechsym.jobs.codesign import codesign as design
 
     case = case_of(case_name, pairs(overrides))
     settings, ripples = _settings(case.need("codesign"), options)
+    cylinders, goal = options["cylinders"] or 0, options["realise"] or ""
     if out is not None:
         make_folder(out)
-    with progress(STEPS + len(ripples) + bool(out), f"co-design of {case.name}") as bar:
+    with progress(STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out), f"co-design of {case.name}") as bar:
         found = design(case, settings, ripples, lambda: bar.update(1))
-        numbers, files = summary(found), []
+        numbers, files = summary(found) | beside(found, cylinders, goal, lambda: bar.update(1)), []
         if out is not None:
             from mechsym.codesign.report import write
 
@@ -116,7 +119,19 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
     ]
     if numbers["pareto"]:
         lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"])]
+    if "cylinders" in numbers:
+        lines += ["", "flywheel of several cylinders that fire evenly, bare and the least that a hinge leaves",
+                  table(numbers["cylinders"], list(numbers["cylinders"][0]))]  # fmt: skip
+    if "realised" in numbers:
+        made = numbers["realised"]
+        lines += ["", f"hardware of least {made['goal']}: {made['status']}, {_several(made['before'])} -> "
+                  f"{_several(made['after'])}; the same works within all limits",
+                  *(", ".join(f"{k} {v:.4g}" for k, v in guide.items()) for guide in made["guides"])]  # fmt: skip
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+
+
+def _several(values: list[float]) -> str:
+    return ", ".join(f"{v:.5g}" for v in values)
 
 
 def _number(value: float | None) -> str:

@@ -63,14 +63,14 @@ def together(point: Point, angles: Sequence[float], factors: Sequence[float] | N
     )
 
 
-def counts(points: Sequence[Point], ripple: float, most: int = 12) -> list[Count]:
-    """Flywheels of 1 to `most` evenly firing cylinders for a ripple [-], without a hinge and with one."""
+def counts(points: Sequence[Point], ripple: float, most: int = 12, added: float = 0.0) -> list[Count]:
+    """Flywheels of 1 to `most` evenly firing cylinders for a ripple [-], bare, and with a hinge that adds [kg*m^2]."""
     rows = []
     for n in range(1, most + 1):
         made = tuple(together(p, even_firing(n, p.period)) for p in points)
         bound = rank(made, 1)
         rows.append(Count(cylinders=n, bare=bare_flywheel(made, ripple), swing=bound.swing[0],
-                          hinge=flywheel_bound(made, bound, ripple)[0]))  # fmt: skip
+                          hinge=flywheel_bound(made, bound, ripple, added)[0]))  # fmt: skip
     return rows
 
 

@@ -119,3 +119,8 @@ def roller_inertia(rho: Any, drho: Any, mass: Any, inertia: float, radius: Any, 
     98.0
     """
     return count * (rho**2 + drho**2) * (mass + inertia / radius**2)
+
+
+def rollers_at_rest(h: Hardware) -> float:
+    """Inertia about the shaft of the rollers of a guide at free height [kg*m^2]."""
+    return h.shaft_ratio**2 * float(roller_inertia(h.rho0, 0.0, h.moving_mass, h.roller_inertia, h.radius, h.count))

@@ -21,7 +21,8 @@ from mechsym.errors import BadInput, suggest
 from mechsym.hinge.losses import HingeLosses, bearing_torque
 from mechsym.quantities import record
 
-_CHOSEN = ("A", "H", "p0", "rho0", "radius", "width")
+#: values of the hardware that `realise` chooses
+CHOSEN = ("A", "H", "p0", "rho0", "radius", "width")
 _RANGE = 3.0  # each of them at most by this factor larger or smaller
 _FINE = 720
 _MARGIN = 1e-3  # that is left of each limit
@@ -80,9 +81,9 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
     def margins(x: np.ndarray) -> np.ndarray:
         return _margins(found, *at(x)) - _MARGIN
 
-    start = np.zeros(len(_CHOSEN) + 1)
+    start = np.zeros(len(CHOSEN) + 1)
     before = GOALS[goal](*at(start))
-    bounds = [(-np.log(_RANGE), np.log(_RANGE))] * len(_CHOSEN) + [(0.0, np.log(30.0))]
+    bounds = [(-np.log(_RANGE), np.log(_RANGE))] * len(CHOSEN) + [(0.0, np.log(30.0))]
     best = minimize(lambda x: GOALS[goal](*at(x)) / before, start, method="SLSQP", bounds=bounds,
                     constraints={"type": "ineq", "fun": margins}, options={"maxiter": 200, "ftol": 1e-8})  # fmt: skip
     good = margins(best.x).min() > -2 * _MARGIN
@@ -93,7 +94,7 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
 
 def _scaled(h: Hardware, p0: float, x: np.ndarray) -> Hardware:
     values: dict[str, Any] = {name: (p0 if name == "p0" else getattr(h, name)) * float(np.exp(f))
-                              for name, f in zip(_CHOSEN, x[:-1], strict=True)}  # fmt: skip
+                              for name, f in zip(CHOSEN, x[:-1], strict=True)}  # fmt: skip
     return dataclasses.replace(h, **values)
 
 

@@ -27,6 +27,7 @@ from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
 _TOLERANCE = 1e-10
 _PER_TURN = 1440  # angles at which a run is read
+_STALLED = 0.02  # of the mean speed
 
 
 @record
@@ -50,7 +51,7 @@ class TimeRun:
     phi: np.ndarray  #: [rad]
     omega: np.ndarray  #: [rad/s]
     stalled: bool
-    energy_residual: float = quantity("-", about="(work in - load - change of energy) / work in")
+    energy_residual: float = quantity("-", about="(work in - load - change of energy) / work of the load")
 
 
 def running(
@@ -121,17 +122,19 @@ def steady(machine: Running) -> Steady:
     return steady_state(panels(machine), machine.point.omega)
 
 
-def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0) -> TimeRun:
+def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0, stall: float = _STALLED) -> TimeRun:
     """Run the machine in time from a speed [rad/s] and an angle [rad] for some turns; it may stall.
 
     Parameters
     ----------
     turns : float
         Turns of the crank [-]
+    stall : float
+        Share of the point's speed below which the run ends [-]
     """
     rates = _rates(machine)
     turned = _event(lambda y: y[0] - phi_start - 2 * np.pi * turns, 1.0)
-    stalled = _event(lambda y: y[1] - 0.02 * machine.point.omega, -1.0)
+    stalled = _event(lambda y: y[1] - stall * machine.point.omega, -1.0)
     found = solve_ivp(
         lambda t, y: rates(y), (0.0, 20 * turns * 2 * np.pi / speed), [phi_start, speed, 0.0, 0.0], method="DOP853",
         rtol=_TOLERANCE, atol=_TOLERANCE, events=[turned, stalled], dense_output=True,
@@ -143,8 +146,22 @@ def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0) ->
     stored = sum(np.diff(spring_energy(t_, p0, ends))[0]
                  for t_, p0 in zip(machine.tracks, machine.pressures, strict=True))  # fmt: skip
     kinetic = inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2
-    residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / max(abs(taken[-1]), 1e-30))
+    turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
+    residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)
     return TimeRun(t=t, phi=phi, omega=omega, stalled=bool(len(found.t_events[1])), energy_residual=residual)
+
+
+def joined(legs: Sequence[TimeRun]) -> TimeRun:
+    """Runs one behind the other as one."""
+    times = np.cumsum([0.0, *(leg.t[-1] for leg in legs[:-1])])
+    turned = np.cumsum([0.0, *(leg.phi[-1] - leg.phi[0] for leg in legs[:-1])])
+    return TimeRun(
+        t=np.concatenate([leg.t + t for leg, t in zip(legs, times, strict=True)]),
+        phi=np.concatenate([leg.phi + a for leg, a in zip(legs, turned, strict=True)]),
+        omega=np.concatenate([leg.omega for leg in legs]),
+        stalled=legs[-1].stalled,
+        energy_residual=max((leg.energy_residual for leg in legs), key=abs),
+    )
 
 
 def ripple_of_last_turn(found: TimeRun, period: float) -> float | None:

@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from mechsym.codesign import running
+from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
 
+_GOVERNED = 20  # turns after which a governor has answered
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
 
 
@@ -81,7 +82,8 @@ def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
         machine = running.running(point, found.tracks, k, found.flywheel)
         if point.misfire is not None:
             rows.append(_lost_combustion(machine, point, k))
-        rows += [_load_step(machine, k), _scatter(machine, k, 0.01), _scatter(machine, k, 0.03), _vented(machine, k)]
+        rows += [_load_step(machine, k), _governed(machine, k), _scatter(machine, k, 0.01), _scatter(machine, k, 0.03)]
+        rows += [_vented(machine, k), _standstill(machine, k), _astern(machine, k)]
     return rows
 
 
@@ -130,6 +132,45 @@ def _load_step(machine: Running, k: int) -> Scenario:
     return _row(name, about, k, start[1], run, lambda r: f"speed {r.omega[-1] / start[1]:.3f} of before after 10 turns")
 
 
+def _governed(machine: Running, k: int) -> Scenario:
+    name, about = "load step, governed", "load 10 % higher from dead centre on, a governor sets the fuel of each turn"
+    start = _steady_speed(machine)
+    if start is None:
+        return _nothing(name, about, k)
+    heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
+    run = manoeuvres.governed(heavier, start[0], 40)
+    return _row(
+        name, about, k, start[1], run, lambda r: f"speed {_last_turn(r) / start[1]:.4f} of before after 40 turns"
+    )
+
+
+def _standstill(machine: Running, k: int) -> Scenario:
+    """No run: where the shaft rests, and what turns it from there."""
+    found = manoeuvres.standstill(machine)
+    angles, load = ", ".join(f"{np.degrees(a):.0f}" for a in found.angles), abs(machine.point.load_torque)
+    return Scenario(
+        name="standing still", about="springs under pressure, no fuel, no friction", point=k, speed_min=None,
+        speed_max=None, run=None,
+        outcome=f"rests at {angles} deg; a constant {found.torque:.3g} N m ({found.torque / load:.2f} of the load's) "
+                f"turns it from there for good, {found.vented:.3g} N m with the springs vented",
+    )  # fmt: skip
+
+
+def _astern(machine: Running, k: int) -> Scenario:
+    """The same pressures; the engine is fired in the other sense, the guide is met backwards."""
+    name, about = "astern", "turned the other way on the same guide, propeller or constant load as ahead"
+    motion = running.steady(manoeuvres.astern(machine))
+    words = "there is no steady motion: the shaft stops" if motion.speed_ripple is None else (
+        f"ripple {motion.speed_ripple:.3f}")  # fmt: skip
+    return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None, outcome=words)
+
+
+def _last_turn(found: TimeRun) -> float:
+    """Mean speed of the last turn [rad/s]."""
+    last = found.phi >= found.phi[-1] - 2 * np.pi
+    return float(np.ptp(found.phi[last]) / np.ptp(found.t[last]))
+
+
 def _scatter(machine: Running, k: int, share: float) -> Scenario:
     """Every turn another mean indicated pressure: 20 turns of one fixed sequence of normal numbers."""
     name, about = f"scatter {share:.0%}", f"gas torque of each turn scattered by {share:.0%} (one sigma), 20 turns"
@@ -170,20 +211,7 @@ def _turn_by_turn(machine: Running, speed: float, factors: Sequence[float] | np.
         speed = float(leg.omega[-1])
         if leg.stalled:
             break
-    return joined(legs)
-
-
-def joined(legs: Sequence[TimeRun]) -> TimeRun:
-    """Runs one behind the other as one."""
-    times = np.cumsum([0.0, *(leg.t[-1] for leg in legs[:-1])])
-    turned = np.cumsum([0.0, *(leg.phi[-1] - leg.phi[0] for leg in legs[:-1])])
-    return TimeRun(
-        t=np.concatenate([leg.t + t for leg, t in zip(legs, times, strict=True)]),
-        phi=np.concatenate([leg.phi + a for leg, a in zip(legs, turned, strict=True)]),
-        omega=np.concatenate([leg.omega for leg in legs]),
-        stalled=legs[-1].stalled,
-        energy_residual=max((leg.energy_residual for leg in legs), key=abs),
-    )
+    return running.joined(legs)
 
 
 def _scaled(torque: Function, factor: float) -> Function:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.codesign.front import CutForOne
-from mechsym.codesign.hardware import roller_inertia
+from mechsym.codesign.hardware import rollers_at_rest
 from mechsym.codesign.loss import relaxation_time
 from mechsym.codesign.rank import Bound, flywheel_bound
 from mechsym.codesign.result import CoDesignResult
@@ -71,10 +71,6 @@ def guide(contact: GuideLoads, design: CoDesign, s: int) -> dict[str, Any]:
 
 def limits_of_any_guide(task: CoDesignTask, bound: Bound, bare: float, cut: CutForOne) -> dict[str, Any]:
     """The bound, and what stands beside a co-design: `bare` is the flywheel [kg*m^2] without a hinge."""
-    h = task.hardware
-    added = h.count * h.shaft_ratio**2 * float(
-        roller_inertia(h.rho0, 0.0, h.moving_mass, h.roller_inertia, h.radius, 1)
-    )  # fmt: skip
     return {
         "flywheel_inertia_bare": bare,
         "flywheel_inertia_cut_for_one": cut.flywheel,
@@ -82,7 +78,7 @@ def limits_of_any_guide(task: CoDesignTask, bound: Bound, bare: float, cut: CutF
             "singular_values": bound.singular_values.tolist(),
             "swing": list(bound.swing),
             "swing_bare": bound.bare,
-            "flywheel": flywheel_bound(task.points, bound, task.ripple, added),
+            "flywheel": flywheel_bound(task.points, bound, task.ripple, rollers_at_rest(task.hardware)),
             "springs_that_pay": bound.pays,
         },
     }

@@ -9,11 +9,14 @@ import numpy as np
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.codesign import family, loss, scenarios
+from mechsym.codesign.cylinders import counts
 from mechsym.codesign.front import cut_for_one, front
+from mechsym.codesign.hardware import rollers_at_rest
 from mechsym.codesign.machines import bounds, hardware, point
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
+from mechsym.codesign.realise import CHOSEN, realise
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.schedule import RippleMap, ripple_map
 from mechsym.codesign.settings import CoDesignSettings
@@ -65,6 +68,29 @@ def codesign(
         name=case.name, about=case.about, design=design, bound=bound, bare=bare, cut=cut, verified=verified,
         losses=lost, assumed=assumed, lossy=lossy, misfire=tuple(misfire), front=tuple(designs),
     )  # fmt: skip
+
+
+def beside(
+    result: CoDesignResult, cylinders: int, goal: str, progress: Callable[[], Any] = lambda: None
+) -> dict[str, Any]:
+    """What 1 to `cylinders` of these cylinders need, and the hardware of least `goal`; keys only for what is asked."""
+    made: dict[str, Any] = {}
+    task = result.design.task
+    if cylinders:
+        made["cylinders"] = [
+            {"cylinders": c.cylinders, "flywheel_inertia_bare": c.bare, "flywheel_inertia_bound": c.hinge}
+            for c in counts(task.points, task.ripple, cylinders, rollers_at_rest(task.hardware))
+        ]
+        progress()
+    if goal:
+        found = realise(result.design, goal)
+        made["realised"] = {
+            "goal": goal, "status": found.status, "before": list(found.before), "after": list(found.after),
+            "p0": [track.p0.tolist() for track in found.design.tracks],
+            "guides": [{name: getattr(track.hardware, name) for name in CHOSEN} for track in found.design.tracks],
+        }  # fmt: skip
+        progress()
+    return made
 
 
 def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:

@@ -27,7 +27,8 @@ def done(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch, pytest.MonkeyPatch.context() as echo:
         said = []
         echo.setattr("click.echo", lambda text="", **_: said.append(str(text)))
-        code = run(patch, "zotov-89", "--speeds", "89,142", "--pareto", "2,5%", "--json", "--out", str(folder))
+        code = run(patch, "zotov-89", "--speeds", "89,142", "--pareto", "2,5%", "--cylinders", "2", "--realise",
+                   "gas_volume", "--json", "--out", str(folder))  # fmt: skip
     return code, json.loads(said[0]), folder
 
 
@@ -47,6 +48,17 @@ def test_json_of_two_speeds(done):
     assert all(0.1 < share < 0.25 for share in numbers["losses"]["share"])
     assert numbers["misfire_speed_share"] == [0.0, 0.0]  # so small a flywheel does not survive one
     assert numbers["doubts"] == []
+
+
+def test_more_cylinders_and_other_hardware(done):
+    _, numbers, _ = done
+    one, two = numbers["cylinders"]
+    assert one["flywheel_inertia_bare"] == pytest.approx(numbers["flywheel_inertia_bare"])
+    assert one["flywheel_inertia_bound"] == pytest.approx(numbers["bound"]["flywheel"][0])
+    assert two["flywheel_inertia_bare"] < one["flywheel_inertia_bare"]
+    made, (guide,) = numbers["realised"], numbers["realised"]["guides"]
+    assert made["status"] == "optimal" and made["after"][0] < made["before"][0]
+    assert made["after"][0] == pytest.approx(guide["A"] * guide["H"], rel=1e-6)
 
 
 def test_report_says_what_kills_it(done):
@@ -70,6 +82,7 @@ def test_report_says_what_kills_it(done):
         (("--robust", "guide.rho0=1%"), "spring.p0"),
         (("--set", "codesign.scavenge=mep)"), "scavenge"),
         (("--pareto", "0,5%"), "--pareto"),
+        (("--realise", "beauty"), "goal"),
     ],
 )
 def test_bad_input_is_one_line(monkeypatch, capsys, words, message):

@@ -151,7 +151,17 @@ def test_points_from_a_file(tmp_path):
 @pytest.mark.slow
 def test_scenarios_of_a_point_are_told_in_words():
     rows = scenarios.table(design(), [5])
-    assert {row.name for row in rows} == {"misfire", "load step", "scatter 1%", "scatter 3%", "burst"}
+    names = {
+        "misfire",
+        "load step",
+        "load step, governed",
+        "scatter 1%",
+        "scatter 3%",
+        "burst",
+        "standing still",
+        "astern",
+    }
+    assert {row.name for row in rows} == names
     assert "stops" in next(row for row in rows if row.name == "burst").outcome
     step = next(row for row in rows if row.name == "load step")
     assert step.speed_min < 1 and not step.run.stalled

@@ -1,0 +1,134 @@
+r"""Standing still, starting, turning the other way, and a governor that answers a jump of the load.
+
+.. math:: V(\varphi) = \sum U(z(\varphi)) - \int Q_0\, d\varphi, \qquad
+          M_0 = \max_{\varphi > \varphi_0} \frac{V(\varphi) - V(\varphi_0)}{\varphi - \varphi_0}
+
+V is the energy that the shaft meets when it is turned slowly: springs under pressure and the gas of a turn without
+fuel, Q_0, with the weights. The shaft comes to rest in a minimum phi_0 of V; a constant torque turns it from there for
+good when it is larger than M_0. Friction is not in it.
+"""
+
+import dataclasses
+
+import numpy as np
+from scipy.interpolate import BPoly, PPoly
+
+from mechsym.codesign import running
+from mechsym.codesign.running import Running, TimeRun
+from mechsym.codesign.task import Track
+from mechsym.quantities import quantity, record
+
+_ANGLES = 1440  # of a period
+_PROPORTIONAL, _INTEGRAL = 0.6, 0.2  # of the fuel that one turn would need to mend the error
+_FUEL = (0.0, 1.15)  # the gas torque that a governor can set, by that of the point [-]
+
+
+@record
+class Standstill:
+    """Where the shaft rests with its springs under pressure, and what turns it from there."""
+
+    angles: tuple[float, ...]  #: of rest [rad]
+    torque: float = quantity("N*m", about="constant torque that turns the shaft from its deepest rest for good")
+    vented: float = quantity("N*m", about="the same with springs without pressure")
+
+
+def standstill(machine: Running) -> Standstill:
+    """Angles of rest and starting torque of a machine, without friction; the cylinder holds its gas."""
+    deep, angles = _rest(machine)
+    empty = dataclasses.replace(machine, pressures=tuple(0.0 for _ in machine.pressures))
+    return Standstill(
+        angles=angles, torque=_turning_torque(machine, deep), vented=_turning_torque(empty, _rest(empty)[0])
+    )
+
+
+def start(machine: Running, share: float, turns: float = 2.0) -> TimeRun:
+    """Run from the deepest rest under a constant torque and no load.
+
+    Parameters
+    ----------
+    share : float
+        Torque by that of `standstill` [-]; the shaft stops where it is below 1
+    turns : float
+        Turns of the crank [-]
+    """
+    pushed = share * standstill(machine).torque
+    unfired = machine.point.misfire or _nothing
+    alone = dataclasses.replace(
+        machine, torque=lambda phi: unfired(phi) + pushed, kinks=machine.point.misfire_kinks,
+        load=dataclasses.replace(machine.load, torque=0.0),
+    )  # fmt: skip
+    return running.run(alone, 1e-3 * machine.point.omega, turns, _rest(machine)[0], stall=0.0)
+
+
+def astern(machine: Running) -> Running:
+    """The machine turning the other way on the same guides, fired as ahead; the engine is its own mirror image."""
+    return dataclasses.replace(machine, tracks=tuple(mirrored(t, machine.point.period) for t in machine.tracks))
+
+
+def mirrored(track: Track, period: float) -> Track:
+    """A guide as a shaft meets it that turns the other way; `period` in [rad]."""
+    z = track.z
+    back = BPoly.from_power_basis(PPoly(z.c, z.x)).c[::-1, ::-1]
+    turned = PPoly.from_bernstein_basis(BPoly(back, period - z.x[::-1]))
+    return dataclasses.replace(track, z=PPoly(turned.c, turned.x, extrapolate="periodic"))
+
+
+def governed(machine: Running, speed: float, turns: int) -> TimeRun:
+    """Run with a governor that sets the fuel of each turn by the mean speed of the turns before.
+
+    Parameters
+    ----------
+    speed : float
+        At the start, at dead centre [rad/s]
+    turns : int
+        Periods of the torque to run
+    """
+    point, fuel, total, legs = machine.point, 1.0, 0.0, []
+    inertia = float(np.mean(running.inertia(machine, np.linspace(0, point.period, 181))))
+    # fuel, by that of the point, that one period needs to mend a whole speed
+    one_turn = inertia * point.omega**2 / (abs(point.load_torque) * point.period)
+    for _ in range(turns):
+        legs.append(running.run(_fuelled(machine, fuel), speed, point.period / (2 * np.pi)))
+        speed = float(legs[-1].omega[-1])
+        if legs[-1].stalled:
+            break
+        error = 1 - point.period / legs[-1].t[-1] / point.omega
+        total += error
+        fuel = float(np.clip(1 + one_turn * (_PROPORTIONAL * error + _INTEGRAL * total), *_FUEL))
+    return running.joined(legs)
+
+
+def _fuelled(machine: Running, fuel: float) -> Running:
+    fired, unfired = machine.torque, machine.point.misfire or _nothing
+    return dataclasses.replace(machine, torque=lambda phi: fuel * fired(phi) + (1 - fuel) * unfired(phi),
+                               kinks=tuple(sorted({*machine.kinks, *machine.point.misfire_kinks})))  # fmt: skip
+
+
+def _energy(machine: Running) -> tuple[np.ndarray, np.ndarray]:
+    """Angles of a period [rad] and the energy V there [J]."""
+    phi = np.linspace(0, machine.point.period, _ANGLES + 1)
+    gas = (machine.point.misfire or _nothing)(phi)
+    given = np.concatenate([[0.0], np.cumsum((gas[1:] + gas[:-1]) / 2 * np.diff(phi))])
+    stored = sum(running.spring_energy(t, p, phi) for t, p in zip(machine.tracks, machine.pressures, strict=True))
+    return phi, stored - given
+
+
+def _rest(machine: Running) -> tuple[float, tuple[float, ...]]:
+    """The deepest angle of rest, and all of them [rad]."""
+    phi, V = _energy(machine)
+    # the gas of an unfired turn gives and takes the same but for its losses, so V closes but for a slope
+    V = (V - (V[-1] - V[0]) * phi / phi[-1])[:-1]
+    low = np.flatnonzero((V <= np.roll(V, 1)) & (V < np.roll(V, -1)))
+    return float(phi[np.argmin(V)]), tuple(float(phi[i]) for i in low)
+
+
+def _turning_torque(machine: Running, rest: float) -> float:
+    phi, V = _energy(machine)
+    count, first = len(phi) - 1, int(np.argmin(np.abs(phi[:-1] - rest)))
+    turned = phi[1] * np.arange(1, 2 * count + 1)
+    steps = np.tile(np.diff(V), 3)[first : first + 2 * count]
+    return max(0.0, float(np.max(np.cumsum(steps) / turned)))
+
+
+def _nothing(phi: np.ndarray) -> np.ndarray:
+    return np.zeros_like(np.asarray(phi, dtype=float))
