@@ -35,6 +35,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     Examples: mechsym codesign zotov-89 --ripple 5%
               mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
     """
+    from mechsym.codesign.realise import check_goal
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
     from mechsym.jobs.codesign import STEPS, beside, for_report
@@ -42,7 +43,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
 
     case = case_of(case_name, pairs(overrides))
     settings, ripples = _settings(case.need("codesign"), options)
-    cylinders, goal = options["cylinders"] or 0, options["realise"] or ""
+    cylinders, goal = options["cylinders"] or 0, check_goal(options["realise"]) if options["realise"] else ""
     if out is not None:
         make_folder(out)
     with progress(STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out), f"co-design of {case.name}") as bar:

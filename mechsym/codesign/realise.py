@@ -52,10 +52,16 @@ GOALS = {
 }
 
 
-def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
-    """Hardware with the smallest goal that gives the same works within all limits; `goal` is one of `GOALS`."""
+def check_goal(goal: str) -> str:
+    """The goal, refused where it is not one of `GOALS`."""
     if goal not in GOALS:
         raise BadInput(f"goal = {goal!r} is not an option; {suggest(goal, GOALS)}")
+    return goal
+
+
+def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
+    """Hardware with the smallest goal that gives the same works within all limits; `goal` is one of `GOALS`."""
+    check_goal(goal)
     omega = max(p.omega for p in found.task.points)
     made = [_one(found, track, goal, omega) for track in found.tracks]
     failed = [words for words, *_ in made if words != "optimal"]

@@ -32,6 +32,7 @@ def done(tmp_path_factory):
     return code, json.loads(said[0]), folder
 
 
+@pytest.mark.slow
 def test_json_of_two_speeds(done):
     code, numbers, _ = done
     assert code == 0
@@ -50,6 +51,7 @@ def test_json_of_two_speeds(done):
     assert numbers["doubts"] == []
 
 
+@pytest.mark.slow
 def test_more_cylinders_and_other_hardware(done):
     _, numbers, _ = done
     one, two = numbers["cylinders"]
@@ -61,6 +63,7 @@ def test_more_cylinders_and_other_hardware(done):
     assert made["after"][0] == pytest.approx(guide["A"] * guide["H"], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_report_says_what_kills_it(done):
     _, numbers, folder = done
     page = (folder / "report.html").read_text()
