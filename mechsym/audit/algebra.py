@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from mechsym.audit.tree import Node, children, function_of
+from mechsym.audit.tree import Node, children, digest, function_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -34,20 +34,14 @@ class Algebra:
 
 
 def evaluate(
-    tree: Node,
-    names: Mapping[str, Any],
-    algebra: Algebra,
-    memo: MutableMapping[Node, Any] | None = None,
-    calls: MutableMapping[str, Any] | None = None,
+    tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping[bytes, Any] | None = None
 ) -> Any:
     """Value of an expression.
 
     Parameters
     ----------
-    memo : mutable mapping of Node to value, optional
-        Filled while evaluating; trees that share nodes share work
-    calls : mutable mapping of str to value, optional
-        Functions by their text, for all trees at the same states: sines cost most
+    memo : mutable mapping of bytes to value, optional
+        Filled while evaluating, by what the parts say; for all trees with the same names
 
     Returns
     -------
@@ -55,31 +49,25 @@ def evaluate(
         Array or scalar of the number system
     """
     memo = {} if memo is None else memo
-    calls = {} if calls is None else calls
-    if tree not in memo:
-        memo[tree] = _value(tree, names, algebra, memo, calls)
-    return memo[tree]
+    said = digest(tree)
+    if said not in memo:
+        memo[said] = _value(tree, names, algebra, memo)
+    return memo[said]
 
 
-def _value(
-    tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping, calls: MutableMapping[str, Any]
-) -> Any:
+def _value(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping[bytes, Any]) -> Any:
     if isinstance(tree, ast.Constant):
         return algebra.number(Fraction(str(tree.value)))
     if isinstance(tree, ast.Name):
         return names[tree.id]
+    values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
+    if isinstance(tree, ast.BinOp):
+        return algebra.operations[type(tree.op)](*values)
     if isinstance(tree, ast.Call):
-        text = ast.dump(tree)
-        if text not in calls:
-            argument = evaluate(tree.args[0], names, algebra, memo, calls)
-            calls[text] = algebra.functions[str(function_of(tree))](argument)
-        return calls[text]
-    values = [evaluate(child, names, algebra, memo, calls) for _, child in children(tree)]
+        return algebra.functions[str(function_of(tree))](values[0])
     if isinstance(tree, ast.Compare):
         return _COMPARED[type(tree.ops[0])](*values)
-    if isinstance(tree, ast.IfExp):
-        return algebra.choose(*values)
-    return -values[0] if isinstance(tree, ast.UnaryOp) else algebra.operations[type(tree.op)](*values)  # type: ignore[attr-defined]
+    return algebra.choose(*values) if isinstance(tree, ast.IfExp) else -values[0]
 
 
 _COMPARED: dict[type, Callable] = {

@@ -1,7 +1,8 @@
 """States with the values of everything that formulas need there."""
 
 from collections import ChainMap
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import field
 from typing import Any
 
@@ -26,7 +27,7 @@ class Bench:
     own: dict[str, Any]
     expected: Any  #: shape (n,): The derived quantity
     digits: int = 0
-    calls: dict[str, Any] = field(default_factory=dict)  #: Values of functions that were needed before
+    memo: dict[bytes, Any] = field(default_factory=dict)  #: Values of expressions that were needed before
 
 
 def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digits: int = 0) -> Bench:
@@ -54,12 +55,18 @@ def used_names(formula: Formula) -> list[str]:
 
 def part_values(asked: Bench, tree: Node) -> dict[Node, Any]:
     """Values of an expression and of all its parts at the states of a bench."""
-    memo: dict[Node, Any] = {}
     known = names(asked, letters(tree))
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
-        for _, node in walk(tree):
-            evaluate(node, known, asked.algebra, memo, asked.calls)
-    return memo
+        return {node: evaluate(node, known, asked.algebra, asked.memo) for _, node in walk(tree)}
+
+
+@contextmanager
+def scratch(asked: Bench) -> Iterator[None]:
+    """Values of expressions that are needed within are forgotten afterwards."""
+    count = len(asked.memo)
+    yield
+    while len(asked.memo) > count:
+        asked.memo.popitem()
 
 
 def value(asked: Bench, tree: Node) -> Any:
@@ -71,7 +78,7 @@ def value(asked: Bench, tree: Node) -> Any:
         Values; nan where there is none
     """
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
-        found = evaluate(tree, names(asked, letters(tree)), asked.algebra, {}, asked.calls)
+        found = evaluate(tree, names(asked, letters(tree)), asked.algebra, asked.memo)
     return shaped(asked, found)
 
 

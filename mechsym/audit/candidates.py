@@ -4,14 +4,14 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import mpmath
 import numpy as np
 
 from mechsym.audit.algebra import evaluate
-from mechsym.audit.bench import Bench, names, part_values, shaped, used_names
+from mechsym.audit.bench import Bench, names, part_values, scratch, shaped, used_names
 from mechsym.audit.edits import Edit, is_exponent, is_product, places, scaled, without_double_signs
 from mechsym.audit.insertion import candidate_words, is_unit, simple, vocabulary
 from mechsym.audit.printer import to_python
@@ -49,7 +49,8 @@ def listed_edits(question: Question, tree: Node) -> list[Edit]:
     edits : list of Edit
         Changes; some give the same function
     """
-    return [*single_edits(tree, lambda letter: confusable(question, letter)), *_lost_exponents(question, tree)]
+    siblings = cache(lambda letter: confusable(question, letter))
+    return [*single_edits(tree, siblings), *_lost_exponents(question, tree)]
 
 
 def _lost_exponents(question: Question, tree: Node) -> Iterator[Edit]:
@@ -135,30 +136,42 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
         else:
             edits += _numbers(asked, tree, wishes, memo)
         known = names(asked, {n for edit in edits for n in letters(edit.new)})
-        return [e for e in edits if _meets(asked, nodes, wishes, _Values(names=known, memo=memo), e)]
+        goals = {path: _goal(asked, wish, memo[nodes[path]]) for path, wish in wishes.items()}
+        with scratch(asked):
+            return [e for e in edits if _meets(asked, nodes, goals, known, e)]
 
 
 @record
-class _Values:
-    """Values of letters and of the parts of the formula, shared by all edits."""
+class _Goal:
+    """What a part has to be, at the states where that is known."""
 
-    names: Mapping[str, Any]
-    memo: dict[Node, Any]
+    wish: Any
+    valid: np.ndarray  #: shape (n,): Where it is known
+    within: np.ndarray  #: How near a new value has to come
 
 
-def _meets(asked: Bench, nodes: dict[Path, Node], wishes: Required, values: _Values, edit: Edit) -> bool:
-    path = edit.path
-    while path not in wishes:
-        path = path[:-1]
-    new = replace(nodes[path], edit.path[len(path) :], edit.new)
-    found = shaped(asked, evaluate(new, values.names, asked.algebra, values.memo, asked.calls))
-    wish, old = wishes[path], values.memo[nodes[path]]
+def _goal(asked: Bench, wish: Any, old: Any) -> _Goal | None:
+    # None where no edit counts: the part is right as it stands, or what it has to be is hardly known
     valid = ~np.isnan(np.asarray(wish, dtype=float))
-    wrong, left = (_away(v, wish)[valid] for v in (old, found))
-    if len(wrong) < _VALID * len(valid):
-        return False
+    wrong = _away(old, wish)[valid]
     noise = 0.0 if asked.digits else 1e-9 * np.abs(wish)[valid]
-    return bool(np.all(left <= np.maximum(_MET * wrong, noise)) and np.all(wrong > 10 * noise))
+    if len(wrong) < _VALID * len(valid) or not np.all(wrong > 10 * noise):
+        return None
+    return _Goal(wish=wish, valid=valid, within=np.maximum(_MET * wrong, noise))
+
+
+def _meets(
+    asked: Bench, nodes: dict[Path, Node], goals: Mapping[Path, _Goal | None], known: Mapping[str, Any], edit: Edit
+) -> bool:
+    path = edit.path
+    while path not in goals:
+        path = path[:-1]
+    goal = goals[path]
+    if goal is None:
+        return False
+    new = replace(nodes[path], edit.path[len(path) :], edit.new)
+    found = shaped(asked, evaluate(new, known, asked.algebra, asked.memo))
+    return bool(np.all(_away(found, goal.wish)[goal.valid] <= goal.within))
 
 
 def _away(values: Any, wish: Any) -> np.ndarray:

@@ -60,7 +60,9 @@ def apply(tree: Node, edit: Edit) -> Node:
 def without_double_signs(tree: Node) -> Node:
     """The same formula with `a - -b*c` written `a + b*c`."""
     for step, child in children(tree):
-        tree = replace(tree, (step,), without_double_signs(child))
+        below = without_double_signs(child)
+        if below is not child:
+            tree = replace(tree, (step,), below)
     if not is_operation(tree, ast.Add, ast.Sub):
         return tree
     assert isinstance(tree, ast.BinOp)

@@ -18,7 +18,7 @@ from mechsym.audit.bench import Bench, bench, value
 from mechsym.audit.orders import ORDER_DIGITS
 from mechsym.audit.question import Question, digit_values, small_rods
 from mechsym.audit.states import drawn
-from mechsym.audit.tree import Node
+from mechsym.audit.tree import Node, digest
 from mechsym.quantities import record
 
 _SLACK = 1.8  # a sign slip has twice the derived term, products of truncations have little more than it
@@ -37,6 +37,7 @@ class Expansion:
     question: Question
     load: str  #: The mass, inertia or force that is not zero, `all` for every one
     loads: tuple[str, ...]
+    known: dict[bytes, Any] = field(default_factory=dict)  #: Coefficients of formulas that were asked before
 
     @cached_property
     def benches(self) -> list[Bench]:
@@ -74,7 +75,10 @@ class Expansion:
 
     def printed(self, tree: Node) -> Any:
         """Coefficients of a formula, shape (powers, states)."""
-        return self._coefficients([value(b, tree) for b in self.benches])
+        said = digest(tree)
+        if said not in self.known:
+            self.known[said] = self._coefficients([value(b, tree) for b in self.benches])
+        return self.known[said]
 
     def _coefficients(self, values: list[Any]) -> Any:
         with mpmath.workdps(ORDER_DIGITS):

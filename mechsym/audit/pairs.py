@@ -13,13 +13,12 @@ from typing import Any
 import numpy as np
 
 from mechsym.audit.algebra import evaluate
-from mechsym.audit.bench import Bench, names, part_values, shaped
-from mechsym.audit.candidates import listed_edits
+from mechsym.audit.bench import Bench, names, part_values, scratch, shaped
 from mechsym.audit.edits import Edit, apply, is_exponent, is_product, is_term, places, scaled
 from mechsym.audit.insertion import Vocabulary, candidate_words, product, simple, vocabulary
 from mechsym.audit.prover import is_exact
 from mechsym.audit.put_back import lost_factor, lost_term
-from mechsym.audit.repair import Examination, Repair, search_bench, simplicity, standing
+from mechsym.audit.repair import Examination, Repair, search_bench, simplicity, slips, standing
 from mechsym.audit.required import required
 from mechsym.audit.slips import node_edits
 from mechsym.audit.tree import Node, Path, at, binary, children, letters, negative, number, replace, value_of, walk
@@ -37,8 +36,6 @@ class _Known:
     """What does not change while first edits are tried."""
 
     asked: Bench
-    tree: Node
-    memo: dict[Node, Any]
     listed: list[Edit]
     values: np.ndarray  #: shape (edits, states): What stands at the place of each edit [-]
     words: Vocabulary
@@ -55,7 +52,9 @@ def paired_repair(exam: Examination, start: Repair) -> Repair | None:
     with np.errstate(all="ignore"):
         for first in known.listed[:MAX_FIRST]:
             tree = apply(start.tree, first)
-            for second in _seconds(exam, known, first, tree):
+            with scratch(known.asked):
+                seconds = list(_seconds(known, first, tree))
+            for second in seconds:
                 rank = [simplicity(e, t) for e, t in ((first, tree), (second, apply(tree, second)))]
                 found.append(((rank[0][0] + rank[1][0], rank[1][1]), first, second))
     for _, first, second in sorted(found, key=lambda f: f[0])[:60]:
@@ -67,17 +66,16 @@ def paired_repair(exam: Examination, start: Repair) -> Repair | None:
 
 def _prepare(exam: Examination, tree: Node) -> _Known:
     asked = search_bench(exam, "exact")
-    memo = part_values(asked, tree)
-    edits = [e for e in listed_edits(exam.question, tree) if _plain_letter(exam, tree, e)]
-    listed = sorted(_distinct(asked, tree, memo, edits), key=lambda e: simplicity(e, e.new))
+    edits = [e for e in slips(exam, tree)[0] if _plain_letter(exam, tree, e)]
+    listed = sorted(_distinct(asked, edits), key=lambda e: simplicity(e, e.new))
     words = vocabulary(asked, _plain_words(exam, tree))
     matrix = np.column_stack([np.ones(len(asked.expected)), words.logs[list(words.basis)].T])
     with np.errstate(all="ignore"):
         known = names(asked, {n for e in listed for n in letters(e.new)})
-        values = [shaped(asked, evaluate(e.new, known, asked.algebra, memo, asked.calls)) for e in listed]
+        values = [shaped(asked, evaluate(e.new, known, asked.algebra, asked.memo)) for e in listed]
     shape = (len(listed), len(asked.expected))
     return _Known(
-        asked=asked, tree=tree, memo=memo, listed=listed, values=np.array(values, dtype=float).reshape(shape),
+        asked=asked, listed=listed, values=np.array(values, dtype=float).reshape(shape),
         words=words, solve=np.linalg.pinv(matrix),
     )  # fmt: skip
 
@@ -97,26 +95,23 @@ def _plain_words(exam: Examination, tree: Node) -> list[Node]:
     return [w for w in words if isinstance(w, ast.Call) or isinstance(w, ast.Name) and w.id in used]
 
 
-def _distinct(asked: Bench, tree: Node, memo: dict[Node, Any], edits: list[Edit]) -> list[Edit]:
+def _distinct(asked: Bench, edits: list[Edit]) -> list[Edit]:
     # edits of one place that give the same values count once
     found: dict[Any, Edit] = {}
     known = names(asked, {n for e in edits for n in letters(e.new)})
     with np.errstate(all="ignore"):
         for edit in edits:
-            new = shaped(asked, evaluate(edit.new, known, asked.algebra, memo, asked.calls))
+            new = shaped(asked, evaluate(edit.new, known, asked.algebra, asked.memo))
             found.setdefault((edit.path, np.asarray(new, dtype=float).round(12).tobytes()), edit)
     return list(found.values())
 
 
-def _seconds(exam: Examination, known: _Known, first: Edit, tree: Node) -> Iterator[Edit]:
+def _seconds(known: _Known, first: Edit, tree: Node) -> Iterator[Edit]:
     asked = known.asked
-    memo = dict(known.memo)
-    own = names(asked, letters(tree))
-    for _, node in walk(tree):
-        evaluate(node, own, asked.algebra, memo, asked.calls)
+    memo = part_values(asked, tree)
     wishes = required(asked, tree, memo)
     yield from _elsewhere(known, first, wishes)
-    yield from _near(known, first, tree, memo, wishes)
+    yield from _near(known, first, tree, wishes)
     spots = [p for p in places(tree) if p.path in wishes and not is_exponent(p)]
     yield from _numbers(spots, wishes, memo)
     yield from _left_out(known, tree, spots, wishes, memo)
@@ -142,7 +137,7 @@ def _meets(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return np.all(close | ~valid, axis=-1) & (np.mean(valid, axis=-1) > 0.6)
 
 
-def _near(known: _Known, first: Edit, tree: Node, memo: dict[Node, Any], wishes: Any) -> Iterator[Edit]:
+def _near(known: _Known, first: Edit, tree: Node, wishes: Any) -> Iterator[Edit]:
     # on the way to the first edit, and in what it brought
     asked = known.asked
     for place in places(tree):
@@ -154,7 +149,7 @@ def _near(known: _Known, first: Edit, tree: Node, memo: dict[Node, Any], wishes:
             above = above[:-1]
         for kind, new in node_edits(place, lambda letter: ()):
             whole = replace(at(tree, above), place.path[len(above) :], new)
-            values = shaped(asked, evaluate(whole, names(asked, ()), asked.algebra, memo, asked.calls))
+            values = shaped(asked, evaluate(whole, names(asked, ()), asked.algebra, asked.memo))
             if _meets(np.asarray(values, dtype=float), np.asarray(wishes[above], dtype=float)):
                 yield Edit(kind=kind, path=place.path, new=new)
 

@@ -19,7 +19,7 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
 from mechsym.audit.question import Question, digit_values, float_values, small_rods
 from mechsym.audit.states import drawn
-from mechsym.audit.tree import Node
+from mechsym.audit.tree import Node, digest
 from mechsym.quantities import record
 
 SEARCH_DIGITS = 80
@@ -35,6 +35,7 @@ class Examination:
     judged: Judges
     turn: Bench
     search: dict[str, Bench] = field(default_factory=dict)  #: States of the search by group, made when needed
+    slips: dict[bytes, tuple[list[Edit], list[Edit]]] = field(default_factory=dict)  #: Of formulas that were searched
 
     @cached_property
     def groups(self) -> list[LetterGroup]:
@@ -71,6 +72,14 @@ def standing(exam: Examination, tree: Node, edits: tuple[Edit, ...] = ()) -> Rep
     return Repair(tree=tree, edits=edits, exact=exact, orders=known, max_rel_error=max_rel_error(exam.turn, tree))
 
 
+def slips(exam: Examination, tree: Node) -> tuple[list[Edit], list[Edit]]:
+    """Slips of one place of a formula, and slips that are repeated wherever the same part stands."""
+    said = digest(tree)
+    if said not in exam.slips:
+        exam.slips[said] = listed_edits(exam.question, tree), repeated_edits(tree)
+    return exam.slips[said]
+
+
 def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repair | None:
     """The simplest single edit after which a formula is the derived quantity.
 
@@ -79,7 +88,7 @@ def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repa
     insert : bool
         Whether terms and factors that were left out are looked for, rather than slips
     """
-    for listed in [[]] if insert else [listed_edits(exam.question, start.tree), repeated_edits(start.tree)]:
+    for listed in [[]] if insert else slips(exam, start.tree):
         if exact := _exact(exam, start, listed, insert):
             return exact
     return None
@@ -87,7 +96,7 @@ def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repa
 
 def raising_repairs(exam: Examination, start: Repair) -> list[Repair]:
     """Single edits that raise some load's order, lower none, and do not raise the error; the most plausible first."""
-    for listed in (listed_edits(exam.question, start.tree), repeated_edits(start.tree)):
+    for listed in slips(exam, start.tree):
         if found := _raised(exam, start, listed, False):
             return sorted((r for r in found if is_sound(r)), key=_rank)
     return []
