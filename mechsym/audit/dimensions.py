@@ -6,32 +6,39 @@ from typing import Any
 import numpy as np
 
 from mechsym.audit.algebra import FLOATS
-from mechsym.audit.bench import bench, value
+from mechsym.audit.bench import Bench, bench, value
 from mechsym.audit.question import Question, float_values
 from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
-from mechsym.quantities import dimension
+from mechsym.quantities import dimension, record
 
 _CLOSE = 1e-6
 _POINTS = 8
 
 
-def is_consistent(question: Question, tree: Node) -> bool:
-    """Whether a formula has the dimension of the quantity.
+@record
+class Rescaled:
+    """The same states before and after random scales of mass, length, time and temperature."""
 
-    Parameters
-    ----------
-    question : Question
-        Letters with units, and the quantity
+    before: Bench
+    after: Bench
+
+
+def rescaled(question: Question) -> Rescaled:
+    """States at which dimensions are compared."""
+    values = float_values(drawn(question, _POINTS, seed=2))
+    return Rescaled(before=bench(question, values, FLOATS), after=bench(question, _rescaled(question, values), FLOATS))
+
+
+def is_consistent(scales: Rescaled, tree: Node) -> bool:
+    """Whether a formula has the dimension of the quantity.
 
     Returns
     -------
     answer : bool
-        False when random scales of mass, length, time and temperature change it otherwise than the derived quantity
+        False when random scales change it otherwise than the derived quantity
     """
-    values = float_values(drawn(question, _POINTS, seed=2))
-    before = bench(question, values, FLOATS)
-    after = bench(question, _rescaled(question, values), FLOATS)
+    before, after = scales.before, scales.after
     with np.errstate(all="ignore"):
         ratio = value(after, tree) / value(before, tree)
         wanted = after.expected / before.expected

@@ -7,7 +7,7 @@ wrong and its error there is at most the derived term: never worse than leaving 
 from collections.abc import Mapping
 from dataclasses import field
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import mpmath
@@ -30,6 +30,20 @@ _TRUSTED = 10  # coefficients that the nodes give to eight digits
 _SHIFT = 2  # powers of eps below zero that a quantity may start with
 
 
+_STEPS = [_NODE * (i + 1) for i in range(_NODES)]  # what lambda is multiplied by
+
+
+def _steps() -> list[Any]:
+    return [mpmath.mpf(e.numerator) / e.denominator for e in _STEPS]
+
+
+@cache
+def _weights() -> Any:
+    # inverse of the matrix of powers
+    with mpmath.workdps(ORDER_DIGITS):
+        return np.array((mpmath.matrix([[e**j for j in range(_NODES)] for e in _steps()]) ** -1).tolist())
+
+
 @record
 class Expansion:
     """States at a few tiny lambdas, from which the coefficients of powers follow."""
@@ -42,12 +56,7 @@ class Expansion:
     @cached_property
     def benches(self) -> list[Bench]:
         """A few angles of a turn at two states, for each lambda."""
-        return [_deep(self.question, self._values, eps) for eps in self.steps]
-
-    @property
-    def steps(self) -> list[Fraction]:
-        """What lambda is multiplied by [-]."""
-        return [_NODE * (i + 1) for i in range(_NODES)]
+        return [_deep(self.question, self._values, eps) for eps in _STEPS]
 
     @cached_property
     def _values(self) -> dict[str, list[Fraction]]:
@@ -60,13 +69,6 @@ class Expansion:
         if angle and angle not in question.hold and not question.theory.letters[angle].domain:
             values[angle] = [Fraction(2 * (i % _ANGLES) + 1, _ANGLES) * Fraction(355, 113) for i in range(count)]
         return values
-
-    @cached_property
-    def weights(self) -> Any:
-        """Inverse of the matrix of powers [-]."""
-        with mpmath.workdps(ORDER_DIGITS):
-            scale = [(mpmath.mpf(e.numerator) / e.denominator) for e in self.steps]
-            return np.array((mpmath.matrix([[e**j for j in range(_NODES)] for e in scale]) ** -1).tolist())
 
     @cached_property
     def derived(self) -> Any:
@@ -82,8 +84,8 @@ class Expansion:
 
     def _coefficients(self, values: list[Any]) -> Any:
         with mpmath.workdps(ORDER_DIGITS):
-            scale = [(mpmath.mpf(e.numerator) / e.denominator) ** _SHIFT for e in self.steps]
-            return self.weights @ np.array([v * e for v, e in zip(values, scale, strict=True)])
+            scale = [step**_SHIFT for step in _steps()]
+            return _weights() @ np.array([v * e for v, e in zip(values, scale, strict=True)])
 
 
 @record

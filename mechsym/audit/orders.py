@@ -44,10 +44,10 @@ def groups(question: Question) -> list[LetterGroup]:
     """
     if not (question.theory.rods or question.theory.small):
         return []
-    loads = _loads(question)
-    found = [_group(question, load, loads) for load in loads]
+    loads, values = _loads(question), drawn(question, _POINTS, seed=3)
+    found = [_group(question, values, load, loads) for load in loads]
     used = [g for g in found if _size(g.fine) > 0]
-    whole = _group(question, "all", [])
+    whole = _group(question, values, "all", [])
     return used if len(used) > 1 and _adds_up(used, whole) else [whole]
 
 
@@ -56,9 +56,8 @@ def _loads(question: Question) -> list[str]:
     return [k for k, r in letters.items() if dimension(r.unit)[0] == 1 and k not in question.hold]
 
 
-def _group(question: Question, name: str, loads: list[str]) -> LetterGroup:
-    values = drawn(question, _POINTS, seed=3)
-    values |= {other: [Fraction(0)] * _POINTS for other in loads if other != name}
+def _group(question: Question, values: Mapping[str, list[Fraction]], name: str, loads: list[str]) -> LetterGroup:
+    values = {**values} | {other: [Fraction(0)] * _POINTS for other in loads if other != name}
     coarse, fine = (at_small_rods(question, values, eps) for eps in (COARSE, FINE))
     return LetterGroup(name=name, coarse=coarse, fine=fine)
 

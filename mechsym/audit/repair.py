@@ -12,6 +12,7 @@ import numpy as np
 from mechsym.audit.algebra import DIGITS, FLOATS
 from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
+from mechsym.audit.dimensions import Rescaled, rescaled
 from mechsym.audit.edits import RANKS, Edit, apply
 from mechsym.audit.expansion import Expansion
 from mechsym.audit.orders import EXACT, FINE, LetterGroup, groups, orders, residual
@@ -41,6 +42,11 @@ class Examination:
     def groups(self) -> list[LetterGroup]:
         """Long rods for each load, made when needed."""
         return groups(self.question)
+
+    @cached_property
+    def scales(self) -> Rescaled:
+        """States before and after a change of all units, made when needed."""
+        return rescaled(self.question)
 
     @cached_property
     def expansions(self) -> dict[str, Expansion]:

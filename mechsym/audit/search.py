@@ -1,6 +1,7 @@
 """The order in which a formula that is not exact is searched: one slip, something lost, two slips, or only nearer."""
 
 import ast
+from collections.abc import Callable
 
 from mechsym.audit.dimensions import is_consistent
 from mechsym.audit.expansion import Powers, changed_powers, powers
@@ -28,9 +29,14 @@ class Found:
     note: str = ""
 
 
-def standing_powers(exam: Examination, repair: Repair) -> dict[str, Powers]:
-    """Powers of lambda for every load for which a formula is not exact."""
-    return {k: powers(exam.expansions[k], repair.tree) for k, order in repair.orders.items() if order != EXACT}
+def standing_powers(exam: Examination, repair: Repair, holds: Callable[[Powers], bool]) -> list[Powers] | None:
+    """Powers of lambda for every load for which a formula is not exact; None where something does not hold for one."""
+    found = []
+    for load in (k for k, order in repair.orders.items() if order != EXACT):
+        found.append(powers(exam.expansions[load], repair.tree))
+        if not holds(found[-1]):
+            return None
+    return found
 
 
 def truncated(exam: Examination, start: Repair) -> str | None:
@@ -39,10 +45,10 @@ def truncated(exam: Examination, start: Repair) -> str | None:
         return note
     if not start.orders or min(start.orders.values()) < 1 or start.max_rel_error > LARGEST_ERROR:
         return None
-    found = standing_powers(exam, start)
-    if not all(p.pure for p in found.values()):
+    found = standing_powers(exam, start, lambda p: p.pure)
+    if found is None:
         return None
-    return f"leaves out {_powers({k for p in found.values() for k in p.missing[:1]})} and what follows"
+    return f"leaves out {_powers({k for p in found for k in p.missing[:1]})} and what follows"
 
 
 def search(exam: Examination, start: Repair) -> Found:
@@ -52,7 +58,7 @@ def search(exam: Examination, start: Repair) -> Found:
     # in an honest approximation, a bracket moved or a factor taken away is a coincidence
     if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN):
         return Found(verdict="misprint", repairs=(single,))
-    raised = [r for r in raising_repairs(exam, start) if is_consistent(exam.question, r.tree)] if start.orders else []
+    raised = [r for r in raising_repairs(exam, start) if is_consistent(exam.scales, r.tree)] if start.orders else []
     mended = [r for r in raised if _mends(exam, start, r)]
     if mended and mended[0].edits[-1].kind in _PLAIN:
         return Found(verdict="misprint", repairs=tuple(mended))
@@ -91,10 +97,10 @@ def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
 def _mixed(exam: Examination, start: Repair) -> str:
     if not start.orders or min(start.orders.values()) < 1 or start.max_rel_error > LARGEST_ERROR:
         return ""
-    found = standing_powers(exam, start)
-    if not all(p.honest for p in found.values()) or not is_consistent(exam.question, start.tree):
+    found = standing_powers(exam, start, lambda p: p.honest)
+    if found is None or not is_consistent(exam.scales, start.tree):
         return ""
-    wrong = {k for p in found.values() for k in p.wrong}
+    wrong = {k for p in found for k in p.wrong}
     return f"no truncation: {_powers(wrong)} neither right nor left out"
 
 

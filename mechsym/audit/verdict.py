@@ -68,7 +68,7 @@ def _plain(exam: Examination) -> Decision | None:
         return _verdict(exam, "exact", start, certificate=proof, domain=domain(exam.question))
     if met.expected <= POINTS // 2 or met.agrees:
         return _verdict(exam, "untestable", _unordered(exam, tree), note=_without_value(met))
-    if not is_consistent(exam.question, tree):
+    if not is_consistent(exam.scales, tree):
         return None
     start = standing(exam, tree)
     note = truncated(exam, start)
@@ -131,7 +131,7 @@ def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Dec
         max_rel_error=start.max_rel_error,
         order=None if start.exact else lowest(start.orders),
         orders={k: v for k, v in start.orders.items() if v != EXACT},
-        dimensions=is_consistent(exam.question, start.tree),
+        dimensions=is_consistent(exam.scales, start.tree),
         counterexample={} if start.exact else _counterexample(exam, start.tree),
         note="; ".join(n for n in notes if n),
         **more,

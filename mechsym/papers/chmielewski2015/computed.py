@@ -53,7 +53,7 @@ def problem(model: str) -> Problem:
 
 
 @cache
-def run(model: str, tolerance: float = 1e-10, backend: str = "scipy-dop853") -> Result:
+def run(model: str, tolerance: float = 1e-11, backend: str = "auto") -> Result:
     """One start-up without a second run for comparison.
 
     Parameters
