@@ -146,8 +146,8 @@ class _Goal:
     """What a part has to be, at the states where that is known."""
 
     wish: Any
-    valid: np.ndarray  #: shape (n,): Where it is known
-    within: np.ndarray  #: How near a new value has to come
+    valid: np.ndarray  #: shape (n,): Where it is known [-]
+    within: np.ndarray  #: How near a new value has to come [SI]
 
 
 def _goal(asked: Bench, wish: Any, old: Any) -> _Goal | None:

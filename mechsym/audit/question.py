@@ -2,7 +2,7 @@
 
 import ast
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
 
@@ -29,25 +29,64 @@ class Question:
     where: tuple[ast.Compare, ...] = ()  #: Relations that every state keeps
 
 
-def random_fractions(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
-    """Random exact values near the source's data, of both signs where a letter may have both; the angle anywhere."""
+@record
+class Draws:
+    """Random exact values of every letter, as whole numbers until they are wanted."""
+
+    question: Question
+    numbers: Mapping[str, Sequence[int]]  #: From 7000 to 14000, negative for a value of the other sign [-]
+
+    def floats(self) -> dict[str, np.ndarray]:
+        """All values, rounded, to see which are good.
+
+        Returns
+        -------
+        values : dict of str to ndarray, shape (n,)
+            By letter
+        """
+        found = {}
+        for letter, numbers in self.numbers.items():
+            drawn = np.array(numbers)
+            start, slope = (np.where(drawn < 0, *map(float, pair)) for pair in self._lines(letter))
+            found[letter] = start + slope * np.abs(drawn)
+        return found
+
+    def exact(self, chosen: Sequence[int]) -> dict[str, list[Fraction]]:
+        """The values of some of the states."""
+        found = {}
+        for letter, numbers in self.numbers.items():
+            start, slope = self._lines(letter)
+            found[letter] = [start[n > 0] + slope[n > 0] * abs(n) for n in (numbers[i] for i in chosen)]
+        return found
+
+    def _lines(self, letter: str) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+        # value = start + slope * number: the starts and the slopes of negative and of positive numbers
+        (start, slope), (other, steep) = (self._line(letter, sign) for sign in (-1, 1))
+        return (start, other), (slope, steep)
+
+    def _line(self, letter: str, sign: int) -> tuple[Fraction, Fraction]:
+        question, about = self.question, self.question.theory.letters[letter]
+        if letter in question.hold:
+            return Fraction(str(question.hold[letter])), Fraction(0)
+        if about.domain:
+            low, high = (Fraction(end).limit_denominator(10**9) for end in about.domain)
+            return low - Fraction(6999, 7002) * (high - low), (high - low) / 7002
+        if letter == question.theory.angle:
+            # either sense of rotation, nearly a turn
+            return sign * (Fraction(1, 7) - 6), sign * Fraction(6, 7000)
+        value = Fraction(about.value).limit_denominator(10**9) or 1
+        return Fraction(0), Fraction(sign, 10000) * value
+
+
+def draws(question: Question, count: int, seed: int) -> Draws:
+    """Random values near the source's data, of both signs where a letter may have both; the angle anywhere."""
     generator, theory = random.Random(seed), question.theory
     found = {}
     for letter, about in theory.letters.items():
-        draw = [generator.randint(7000, 14000) for _ in range(count)]
-        if letter in question.hold:
-            found[letter] = [Fraction(str(question.hold[letter]))] * count
-        elif about.domain:
-            low, high = (Fraction(end).limit_denominator(10**9) for end in about.domain)
-            found[letter] = [low + Fraction(d - 6999, 7002) * (high - low) for d in draw]
-        elif letter == theory.angle:
-            # either sense of rotation, nearly a turn
-            found[letter] = [generator.choice((1, -1)) * (Fraction(d * 6, 7000) - 6 + Fraction(1, 7)) for d in draw]
-        else:
-            value = Fraction(about.value).limit_denominator(10**9) or 1
-            signs = [1] * count if about.positive else [generator.choice((1, -1)) for _ in range(count)]
-            found[letter] = [Fraction(s * d, 10000) * value for s, d in zip(signs, draw, strict=True)]
-    return found
+        numbers = [generator.randint(7000, 14000) for _ in range(count)]
+        fixed = letter in question.hold or about.domain or about.positive and letter != theory.angle
+        found[letter] = numbers if fixed else [generator.choice((1, -1)) * n for n in numbers]
+    return Draws(question=question, numbers=found)
 
 
 def small_rods(theory: Theory, values: Mapping[str, list[Fraction]], eps: Fraction) -> dict[str, list[Fraction]]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mechsym.audit.algebra import FLOATS, evaluate
 from mechsym.audit.bench import Bench, bench, names
-from mechsym.audit.question import Question, float_values, random_fractions
+from mechsym.audit.question import Question, draws
 from mechsym.audit.tree import letters
 
 _MORE = 6  # draws for each state that is wanted
@@ -14,11 +14,11 @@ _MORE = 6  # draws for each state that is wanted
 
 def drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
     """Random exact states; those without a value of the quantity or outside the assumptions come last."""
-    values = random_fractions(question, _MORE * count, seed)
-    asked = bench(question, float_values(values), FLOATS)
+    found = draws(question, _MORE * count, seed)
+    asked = bench(question, found.floats(), FLOATS)
     good = np.isfinite(np.broadcast_to(asked.expected, (_MORE * count,))) & kept(question, asked)
     chosen = [*np.flatnonzero(good), *np.flatnonzero(~good)][:count]
-    return {k: [v[i] for i in chosen] for k, v in values.items()}
+    return found.exact(chosen)
 
 
 def kept(question: Question, asked: Bench) -> np.ndarray:
