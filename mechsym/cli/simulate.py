@@ -38,12 +38,14 @@ def simulate(
 ) -> None:
     """Simulate CASE over time, with an energy audit and a check of the tolerance.
 
-    Exit status 1 when the run did not converge; a stall is an event, not a failure. An elastic shaft reports the
-    twist of each section. A crank train takes [drive] (a torque at the free end, switched on at a time), [cycle] (gas
-    on every piston) or both, [load] at the flywheel, and [simulation] with t_end or turns.
+    Exit status 1 when the run did not converge; a stall is an event, not a failure. An engine needs no [simulation]:
+    it turns 20 times from its speed of operation, without [load] against a propeller that takes its mean torque; the
+    gas of spark ignition is integrated with the motion, as in cycle --loop. An elastic shaft reports the twist of each
+    section. A crank train takes [drive] (a torque at the free end, switched on at a time), [cycle] or both.
 
     \b
     Example: mechsym simulate chmielewski --set c1=0.2 --out startup
+             mechsym simulate nunes-hypocycloid --out engine
              mechsym simulate alpha-stirling --set c="5 N*m*s/rad"
              mechsym simulate alpha-stirling --set speed_start="250 rpm" --set simulation.turns=300
     """
@@ -82,6 +84,7 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
 
 def _write(run: "FinishedRun", out: Path) -> list[str]:
     from mechsym.simulate import write_netcdf, write_series
+    from mechsym.simulate.plots import speed
     from mechsym.style import svg
     from mechsym.torsion import plots as plots_torsion
 
@@ -92,6 +95,8 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
     figures = {"twist": plots_torsion.twist(result, shafts)} if shafts else {}
+    if run.engine and len(result.t) > 1:
+        figures["speed"] = speed(result, run.engine.coordinate, run.engine.period, run.engine.wanted)
     if starts:
         figures["campbell"] = plots_torsion.campbell(starts[0])
         figures["startup"] = plots_torsion.start_up(starts, starts[0].claim.claim_speed)

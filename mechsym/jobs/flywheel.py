@@ -15,7 +15,7 @@ from mechsym.errors import BadInput
 from mechsym.forces.turn import CrankDrive, faces_of, pushes
 from mechsym.hinge.trials import Trial, run
 from mechsym.jobs.gas import gas
-from mechsym.jobs.machine import kept_flywheel, load
+from mechsym.jobs.machine import heavier, load
 from mechsym.jobs.turn import drive_of
 from mechsym.machine import ConstantLoad, Machine, settle
 from mechsym.machine.record import AngleForce
@@ -28,8 +28,6 @@ from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import Steady, flywheel_for_ripple, mean_torque, steady_state
 
 # the parameter that a flywheel adds to, and the input of the load
-_SHAFTS = {"crosshead": ("I01", "M_r"), "crank_throw": ("I0", "M"), "crank_train": ("I_f", "M"),
-           "hypocycloid": ("I1", "M"), "rodless": ("I1", "M")}  # fmt: skip
 TURNS = 12.0
 
 
@@ -95,12 +93,8 @@ def shaft(case: Case, inertia: float) -> Machine:
     inertia : float
         Of the flywheel, on top of what the case has [kg*m^2]
     """
-    if case.mechanism not in _SHAFTS:
-        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(_SHAFTS)}")
-    name, load_input = _SHAFTS[case.mechanism]
-    parameters = case.need("parameters")
-    heavier = replace(parameters, **{name: getattr(parameters, name) + inertia + kept_flywheel(case)})
-    drive = drive_of(replace(case, sections={**case.sections, "parameters": heavier}))
+    heavy, load_input = heavier(case, inertia)
+    drive = drive_of(heavy)
     found = gas(case)
     free = Machine(
         mechanism=drive.mechanism, forces=_forces(drive, found), load=ConstantLoad(torque=0.0), load_input=load_input,

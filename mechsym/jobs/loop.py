@@ -1,20 +1,49 @@
-"""The loop of a case: its engine on its mechanism against its load."""
+"""The loop of a case: its engine on its mechanism against its load, and its run in time."""
 
 import math
 
 from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.gas import one_cylinder
+from mechsym.jobs.machine import heavier
+from mechsym.jobs.own import simulation_of
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.simulate import Result, Settings
+from mechsym.simulate.loop.result import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
 
-_LOAD_INPUTS = ("M_r", "M")
+
+def in_loop(case: Case) -> bool:
+    """Whether the gas of a case follows its motion, so that both are integrated together."""
+    cycle = case.sections.get("cycle")
+    return cycle is not None and "drive" not in case.sections and kind_of(cycle).given == "engine"
+
+
+def run_in_loop(case: Case, settings: Settings) -> Result:
+    """The run in time of a case whose gas follows the motion.
+
+    Parameters
+    ----------
+    case : Case
+        As for `loop`; without `[simulation]` it turns 20 times from the speed of operation
+    """
+    wanted = simulation_of(case)
+    speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
+    if speed <= 0:
+        raise BadInput(f"{case.file}: an engine needs simulation.speed_start above 0 rad/s; leave it away or raise it")
+    t_end = math.inf if wanted.t_end is None else wanted.t_end
+    turns = math.inf if wanted.turns is None else wanted.turns
+    return simulate_loop(loop(case), speed, turns, settings, wanted.phi_start, t_end)
 
 
 def loop(case: Case) -> Loop:
@@ -31,18 +60,21 @@ def loop(case: Case) -> Loop:
     BadInput
         No spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre
     """
-    machine, mechanism = engine(one_cylinder(case)), mechanisms.build(case.mechanism, case.need("parameters"))
-    omega = case.need("operation").speed
+    machine, omega = engine(one_cylinder(case)), case.need("operation").speed
+    heavy, load_input = heavier(case)
+    mechanism = mechanisms.build(case.mechanism, heavy.need("parameters"))
     cylinders = _cylinders(case, mechanism)
     load = case.sections.get("load", PropellerLoad())
     # the figures of a chamber count all its pistons, each of which drives a mechanism of its own
-    torque = float(performance(machine, {"omega": omega}).torque_avg[0]) * len(cylinders) / machine.chamber.pistons
+    own_area = piston_area(machine.chamber.bore)
+    faces = sum(1.0 if c.area is None else c.area / own_area for c in cylinders)
+    torque = float(performance(machine, {"omega": omega}).torque_avg[0]) * faces / machine.chamber.pistons
     return Loop(
         engine=machine,
         mechanism=mechanism,
         cylinders=cylinders,
         load=_smooth(case, settle(load, torque, omega)),
-        load_input=next(name for name in _LOAD_INPUTS if name in mechanism.inputs),
+        load_input=load_input,
         load_coordinate=mechanism.coordinates[-1],
     )
 
@@ -55,6 +87,8 @@ def _smooth(case: Case, load: Load) -> ConstantLoad | PropellerLoad:
 
 def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
     parameters = case.need("parameters")
+    if isinstance(parameters, RodlessParameters):
+        return _on_faces(case.need("faces"))
     if not isinstance(parameters, CrankTrainParameters):
         return (LoopCylinder(input="F", coordinate=mechanism.coordinates[0], firing=0.0),)
     refuse_wrong_firing(parameters, 4 * math.pi)
@@ -63,3 +97,14 @@ def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
         LoopCylinder(input=f"F{i}", coordinate=mechanism.coordinates[throw - 1], firing=float(angle) % (4 * math.pi))
         for i, (throw, angle) in enumerate(zip(parameters.throw, firing, strict=True), 1)
     )
+
+
+def _on_faces(faces: RodlessFaces) -> tuple[LoopCylinder, ...]:
+    """One cylinder a face; gas over a slider's outer face pushes against its outward travel."""
+    return tuple(
+        LoopCylinder(
+            input=f"F_{side[0]}", coordinate="alpha", firing=firing % (4 * math.pi), area=area,
+            sense=-1.0 if side[1] == "+" else 1.0,
+        )
+        for side, area, firing in zip(faces.sides, faces.areas, faces.firing, strict=True)
+    )  # fmt: skip

@@ -17,6 +17,10 @@ from mechsym.machine.record import Machine
 from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.mechanisms.record import Mechanism
 
+# mechanism: the inertia of its shaft among the parameters, and the input that takes the load
+_SHAFTS = {"crosshead": ("I01", "M_r"), "crank_throw": ("I0", "M"), "crank_train": ("I_f", "M"),
+           "hypocycloid": ("I1", "M"), "rodless": ("I1", "M")}  # fmt: skip
+
 
 def machine(case: Case, diagram: str | None = None) -> Machine:
     """The engine of a case, ready to turn.
@@ -65,6 +69,27 @@ def kept_flywheel(case: Case) -> float:
     """
     section = case.sections.get("flywheel")
     return 0.0 if section is None else section.inertia
+
+
+def heavier(case: Case, inertia: float = 0.0) -> tuple[Case, str]:
+    """The case with its flywheel, and a further one, in the inertia of its shaft; and the input that brakes it.
+
+    Parameters
+    ----------
+    inertia : float
+        Of a flywheel on top of what the case has [kg*m^2]
+
+    Raises
+    ------
+    BadInput
+        A mechanism whose shaft is not known
+    """
+    if case.mechanism not in _SHAFTS:
+        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(_SHAFTS)}")
+    name, load_input = _SHAFTS[case.mechanism]
+    parameters = case.need("parameters")
+    heavy = replace(parameters, **{name: getattr(parameters, name) + inertia + kept_flywheel(case)})
+    return replace(case, sections={**case.sections, "parameters": heavy}), load_input
 
 
 def load(case: Case) -> Load:

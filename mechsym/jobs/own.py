@@ -218,7 +218,7 @@ def problem(case: Case) -> Problem:
 
 
 def simulation_of(case: Case) -> Simulation:
-    """Section `[simulation]`, or 20 turns of an engine."""
+    """Section `[simulation]`, or 20 turns from the speed of operation."""
     if "simulation" in case.sections or "operation" not in case.sections:
         return case.need("simulation")
     return Simulation(turns=20.0)

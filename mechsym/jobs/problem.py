@@ -1,4 +1,8 @@
-"""Case -> run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs."""
+"""Case -> run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs.
+
+An engine whose case names no run turns 20 times from its speed of operation; one whose case names no load has a
+propeller that takes its mean torque there.
+"""
 
 import dataclasses
 import functools
@@ -14,9 +18,11 @@ from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import cut
 from mechsym.hinge.torque import torque
 from mechsym.jobs import train as trains
+from mechsym.jobs.flywheel import shaft
 from mechsym.jobs.machine import machine
 from mechsym.jobs.own import is_own, simulation_of
 from mechsym.jobs.own import problem as own_problem
+from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.mechanisms import crank_train
 from mechsym.quantities.ranges import MOST
@@ -47,8 +53,8 @@ def problem_of(case: Case) -> Problem:
     Parameters
     ----------
     case : Case
-        With `[simulation]` and either `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
-        train may have both
+        With either `[simulation]` and `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
+        train may have both. Gas that follows the motion is no problem of this kind: see `mechsym.jobs.loop`
 
     Raises
     ------
@@ -57,7 +63,7 @@ def problem_of(case: Case) -> Problem:
     """
     if is_own(case.mechanism) and not _hinged(case):
         return own_problem(case)
-    wanted: Simulation = case.need("simulation")
+    wanted, case = simulation_of(case), braked(case)
     if case.mechanism == "crank_train":
         return _train(case, wanted)
     if "drive" in case.sections:
@@ -71,6 +77,13 @@ def problem_of(case: Case) -> Problem:
     if wanted.t_end is None:
         return problem
     return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
+
+
+def braked(case: Case) -> Case:
+    """The case of an engine with its load: a propeller that takes the mean torque, where it names none."""
+    if "cycle" not in case.sections or "drive" in case.sections:
+        return case
+    return dataclasses.replace(case, sections={"load": PropellerLoad(), **case.sections})
 
 
 def _hinged(case: Case) -> bool:
@@ -96,9 +109,11 @@ def engine_of(case: Case) -> Machine:
     BadInput
         The guide that the case asks for cannot be cut
     """
+    if case.mechanism != "crosshead" and not is_own(case.mechanism):
+        return shaft(case, 0.0)
     engine = machine(case)
     wanted = torque(engine)
-    simulation: Simulation = case.need("simulation")
+    simulation = simulation_of(case)
     if simulation.hinge == "none" or not {"spring", "guide"} <= set(case.sections):
         return fitted(engine, wanted)
     choices = case.need("guide")
@@ -177,7 +192,7 @@ def _train(case: Case, wanted: Simulation) -> Problem:
 def _count(case: Case, key: str, points: float, way_out: str) -> None:
     """Refuse a run whose results would not fit, before any is computed."""
     if points > MOST:
-        asked = f"{getattr(case.need('simulation'), key):g}{' s' if key == 'output_step' else ''}"
+        asked = f"{getattr(simulation_of(case), key):g}{' s' if key == 'output_step' else ''}"
         raise BadInput(
             f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
         )

@@ -1,5 +1,6 @@
 """Case -> run in time: problem -> integration and audit -> speeds, twist of the shaft, start-ups explained."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -7,6 +8,8 @@ from typing import Any
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.judged import of_run
+from mechsym.jobs.loop import in_loop, run_in_loop
+from mechsym.jobs.own import simulation_of
 from mechsym.jobs.problem import problem_of, settings_of, window_of
 from mechsym.jobs.settling import settled
 from mechsym.jobs.startup import startup, startup_map
@@ -14,12 +17,23 @@ from mechsym.jobs.train import remarks
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.simulate import Result, simulate
+from mechsym.simulate.loop.events import CYCLE
+from mechsym.simulate.problem import period_of
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.summary import summary
 from mechsym.torsion.findings import findings
 from mechsym.torsion.settling import Settling, sentences
 from mechsym.torsion.startup import AVERAGE, StartUp
 from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
+
+
+@record
+class EngineSpeed:
+    """What an engine's speed is looked at by."""
+
+    coordinate: str  #: Its shaft
+    period: float  #: A turn, or two of a four-stroke engine [rad]
+    wanted: float  #: Speed of operation [rad/s]
 
 
 @record
@@ -33,6 +47,7 @@ class FinishedRun:
     twist: tuple[ShaftSection, ...]
     start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
     settling: Settling | None  #: Where an engine settles after a start against a load
+    engine: EngineSpeed | None  #: Of an engine
     findings: tuple[str, ...]
     doubts: tuple[Doubt, ...] = ()  #: Of gas and window, that no number of the summary tells
 
@@ -43,7 +58,7 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
     Parameters
     ----------
     case : Case
-        With `[simulation]`, and `[drive]` or `[cycle]`
+        With `[simulation]` and `[drive]`, or `[cycle]`
     dampings : tuple of float
         Further values of c1 for a start-up [N*m*s/rad]
     check : str
@@ -54,9 +69,9 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
     run : FinishedRun
         Columns, audit, speeds, twist and findings
     """
-    settings, problem = settings_of(case), problem_of(case)
-    result = simulate(problem, replace(settings, check=check))
-    told = summary(result, problem.mechanism.coordinates, window_of(case, problem))
+    settings = replace(settings_of(case), check=check)
+    result, told, period = run_of(case, settings)
+    engine = _engine(case, told, period)
     starts, settles = _start_ups(case, result, dampings), settled(case, result)
     return FinishedRun(
         settings=settings,
@@ -66,9 +81,42 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
         twist=sections(case.need("parameters"), result, result.t[-1] - told["window"]),
         start_ups=starts,
         settling=settles,
+        engine=engine,
         doubts=of_run(case, float(result.t[-1] - result.t[0])),
-        findings=(*remarks(case), *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ())),
+        findings=(
+            *remarks(case), *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
+            *(_stopped(result, engine) if engine else ()),
+        ),
+    )  # fmt: skip
+
+
+def _engine(case: Case, told: dict[str, Any], period: float) -> EngineSpeed | None:
+    if "cycle" not in case.sections or "operation" not in case.sections:
+        return None
+    shaft = list(told["speeds"])[-1 if case.mechanism == "crank_train" else 0]
+    return EngineSpeed(coordinate=shaft, period=period, wanted=case.need("operation").speed)
+
+
+def _stopped(result: Result, engine: EngineSpeed) -> tuple[str, ...]:
+    """What to do about an engine that stops."""
+    if result.end != "stall":
+        return ()
+    where = math.degrees(result.columns[engine.coordinate][-1])
+    return (
+        f"the shaft stops at t = {result.t[-1]:.4g} s, {engine.coordinate} = {where:.1f} deg: what it stores does not "
+        "carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]",
     )
+
+
+def run_of(case: Case, settings: Settings) -> tuple[Result, dict[str, Any], float]:
+    """The run of a case, its numbers, and its period [rad]; gas that follows the motion is integrated with it."""
+    if in_loop(case):
+        result = run_in_loop(case, settings)
+        coordinates = tuple(name for name, unit in result.units.items() if unit == "rad")
+        return result, summary(result, coordinates, simulation_of(case).window, CYCLE), CYCLE
+    problem = problem_of(case)
+    result, period = simulate(problem, settings), period_of(problem)
+    return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
 
 
 def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:

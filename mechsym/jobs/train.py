@@ -131,6 +131,6 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
 
 def remarks(case: Case) -> tuple[str, ...]:
     """What a reader of a run should know about a crank train."""
-    if case.mechanism != "crank_train" or "load" in case.sections:
+    if case.mechanism != "crank_train" or {"load", "cycle"} & set(case.sections):
         return ()
     return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)

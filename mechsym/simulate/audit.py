@@ -6,7 +6,6 @@ import numpy as np
 
 from mechsym.mechanisms.record import Mechanism
 from mechsym.native import compiled
-from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Energy
 
 # a run whose energy balances to this is integrated well; if it still differs from its check, the motion is to blame
@@ -32,16 +31,18 @@ def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.nda
     return kinetic, potential
 
 
-def energy_audit(problem: Problem, columns: Mapping[str, np.ndarray]) -> Energy:
+def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray]) -> Energy:
     """Balance of work, dissipation and energy over a run.
 
     Parameters
     ----------
+    roles : mapping of str to str
+        Side of the balance of each part by its name, `drive` counts as work in
     columns : mapping of str to ndarray
         Its columns, first entry at the start, last at the end
     """
-    work = {p.name: float(columns[f"work_{p.name}"][-1]) for p in problem.parts}
-    work_in = sum(work[p.name] for p in problem.parts if p.role == "drive")
+    work = {name: float(columns[f"work_{name}"][-1]) for name in roles}
+    work_in = sum(work[name] for name, role in roles.items() if role == "drive")
     lost = float(columns["dissipation"][-1])
     if "kinetic_energy" not in columns:
         return Energy(work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None)

@@ -73,7 +73,7 @@ def _core(problem: Problem, dependents: tuple[str, ...]) -> tuple[ca.Function, t
     mass, bias, force = mechanism.functions["dynamics"](*ca.vertsplit(q), *ca.vertsplit(u), *inputs)
     reduced, right = ca.mtimes(T.T, ca.mtimes(mass, T)), ca.mtimes(T.T, force - bias - ca.mtimes(mass, c))
     acceleration = ca.mtimes(T, ca.solve(reduced, right)) + c
-    rates, loss = plain.power(problem, ca.vertsplit(q), ca.vertsplit(u))
+    rates, loss = plain.power(problem.mechanism, ca.vertsplit(q), ca.vertsplit(u))
     powers = [value * rates[part.input] for part, value in values]
     jacobian = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * n))[1][:, held_]
     margin = ca.trace(ca.solve(jacobian, ca.reshape(ca.jtimes(ca.vec(jacobian), q, u), jacobian.shape)))

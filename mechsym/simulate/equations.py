@@ -15,7 +15,7 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.errors import BadInput
-from mechsym.mechanisms.record import acceleration_function, velocities
+from mechsym.mechanisms.record import Mechanism, acceleration_function, velocities
 from mechsym.quantities import record
 from mechsym.simulate.problem import FormulaForce, Periodic, Problem, Steps
 
@@ -55,7 +55,7 @@ def system(problem: Problem) -> System:
     values = part_values(problem, t, q, u, w)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
     qdd = acceleration_function(mechanism)(*q, *u, *inputs)
-    rates, loss = power(problem, q, u)
+    rates, loss = power(mechanism, q, u)
     powers = [value * rates[part.input] for part, value in values]
     works = tuple(f"work_{p.name}" for p in problem.parts)
     return System(
@@ -85,9 +85,8 @@ def part_values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w:
     return found
 
 
-def power(problem: Problem, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
+def power(mechanism: Mechanism, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
     """The speed conjugate to each input, and the power that is lost inside the mechanism."""
-    mechanism = problem.mechanism
     inputs = ca.SX.sym("inputs", len(mechanism.inputs))
     force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs))[2]
     speeds = ca.jacobian(force, inputs).T @ ca.vertcat(*u)

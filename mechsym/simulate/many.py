@@ -72,7 +72,7 @@ def _together(problems: list[Problem], settings: Settings) -> list[Result]:
         return results
     checks = _raws(problems, systems, tighter(settings))
     return [
-        r if r.status == "failed" else checked(p, r, result_of(p, s, c, 0.0), settings)
+        r if r.status == "failed" else checked(p.mechanism, r, result_of(p, s, c, 0.0), settings)
         for p, s, r, c in zip(problems, systems, results, checks, strict=True)
     ]
 

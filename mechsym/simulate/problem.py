@@ -119,6 +119,11 @@ class Problem:
         _outputs(self.output)
 
 
+def period_of(problem: Problem) -> float:
+    """Period of what acts over a coordinate; a turn where nothing does [rad]."""
+    return max((p.value.period for p in problem.parts if isinstance(p.value, Periodic)), default=2 * np.pi)
+
+
 def _known(what: str, names: list[str], allowed: tuple[str, ...]) -> None:
     for name in names:
         if name not in allowed:

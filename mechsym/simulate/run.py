@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms.record import Mechanism
 from mechsym.native.compiler import NoCompiler
 from mechsym.simulate import constrained, native_backend
 from mechsym.simulate.audit import energies, energy_audit, speed_difference, verdict
@@ -42,7 +43,7 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
     result = _once(problem, settings)
     if result.status == "failed" or settings.check == "none":
         return result
-    return checked(problem, result, _once(problem, tighter(settings)), settings)
+    return checked(problem.mechanism, result, _once(problem, tighter(settings)), settings)
 
 
 def _once(problem: Problem, settings: Settings) -> Result:
@@ -71,7 +72,7 @@ def tighter(settings: Settings) -> Settings:
     return replace(settings, tolerance=max(settings.tolerance / 100, _TIGHTEST), check="none")
 
 
-def checked(problem: Problem, result: Result, check: Result, settings: Settings) -> Result:
+def checked(mechanism: Mechanism, result: Result, check: Result, settings: Settings) -> Result:
     """A result with the verdict of its check.
 
     Parameters
@@ -85,7 +86,6 @@ def checked(problem: Problem, result: Result, check: Result, settings: Settings)
         why = f"ends by {result.end!r}, at the tighter tolerance by {check.end!r}; use a smaller tolerance"
         return replace(result, status="not converged", reason=why)
     t, here, there = np.intersect1d(result.t, check.t, return_indices=True)
-    mechanism = problem.mechanism
     speeds = [f"{q}d" for q in mechanism.coordinates if q not in mechanism.dependents]  # the others follow them
     difference = speed_difference(
         {v: result.columns[v][here] for v in speeds}, {v: check.columns[v][there] for v in speeds}
@@ -207,7 +207,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
         units=units,
         end=raw.end,
         event=Event(name=raw.end, t=float(raw.t[-1]), state=state) if met else None,
-        energy=energy_audit(problem, columns),
+        energy=energy_audit({p.name: p.role for p in problem.parts}, columns),
         tolerance_difference=None,
         steps=raw.steps,
         wall_s=wall_s,

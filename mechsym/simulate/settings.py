@@ -35,7 +35,8 @@ class Simulation:
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
     #: Spacing of the results in a run to t_end [s]
     output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
-    #: Stretch at the end over which speeds are summed up; None takes the last turn, or all of a run to t_end [s]
+    #: Stretch at the end over which speeds are summed up; None takes the last period of what drives (a turn, or two of
+    #: a four-stroke engine), or all of a run to t_end [s]
     window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
     #: `designed` puts the hinge of the case's `[spring]` and `[guide]` on the shaft, `none` leaves it away
     hinge: str = choice("designed", "none", default="designed", about="hinge of an engine")

@@ -7,7 +7,9 @@ import numpy as np
 from mechsym.simulate.result import Result
 
 
-def summary(result: Result, coordinates: tuple[str, ...], window: float | None) -> dict[str, Any]:
+def summary(
+    result: Result, coordinates: tuple[str, ...], window: float | None, period: float = 2 * np.pi
+) -> dict[str, Any]:
     """The reported numbers of a run.
 
     Parameters
@@ -15,14 +17,16 @@ def summary(result: Result, coordinates: tuple[str, ...], window: float | None) 
     coordinates : tuple of str
         Names of the coordinates; `speed_mean` and the others are those of the first
     window : float or None
-        Stretch at the end over which speeds are summed up; None takes the last turn of the first coordinate [s]
+        Stretch at the end over which speeds are summed up; None takes the last period of the first coordinate [s]
+    period : float
+        A turn, or two for a four-stroke engine [rad]
 
     Returns
     -------
     summary : dict
         Keys of `mechsym simulate` in the interface, and more
     """
-    since = last_period(result, coordinates[0]) if window is None else max(result.t[-1] - window, result.t[0])
+    since = last_period(result, coordinates[0], period) if window is None else max(result.t[-1] - window, result.t[0])
     speeds = {c: speed_over(result, c, since) for c in coordinates}
     first = speeds[coordinates[0]]
     event = result.event

@@ -107,10 +107,13 @@ def _bisected(family: list[Case]) -> list[Outcome]:
 
 
 def _simulated(found: Sequence[Case]) -> list[Outcome]:
+    from mechsym.jobs.loop import in_loop
     from mechsym.jobs.problem import problem_of, settings_of
 
-    problems = {i: _guarded(problem_of, case) for i, case in enumerate(found)}
+    looped = [i for i, case in enumerate(found) if in_loop(case)]
+    problems = {i: _guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
+    outcomes |= {i: _guarded(_in_loop, found[i]) for i in looped}
     groups: dict[Any, list[int]] = {}
     for i in (i for i in problems if i not in outcomes):
         groups.setdefault(settings_of(found[i]), []).append(i)
@@ -118,6 +121,14 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
         for i, result in zip(members, _side_by_side([problems[i] for i in members], settings), strict=True):
             outcomes[i] = result if isinstance(result, Gap) else _verdict(found[i], problems[i], result)
     return [outcomes[i] for i in range(len(found))]
+
+
+def _in_loop(case: Case) -> Outcome:
+    """One point whose gas is integrated with the motion."""
+    from mechsym.jobs.problem import settings_of
+    from mechsym.jobs.run import run_of
+
+    return _told(case, *run_of(case, settings_of(case))[:2])
 
 
 def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
@@ -132,12 +143,18 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
 
 def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
     from mechsym.jobs.problem import window_of
+    from mechsym.simulate.problem import period_of
     from mechsym.simulate.summary import summary
+
+    coordinates = problem.mechanism.coordinates
+    return _told(case, result, summary(result, coordinates, window_of(case, problem), period_of(problem)))
+
+
+def _told(case: Case, result: Any, report: dict[str, Any]) -> Outcome:
     from mechsym.torsion.twist import sections
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    report = summary(result, problem.mechanism.coordinates, window_of(case, problem))
     twists = [dataclasses.asdict(s) for s in sections(case.need("parameters"), result, result.t[-1] - report["window"])]
     if twists:
         report |= {peak: max(t[peak] for t in twists) for peak in ("twist_peak", "torque_peak")}

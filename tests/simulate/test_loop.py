@@ -18,8 +18,10 @@ from mechsym.errors import BadInput
 from mechsym.hinge.guide import cut
 from mechsym.hinge.torque import torque
 from mechsym.jobs.cycle import engine
+from mechsym.jobs.gas import one_cylinder
 from mechsym.jobs.hinge import at_loads, design_load
 from mechsym.jobs.loop import loop
+from mechsym.jobs.run import run as run_case
 from mechsym.quantities import RPM
 from mechsym.simulate.loop.run import run_loop
 from mechsym.simulate.loop.summary import series, summary
@@ -139,6 +141,39 @@ def test_command(tmp_path):
     assert (tmp_path / "loop.csv").read_text().startswith("t,theta,thetad,p_1")
 
 
+@pytest.mark.parametrize("name", ["nunes-hypocycloid", pytest.param("balandin", marks=pytest.mark.slow)])
+def test_simulate_is_the_loop_where_gas_follows_the_motion(name):
+    case = load(name, {"simulation.turns": "4"})
+    here, machine = run_case(case, check="none"), loop(case)
+    there = run_loop(machine, case.need("operation").speed, 2, tolerance=1e-10)
+    told = summary(machine, there)
+    assert here.summary["t_end"] == told["t_end"] and here.result.end == "turns"
+    assert here.summary["speed_max"] == pytest.approx(told["speed_max_rpm"] * RPM, rel=1e-12)
+    assert np.array_equal(here.result.columns["p_1"], there.p[:, 0])
+    assert here.summary["energy_residual"] == there.energy_residual and abs(there.energy_residual) < 1e-8
+    assert here.result.energy.work_in == there.works[-1, 0] > 0
+
+
+def test_faces_of_a_rodless_engine_do_the_work_of_their_chambers():
+    case = load("balandin")
+    machine = loop(case)
+    result = run_loop(machine, 4000 * RPM, 3)
+    assert len(machine.cylinders) == 4 and sorted({c.cylinder for c in result.cycles}) == [0, 1, 2, 3]
+    # at nearly constant speed each face does the work of the cycle there
+    steady = performance(engine(one_cylinder(case)), {"omega": result.cycles[-1].speed})
+    assert result.cycles[-1].work == pytest.approx(steady.torque_avg[0] * 4 * math.pi, rel=0.02)
+    assert abs(result.energy_residual) < 1e-8
+
+
+def test_a_loop_ends_at_its_time_and_starts_at_its_angle():
+    found = run_case(load("nunes-slider-crank", {"simulation.t_end": "10 ms", "simulation.phi_start": "90 deg"}))
+    assert found.result.end == "t_end" and found.summary["t_end"] == pytest.approx(0.01, rel=1e-12)
+    assert found.result.status == "converged" and found.result.columns["phi"][0] == pytest.approx(math.pi / 2)
+    whole = run_loop(loop(load("nunes-slider-crank")), 8000 * RPM, 2, angle=4 * math.pi)
+    again = run_loop(loop(load("nunes-slider-crank")), 8000 * RPM, 2)
+    assert whole.u == pytest.approx(again.u, rel=1e-7)  # a start a cycle later is the same start
+
+
 def test_what_no_loop_can_be_made_of_is_refused(tmp_path):
     with pytest.raises(BadInput, match="spark-ignition"):
         loop(load("zotov-89"))
@@ -147,6 +182,8 @@ def test_what_no_loop_can_be_made_of_is_refused(tmp_path):
     case.write_text(text("nunes-slider-crank") + table)
     with pytest.raises(BadInput, match="no table"):
         loop(load(str(case)))
+    with pytest.raises(BadInput, match="backend 'sundials' does not take gas in the loop"):
+        run_case(load("nunes-slider-crank", {"simulation.backend": "sundials", "simulation.turns": "2"}))
 
 
 def test_a_hinge_cut_for_one_load_ripples_at_others():

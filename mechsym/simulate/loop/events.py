@@ -11,7 +11,7 @@ from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.kinds.spark_ignition import timing
 from mechsym.quantities import record
-from mechsym.simulate.loop.system import OPEN, PER_CYLINDER, Loop
+from mechsym.simulate.loop.system import OPEN, PER_CYLINDER, WORKS, Loop
 
 CYCLE = 4 * np.pi
 
@@ -43,13 +43,15 @@ class GasState:
     whole: bool  #: Whether the run has seen the inlet close
 
 
-def first_state(loop: Loop, omega: float) -> tuple[list[GasState], np.ndarray]:
-    """Cylinders as they stand at angle 0 in steady running, and the state of the equations.
+def first_state(loop: Loop, omega: float, angle: float = 0.0) -> tuple[list[GasState], np.ndarray]:
+    """Cylinders as they stand at an angle in steady running, and the state of the equations.
 
     Parameters
     ----------
     omega : float
         Speed of every coordinate [rad/s]
+    angle : float
+        Value of every coordinate [rad]
 
     Returns
     -------
@@ -60,7 +62,7 @@ def first_state(loop: Loop, omega: float) -> tuple[list[GasState], np.ndarray]:
     start, duration = (float(a) for a in timing(loop.engine.cycle, omega))
     gases, temperatures = [], []
     for cylinder in loop.cylinders:
-        phi = (-cylinder.firing + CYCLE / 2) % CYCLE - CYCLE / 2
+        phi = (angle - cylinder.firing + CYCLE / 2) % CYCLE - CYCLE / 2
         ends = (loop.engine.cycle.inlet_closes, start, start + duration, loop.engine.cycle.exhaust_opens)
         passed = int(np.searchsorted(ends, phi, side="right"))  # 0: before the inlet closes, 4: the exhaust is open
         gases.append(
@@ -70,13 +72,13 @@ def first_state(loop: Loop, omega: float) -> tuple[list[GasState], np.ndarray]:
                 duration=duration,
                 speed=omega,
                 whole=False,
-                dead_centre=-phi + (CYCLE if passed > OPEN else 0.0),
+                dead_centre=angle - phi + (CYCLE if passed > OPEN else 0.0),
             )  # fmt: skip
         )
         temperatures.append(float(np.interp(phi, angles[0], steady[0])))
     n = len(loop.mechanism.coordinates)
     cylinders = [value for t in temperatures for value in (t, 0.0, 0.0)]
-    return gases, np.array([*[0.0] * n, *[omega] * n, *cylinders, 0.0, 0.0])
+    return gases, np.array([*[angle] * n, *[omega] * n, *cylinders, *[0.0] * len(WORKS)])
 
 
 def gap(loop: Loop, gas: GasState, k: int, y: np.ndarray) -> float:

@@ -20,9 +20,11 @@ from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.quantities import record
+from mechsym.simulate.equations import power
 
 OPEN = len(PHASES)  # number of the fourth phase
 PER_CYLINDER = ("t", "work", "wall_heat")
+WORKS = ("work_gas", "work_load", "dissipation")  # the last entries of the state
 
 
 @record
@@ -32,6 +34,8 @@ class LoopCylinder:
     input: str  #: The mechanism's input that its piston force acts on
     coordinate: str  #: Coordinate that is the angle of its crank
     firing: float  #: Value of that coordinate at the cylinder's firing top dead centre, within 4 pi [rad]
+    area: float | None = None  #: Of the working face; None takes the area of the bore [m^2]
+    sense: float = 1.0  #: 1 where the input counts away from the head, -1 where it counts towards it [-]
 
 
 @record
@@ -54,15 +58,15 @@ def right_side(loop: Loop) -> ca.Function:
     -------
     function : casadi.Function
         (y, held) -> dy/dt and the pressures of the cylinders [Pa]. y: coordinates, velocities, then for each cylinder
-        temperature [K], work and heat to the walls since the inlet closed [J], then work of all forces on the
-        mechanism and work of the pistons [J]. held, for each cylinder: phase, start [rad], duration [rad], and the
-        angle of its last firing dead centre [rad]
+        temperature [K], work and heat to the walls since the inlet closed [J], then work of the pistons, of the load
+        and what dampers take [J]. held, for each cylinder: phase, start [rad], duration [rad], and the angle of its
+        last firing dead centre [rad]
     """
     q_names, n = loop.mechanism.coordinates, len(loop.mechanism.coordinates)
     count = len(loop.cylinders)
-    y, held = ca.SX.sym("y", 2 * n + 3 * count + 2), ca.SX.sym("held", 4 * count)
+    y, held = ca.SX.sym("y", 2 * n + 3 * count + len(WORKS)), ca.SX.sym("held", 4 * count)
     q, u = y[:n], y[n : 2 * n]
-    inputs: dict[str, Any] = {name: 0 for name in loop.mechanism.inputs}
+    inputs: dict[str, Any] = {name: ca.SX(0) for name in loop.mechanism.inputs}
     slopes, pressures, piston_power = [], [], 0
     for k, cylinder in enumerate(loop.cylinders):
         i = q_names.index(cylinder.coordinate)
@@ -71,13 +75,15 @@ def right_side(loop: Loop) -> ca.Function:
         slopes += [slope * u[i] for slope in per_angle]
         pressures.append(p)
         room = closed_period(loop.engine, {"omega": u[i]}).chamber
-        inputs[cylinder.input] += (p - room.back_pressure) * room.area
-        piston_power += inputs[cylinder.input] * travel(room.motion, phi)[1] * u[i]
-    inputs[loop.load_input] += load_torque(loop.load, u[q_names.index(loop.load_coordinate)])
+        force = (p - room.back_pressure) * (room.area if cylinder.area is None else cylinder.area)
+        inputs[cylinder.input] += cylinder.sense * force
+        piston_power += force * travel(room.motion, phi)[1] * u[i]
+    braking = load_torque(loop.load, u[q_names.index(loop.load_coordinate)])
+    inputs[loop.load_input] += braking
+    speeds, loss = power(loop.mechanism, ca.vertsplit(q), ca.vertsplit(u))
     arguments = [*ca.vertsplit(q), *ca.vertsplit(u), *(inputs[name] for name in loop.mechanism.inputs)]
-    force = loop.mechanism.functions["dynamics"].call(arguments)[2]
     acceleration = acceleration_function(loop.mechanism).call(arguments)[0]
-    rate = ca.vertcat(u, acceleration, *slopes, ca.dot(force, u), piston_power)
+    rate = ca.vertcat(u, acceleration, *slopes, piston_power, braking * speeds[loop.load_input], loss)
     return ca.Function("loop", [y, held], [rate, ca.vertcat(*pressures)])
 
 
