@@ -1,0 +1,176 @@
+r"""A turbocharger of fixed efficiencies, its intercooler, and the atmosphere at a height.
+
+    ambient p_1, T_1 --[compressor]-- p_2 --[intercooler]-- T_2 -> engine -> p_3, T_3 --[turbine]-- p_1
+
+The wanted boost pressure sets the compressor's work; the balance of the shaft says to which pressure the exhaust must
+be dammed up before the turbine, and so what the boost costs in pumping. Pressures are absolute.
+"""
+
+import math
+from collections.abc import Callable
+
+from mechsym.errors import BadInput
+from mechsym.quantities import quantity, record
+
+_GAMMA_AIR, _CP_AIR = 1.4, 1005.0
+_GAMMA_EXHAUST, _CP_EXHAUST = 1.34, 1130.0
+_ROUNDS, _SETTLED = 60, 1e-8
+
+
+@record
+class Boost:
+    """Section `[boost]`: turbocharger and height of operation."""
+
+    altitude: float = quantity("m", default=0.0, low=-500, high=11000, about="height above the sea")
+    pressure: float | None = quantity("Pa", default=None, above=0, about="absolute boost pressure; else sea level's")
+    compressor_efficiency: float = quantity("-", default=0.72, above=0, high=1, about="isentropic, of the compressor")
+    turbine_efficiency: float = quantity("-", default=0.68, above=0, high=1, about="isentropic, of the turbine")
+    shaft_efficiency: float = quantity("-", default=0.97, above=0, high=1, about="mechanical, of the shaft")
+    intercooler: float = quantity("-", default=0.0, low=0, below=1, about="effectiveness against ambient air")
+    air_fuel_ratio: float = quantity("-", default=15.0, above=1, about="air over fuel by mass through the turbine")
+
+
+@record
+class Boosted:
+    """State before and behind the engine that the turbocharger leaves."""
+
+    #: Atmosphere: absolute pressure [Pa] and temperature [K]
+    p_1: float
+    T_1: float
+    #: Behind compressor and intercooler [Pa, K]
+    p_2: float
+    T_2: float
+    #: Before the turbine [Pa, K]
+    p_3: float
+    T_3: float
+
+
+def atmosphere(altitude: float) -> tuple[float, float]:
+    r"""International standard atmosphere.
+
+    .. math:: T = 288.15 - 0.0065\,h, \qquad p = 101325\,(T/288.15)^{5.25588}
+
+    Parameters
+    ----------
+    altitude : float
+        Height h above the sea [m]
+
+    Returns
+    -------
+    p : float
+        Absolute pressure [Pa]
+    T : float
+        Temperature [K]
+
+    Notes
+    -----
+    Source: ISO 2533:1975. Valid: troposphere, -500 m to 11 km.
+
+    Examples
+    --------
+    >>> p, T = atmosphere(5000.0)
+    >>> round(p), round(T, 2)
+    (54020, 255.65)
+    """
+    T = 288.15 - 0.0065 * altitude
+    return 101325.0 * (T / 288.15) ** 5.25588, T
+
+
+def compressor_temperature(T: float, ratio: float, efficiency: float, gamma: float = _GAMMA_AIR) -> float:
+    r"""Temperature behind a compressor.
+
+    .. math:: T_2 = T_1\left(1 + \frac{\pi^{(\gamma - 1)/\gamma} - 1}{\eta_c}\right)
+
+    Parameters
+    ----------
+    T : float
+        Temperature before it [K]
+    ratio : float
+        Pressure ratio, at least 1 [-]
+    efficiency : float
+        Isentropic efficiency [-]
+    gamma : float
+        Ratio of the heat capacities [-]
+
+    Returns
+    -------
+    T_2 : float
+        Temperature [K]
+
+    Notes
+    -----
+    Source: Heywood (1988), eq. (6.42). Valid: constant heat capacities, no heat to the surroundings.
+
+    Examples
+    --------
+    >>> round(compressor_temperature(288.15, 2.0, 0.72), 1)
+    375.8
+    """
+    return T * (1 + (ratio ** ((gamma - 1) / gamma) - 1) / efficiency)
+
+
+def turbine_ratio(boost: Boost, T_1: float, T_3: float, ratio: float) -> float:
+    r"""Expansion ratio of the turbine that drives the compressor.
+
+    .. math:: \pi_t^{-(\gamma_e - 1)/\gamma_e} = 1 - \frac{c_p T_1 (\pi_c^{(\gamma - 1)/\gamma} - 1)}
+              {\eta_c \eta_t \eta_m (1 + 1/AFR)\,c_{p,e} T_3}
+
+    Parameters
+    ----------
+    T_1, T_3 : float
+        Temperatures before compressor and turbine [K]
+    ratio : float
+        Pressure ratio of the compressor [-]
+
+    Returns
+    -------
+    ratio : float
+        Pressure before the turbine by that behind it [-]
+
+    Notes
+    -----
+    Source: balance of the shaft's powers, Heywood (1988), eq. (6.50). Valid: whole flow through the turbine, steady
+    flow, cp 1005 and 1130 J/(kg K), gamma 1.4 and 1.34.
+
+    Examples
+    --------
+    >>> round(turbine_ratio(Boost(), 288.15, 1000.0, 2.0), 3)
+    1.589
+    """
+    work = _CP_AIR * T_1 * (ratio ** ((_GAMMA_AIR - 1) / _GAMMA_AIR) - 1)
+    share = boost.compressor_efficiency * boost.turbine_efficiency * boost.shaft_efficiency
+    rest = 1 - work / (share * (1 + 1 / boost.air_fuel_ratio) * _CP_EXHAUST * T_3)
+    if rest <= 0:
+        raise BadInput(
+            f"boost.pressure: a pressure ratio of {ratio:.3g} asks for more than the exhaust of {T_3:.0f} K holds; "
+            "lower boost.pressure or boost.altitude, or raise the efficiencies"
+        )
+    return float(rest ** (-_GAMMA_EXHAUST / (_GAMMA_EXHAUST - 1)))
+
+
+def boosted(boost: Boost, exhaust_temperature: Callable[[Boosted], float]) -> Boosted:
+    """The engine and its turbocharger in balance.
+
+    Parameters
+    ----------
+    exhaust_temperature : callable
+        State before and behind the engine to the temperature of its exhaust [K]
+    """
+    p_1, T_1 = atmosphere(boost.altitude)
+    p_2 = atmosphere(0.0)[0] if boost.pressure is None else boost.pressure
+    ratio = p_2 / p_1
+    if ratio < 1 - 1e-12:
+        raise BadInput(
+            f"boost.pressure = {p_2:.6g} Pa is below the atmosphere's {p_1:.6g} Pa; raise it, or leave out [boost]"
+        )
+    hot = compressor_temperature(T_1, ratio, boost.compressor_efficiency)
+    T_2, T_3 = hot - boost.intercooler * (hot - T_1), 1000.0
+    for _ in range(_ROUNDS):
+        state = Boosted(p_1=p_1, T_1=T_1, p_2=p_2, T_2=T_2, p_3=p_1 * turbine_ratio(boost, T_1, T_3, ratio), T_3=T_3)
+        found = exhaust_temperature(state)
+        if not math.isfinite(found) or abs(found - T_3) <= _SETTLED * T_3:
+            break
+        T_3 = found
+    else:
+        raise BadInput("the exhaust's temperature and the turbocharger do not settle; lower boost.pressure")
+    return state

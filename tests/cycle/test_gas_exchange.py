@@ -1,0 +1,123 @@
+"""Filling and emptying against closed forms, limits and balances; no published measurement was found to compare."""
+
+import math
+
+import casadi as ca
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from mechsym.cycle.gas_exchange import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
+from mechsym.cycle.gas_exchange_cycle import Breathing, FreshCharge, breathe
+
+AREA, STROKE = math.pi / 4 * 0.06**2, 0.104
+SWEPT = AREA * STROKE
+SMALL = {
+    "inlet_diameter": 0.028, "inlet_lift": 0.008, "exhaust_diameter": 0.024, "exhaust_lift": 0.008,
+    "throttle_diameter": 0.03, "plenum_volume": 1e-3, "tailpipe_diameter": 0.03, "manifold_volume": 1e-3,
+}  # fmt: skip
+FIRED = FreshCharge(heat=2.5e6, ignition=math.radians(-10), duration=math.radians(40))
+COLD = FreshCharge(heat=0.0, ignition=0.0, duration=0.5)
+
+
+def volume(phi):
+    return SWEPT / 9 + SWEPT / 2 * (1 - ca.cos(phi))
+
+
+@pytest.mark.parametrize("gamma", [1.2, 1.4, 5 / 3])
+def test_choked_discharge_of_a_vessel_has_a_closed_form(gamma):
+    # p/p0 = (1 + (gamma - 1)/2 k t)^(-2 gamma/(gamma - 1)), the gas inside expanding without heat
+    R, V, A, p0, T0 = 287.0, 1e-3, 1e-5, 20e5, 600.0
+
+    def rate(t, y):
+        p, T = y
+        flow = float(orifice_flow(A, (p, T), (1e5, 300.0), gamma, R))
+        return [-gamma * R * T * flow / V, -(gamma - 1) * T * flow * R * T / (p * V)]
+
+    k = A * math.sqrt(gamma * R * T0) / V * (2 / (gamma + 1)) ** ((gamma + 1) / (2 * (gamma - 1)))
+    t = 0.05
+    p, T = solve_ivp(rate, (0, t), [p0, T0], rtol=1e-11, atol=1e-9).y[:, -1]
+    factor = 1 + (gamma - 1) / 2 * k * t
+    assert p > 1e5 / critical_ratio(gamma)
+    assert p / p0 == pytest.approx(factor ** (-2 * gamma / (gamma - 1)), rel=1e-8)
+    assert T / T0 == pytest.approx(factor**-2, rel=1e-8)
+
+
+def test_flow_below_choking_is_the_isentropic_one_and_joins_the_choked():
+    gamma, R = 1.4, 287.0
+    ratio = critical_ratio(gamma)
+    below, above = (float(orifice_flow(1e-4, (2e5, 300.0), (2e5 * r, 300.0), gamma, R)) for r in (ratio, ratio / 3))
+    assert below == pytest.approx(above, rel=1e-14)
+    T = 300.0 * 0.8 ** (0.4 / 1.4)  # in the throat, at r = 0.8
+    speed = math.sqrt(2 * 1.4 * R / 0.4 * (300.0 - T))
+    assert float(orifice_flow(1e-4, (2e5, 300.0), (1.6e5, 280.0), gamma, R)) == pytest.approx(
+        1e-4 * speed * 1.6e5 / (R * T), rel=1e-13
+    )
+
+
+@given(st.floats(0.5, 20), st.floats(0.5, 20), st.floats(250, 2000), st.floats(250, 2000))
+def test_flow_turns_round_with_the_pressures(p_1, p_2, T_1, T_2):
+    one, other = (p_1 * 1e5, T_1), (p_2 * 1e5, T_2)
+    there, back = float(orifice_flow(1e-4, one, other, 1.4, 287.0)), float(orifice_flow(1e-4, other, one, 1.4, 287.0))
+    if p_1 != p_2:
+        assert there == pytest.approx(-back, rel=1e-12)
+    assert there * (p_1 - p_2) >= 0
+
+
+def test_cam_has_no_jump_in_speed_or_acceleration():
+    opens, closes = math.radians(345), math.radians(590)
+    phi = ca.SX.sym("phi")
+    lift = valve_lift(phi, opens, closes, 0.008)
+    slope = ca.gradient(lift, phi)
+    both = ca.Function("cam", [phi], [slope, ca.gradient(slope, phi)])
+    for angle in (opens, closes):
+        for value in both(angle + 1e-9 if angle == opens else angle - 1e-9):
+            assert abs(float(value)) < 1e-8
+    assert float(valve_lift(opens - 0.1, opens, closes, 0.008)) == 0
+    assert float(valve_lift((opens + closes) / 2 + 4 * math.pi, opens, closes, 0.008)) == pytest.approx(0.008)
+
+
+def test_areas_saturate():
+    assert float(curtain_area(0.1, 0.02, 0.7)) == pytest.approx(0.7 * math.pi / 4 * 0.02**2)
+    assert float(port_area(0.05, 0.08, 0.02, 0.1, 0.7)) == 0
+    assert float(port_area(0.2, 0.08, 0.02, 0.1, 0.7)) == pytest.approx(0.7 * 0.1 * 0.02)
+
+
+def test_mass_and_energy_are_conserved_and_the_cycle_repeats():
+    for found in breathe(Breathing(**SMALL), FIRED, volume, [100.0, 400.0, 800.0]):
+        assert found.closure < 1e-9
+        assert found.mass_residual < 1e-9
+        assert found.energy_residual < 1e-9
+        assert 0 < found.residual < 0.15
+        assert found.work > 0 > found.pumping
+
+
+def test_slow_cold_engine_is_the_ideal_pump():
+    """Throats wide, speed low, exhaust at another pressure than inlet: the two strokes work (p_i - p_e) V."""
+    wide = SMALL | {"inlet_opens": math.radians(359), "inlet_closes": math.radians(541),
+                    "exhaust_opens": math.radians(179), "exhaust_closes": math.radians(361)}  # fmt: skip
+    (found,) = breathe(Breathing(**wide, exhaust_pressure=1.2e5), COLD, volume, [20.0])
+    assert found.pumping == pytest.approx((101325.0 - 1.2e5) * SWEPT, rel=0.02)
+    (level,) = breathe(Breathing(**wide), COLD, volume, [20.0])
+    assert abs(level.pumping) < 5e-3 * 101325.0 * SWEPT
+    assert level.volumetric_efficiency == pytest.approx(1.0, abs=0.03)
+
+
+def test_closed_period_is_the_adiabat():
+    (found,) = breathe(Breathing(**SMALL), COLD, volume, [200.0])
+    room = np.array([float(volume(a)) for a in found.phi])
+    closed = found.phi < 4 * math.pi + math.radians(129)
+    p = found.pressures["cylinder"]
+    np.testing.assert_allclose(p[closed] * room[closed] ** 1.4, p[0] * room[0] ** 1.4, rtol=1e-9)
+
+
+def test_higher_speed_breathes_worse_and_a_throttle_costs_work():
+    slow, fast = breathe(Breathing(**SMALL), FIRED, volume, [200.0, 800.0])
+    assert fast.volumetric_efficiency < slow.volumetric_efficiency
+    assert fast.pumping < slow.pumping
+    (throttled,) = breathe(Breathing(**(SMALL | {"throttle_diameter": 0.006})), FIRED, volume, [200.0])
+    assert throttled.volumetric_efficiency < 0.8 * slow.volumetric_efficiency
+    assert throttled.pumping < 1.5 * slow.pumping
+    assert throttled.residual > slow.residual
