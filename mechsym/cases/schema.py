@@ -24,6 +24,8 @@ _SECTIONS: dict[str, Any] = {
     "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
+    "breathing": "mechsym.cycle.breathing.records:Breathing",
+    "boost": "mechsym.cycle.breathing.turbocharger:Boost",
     "stirling": "mechsym.cycle.kinds.stirling_second_order:StirlingLosses",
     "combustion": "mechsym.cycle.measured.combustion:Analysis",
     "measured": "mechsym.cycle.measured.diagram:BrakeMeasured",

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli import cycle_stirling
+from mechsym.cli import cycle_breathing, cycle_stirling
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
@@ -41,6 +41,7 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle generator --diagram measured.csv --motored motored.csv
               mechsym cycle nunes-hypocycloid --loop 10
               mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
+              mechsym cycle generator-breathing --speeds 1000:4000:500
     """
     from mechsym.cli import cycle_loop, cycle_measured
 
@@ -67,6 +68,9 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
         cycle_stirling.show(case, _array(omega), as_json, out)
         return
     cylinders(case)  # what is wrong with them is said before the work begins
+    if given == "breathing" and not over:
+        cycle_breathing.show(case, _array(omega), as_json, out)
+        return
     if given == "engine":
         machine = engine(one_cylinder(case))
         found = _map(machine, omega, over)

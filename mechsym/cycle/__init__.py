@@ -4,6 +4,7 @@ chamber     volume over the travel of a piston        motion     travel and movi
 pressure    pressure over the angle, peak, work       gas        pressure in its chamber: the force on a piston
 kinds       one table: every kind of cycle and what it can do
 mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
+breathing   gas exchange by filling and emptying, turbocharger
 closed      the closed period integrated, its figures, its derivatives
 measured    measured diagrams: read, aligned, taken apart
 engine, figures    figures over the speeds, of an engine and of a single cylinder        plots

@@ -7,6 +7,8 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.settings import Speeds
+from mechsym.cycle.breathing import engine as breathing_engine
+from mechsym.cycle.breathing.engine import BreathingRun
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.engine import columns, over_design
 from mechsym.cycle.figures import cylinder_columns
@@ -15,7 +17,7 @@ from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import stirling_columns
 from mechsym.forces import turn
-from mechsym.jobs.gas import engine_with, of, one_cylinder
+from mechsym.jobs.gas import breathing_with, engine_with, of, one_cylinder
 from mechsym.jobs.turn import drive_of, fitted_law
 from mechsym.jobs.whole_engine import of_engine
 from mechsym.quantities import RPM
@@ -45,6 +47,8 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> dict[str, Any]:
         return columns_of_stirling(case, speeds)
     if given == "engine":
         found = columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
+    elif given == "breathing":
+        found = columns_of_breathing(case, speeds)
     else:
         found = columns_of_cylinder(case, speeds)
     return of_engine(case, found, speeds)
@@ -89,6 +93,29 @@ def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
     seen = one_cylinder(case)
     with of(case):
         return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega)
+
+
+def columns_of_breathing(case: Case, omega: np.ndarray) -> dict[str, Any]:
+    """Figures of an engine whose gas exchange is followed, over the speeds, of one cylinder.
+
+    Parameters
+    ----------
+    omega : ndarray, shape (n,)
+        Crank speeds [rad/s]
+    """
+    return breathing_engine.figures(breathing(case, omega))
+
+
+def breathing(case: Case, omega: np.ndarray) -> BreathingRun:
+    """The cycles of an engine whose gas exchange is followed, for its curves.
+
+    Parameters
+    ----------
+    omega : ndarray, shape (n,)
+        Crank speeds [rad/s]
+    """
+    with of(case):
+        return breathing_engine.run(breathing_with(one_cylinder(case), _friction(case)), omega.tolist())
 
 
 def columns_of_stirling(case: Case, omega: np.ndarray) -> dict[str, Any]:

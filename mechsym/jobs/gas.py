@@ -5,9 +5,13 @@ from contextlib import contextmanager
 from dataclasses import asdict, replace
 
 from mechsym.cases import Case
+from mechsym.cycle.breathing.engine import BreathingEngine
+from mechsym.cycle.breathing.engine import pressure as breathing_pressure
+from mechsym.cycle.breathing.engine import run as run_breathing
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
 from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
+from mechsym.cycle.heat import Adiabatic
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.cycle.measured.file import read_diagram
@@ -15,6 +19,7 @@ from mechsym.cycle.measured.timing import recorded_speed
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.cycle.motion import one_cylinder as seen_by_one
 from mechsym.cycle.motion import piston_motion, piston_travel
+from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
 
 
@@ -46,6 +51,10 @@ def gas(case: Case) -> Gas | None:
     seen = one_cylinder(case)
     if given == "engine":
         return gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)
+    if given == "breathing":
+        with of(case):
+            found = run_breathing(breathing_with(seen, NoFriction()), [case.need("operation").speed])
+        return Gas(pressure=breathing_pressure(found), chamber=found.chamber)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"))
     return gas_in_cylinder(cycle, travel)
@@ -91,6 +100,26 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
     )
 
 
+def breathing_with(case: Case, friction: Friction) -> BreathingEngine:
+    """The engine with gas exchange that a case describes, with a friction law whose numbers are known.
+
+    Parameters
+    ----------
+    case : Case
+        With sections `[parameters]`, `[chamber]`, `[cycle]` and `[breathing]`; `[boost]` is a turbocharger, and without
+        `[heat_transfer]` no heat is lost
+    """
+    return BreathingEngine(
+        chamber=case.need("chamber"),
+        motion=piston_motion(case.mechanism, asdict(case.need("parameters"))),
+        cycle=case.need("cycle"),
+        breathing=case.need("breathing"),
+        boost=case.sections.get("boost"),
+        heat_transfer=case.sections.get("heat_transfer", Adiabatic()),
+        friction_pressure=friction,
+    )
+
+
 def at_recorded_speed(case: Case) -> Case:
     """The case at the speed that the times of its measured diagram tell, unless the user has set another.
 
@@ -118,13 +147,13 @@ def measured(case: Case, file: str) -> Case:
         With `[cycle]`; of spark ignition `[chamber]` gives the cylinder
     """
     cycle = case.need("cycle")
-    if kind_of(cycle).given == "engine":
+    if kind_of(cycle).given in ("engine", "breathing"):
         room = case.need("chamber")
         cycle = Diagram(
             bore=room.bore,
             compression_ratio=room.compression_ratio,
             working_cycle="four-stroke",
-            inlet_pressure=cycle.intake_pressure,
+            inlet_pressure=getattr(cycle, "intake_pressure", ATMOSPHERE),
             p_back=room.back_pressure,
         )
     return at_recorded_speed(replace(case, sections={**case.sections, "cycle": with_diagram(cycle, file)}))

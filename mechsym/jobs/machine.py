@@ -10,7 +10,7 @@ from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.jobs import own_machine
-from mechsym.jobs.gas import at_recorded_speed
+from mechsym.jobs.gas import at_recorded_speed, gas
 from mechsym.jobs.own import is_own
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
@@ -46,10 +46,15 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
         cycle = with_diagram(cycle, diagram)
     case = at_recorded_speed(replace(case, sections={**case.sections, "cycle": cycle}))
     parameters = with_flywheel(case.need("parameters"), kept_flywheel(case))
+    if kind_of(cycle).given == "breathing":
+        found = gas(case)
+        assert found is not None
+        mechanism = mechanisms.build(case.mechanism, parameters)
+        return Machine(mechanism=mechanism, gas=found, load=load(case), omega=case.need("operation").speed)
     # a diagram is read from a file, which may have changed since
     make = _parts.__wrapped__ if kind_of(cycle).measured else _parts
-    mechanism, gas = make(case.mechanism, parameters, cycle)
-    return Machine(mechanism=mechanism, gas=gas, load=load(case), omega=case.need("operation").speed)
+    mechanism, found = make(case.mechanism, parameters, cycle)
+    return Machine(mechanism=mechanism, gas=found, load=load(case), omega=case.need("operation").speed)
 
 
 @functools.lru_cache(maxsize=8)

@@ -56,7 +56,7 @@ def cylinders(case: Case) -> CylinderCount:
 
 
 def _refuse_unlike(case: Case, parameters: CrankTrainParameters) -> None:
-    four_stroke = kind_of(case.need("cycle")).given == "engine"
+    four_stroke = kind_of(case.need("cycle")).given in ("engine", "breathing")
     refuse_wrong_firing(parameters, 4 * math.pi if four_stroke else 2 * math.pi)
     count, pistons = len(parameters.throw), getattr(case.sections.get("chamber"), "pistons", 1)
     if count % pistons:

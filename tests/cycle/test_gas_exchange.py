@@ -9,8 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from mechsym.cycle.gas_exchange import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
-from mechsym.cycle.gas_exchange_cycle import Breathing, FreshCharge, breathe
+from mechsym.cycle.breathing.equations import Cylinder
+from mechsym.cycle.breathing.flow import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
+from mechsym.cycle.breathing.records import Breathing, FreshCharge, Surroundings, Walls
+from mechsym.cycle.breathing.run import breathe
+from mechsym.cycle.heat import Woschni
 
 AREA, STROKE = math.pi / 4 * 0.06**2, 0.104
 SWEPT = AREA * STROKE
@@ -20,6 +23,10 @@ SMALL = {
 }  # fmt: skip
 FIRED = FreshCharge(heat=2.5e6, ignition=math.radians(-10), duration=math.radians(40))
 COLD = FreshCharge(heat=0.0, ignition=0.0, duration=0.5)
+
+
+def breathed(breathing, charge, speeds, **around):
+    return breathe(Cylinder(breathing=breathing, charge=charge, volume=volume), Surroundings(**around), speeds)
 
 
 def volume(phi):
@@ -86,7 +93,7 @@ def test_areas_saturate():
 
 
 def test_mass_and_energy_are_conserved_and_the_cycle_repeats():
-    for found in breathe(Breathing(**SMALL), FIRED, volume, [100.0, 400.0, 800.0]):
+    for found in breathed(Breathing(**SMALL), FIRED, [100.0, 400.0, 800.0]):
         assert found.closure < 1e-9
         assert found.mass_residual < 1e-9
         assert found.energy_residual < 1e-9
@@ -94,19 +101,20 @@ def test_mass_and_energy_are_conserved_and_the_cycle_repeats():
         assert found.work > 0 > found.pumping
 
 
+@pytest.mark.slow
 def test_slow_cold_engine_is_the_ideal_pump():
     """Throats wide, speed low, exhaust at another pressure than inlet: the two strokes work (p_i - p_e) V."""
     wide = SMALL | {"inlet_opens": math.radians(359), "inlet_closes": math.radians(541),
                     "exhaust_opens": math.radians(179), "exhaust_closes": math.radians(361)}  # fmt: skip
-    (found,) = breathe(Breathing(**wide, exhaust_pressure=1.2e5), COLD, volume, [20.0])
+    (found,) = breathed(Breathing(**wide), COLD, [20.0], p_out=1.2e5)
     assert found.pumping == pytest.approx((101325.0 - 1.2e5) * SWEPT, rel=0.02)
-    (level,) = breathe(Breathing(**wide), COLD, volume, [20.0])
+    (level,) = breathed(Breathing(**wide), COLD, [20.0])
     assert abs(level.pumping) < 5e-3 * 101325.0 * SWEPT
     assert level.volumetric_efficiency == pytest.approx(1.0, abs=0.03)
 
 
 def test_closed_period_is_the_adiabat():
-    (found,) = breathe(Breathing(**SMALL), COLD, volume, [200.0])
+    (found,) = breathed(Breathing(**SMALL), COLD, [200.0])
     room = np.array([float(volume(a)) for a in found.phi])
     closed = found.phi < 4 * math.pi + math.radians(129)
     p = found.pressures["cylinder"]
@@ -114,10 +122,21 @@ def test_closed_period_is_the_adiabat():
 
 
 def test_higher_speed_breathes_worse_and_a_throttle_costs_work():
-    slow, fast = breathe(Breathing(**SMALL), FIRED, volume, [200.0, 800.0])
+    slow, fast = breathed(Breathing(**SMALL), FIRED, [200.0, 800.0])
     assert fast.volumetric_efficiency < slow.volumetric_efficiency
     assert fast.pumping < slow.pumping
-    (throttled,) = breathe(Breathing(**(SMALL | {"throttle_diameter": 0.006})), FIRED, volume, [200.0])
+    (throttled,) = breathed(Breathing(**(SMALL | {"throttle_diameter": 0.006})), FIRED, [200.0])
     assert throttled.volumetric_efficiency < 0.8 * slow.volumetric_efficiency
     assert throttled.pumping < 1.5 * slow.pumping
     assert throttled.residual > slow.residual
+
+
+def test_walls_take_heat_and_the_balance_still_closes():
+    walls = Walls(law=Woschni(wall_temperature=420.0), bore=0.06, stroke=STROKE, displacement=SWEPT)
+    cylinder = Cylinder(breathing=Breathing(**SMALL), charge=FIRED, volume=volume, walls=walls)
+    (warm,), (without,) = breathe(cylinder, Surroundings(), [300.0]), breathed(Breathing(**SMALL), FIRED, [300.0])
+    assert warm.energy_residual < 1e-9
+    assert 0.1 < warm.wall_heat / warm.heat < 0.5
+    assert without.wall_heat == 0
+    assert warm.work < without.work
+    assert warm.T_exhaust < without.T_exhaust

@@ -1,8 +1,9 @@
 """The turbocharger against tables of the atmosphere, its balance of powers, its limits; no measurement was found."""
 
+import numpy as np
 import pytest
 
-from mechsym.cycle.turbocharger import Boost, atmosphere, boosted, compressor_temperature, turbine_ratio
+from mechsym.cycle.breathing.turbocharger import Boost, atmosphere, boosted, compressor_temperature, turbine_ratio
 from mechsym.errors import BadInput
 
 
@@ -15,18 +16,18 @@ def test_standard_atmosphere(altitude, p, T):
 
 
 def test_shaft_balance_closes():
-    boost = Boost(pressure=2e5, altitude=2000.0, intercooler=0.6)
-    state = boosted(boost, lambda s: 900.0 + 0.5 * s.T_2)
+    boost = Boost(pressure=2e5, intercooler=0.6)
+    state = boosted(boost, atmosphere(2000.0), lambda s: np.array([900.0, 950.0]) + 0.5 * s.T_2, 2)
     ratio = state.p_2 / state.p_1
     compressor = 1005.0 * (compressor_temperature(state.T_1, ratio, boost.compressor_efficiency) - state.T_1)
     fall = 1 - (state.p_3 / state.p_1) ** (-0.34 / 1.34)
     turbine = (1 + 1 / boost.air_fuel_ratio) * 1130.0 * state.T_3 * boost.turbine_efficiency * fall
-    assert compressor == pytest.approx(turbine * boost.shaft_efficiency, rel=1e-7)
-    assert state.T_3 == pytest.approx(900.0 + 0.5 * state.T_2, rel=1e-7)
+    assert turbine * boost.shaft_efficiency == pytest.approx(compressor, rel=1e-7)
+    assert state.T_3 == pytest.approx(np.array([900.0, 950.0]) + 0.5 * state.T_2, rel=1e-7)
 
 
 def test_no_boost_is_the_bare_engine():
-    state = boosted(Boost(), lambda s: 950.0)
+    state = boosted(Boost(), atmosphere(0.0), lambda s: np.array([950.0]), 1)
     assert (state.p_2, state.T_2) == pytest.approx(atmosphere(0.0), rel=1e-12)
     assert state.p_3 == pytest.approx(state.p_1, rel=1e-12)
 
@@ -39,6 +40,6 @@ def test_ideal_machine_with_hot_exhaust_costs_nothing_in_the_limit():
 
 def test_refusals_name_the_key():
     with pytest.raises(BadInput, match="boost.pressure"):
-        boosted(Boost(pressure=5e4), lambda s: 900.0)
+        boosted(Boost(pressure=5e4), atmosphere(0.0), lambda s: np.array([900.0]), 1)
     with pytest.raises(BadInput, match="lower boost.pressure"):
         turbine_ratio(Boost(), 288.15, 400.0, 20.0)

@@ -24,8 +24,9 @@ class Kind:
     """One kind of cycle; functions are texts "module:name", imported when they are wanted."""
 
     cycle: str  #: Record of its data
-    #: What gives a pressure beside the data: the chamber alone, a whole engine at a speed, or a train of cylinders
-    given: str = choice("chamber", "engine", "train", default="chamber")
+    #: What gives a pressure beside the data: the chamber alone, a whole engine at a speed, a train of cylinders, or
+    #: valves and volumes around a cylinder at a speed
+    given: str = choice("chamber", "engine", "train", "breathing", default="chamber")
     pressure: str = ""  #: (cycle, chamber) -> Pressure, of kinds that are given a chamber
     back: str = ""  #: cycle -> absolute pressure behind the piston [Pa], of the same kinds; empty: its field p_back
     figures: str = ""  #: (cycle, chamber, omega) -> Pressure and figures of the fuel; empty: no figures over the speed
@@ -53,6 +54,7 @@ KINDS: Mapping[str, Kind] = {
         measured=True,
     ),
     "spark-ignition": Kind(cycle="mechsym.cycle.kinds.spark_ignition:SparkIgnition", given="engine"),
+    "gas-exchange": Kind(cycle="mechsym.cycle.kinds.gas_exchange:GasExchange", given="breathing"),
     "schmidt": Kind(cycle="mechsym.cycle.kinds.schmidt:Schmidt", given="train"),
     "stirling-adiabatic": Kind(cycle="mechsym.cycle.kinds.stirling:StirlingAdiabatic", given="train"),
     "stirling-second-order": Kind(cycle="mechsym.cycle.kinds.stirling:StirlingSecondOrder", given="train"),

@@ -6,8 +6,10 @@ The wanted boost pressure sets the compressor's work; the balance of the shaft s
 be dammed up before the turbine, and so what the boost costs in pumping. Pressures are absolute.
 """
 
-import math
 from collections.abc import Callable
+from typing import Any
+
+import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -19,9 +21,8 @@ _ROUNDS, _SETTLED = 60, 1e-8
 
 @record
 class Boost:
-    """Section `[boost]`: turbocharger and height of operation."""
+    """Section `[boost]`: turbocharger, whose heights and surroundings are those of `[breathing]`."""
 
-    altitude: float = quantity("m", default=0.0, low=-500, high=11000, about="height above the sea")
     pressure: float | None = quantity("Pa", default=None, above=0, about="absolute boost pressure; else sea level's")
     compressor_efficiency: float = quantity("-", default=0.72, above=0, high=1, about="isentropic, of the compressor")
     turbine_efficiency: float = quantity("-", default=0.68, above=0, high=1, about="isentropic, of the turbine")
@@ -40,9 +41,9 @@ class Boosted:
     #: Behind compressor and intercooler [Pa, K]
     p_2: float
     T_2: float
-    #: Before the turbine [Pa, K]
-    p_3: float
-    T_3: float
+    #: Before the turbine, one value for each speed [Pa, K]
+    p_3: np.ndarray
+    T_3: np.ndarray
 
 
 def atmosphere(altitude: float) -> tuple[float, float]:
@@ -109,7 +110,7 @@ def compressor_temperature(T: float, ratio: float, efficiency: float, gamma: flo
     return T * (1 + (ratio ** ((gamma - 1) / gamma) - 1) / efficiency)
 
 
-def turbine_ratio(boost: Boost, T_1: float, T_3: float, ratio: float) -> float:
+def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float) -> Any:
     r"""Expansion ratio of the turbine that drives the compressor.
 
     .. math:: \pi_t^{-(\gamma_e - 1)/\gamma_e} = 1 - \frac{c_p T_1 (\pi_c^{(\gamma - 1)/\gamma} - 1)}
@@ -117,14 +118,16 @@ def turbine_ratio(boost: Boost, T_1: float, T_3: float, ratio: float) -> float:
 
     Parameters
     ----------
-    T_1, T_3 : float
-        Temperatures before compressor and turbine [K]
+    T_1 : float
+        Temperature before the compressor [K]
+    T_3 : float or ndarray
+        Temperature before the turbine [K]
     ratio : float
         Pressure ratio of the compressor [-]
 
     Returns
     -------
-    ratio : float
+    ratio : same kind as `T_3`
         Pressure before the turbine by that behind it [-]
 
     Notes
@@ -140,23 +143,25 @@ def turbine_ratio(boost: Boost, T_1: float, T_3: float, ratio: float) -> float:
     work = _CP_AIR * T_1 * (ratio ** ((_GAMMA_AIR - 1) / _GAMMA_AIR) - 1)
     share = boost.compressor_efficiency * boost.turbine_efficiency * boost.shaft_efficiency
     rest = 1 - work / (share * (1 + 1 / boost.air_fuel_ratio) * _CP_EXHAUST * T_3)
-    if rest <= 0:
+    if np.any(rest <= 0):
         raise BadInput(
-            f"boost.pressure: a pressure ratio of {ratio:.3g} asks for more than the exhaust of {T_3:.0f} K holds; "
-            "lower boost.pressure or boost.altitude, or raise the efficiencies"
+            f"boost.pressure: a pressure ratio of {ratio:.3g} asks for more than the exhaust of {np.min(T_3):.0f} K "
+            "holds; lower boost.pressure or breathing.altitude, or raise the efficiencies"
         )
-    return float(rest ** (-_GAMMA_EXHAUST / (_GAMMA_EXHAUST - 1)))
+    return rest ** (-_GAMMA_EXHAUST / (_GAMMA_EXHAUST - 1))
 
 
-def boosted(boost: Boost, exhaust_temperature: Callable[[Boosted], float]) -> Boosted:
-    """The engine and its turbocharger in balance.
+def boosted(boost: Boost, outside: tuple[float, float], exhaust: Callable[[Boosted], np.ndarray], n: int) -> Boosted:
+    """The engine and its turbocharger in balance at n speeds.
 
     Parameters
     ----------
-    exhaust_temperature : callable
-        State before and behind the engine to the temperature of its exhaust [K]
+    outside : tuple of float
+        Pressure [Pa] and temperature [K] of the atmosphere
+    exhaust : callable
+        State before and behind the engine to the temperature of its exhaust, shape (n,) [K]
     """
-    p_1, T_1 = atmosphere(boost.altitude)
+    p_1, T_1 = outside
     p_2 = atmosphere(0.0)[0] if boost.pressure is None else boost.pressure
     ratio = p_2 / p_1
     if ratio < 1 - 1e-12:
@@ -164,13 +169,11 @@ def boosted(boost: Boost, exhaust_temperature: Callable[[Boosted], float]) -> Bo
             f"boost.pressure = {p_2:.6g} Pa is below the atmosphere's {p_1:.6g} Pa; raise it, or leave out [boost]"
         )
     hot = compressor_temperature(T_1, ratio, boost.compressor_efficiency)
-    T_2, T_3 = hot - boost.intercooler * (hot - T_1), 1000.0
+    T_2, T_3 = hot - boost.intercooler * (hot - T_1), np.full(n, 1000.0)
     for _ in range(_ROUNDS):
         state = Boosted(p_1=p_1, T_1=T_1, p_2=p_2, T_2=T_2, p_3=p_1 * turbine_ratio(boost, T_1, T_3, ratio), T_3=T_3)
-        found = exhaust_temperature(state)
-        if not math.isfinite(found) or abs(found - T_3) <= _SETTLED * T_3:
-            break
+        found = exhaust(state)
+        if np.all(np.abs(found - T_3) <= _SETTLED * T_3):
+            return state
         T_3 = found
-    else:
-        raise BadInput("the exhaust's temperature and the turbocharger do not settle; lower boost.pressure")
-    return state
+    raise BadInput("the exhaust's temperature and the turbocharger do not settle; lower boost.pressure")

@@ -1,0 +1,191 @@
+r"""An engine that breathes: its balance with the turbocharger, pressure over the angle, figures over the speeds.
+
+.. math:: p_{mi} = W/V_d, \quad p_{mp} = W_{exchange}/V_d, \quad p_{me} = p_{mi} - p_{mf}, \quad
+          \eta = W/(m_f Q_{HV}), \quad m_f = m_{drawn}/(1 + AFR)
+
+The work of the two strokes of gas exchange is part of the mean indicated pressure (net), and so of all brake figures.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from mechsym.cycle.breathing.equations import Cylinder
+from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, Surroundings, Walls
+from mechsym.cycle.breathing.run import breathe
+from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
+from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume
+from mechsym.cycle.friction import Friction, NoFriction, friction_pressure
+from mechsym.cycle.heat import Adiabatic, Law
+from mechsym.cycle.kinds.gas_exchange import GasExchange, charge
+from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
+from mechsym.errors import BadInput
+from mechsym.quantities import RPM, record
+
+
+@record
+class BreathingEngine:
+    """An engine of a case: its sections, and the motion of its piston."""
+
+    chamber: ChamberParameters
+    motion: Motion
+    cycle: GasExchange
+    breathing: Breathing
+    boost: Boost | None = None
+    heat_transfer: Law = Adiabatic()
+    friction_pressure: Friction = NoFriction()
+
+
+@record
+class BreathingRun:
+    """An engine at its speeds."""
+
+    engine: BreathingEngine
+    chamber: Chamber
+    breaths: list[Breath]
+    around: Surroundings
+    boosted: Boosted | None  #: State that the turbocharger leaves, where there is one
+
+
+def run(engine: BreathingEngine, omega: Sequence[float]) -> BreathingRun:
+    """The periodic cycles at crank speeds [rad/s], in balance with the turbocharger."""
+    room, b = chamber(engine.chamber, engine.motion), engine.breathing
+    _check(engine)
+    walls = Walls(law=engine.heat_transfer, bore=room.bore, stroke=room.stroke, displacement=room.displacement)
+    cylinder = Cylinder(
+        breathing=b, charge=charge(engine.cycle), volume=lambda phi: volume(room, phi), walls=walls
+    )  # fmt: skip
+    outside = atmosphere(b.altitude)
+    if engine.boost is None:
+        around = _around(b, outside[0], outside[1], outside[0])
+        return BreathingRun(
+            engine=engine, chamber=room, breaths=breathe(cylinder, around, omega), around=around, boosted=None
+        )
+    last: list[Any] = []
+
+    def exhaust(state: Boosted) -> np.ndarray:
+        around = _around(b, state.p_2, state.T_2, state.p_3)
+        last[:] = [around, breathe(cylinder, around, omega)]
+        return np.array([breath.T_exhaust for breath in last[1]])
+
+    state = boosted(engine.boost, outside, exhaust, len(omega))
+    return BreathingRun(engine=engine, chamber=room, breaths=last[1], around=last[0], boosted=state)
+
+
+def _around(b: Breathing, p_in: Any, T_in: Any, p_out: Any) -> Surroundings:
+    return Surroundings(
+        p_in=p_in if b.inlet_pressure is None else b.inlet_pressure,
+        T_in=T_in if b.inlet_temperature is None else b.inlet_temperature,
+        p_out=p_out if b.exhaust_pressure is None else b.exhaust_pressure,
+    )
+
+
+def _check(engine: BreathingEngine) -> None:
+    b, c = engine.breathing, engine.cycle
+    given = [name for name in ("inlet_pressure", "inlet_temperature", "exhaust_pressure")
+             if getattr(b, name) is not None]  # fmt: skip
+    if engine.boost is not None and given:
+        raise BadInput(f"breathing.{given[0]} and [boost] both say what is before the engine; leave one of them out")
+    for name, late in (("exhaust", b.exhaust_opens > b.exhaust_closes), ("inlet", b.inlet_opens > b.inlet_closes)):
+        if late:
+            raise BadInput(f"breathing.{name}_opens is after breathing.{name}_closes; angles count from firing TDC")
+    ends, opens = c.ignition + c.duration, b.exhaust_opens
+    if ends > opens:
+        raise BadInput(
+            f"combustion ends at {math.degrees(ends):.1f} deg, after the exhaust opens at {math.degrees(opens):.1f} "
+            "deg; change cycle.ignition, cycle.duration or breathing.exhaust_opens"
+        )
+    if c.ignition + PERIOD < b.inlet_closes:
+        raise BadInput("combustion starts before the inlet closes; change cycle.ignition or breathing.inlet_closes")
+
+
+def pressure(found: BreathingRun) -> Pressure:
+    """Pressure in the cylinder over the angle, at the first speed."""
+    breath, b, c = found.breaths[0], found.engine.breathing, found.engine.cycle
+    absolute = _curve(breath)
+    events = (b.exhaust_opens, b.exhaust_closes, b.inlet_opens, b.inlet_closes, c.ignition, c.ignition + c.duration)
+    kinks = tuple(sorted(float(np.remainder(angle, PERIOD)) for angle in events))
+    facts = (
+        f"gas exchange at {breath.omega / RPM:.5g} rpm: {100 * breath.volumetric_efficiency:.1f} % of the swept volume "
+        f"filled, {100 * breath.residual:.1f} % of the charge is residual gas",
+        f"mass and energy closed to {max(breath.mass_residual, breath.energy_residual):.1g}",
+    )
+    return pressure_over("gas-exchange", absolute, PERIOD, kinks, found.chamber, facts=facts)
+
+
+def _curve(breath: Breath) -> Callable[[Any], Any]:
+    """Pressure in the cylinder at any angle; the cycle repeats but for `closure`, which the last node gives up."""
+    p = breath.pressures["cylinder"]
+    return periodic(CubicSpline(breath.phi, np.append(p[:-1], p[0]), bc_type="periodic"), PERIOD, float(breath.phi[0]))
+
+
+def figures(found: BreathingRun) -> dict[str, Any]:
+    """Figures over the speeds under the names of `mechsym cycle`, of one cylinder.
+
+    Returns
+    -------
+    columns : dict of str to ndarray, shape (n,)
+        As `engine.columns`; and the mean pressure of the two strokes of gas exchange, the filling, the residual gas,
+        the temperature of the exhaust, and what the turbocharger leaves before and behind the engine
+    """
+    rows = [_at(found, breath) for breath in found.breaths]
+    columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
+    columns["fractions"] = {name: columns.pop(name) for name in ("heat", "work", "exhaust", "unburnt")}
+    n, around = len(rows), found.around
+    outside = {"p_in_kpa": np.asarray(around.p_in) / 1e3, "T_in_k": around.T_in,
+               "p_out_kpa": np.asarray(around.p_out) / 1e3}  # fmt: skip
+    return columns | {name: np.broadcast_to(value, n).astype(float) for name, value in outside.items()} | {"loads": {}}
+
+
+def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
+    engine, room, omega = found.engine, found.chamber, breath.omega
+    fuel = breath.drawn / (1 + engine.cycle.air_fuel_ratio)
+    energy = fuel * engine.cycle.heating_value
+    p = breath.pressures["cylinder"]
+    p_max, phi_max = peak(_curve(breath), PERIOD, ())
+    piston_speed = room.stroke * omega / math.pi
+    lost = float(friction_pressure(engine.friction_pressure, p_max, piston_speed, omega))
+    brake = breath.work - lost * room.displacement
+    force = piston_force(room, breath.phi, omega, p)
+    per_second, share, unburnt = omega / PERIOD, breath.work / energy, 1 - breath.heat / energy
+    return {
+        "speed_rpm": omega / RPM, "torque_avg": breath.work / PERIOD,
+        "torque_max": float(np.max(force * travel(room.motion, breath.phi)[1])),
+        "power_kw": breath.work * per_second / 1e3, "mep_kpa": breath.work / room.displacement / 1e3,
+        "sfc_g_kwh": 3.6e9 * fuel / breath.work if breath.work > 0 else math.nan, "efficiency": share,
+        "p_max_mpa": p_max / 1e6, "p_max_angle_deg": math.degrees(phi_max), "force_max": float(np.max(force)),
+        "friction_mep_kpa": lost / 1e3, "brake_torque": brake / PERIOD, "brake_power_kw": brake * per_second / 1e3,
+        "brake_sfc_g_kwh": 3.6e9 * fuel / brake if brake > 0 else math.nan, "brake_efficiency": brake / energy,
+        "energy_residual": breath.energy_residual, "mass_residual": breath.mass_residual,
+        "pumping_mep_kpa": breath.pumping / room.displacement / 1e3,
+        "volumetric_efficiency": breath.volumetric_efficiency, "residual_gas": breath.residual,
+        "T_max_k": float(breath.temperature.max()), "T_exhaust_k": breath.T_exhaust,
+        "air_kg_h": breath.drawn * engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio) * per_second * 3600,
+        "heat": breath.wall_heat / energy, "work": share, "exhaust": 1 - share - unburnt - breath.wall_heat / energy,
+        "unburnt": unburnt,
+    }  # fmt: skip
+
+
+def curves(found: BreathingRun) -> dict[str, np.ndarray]:
+    """The cycle at the first speed, curve by curve over the angle from firing top dead centre.
+
+    Returns
+    -------
+    curves : dict of str to ndarray, shape (k,)
+        `phi_deg` from -180 to 540, `p_pa`, `t_k`, `v_m3`, `p_plenum_pa`, `p_manifold_pa`, `force_n` and `torque_nm` of
+        one piston
+    """
+    breath, room = found.breaths[0], found.chamber
+    phi = np.remainder(breath.phi[:-1] + math.pi, PERIOD) - math.pi
+    order = np.argsort(phi)
+    force = piston_force(room, phi, breath.omega, breath.pressures["cylinder"][:-1])
+    columns = {
+        "phi_deg": np.degrees(phi), "p_pa": breath.pressures["cylinder"][:-1], "t_k": breath.temperature[:-1],
+        "v_m3": breath.room[:-1], "p_plenum_pa": breath.pressures["plenum"][:-1],
+        "p_manifold_pa": breath.pressures["manifold"][:-1], "force_n": force,
+        "torque_nm": force * travel(room.motion, phi)[1],
+    }  # fmt: skip
+    return {name: values[order] for name, values in columns.items()}

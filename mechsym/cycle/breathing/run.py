@@ -1,0 +1,153 @@
+"""Whole cycles of a cylinder that breathes, one after the other until one repeats, at all speeds side by side.
+
+A cycle runs from one closing of the inlet to the next. Crank angles count from firing top dead centre, so gas exchange
+lies around 2 pi.
+"""
+
+import functools
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.cycle.breathing.equations import GIVEN, STATES, VOLUMES, Cylinder, rate
+from mechsym.cycle.breathing.records import PERIOD, Breath, Surroundings
+from mechsym.cycle.closed.runge_kutta import METHOD
+from mechsym.errors import BadInput
+from mechsym.native.fold import Fold, folder
+
+_STEPS, _CYCLES, _SETTLED = 1440, 40, 1e-10
+_FINER = (1, 4)  # times as many steps, where small volumes behind wide throats ask for it
+_SLOW = 200.0  # below this speed pressures settle within fewer degrees, and steps are finer in proportion [rad/s]
+_SIZES = [0, 1, 0, 3, 4, 3, 6, 7, 6]  # the state by which each is measured: burnt masses by whole ones
+_SUMS = len(STATES) - 9
+_HOT = 3.0  # temperature of the first guess in the manifold, by that of the surroundings [-]
+
+
+def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[float]) -> list[Breath]:
+    """Follow cycles until one repeats.
+
+    Parameters
+    ----------
+    omega : sequence of float
+        Crank speeds [rad/s]
+    """
+    speeds = np.asarray(omega, float)
+    outside = np.array([np.broadcast_to(v, speeds.shape) for v in (around.p_in, around.T_in, around.p_out)])
+    steps = _STEPS * max(1, math.ceil(_SLOW / float(speeds.min())))
+    for finer in _FINER:
+        found = _breathed(cylinder, outside, speeds, finer * steps)
+        if found is not None:
+            return found
+    raise BadInput("gas exchange is too fast for its steps, or swings from cycle to cycle; widen the plenum or the "
+                   "manifold of [breathing], or narrow the throttle or the tail pipe")  # fmt: skip
+
+
+def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps: int) -> list[Breath] | None:
+    """The periodic cycles; None where the steps are too wide for the volumes, or no cycle repeats."""
+    phi = cylinder.breathing.inlet_closes + np.linspace(0.0, PERIOD, steps + 1)
+    fold, room = _fold(cylinder), _rooms(cylinder, phi)
+    closed = float(room[0])
+    state = _start(cylinder, outside, closed)
+    past: list[tuple[np.ndarray, np.ndarray]] = []
+    for _ in range(_CYCLES):
+        history = fold(state, _given(cylinder, state, closed, speeds, outside), steps)
+        if not np.isfinite(history[-1]).all():
+            return None
+        gain = history[-1, :9] - state[:9]
+        closure = np.max(np.abs(gain) / history[-1, _SIZES], axis=0)
+        if np.all(closure < _SETTLED):
+            break
+        past = [*past[-4:], (state[:9], gain)]
+        state = np.vstack([_ahead(past), np.zeros((_SUMS, len(speeds)))])
+    else:
+        return None
+    whole = np.concatenate([state[None], history])
+    return [
+        _summed(cylinder, float(speed), (phi, room), outside[:, k], whole[:, :, k], float(closure[k]))
+        for k, speed in enumerate(speeds)
+    ]
+
+
+@functools.lru_cache(maxsize=4)
+def _fold(cylinder: Cylinder) -> Fold:
+    return folder(rate(cylinder), METHOD)
+
+
+def _rooms(cylinder: Cylinder, phi: np.ndarray) -> np.ndarray:
+    angle = ca.SX.sym("phi")
+    return np.asarray(ca.Function("room", [angle], [cylinder.volume(angle)])(phi.reshape(1, -1))).ravel()
+
+
+def _given(cylinder: Cylinder, state: np.ndarray, closed: float, speeds: np.ndarray, outside: np.ndarray) -> np.ndarray:
+    """What stays the same over a cycle, in the order of `GIVEN`, shape (values, speeds)."""
+    c = cylinder.charge
+    p, T = (c.gamma - 1) * state[4] / closed, state[4] * (c.gamma - 1) / (c.R * state[3])
+    found = np.vstack([speeds, state[3] - state[5], p, T, outside])
+    assert found.shape[0] == len(GIVEN)
+    return found
+
+
+def _ahead(past: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """State to try next: the mixture of the last ones whose gain is least (Anderson), lane by lane."""
+    (last, gain), following = past[-1], past[-1][0] + past[-1][1]
+    if len(past) < 3:
+        return following
+    found = following.copy()
+    scale = np.abs(last) + 1e-12
+    for k in range(last.shape[1]):
+        steps = np.array([(x[:, k] - last[:, k]) / scale[:, k] for x, _ in past[:-1]]).T
+        turns = np.array([(g[:, k] - gain[:, k]) / scale[:, k] for _, g in past[:-1]]).T
+        weights = np.linalg.lstsq(turns, gain[:, k] / scale[:, k], rcond=1e-8)[0]
+        ahead = following[:, k] - (steps + turns) @ weights * scale[:, k]
+        if np.all(ahead[[0, 1, 3, 4, 6, 7]] > 0.3 * last[[0, 1, 3, 4, 6, 7], k]) and np.all(ahead[[2, 5, 8]] >= 0):
+            found[:, k] = ahead
+    return found
+
+
+def _summed(
+    cylinder: Cylinder,
+    omega: float,
+    along: tuple[np.ndarray, np.ndarray],
+    outside: np.ndarray,
+    history: np.ndarray,
+    closure: float,
+) -> Breath:
+    b, c, (p_in, T_in, _), (phi, room) = cylinder.breathing, cylinder.charge, outside, along
+    cv = c.R / (c.gamma - 1)
+    sizes: dict[str, Any] = dict(zip(VOLUMES, (b.plenum_volume, room, b.manifold_volume), strict=True))
+    pressures = {name: (c.gamma - 1) * history[:, 3 * i + 1] / sizes[name] for i, name in enumerate(VOLUMES)}
+    temperature = history[:, 4] / (history[:, 3] * cv)
+    sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
+    fresh = trapped - float(history[0, 5])
+    return Breath(
+        omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
+        residual=1 - fresh / trapped, p_trapped=float(pressures["cylinder"][0]), T_trapped=float(temperature[0]),
+        volumetric_efficiency=fresh / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=sums["m_in"],
+        T_exhaust=sums["H_out"] / (sums["m_out"] * c.gamma * cv), work=sums["work"], pumping=sums["pumping"],
+        heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure, **_residuals(history, sums),
+    )  # fmt: skip
+
+
+def _residuals(history: np.ndarray, sums: dict[str, float]) -> dict[str, float]:
+    first, last = history[0], history[-1]
+    mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
+    left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
+    return {
+        "mass_residual": float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
+        "energy_residual": float(abs(left)) / float(first[4]),
+    }
+
+
+def _start(cylinder: Cylinder, outside: np.ndarray, closed: float) -> np.ndarray:
+    """First guess of all states, shape (states, speeds)."""
+    b, c, (p_in, T_in, p_out) = cylinder.breathing, cylinder.charge, outside
+    rows: list[np.ndarray] = []
+    for p, V, T, burnt in (
+        (p_in, b.plenum_volume, T_in, 0.0), (p_in, closed, T_in, 0.0), (p_out, b.manifold_volume, _HOT * T_in, 1.0)
+    ):  # fmt: skip
+        mass = p * V / (c.R * T)
+        rows += [mass, p * V / (c.gamma - 1), burnt * mass]
+    return np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
