@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.flow import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
-from mechsym.cycle.breathing.records import Breathing, FreshCharge, Surroundings, Walls
+from mechsym.cycle.breathing.records import Breathing, FreshCharge, HeatSink, Surroundings
 from mechsym.cycle.breathing.run import breathe
 from mechsym.cycle.heat import Woschni
 
@@ -132,7 +132,7 @@ def test_higher_speed_breathes_worse_and_a_throttle_costs_work():
 
 
 def test_walls_take_heat_and_the_balance_still_closes():
-    walls = Walls(law=Woschni(wall_temperature=420.0), bore=0.06, stroke=STROKE, displacement=SWEPT)
+    walls = HeatSink(law=Woschni(wall_temperature=420.0), bore=0.06, stroke=STROKE, displacement=SWEPT)
     cylinder = Cylinder(breathing=Breathing(**SMALL), charge=FIRED, volume=volume, walls=walls)
     (warm,), (without,) = breathe(cylinder, Surroundings(), [300.0]), breathed(Breathing(**SMALL), FIRED, [300.0])
     assert warm.energy_residual < 1e-9

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from mechsym.cycle.breathing.equations import Cylinder
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, Surroundings, Walls
+from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, HeatSink, Surroundings
 from mechsym.cycle.breathing.run import breathe
 from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
 from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume
@@ -54,7 +54,7 @@ def run(engine: BreathingEngine, omega: Sequence[float]) -> BreathingRun:
     """The periodic cycles at crank speeds [rad/s], in balance with the turbocharger."""
     room, b = chamber(engine.chamber, engine.motion), engine.breathing
     _check(engine)
-    walls = Walls(law=engine.heat_transfer, bore=room.bore, stroke=room.stroke, displacement=room.displacement)
+    walls = HeatSink(law=engine.heat_transfer, bore=room.bore, stroke=room.stroke, displacement=room.displacement)
     cylinder = Cylinder(
         breathing=b, charge=charge(engine.cycle), volume=lambda phi: volume(room, phi), walls=walls
     )  # fmt: skip

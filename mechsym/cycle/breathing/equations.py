@@ -13,7 +13,7 @@ from typing import Any
 import casadi as ca
 
 from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
-from mechsym.cycle.breathing.records import PERIOD, Breathing, FreshCharge, Walls
+from mechsym.cycle.breathing.records import PERIOD, Breathing, FreshCharge, HeatSink
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
 from mechsym.quantities import record
@@ -34,7 +34,7 @@ class Cylinder:
     breathing: Breathing
     charge: FreshCharge
     volume: Callable[[Any], Any]  #: Crank angle, number or CasADi symbol [rad], to the volume of the cylinder [m^3]
-    walls: Walls = Walls()
+    walls: HeatSink = HeatSink()
 
     # a cylinder is itself: its volume is a function
     __hash__ = object.__hash__

@@ -57,7 +57,7 @@ class FreshCharge:
 
 
 @record
-class Walls:
+class HeatSink:
     """What the heat of the gas goes into."""
 
     law: Law = Adiabatic()
