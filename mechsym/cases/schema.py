@@ -61,6 +61,7 @@ _SECTIONS: dict[str, Any] = {
     ),
     "drive": "mechsym.simulate.settings:StepTorque",
     "simulation": "mechsym.simulate.settings:Simulation",
+    "shaft": "mechsym.torsion.train:ShaftLimits",
     "startup": "mechsym.torsion.startup:StartUpClaim",
     "spring": (
         "law",

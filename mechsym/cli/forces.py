@@ -1,5 +1,6 @@
 """`mechsym forces`: the force chain over one cycle."""
 
+import dataclasses
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,8 @@ import click
 from mechsym.cli.common import case_of, emit, json_option, pairs, run_option, set_option, table
 from mechsym.cli.speeds import parse_speeds
 from mechsym.files import SUMMARY
+
+_SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal; the page has them all
 
 
 @click.command(short_help="Force chain over one cycle at constant speed.")
@@ -44,6 +47,8 @@ def forces(
     from mechsym.jobs.gas import measured
     from mechsym.jobs.judged import of_forces
     from mechsym.jobs.own import is_own
+    from mechsym.jobs.vibration import vibration
+    from mechsym.torsion import train
 
     loaded = case_of(case, pairs(overrides))
     if is_own(loaded.mechanism):
@@ -52,7 +57,10 @@ def forces(
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
     report = summary(found, loaded.name, loaded.source)
-    report["doubts"] = of_forces(found)
+    shaking = vibration(loaded, found.turn)
+    report["vibration"] = None if shaking is None else dataclasses.asdict(shaking)
+    report["doubts"] = of_forces(found) + (train.doubts(shaking) if shaking else ())
+    report["facts"] += train.words(shaking) if shaking else ()
     report["friction_law"] = _law(loaded, law) if law else None
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
     emit(report, as_json, lambda: _text(report))
@@ -78,8 +86,6 @@ def _own_text(report: dict[str, Any]) -> str:
 
 
 def _law(case: Any, speeds: str) -> dict[str, Any]:
-    import dataclasses
-
     from mechsym.jobs.turn import fitted_law
 
     found = fitted_law(case, parse_speeds(speeds, "--law"))
@@ -108,7 +114,7 @@ def _text(report: dict[str, Any]) -> str:
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
         lines += ["", table(report["comparison"], shown)]
-    lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith("friction")]
+    lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN)]
     lines += [f"{row['verdict']}: {row['claim']} ({row['source'][:3]}); {row['note']}" for row in report["claims"]]
     return "\n".join(lines + [f"written: {file}" for file in report["files"]])
 

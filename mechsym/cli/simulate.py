@@ -75,6 +75,7 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
         **run.summary,
         "natural_frequencies": list(run.natural_frequencies),
         "twist": [dataclasses.asdict(s) for s in run.twist],
+        "vibration": None if run.vibration is None else dataclasses.asdict(run.vibration),
         "findings": list(run.findings),
         "start_up": [numbers(s) for s in run.start_ups],
         "settling": dataclasses.asdict(run.settling) if run.settling else None,

@@ -14,6 +14,7 @@ from mechsym.jobs.problem import problem_of, settings_of, window_of
 from mechsym.jobs.settling import settled
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
+from mechsym.jobs.vibration import vibration
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.simulate import Result, simulate
@@ -24,6 +25,7 @@ from mechsym.simulate.summary import summary
 from mechsym.torsion.findings import findings
 from mechsym.torsion.settling import Settling, sentences
 from mechsym.torsion.startup import AVERAGE, StartUp
+from mechsym.torsion.train import TrainVibration, doubts, twist_words, words
 from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
 
 
@@ -46,6 +48,7 @@ class FinishedRun:
     natural_frequencies: tuple[float, ...]  #: Of an elastic shaft [rad/s]
     twist: tuple[ShaftSection, ...]
     start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
+    vibration: TrainVibration | None  #: Criticals of a crank train
     settling: Settling | None  #: Where an engine settles after a start against a load
     engine: EngineSpeed | None  #: Of an engine
     findings: tuple[str, ...]
@@ -73,18 +76,22 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
     result, told, period = run_of(case, settings)
     engine = _engine(case, told, period)
     starts, settles = _start_ups(case, result, dampings), settled(case, result)
+    twist = sections(case.need("parameters"), result, result.t[-1] - told["window"])
+    train = vibration(case)
     return FinishedRun(
         settings=settings,
         result=result,
         summary=told,
         natural_frequencies=natural_frequencies(case.need("parameters")),
-        twist=sections(case.need("parameters"), result, result.t[-1] - told["window"]),
+        twist=twist,
         start_ups=starts,
+        vibration=train,
         settling=settles,
         engine=engine,
-        doubts=of_run(case, float(result.t[-1] - result.t[0])),
+        doubts=of_run(case, float(result.t[-1] - result.t[0])) + (doubts(train, twist) if train else ()),
         findings=(
-            *remarks(case), *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
+            *remarks(case), *((*words(train), *twist_words(train, twist)) if train else ()),
+            *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
             *(_stopped(result, engine) if engine else ()),
         ),
     )  # fmt: skip

@@ -2,6 +2,7 @@
 
 modes      natural frequencies, orders of excitation, critical speeds
 twist      twist of every section of a shaft in a run
+train      criticals of a crank train at its speed of operation
 startup    a start-up by a weak drive: which critical speeds held it; findings says it in sentences
 plots      Campbell diagram, start-up, twist
 """

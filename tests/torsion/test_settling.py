@@ -55,7 +55,13 @@ def test_adiabatic_engine_finds_the_balance_of_gas_and_load():
 
 @pytest.mark.slow
 def test_adiabatic_engine_with_half_the_load_is_held_by_order_two():
-    half = {"operation.speed": "1200 rpm", "load.torque": "8", "load.speed": "600 rpm", "simulation.turns": "1200"}
+    half = {
+        "operation.speed": "1200 rpm",
+        "load.torque": "8",
+        "load.speed": "600 rpm",
+        "simulation.turns": "1200",
+        "c": "0",
+    }
     found = run(cases.load("alpha-stirling", ADIABATIC | half), check="none").settling
     assert found.at[0] == 2.0
     assert found.held and found.settled

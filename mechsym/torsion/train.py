@@ -1,0 +1,210 @@
+r"""Criticals of a crank train at its speed of operation, and what the linear shaft makes of every order there.
+
+.. math:: (K - k^2\omega^2 \bar M + \mathrm{i} k \omega C)\,v_k = T_k, \qquad V_k = \max_i |M_{i,k}| / \max_i |R_{i,k}|
+
+M_i are torques of the sections of the elastic shaft, R_i those of a rigid one; V is the magnification of an order.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from mechsym.mechanisms import crank_train, shaft
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
+from mechsym.plausible import Doubt, proportion
+from mechsym.quantities import quantity, record
+from mechsym.torsion import modes as torsion
+from mechsym.torsion.twist import ShaftSection
+
+_COUNT = 12  # orders above are too weak
+_WEAK = 0.01  # of the largest order's torque on a rigid shaft; a weaker order is no critical
+_NEAR = 0.05  # a critical speed so close to the speed of operation is run at
+_RANGE = 0.2  # of the speed of operation, either way: the operating range where a case gives none
+
+
+@record
+class ShaftLimits:
+    """Section `[shaft]`: what the sections of an elastic shaft can bear."""
+
+    twist_limit: float = quantity("rad", default=0.1, above=0, high=10, about="largest twist of a section")
+    diameter: float = quantity("m", default=0.0, low=0, high=5, about="smallest diameter; 0: the twist limit alone")
+    shear_limit: float = quantity("Pa", default=2e8, above=0, high=2e9, about="shear at which the shaft yields")
+
+
+@record
+class CriticalOrder:
+    """An order that meets a natural frequency within the operating range."""
+
+    order: float  #: Oscillations per turn [-]
+    speed: float  #: Where it is critical [rad/s]
+    natural: float  #: Natural frequency that it meets there [rad/s]
+    away: float  #: Critical speed over the speed of operation, less 1 [-]
+    torque_rigid: float  #: Its amplitude in the worst section of a rigid shaft, at the speed of operation [N*m]
+    torque: float  #: The same of the elastic shaft, linear and steady [N*m]
+    magnification: float  #: Quotient of the two [-]
+
+
+@record
+class TrainVibration:
+    """Torsional vibration of a crank train at its speed of operation."""
+
+    omega: float  #: Speed of operation [rad/s]
+    low: float  #: Least speed of the operating range [rad/s]
+    high: float  #: Its greatest speed [rad/s]
+    #: Natural frequencies without and with the mean reciprocating inertia [rad/s]
+    natural_bare: tuple[float, ...]
+    natural: tuple[float, ...]
+    criticals: tuple[CriticalOrder, ...]  #: Within the operating range, the nearest first
+    #: For each section, half the swing of the steady linear vibration [N*m], and twist that it can bear [rad]
+    torque_amplitude: tuple[float, ...]
+    twist_limit: tuple[float, ...]
+
+
+@record
+class _Response:
+    order: np.ndarray  #: Oscillations per turn [-]
+    #: shape (orders, sections): Complex amplitudes in the sections of the elastic and of a rigid shaft [N*m]
+    elastic: np.ndarray
+    rigid: np.ndarray
+
+
+def vibration(
+    parameters: CrankTrainParameters,
+    gas: Mapping[str, Callable[[np.ndarray], np.ndarray]],
+    period: float,
+    speeds: tuple[float, float, float],
+    limits: ShaftLimits,
+) -> TrainVibration:
+    """Criticals and steady vibration of a crank train.
+
+    Parameters
+    ----------
+    gas : mapping of str to callable
+        Input to its force over the shaft angle, ndarray (m,) to (m,) [N]
+    period : float
+        Of the gas [rad]
+    speeds : tuple of float
+        Speed of operation, lowest and highest speed of the operating range [rad/s]
+    """
+    omega, low, high = speeds
+    mechanism = crank_train.build(parameters)
+    linear, bare = torsion.matrices(mechanism), shaft.matrices(parameters)
+    modes = torsion.modes(linear.mass, linear.stiffness)
+    found = _response(linear, torsion.orders(mechanism, _COUNT, gas, period), omega)
+    stiffness = np.array(shaft.springs(parameters)[0])
+    return TrainVibration(
+        omega=omega,
+        low=low,
+        high=high,
+        natural_bare=tuple(torsion.modes(bare.inertia, bare.stiffness).frequencies[1:].tolist()),
+        natural=tuple(modes.frequencies[1:].tolist()),
+        criticals=_criticals(found, modes.frequencies[1:], omega, (low, high)),
+        torque_amplitude=tuple(_swing(found, period).tolist()),
+        twist_limit=tuple(_limits(limits, stiffness).tolist()),
+    )
+
+
+def operating_range(omega: float, start: float | None, given: tuple[float, float] | None) -> tuple[float, float, float]:
+    """Speed of operation with its range: as given, else a fifth either way, from the start of the run on.
+
+    Parameters
+    ----------
+    omega : float
+        Speed of operation [rad/s]
+    start : float or None
+        Speed at which a run starts [rad/s]
+    given : tuple of float or None
+        Lowest and highest speed [rad/s]
+    """
+    if given is not None:
+        return omega, *given
+    low = (1 - _RANGE) * omega
+    return omega, (min(low, start) if start else low), (1 + _RANGE) * omega
+
+
+def _response(linear: torsion.Matrices, excitation: torsion.Orders, omega: float) -> _Response:
+    elastic, rigid = [], []
+    for k, inertia, gas in zip(excitation.order, excitation.inertia, excitation.gas, strict=True):
+        force, w = inertia * omega**2 + gas, k * omega
+        v = np.linalg.solve(linear.stiffness - w**2 * linear.mass + 1j * w * linear.damping, force)
+        # what a section hands on is what the discs before it are pushed with and do not take themselves
+        alone = force - linear.mass.sum(axis=1) * (force.sum() / linear.mass.sum())
+        through = (linear.stiffness + 1j * w * linear.damping) @ v
+        elastic.append(np.cumsum(through)[:-1])
+        rigid.append(np.cumsum(alone)[:-1])
+    return _Response(order=excitation.order, elastic=np.array(elastic), rigid=np.array(rigid))
+
+
+def _criticals(
+    found: _Response, natural: np.ndarray, omega: float, span: tuple[float, float]
+) -> tuple[CriticalOrder, ...]:
+    rigid, elastic = (np.abs(a).max(axis=1) for a in (found.rigid, found.elastic))
+    strong = rigid > _WEAK * rigid.max()
+    rows = [
+        CriticalOrder(
+            order=float(k), speed=float(f / k), natural=float(f), away=float(f / k / omega - 1),
+            torque_rigid=float(r), torque=float(e), magnification=float(e / r),
+        )
+        for k, r, e, counts in zip(found.order, rigid, elastic, strong, strict=True)
+        for f in natural
+        if counts and span[0] <= f / k <= span[1]
+    ]  # fmt: skip
+    return tuple(sorted(rows, key=lambda c: abs(c.away)))
+
+
+def _swing(found: _Response, period: float) -> np.ndarray:
+    phi = np.linspace(0.0, period, 1440, endpoint=False)
+    turning = np.exp(1j * found.order[:, None] * phi)
+    return np.ptp(np.real(found.elastic.T @ turning), axis=1) / 2
+
+
+def _limits(limits: ShaftLimits, stiffness: np.ndarray) -> np.ndarray:
+    r"""Twist at which a section yields, :math:`\tau_y \pi d^3 / (16 k)`, but at most the limit given."""
+    if not limits.diameter:
+        return np.full(len(stiffness), limits.twist_limit)
+    return np.minimum(limits.twist_limit, limits.shear_limit * np.pi * limits.diameter**3 / 16 / stiffness)
+
+
+def words(found: TrainVibration) -> tuple[str, ...]:
+    """What a reader of a crank train should know of its criticals."""
+    bare, full = (", ".join(f"{f:.3f}" for f in values) for values in (found.natural_bare, found.natural))
+    lines = [f"natural frequency {bare} rad/s bare, {full} rad/s with the mean reciprocating inertia"]
+    for c in found.criticals:
+        side = "above" if c.away > 0 else "below"
+        lines.append(
+            f"order {c.order:g} is critical at {c.speed:.2f} rad/s, {abs(100 * c.away):.1f} % {side} the speed of "
+            f"operation: there the shaft carries {c.torque:.4g} N*m of it, {c.magnification:.3g} times a rigid one's"
+        )
+    if not found.criticals:
+        lines.append(f"no order is critical between {found.low:.2f} and {found.high:.2f} rad/s")
+    return tuple(lines)
+
+
+def twist_words(found: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[str, ...]:
+    """What a run says of the twist that the shaft can bear."""
+    lines = []
+    for section, limit in zip(twist, found.twist_limit, strict=True):
+        lines.append(
+            f"largest twist of {section.section} {section.twist_peak:.4f} rad ({np.degrees(section.twist_peak):.1f} "
+            f"deg), shaft torque {section.torque_peak:.4g} N*m; the limit is {limit:.3g} rad"
+        )
+        if section.twist_peak > limit:
+            lines.append(
+                f"the model does not hold: the twist is beyond {limit:.3g} rad, no linear spring nor a whole shaft"
+            )
+    return tuple(lines)
+
+
+def doubts(found: TrainVibration, twist: Sequence[ShaftSection] = ()) -> tuple[Doubt, ...]:
+    """Criticals that are magnified at the speed of operation, and twist beyond what the shaft can bear."""
+    told: tuple[Doubt, ...] = ()
+    for c in found.criticals:
+        if abs(c.away) <= _NEAR:
+            what = f"order {c.order:g}, critical at {c.speed:.4g} rad/s: magnification at {found.omega:.4g} rad/s"
+            told += proportion("critical", what, c.magnification)
+    for section, limit in zip(twist, found.twist_limit if twist else (), strict=True):
+        if section.twist_peak > limit:
+            why = "beyond it the shaft yields or breaks ([shaft] of the case); a linear spring is no model of it"
+            told += (Doubt(code="twist", quantity=f"twist_peak of {section.section}", value=section.twist_peak,
+                           usual=f"at most {limit:.3g} rad", why=why),)  # fmt: skip
+    return told
