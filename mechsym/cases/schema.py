@@ -7,7 +7,7 @@ from mechsym.errors import BadInput, shown, suggest
 from mechsym.quantities import load
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
-_SECTIONS: dict[str, Any] = {
+ENTRIES: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
     "sizing": "mechsym.sizing.wants:Wants",
     "part_piston": "mechsym.sizing.parts.records:PistonPart",
@@ -100,7 +100,7 @@ _SECTIONS: dict[str, Any] = {
 
 
 # sections whose keys are the mechanism's own letters: the function of mechsym.mechanisms that makes their record
-_LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": "start_class"}
+LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": "start_class"}
 
 
 def sections() -> list[str]:
@@ -111,7 +111,7 @@ def sections() -> list[str]:
     names : list of str
         In the order of a case file
     """
-    return [*_LETTERS, *_SECTIONS]
+    return [*LETTERS, *ENTRIES]
 
 
 def selector(section: str) -> str | None:
@@ -122,7 +122,7 @@ def selector(section: str) -> str | None:
     key : str or None
         None when the section has one record only
     """
-    entry = _SECTIONS.get(section)
+    entry = ENTRIES.get(section)
     return entry[0] if isinstance(entry, tuple) else None
 
 
@@ -136,11 +136,11 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
     table : dict
         The section's raw values, read for its selector
     """
-    if section in _LETTERS:
+    if section in LETTERS:
         from mechsym import mechanisms
 
-        return getattr(mechanisms, _LETTERS[section])(mechanism)
-    entry = _SECTIONS[section]
+        return getattr(mechanisms, LETTERS[section])(mechanism)
+    entry = ENTRIES[section]
     if isinstance(entry, tuple):
         key, variants = entry
         name = table.get(key)

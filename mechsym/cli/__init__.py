@@ -8,13 +8,14 @@ from typing import Any, NoReturn
 
 import click
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, suggest
 from mechsym.quantities import load
 
 # command: "module:function"
 COMMANDS = {
     "audit": "mechsym.cli.audit:audit",
     "cases": "mechsym.cli.catalogue:cases",
+    "check": "mechsym.cli.check:check",
     "codesign": "mechsym.cli.codesign:codesign",
     "compare": "mechsym.cli.compare:compare",
     "cycle": "mechsym.cli.cycle:cycle",
@@ -32,6 +33,7 @@ COMMANDS = {
     "optimise": "mechsym.cli.optimise:optimise",
     "page": "mechsym.cli.page:page",
     "reproduce": "mechsym.cli.reproduce:reproduce",
+    "sections": "mechsym.cli.sections:sections",
     "simulate": "mechsym.cli.simulate:simulate",
     "size": "mechsym.cli.size:size",
     "sweep": "mechsym.cli.sweep:sweep",
@@ -68,6 +70,9 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         command: click.Command = load(COMMANDS[cmd_name])
+        for argument in command.params:
+            if isinstance(argument, click.Argument) and argument.name in ("case", "case_name", "cases"):
+                argument._custom_shell_complete = _cases_and_files
         if all(option.name != "strict" for option in command.params):
             command.params.append(
                 click.Option(
@@ -79,6 +84,14 @@ class LazyGroup(click.Group):
                 )
             )
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is asked for; one that is not there is refused with the nearest."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            ctx.fail(f"command {args[0]!r} is not known; {suggest(args[0], sorted(COMMANDS))}")
+        return super().resolve_command(ctx, args)
 
     def make_context(self, *args: Any, **options: Any) -> click.Context:
         """Parse; help may be printed here."""
@@ -99,6 +112,16 @@ class LazyGroup(click.Group):
         return value
 
 
+def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> list[Any]:
+    """What a shell offers for CASE: built-in cases, and files."""
+    from click.shell_completion import CompletionItem
+
+    from mechsym import cases
+
+    found = [CompletionItem(name) for name in cases.names() if name.startswith(typed)]
+    return found or [CompletionItem(typed, type="file")]
+
+
 def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     ctx.meta["mechsym.strict"] = wanted
 
@@ -110,6 +133,10 @@ def mechsym() -> None:
 
     \b
     Example: mechsym hinge zotov-89 --out demo
+
+    Your own engine: mechsym new engine --kind inline --bore "86 mm" --stroke "86 mm"; then mechsym check FILE.
+    Completion of commands, options and cases: eval "$(_MECHSYM_COMPLETE=bash_source mechsym)" in ~/.bashrc
+    (zsh_source, fish_source).
     """
 
 

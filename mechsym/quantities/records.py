@@ -140,12 +140,17 @@ def check(record: Any) -> None:
         Names the record's class, field, value, unit and what is allowed
     """
     for field in dataclasses.fields(record):
-        value, meta = getattr(record, field.name), field.metadata
-        if "options" in meta and value not in meta["options"]:
-            raise BadInput(f"{field.name} = {shown(value)} is not an option; options are {', '.join(meta['options'])}")
-        if "unit" in meta and value is not None:
-            for number in value if isinstance(value, tuple) else (value,):
-                _check_number(field.name, number, meta)
+        check_value(field, getattr(record, field.name))
+
+
+def check_value(field: dataclasses.Field, value: Any) -> None:
+    """Refuse a value that a field cannot have, as `check` does for all fields of a record."""
+    meta = field.metadata
+    if "options" in meta and value not in meta["options"]:
+        raise BadInput(f"{field.name} = {shown(value)} is not an option; options are {', '.join(meta['options'])}")
+    if "unit" in meta and value is not None:
+        for number in value if isinstance(value, tuple) else (value,):
+            _check_number(field.name, number, meta)
 
 
 def _check_number(name: str, value: float, meta: Any) -> None:

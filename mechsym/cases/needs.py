@@ -1,0 +1,106 @@
+"""Which sections each command reads, and which of them it cannot do without."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from mechsym.cycle.kinds import KINDS
+from mechsym.mechanisms import own
+
+_GUIDE = ("spring", "guide", "rollers", "limits")
+_FLAT = tuple(name for name, kind in KINDS.items() if kind.given == "chamber")
+_PISTONS = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
+
+# command: sections that it cannot do without; `_extra` adds what mechanism and kind of cycle ask for
+NEEDS: Mapping[str, tuple[str, ...]] = {
+    "codesign": ("parameters", "operation", "cycle", *_GUIDE, "codesign"),
+    "compare": ("parameters", "cycle", "speeds"),
+    "cycle": ("parameters", "operation", "cycle"),
+    "eval": ("parameters",),
+    "flywheel": ("parameters", "operation"),
+    "forces": ("parameters", "operation"),
+    "guide": ("parameters", "operation", "cycle", *_GUIDE),
+    "hinge": ("parameters", "operation", "cycle", *_GUIDE),
+    "optimise": ("parameters", "operation", "cycle", "optimise"),
+    "simulate": ("parameters", "simulation"),
+    "size": ("parameters", "operation", "cycle"),
+}
+
+# command: sections that it reads where they stand
+READS: Mapping[str, tuple[str, ...]] = {
+    "codesign": ("flywheel", "load", "losses"),
+    "compare": ("chamber", "gas", "heat_transfer", "friction_pressure", "friction", "rings"),
+    "cycle": ("chamber", "gas", "heat_transfer", "friction_pressure", "stirling", "friction", "rings", "combustion",
+              "measured", "faces", "closing", "load"),
+    "eval": ("inputs", "start"),
+    "flywheel": ("cycle", "chamber", "gas", "heat_transfer", "load", "flywheel", "faces", "closing"),
+    "forces": ("cycle", "chamber", "gas", "heat_transfer", "friction", "rings", "shaking", "comparison", "faces",
+               "closing", "inputs", "stirling"),
+    "guide": ("flywheel", "load"),
+    "hinge": ("flywheel", "load", "trials", "retune", "losses"),
+    "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure"),
+    "simulate": ("drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation", "inputs", "start",
+                 *_GUIDE, "flywheel", "stirling"),
+    "size": ("sizing", "part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_crosshead",
+             "part_masses", "chamber", "gas", "heat_transfer", "speeds", "friction"),
+}  # fmt: skip
+
+
+def commands_of(section: str) -> list[str]:
+    """The commands that read a section."""
+    return sorted(name for name in NEEDS if section in NEEDS[name] or section in READS[name])
+
+
+def lacking(mechanism: str, tables: Mapping[str, Any]) -> dict[str, list[str]]:
+    """What each command still lacks to run on a case, given its sections with their raw values.
+
+    Returns
+    -------
+    missing : dict of str to list of str
+        Sections, or what else has to change in words; empty where the command can run
+    """
+    return {name: _lacking(name, mechanism, tables) for name in sorted(NEEDS)}
+
+
+def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
+    missing = [f"[{section}]" for section in NEEDS[command] if section not in tables]
+    kind = str((tables.get("cycle") or {}).get("kind", "")) if isinstance(tables.get("cycle"), dict) else ""
+    given = KINDS[kind].given if kind in KINDS else ""
+    if own.is_file(mechanism):
+        return missing
+    missing += _of_mechanism(command, mechanism, tables)
+    if given == "engine" and command in ("cycle", "compare", "flywheel", "forces", "optimise", "size"):
+        missing += [f"[{section}]" for section in ("chamber", "heat_transfer") if section not in tables]
+    missing += _of_cycle(command, kind, given)
+    return list(dict.fromkeys(missing))
+
+
+def _of_mechanism(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
+    if command in ("hinge", "codesign", "guide") and mechanism != "crosshead":
+        return ['mechanism = "crosshead"']
+    if command == "size":
+        return _of_size(mechanism, tables)
+    if command in ("cycle", "compare", "flywheel", "forces", "optimise") and mechanism not in _PISTONS:
+        return [f"a mechanism with a piston: {', '.join(_PISTONS)}"]
+    if mechanism == "rodless" and command in ("forces", "flywheel"):
+        with_gas = ["faces"] if "cycle" in tables else []
+        return [f"[{section}]" for section in ("closing", *with_gas) if section not in tables]
+    if command == "simulate" and mechanism in ("crosshead", "crank_train", "crankshaft_flywheel"):
+        return [] if {"drive", "cycle"} & tables.keys() else ["[drive] or [cycle]"]
+    return []
+
+
+def _of_size(mechanism: str, tables: Mapping[str, Any]) -> list[str]:
+    if mechanism not in ("crosshead", "hypocycloid"):
+        return ['mechanism = "crosshead" or "hypocycloid"']
+    printed = mechanism == "crosshead" and "part_crosshead" in tables
+    return [] if printed or "speeds" in tables else ["[speeds]"]
+
+
+def _of_cycle(command: str, kind: str, given: str) -> list[str]:
+    if not kind:
+        return []
+    if command in ("hinge", "codesign", "guide") and given != "chamber":
+        return [f"[cycle] kind = {' or '.join(_FLAT)}"]
+    if command in ("optimise", "compare") and given != "engine":
+        return ['[cycle] kind = "spark-ignition"']
+    return []

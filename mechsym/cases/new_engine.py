@@ -1,0 +1,257 @@
+"""A start for an engine of one's own: a full commented case with sized starting values and a firing order.
+
+Sizes follow from bore and stroke by similarity with engines of the kind that run; each line says by which rule. They
+are a start to replace, not a design.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from mechsym.cases.engine_texts import (
+    CROSSHEAD,
+    FOUR_STROKE,
+    HINGE,
+    HYPOCYCLOID,
+    TRAIN,
+    TWO_STROKE_LARGE,
+    TWO_STROKE_SMALL,
+)
+from mechsym.errors import BadInput
+from mechsym.files import write_text
+from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles
+from mechsym.quantities import RPM, record
+
+# usual orders of engines in line; others go up through the odd cylinders and down through the even ones
+_ORDERS = {
+    1: (1,), 2: (1, 2), 3: (1, 3, 2), 4: (1, 3, 4, 2), 5: (1, 2, 4, 5, 3), 6: (1, 5, 3, 6, 2, 4),
+    8: (1, 6, 2, 5, 8, 3, 7, 4),
+}  # fmt: skip
+_BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
+_MOST = 12
+# mean piston speed at the speed of operation, usual at full power [m/s]
+_PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
+
+
+@record
+class CylinderLayout:
+    """Cylinders of a crank train: angles in degrees, one a cylinder, and one place along the shaft for each throw."""
+
+    throw: tuple[int, ...]
+    bank: tuple[float, ...]  #: [deg]
+    firing: tuple[float, ...]  #: [deg]
+    phase: tuple[float, ...]  #: [deg]
+    period: float  #: of a cycle [deg]
+    opposed: bool = False
+
+
+def write_engine(kind: str, bore: float, stroke: float, cylinders: int | None, out: Path, name: str = "") -> list[Path]:
+    """Write the case of a new engine; nothing that exists is overwritten.
+
+    Parameters
+    ----------
+    bore, stroke : float
+        Of a cylinder; of opposed pistons and of a hypocycloid the stroke of one piston [m]
+    name : str
+        Stem of the file; kind and number of cylinders when left out
+    """
+    count = _CYLINDERS[kind] if cylinders is None else cylinders
+    if not 1 <= count <= _MOST:
+        raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
+    text = _KINDS[kind](bore, stroke, count)
+    file = out / f"{name or f'{kind}-{count}'}.toml"
+    if file.exists():
+        raise BadInput(f"{file} exists; choose another NAME or remove it")
+    return [write_text(file, text)]
+
+
+def in_line(count: int, turns: int) -> CylinderLayout:
+    """Cylinders in line, evenly fired, one throw each.
+
+    Parameters
+    ----------
+    turns : int
+        1 for two-stroke, 2 for four-stroke
+    """
+    order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
+    firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
+    return CylinderLayout(
+        throw=tuple(range(1, count + 1)),
+        bank=bank,
+        firing=_degrees(firing),
+        phase=_degrees(crank_phases(firing, bank)),
+        period=360.0 * turns,
+    )
+
+
+def in_v(count: int) -> CylinderLayout:
+    """A four-stroke V: cylinders i and i + n/2 on one throw, its pin split where even firing asks for it.
+
+    A twin has one pin for both rods, as usual, and fires unevenly.
+    """
+    if count not in _BANKS:
+        raise BadInput(f"--cylinders {count}: a V engine here has {', '.join(map(str, _BANKS))}")
+    half, bank = count // 2, float(_BANKS[count])
+    first = _degrees(firing_angles(_ORDERS.get(half, (1,)), 4 * math.pi))
+    later = bank + 360.0 if count == 2 else 720.0 / count
+    firing = (*first, *((f + later) % 720 for f in first))
+    banks = (-bank / 2,) * half + (bank / 2,) * half
+    phase = tuple((b - f) % 360 for b, f in zip(banks, firing, strict=True))
+    return CylinderLayout(throw=tuple(range(1, half + 1)) * 2, bank=banks, firing=firing, phase=phase, period=720.0)
+
+
+def opposed(count: int) -> CylinderLayout:
+    """Two-stroke cylinders with two pistons each, on two cranks that gears keep together."""
+    one = in_line(count, turns=1)
+    bank = one.bank + (180.0,) * count
+    phase = (*one.phase, *((180 - f) % 360 for f in one.firing))
+    throw = tuple(range(1, 2 * count + 1))
+    return CylinderLayout(throw=throw, bank=bank, firing=one.firing * 2, phase=phase, period=360.0, opposed=True)
+
+
+def _degrees(angles: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(round(math.degrees(a), 9) % 720 for a in angles)
+
+
+def _speed(stroke: float, usual: str) -> float:
+    """Speed at the usual mean piston speed, rounded to two digits [rpm]."""
+    rpm = _PISTON_SPEED[usual] / (2 * stroke) * 60
+    step = 10 ** (math.floor(math.log10(rpm)) - 1)
+    return round(rpm / step) * step
+
+
+def _head(mechanism: str, about: str, stroke: float, usual: str) -> str:
+    speed = _speed(stroke, usual)
+    mean = speed * RPM / math.pi * stroke
+    return (
+        "# Starting values by similarity: replace them by yours, with where each comes from in the comment.\n"
+        "# All problems at once: mechsym check FILE. What a key means: mechsym sections SECTION.\n"
+        f'mechanism = "{mechanism}"\nsource = "own"\nabout = "{about}; starting values"\n\n'
+        f'[operation]\nspeed = "{speed:g} rpm"   # assumed: mean piston speed {mean:.3g} m/s\n'
+    )
+
+
+def _fill(text: str, **values: float | str) -> str:
+    for name, value in values.items():
+        text = text.replace(f"<{name}>", value if isinstance(value, str) else f"{value:.4g}")
+    return text
+
+
+def _crosshead(bore: float, stroke: float, count: int) -> str:
+    if count > 1:
+        about = f"Two-stroke engine, {count} cylinders in line with crossheads, bore {1e3 * bore:g} mm"
+        head = _head("crank_train", about, stroke, "crosshead")
+        return head + _train(in_line(count, turns=1), bore, stroke, 4.6) + _fill(TWO_STROKE_LARGE, bore=bore * 1e3)
+    # masses, spring, guide and limits of an engine of bore 0.3 m and stroke 1 m that can be built, scaled
+    size, area = bore**2 * stroke / 0.09, bore**2 / 0.09
+    head = _head("crosshead", f"Two-stroke crosshead engine, bore {1e3 * bore:g} mm", stroke, "crosshead")
+    mass = {"m1": 80 * size, "m2": 150 * size, "m3": 150 * size, "m4": 200 * size, "m5": 110 * size}
+    inertia = {"I01": 30 * size * stroke**2, "IC2": 50 * size * stroke**2}
+    values = {"bore": bore * 1e3, "stroke": stroke * 1e3, "area": 0.031 * area, "force": 600 * area,
+              "width": 100 * area / stroke, "offset": 150 * area / stroke}  # fmt: skip
+    lengths = {"r1": 200, "r2": 300, "l1": 800, "l2": 750, "H": 1000, "rho0": 800, "margin": 10, "roller": 100,
+               "pin": 120, "crank": 140, "ring": 7}  # fmt: skip
+    scaled = {name: value * stroke for name, value in lengths.items()}
+    return _fill(head + CROSSHEAD + TWO_STROKE_LARGE + HINGE, **mass, **inertia, **values, **scaled)
+
+
+def _inline(bore: float, stroke: float, count: int) -> str:
+    about = f"Four-stroke engine, {count} in line, bore {1e3 * bore:g} mm"
+    return _spark(in_line(count, turns=2), about, bore, stroke)
+
+
+def _v(bore: float, stroke: float, count: int) -> str:
+    layout = in_v(count)
+    about = f"Four-stroke V{count}, {2 * layout.bank[-1]:g} degrees, bore {1e3 * bore:g} mm"
+    return _spark(layout, about, bore, stroke)
+
+
+def _spark(layout: CylinderLayout, about: str, bore: float, stroke: float) -> str:
+    head = _head("crank_train", about, stroke, "four-stroke")
+    return head + _train(layout, bore, stroke, 3.5) + _fill(FOUR_STROKE, bore=bore * 1e3)
+
+
+def _opposed(bore: float, stroke: float, count: int) -> str:
+    about = f"Two-stroke engine, {count} cylinder{'s' * (count > 1)} with two opposed pistons, bore {1e3 * bore:g} mm"
+    head = _head("crank_train", about, stroke, "small")
+    return head + _train(opposed(count), bore, stroke, 3.75) + _fill(TWO_STROKE_SMALL, bore=bore * 1e3)
+
+
+def _hypocycloid(bore: float, stroke: float, count: int) -> str:
+    if count > 1:
+        raise BadInput(f"--cylinders {count}: the mechanism hypocycloid has one piston; give --cylinders 1")
+    head = _head("hypocycloid", f"Four-stroke geared hypocycloid, bore {1e3 * bore:g} mm", stroke, "four-stroke")
+    size = bore**3
+    text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, I1=30 * size * stroke**2, piston=780 * size, planet=300 * size,
+                 I2=300 * size * (stroke / 4) ** 2 / 2, pin=bore * 1e3 / 4)  # fmt: skip
+    return head + text + _fill(FOUR_STROKE, bore=bore * 1e3)
+
+
+def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> str:
+    """Section `[parameters]` of a crank train, with rods of `ratio` crank radii."""
+    radius, rod = stroke / 2, ratio * stroke / 2
+    piston, rod_mass = 780 * bore**3, 900 * bore**3
+    throws = max(layout.throw)
+    turning = rod_mass * 2 / 3 * radius  # the big end's share, with the centre of mass a third from it
+    unbalance = [-turning * layout.throw.count(k + 1) for k in range(throws)]
+    pins = [[p for p, k in zip(layout.phase, layout.throw, strict=True) if k == t + 1] for t in range(throws)]
+    inertia = 11 * piston * radius**2
+    stiffness = 0.5 * 80e9 * math.pi / 32 * (0.6 * bore) ** 4 / (1.2 * bore)
+    far = 2 * (radius + rod + bore) + 0.02 * stroke
+    lists = {
+        "throw": str(list(layout.throw)), "bank": _angles(layout.bank), "phase": _angles(layout.phase),
+        "firing": _angles(layout.firing), "order": _order(layout), "u0": _numbers(unbalance, "kg*m"),
+        "u_phase": _angles([_mean(pin) for pin in pins]), "z": _places(layout, bore), "axes": _axes(layout, far),
+    }  # fmt: skip
+    numbers = {
+        "period": layout.period, "r": radius * 1e3, "l1": rod / 3 * 1e3, "l2": rod * 2 / 3 * 1e3, "rod": rod_mass,
+        "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": inertia, "k": stiffness,
+        "c": 0.02 * math.sqrt(stiffness * inertia), "I_f": 160 * piston * radius**2 * (2 if throws < 3 else 1),
+        "ratio": ratio, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
+    }  # fmt: skip
+    return _fill(TRAIN, **lists, **numbers)
+
+
+def _places(layout: CylinderLayout, bore: float) -> str:
+    """Throws along the shaft, 1.2 bores apart; those of opposed pistons stand beside each other."""
+    throws = max(layout.throw)
+    row = throws // 2 if layout.opposed else throws
+    return _numbers([k % row * 1.2 * bore * 1e3 for k in range(throws)], "mm")
+
+
+def _axes(layout: CylinderLayout, far: float) -> str:
+    if not layout.opposed:
+        return ""
+    half = max(layout.throw) // 2
+    places = _numbers([0.0] * half + [far * 1e3] * half, "mm")
+    return (
+        f"axis_x = {places}   # assumed: distance of the two cranks\n"
+        "sense = 1   # the gears between them have an odd number of wheels\n"
+    )
+
+
+def _order(layout: CylinderLayout) -> str:
+    ranked = sorted(range(len(layout.firing)), key=lambda i: layout.firing[i])
+    shown = [str(i + 1) for i in ranked]
+    return " and ".join(shown) if len(set(layout.firing)) == 1 and len(shown) > 1 else "-".join(shown)
+
+
+def _mean(pins: list[float]) -> float:
+    """Angle half way between the pins of a throw [deg]."""
+    there = sum(complex(math.cos(math.radians(p)), math.sin(math.radians(p))) for p in pins)
+    return round(math.degrees(math.atan2(there.imag, there.real)) % 360, 6) if abs(there) > 1e-9 else 0.0
+
+
+def _angles(values: tuple[float, ...] | list[float]) -> str:
+    return _numbers(values, "deg")
+
+
+def _numbers(values: tuple[float, ...] | list[float], unit: str) -> str:
+    return "[" + ", ".join(f'"{v + 0.0:.6g} {unit}"' for v in values) + "]"
+
+
+_KINDS: Mapping[str, Callable[[float, float, int], str]] = {
+    "two-stroke-crosshead": _crosshead, "inline": _inline, "v": _v, "opposed": _opposed, "hypocycloid": _hypocycloid,
+}  # fmt: skip
+_CYLINDERS = {"two-stroke-crosshead": 1, "inline": 4, "v": 2, "opposed": 1, "hypocycloid": 1}
+KINDS = tuple(_KINDS)

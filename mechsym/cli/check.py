@@ -1,0 +1,54 @@
+"""`mechsym check`: all problems of a case at once, and what each command still lacks."""
+
+from typing import Any
+
+import click
+
+from mechsym.cli.common import case_of, emit, json_option
+
+
+@click.command(short_help="All problems of a case at once.")
+@click.argument("case")
+@click.option("--trust", is_flag=True, help="Run the mechanism file that the case names, to check its letters too.")
+@json_option
+@click.pass_context
+def check(ctx: click.Context, case: str, trust: bool, as_json: bool) -> None:
+    """Every problem of CASE with key, reason and what is allowed; and what each command still lacks to run on it.
+
+    Exit status 2 when there are problems. A mechanism file of the user's own is not run without --trust; its letters
+    are then left unchecked.
+
+    \b
+    Example: mechsym check mine.toml
+    """
+    import dataclasses
+
+    from mechsym.cases.check import check_file
+
+    found = check_file(case, trust)
+    if not found.problems and not found.skipped:
+        case_of(case, {})  # its doubts are told as every command tells them
+    report = {
+        "problems": [dataclasses.asdict(problem) for problem in found.problems],
+        "commands": dict(found.commands),
+        "skipped": list(found.skipped),
+    }
+    emit(report, as_json, lambda: _text(report))
+    ctx.exit(2 if found.problems else 0)
+
+
+def _text(report: dict[str, Any]) -> str:
+    problems, commands = report["problems"], report["commands"]
+    lines = [f"{len(problems)} problem{'s' * (len(problems) != 1)}" if problems else "no problems"]
+    lines += [f"  {row['key'] or 'file'}: {_told(row)}" for row in problems]
+    if report["skipped"]:
+        lines.append(f"not checked: {', '.join(f'[{name}]' for name in report['skipped'])}")
+    ready = [name for name, missing in commands.items() if not missing]
+    lines += ["", f"can run{' once mended' * bool(problems)}: {', '.join(ready) or 'nothing'}"] if commands else []
+    lines += [f"  {name} lacks {'; '.join(missing)}" for name, missing in commands.items() if missing]
+    return "\n".join(lines)
+
+
+def _told(row: dict[str, str]) -> str:
+    said = any(words in row["why"] for words in ("must be", "give it in", "write for example", "options are"))
+    return row["why"] + (f"; {row['allowed']}" if row["allowed"] and not said else "")

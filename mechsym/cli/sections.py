@@ -1,0 +1,64 @@
+"""`mechsym sections`: every section and key of a case file."""
+
+from typing import Any
+
+import click
+
+from mechsym.cli.common import emit, json_option
+
+
+@click.command(short_help="Every section and key of a case, or a schema for editors.")
+@click.argument("name", required=False)
+@click.option("--schema", "as_schema", is_flag=True, help="Print the JSON Schema of case files, for editors.")
+@json_option
+def sections(name: str | None, as_schema: bool, as_json: bool) -> None:
+    """Sections of case files; with NAME the keys of one: unit, range, default, meaning, commands that read it.
+
+    \b
+    Examples: mechsym sections
+              mechsym sections spring
+              mechsym sections --schema > mechsym.schema.json
+    """
+    from mechsym.cases.json_schema import json_schema
+    from mechsym.cases.keys import keys
+
+    if as_schema:
+        from mechsym.files import to_json
+
+        click.echo(to_json(json_schema()))
+        return
+    rows = keys(name)
+    emit(rows, as_json, lambda: _keys(rows) if name else _sections(rows))
+
+
+def _sections(rows: list[dict[str, Any]]) -> str:
+    lines = []
+    for section in dict.fromkeys(row["section"] for row in rows):
+        own = [row for row in rows if row["section"] == section]
+        needed, kinds = sum(row["required"] for row in own), len({row["variant"] for row in own})
+        count = f"{len(own)} keys" + (f" in {kinds} kinds" if kinds > 1 else f", {needed} needed")
+        lines.append(f"{section:18}{count:26}{', '.join(own[0]['commands'])}".rstrip())
+    return "\n".join([*lines, "", "keys of one: mechsym sections NAME"])
+
+
+def _keys(rows: list[dict[str, Any]]) -> str:
+    lines = [f"read by {', '.join(rows[0]['commands']) or 'what refers to it'}"] if rows else []
+    for variant in dict.fromkeys(row["variant"] for row in rows):
+        own = [row for row in rows if row["variant"] == variant]
+        widths = [max(len(cells[i]) for cells in map(_cells, own)) for i in range(3)]
+        lines += ["", f"with {variant}" if variant else "keys"]
+        for row in own:
+            cells = "  ".join(cell.ljust(width) for cell, width in zip(_cells(row), widths, strict=True))
+            lines.append(f"  {cells}  {row['about']}".rstrip())
+    return "\n".join(lines)
+
+
+def _cells(row: dict[str, Any]) -> tuple[str, str, str]:
+    bounds = (("above", ">"), ("low", ">="), ("below", "<"), ("high", "<="))
+    limits = " and ".join(f"{sign} {row[name]:g}" for name, sign in bounds if row[name] is not None)
+    options = " | ".join(row["options"]) if row["options"] else row["kind"] if row["unit"] is None else ""
+    if row["required"]:
+        usual = "needed"
+    else:
+        usual = "optional" if row["default"] in (None, [], "") else f"usual {row['default']}"
+    return row["key"], " ".join(filter(None, (f"[{row['unit']}]" * (row["unit"] is not None), limits, options))), usual

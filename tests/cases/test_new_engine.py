@@ -1,0 +1,95 @@
+"""A new engine is a case that the commands take as it is written; its cylinders fire at their dead centres, evenly."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from mechsym import cases
+from mechsym.cases.check import check_file
+from mechsym.cases.new_engine import KINDS, in_line, in_v, opposed, write_engine
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+from mechsym.mechanisms.crank_train.firing import firing_gaps, refuse_wrong_firing
+
+TRAINS = [in_line(n, turns) for n in range(1, 13) for turns in (1, 2)] + [in_v(n) for n in (2, 4, 6, 8, 10, 12)]
+ENGINES = [
+    ("two-stroke-crosshead", 500, 2000, 1), ("two-stroke-crosshead", 300, 1000, 1),
+    ("two-stroke-crosshead", 600, 2400, 6), ("inline", 100, 120, 1), ("inline", 80, 90, 4), ("inline", 86, 86, 6),
+    ("v", 90, 70, 2), ("v", 86, 86, 6), ("v", 95, 90, 8), ("opposed", 80, 80, 1), ("opposed", 80, 120, 3),
+    ("hypocycloid", 60, 52, 1),
+]  # fmt: skip
+
+
+def run(*words):
+    return CliRunner().invoke(mechsym, [*map(str, words)], catch_exceptions=False)
+
+
+@pytest.fixture
+def written(tmp_path):
+    return lambda kind, bore, stroke, count: str(write_engine(kind, bore * 1e-3, stroke * 1e-3, count, tmp_path)[0])
+
+
+@pytest.mark.parametrize("found", TRAINS)
+def test_cylinders_fire_evenly_and_on_their_pins(found):
+    gaps = np.diff(sorted(found.firing), append=min(found.firing) + found.period)
+    if len(found.throw) == 2 and found.throw == (1, 1):  # a twin on one pin
+        assert sorted(gaps) == pytest.approx([270, 450])
+    else:
+        assert gaps == pytest.approx(found.period / len(found.throw))
+    for bank, fires, phase in zip(found.bank, found.firing, found.phase, strict=True):
+        assert math.remainder(phase + fires - bank, 360) == pytest.approx(0, abs=1e-9)
+
+
+def test_opposed_pistons_meet():
+    found = opposed(3)
+    assert found.firing[:3] == found.firing[3:] and set(found.bank) == {0.0, 180.0}
+    assert all(math.remainder(b - a - 180, 360) == 0 for a, b in zip(found.phase[:3], found.phase[3:], strict=True))
+
+
+@pytest.mark.parametrize("engine", ENGINES, ids=lambda e: f"{e[0]}-{e[3]}-{e[1]}")
+def test_the_case_has_no_problem_and_no_doubt(engine, written):
+    path = written(*engine)
+    found, case = check_file(path), cases.load(path)
+    assert found.problems == () and case.doubts == ()
+    assert not found.commands["cycle"] and not found.commands["forces"]
+    assert bool(found.commands["hinge"]) == (engine[0] != "two-stroke-crosshead" or engine[3] > 1)
+    if case.mechanism == "crank_train":
+        period = (4 if "chamber" in case.sections else 2) * math.pi
+        refuse_wrong_firing(case.need("parameters"), period)
+        assert sum(firing_gaps(case.need("parameters"), period)) == pytest.approx(period)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ENGINES, ids=lambda e: f"{e[0]}-{e[3]}-{e[1]}")
+def test_the_commands_take_it_as_it_is(engine, written):
+    path = written(*engine)
+    for command in ("check", "cycle", "forces"):
+        done = run(command, path, "--json", "--strict")
+        assert done.exit_code == 0, done.output
+    counted = json.loads(run("cycle", path, "--json").output)["cylinders"]
+    assert counted == engine[3] * (2 if engine[0] == "opposed" else 1)
+    if engine[0] == "two-stroke-crosshead" and engine[3] == 1:
+        assert json.loads(run("hinge", path, "--json").output)["guide"]["feasible"]
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (("engine", "--kind", "v", "--bore", "0.09", "--stroke", "0.08", "--cylinders", "7"), "a V engine here has 2, 4"),
+    (("engine", "--kind", "inline", "--bore", "86 kg", "--stroke", "0.08"), "--bore = '86 kg' has the wrong dimension"),
+    (("engine", "--kind", "inline", "--stroke", "0.08"), "an engine needs --bore"),
+    (("engine", "--kind", "inline", "--bore", "86 m", "--stroke", "0.08"), "1 mm to 10 m"),
+    (("engine", "--bore", "86 mm", "--stroke", "0.08"), f"an engine needs --kind: {', '.join(KINDS)}"),
+    (("mechanism",), "a mechanism needs a NAME"),
+])  # fmt: skip
+def test_what_is_missing_is_said(words, message, tmp_path):
+    with pytest.raises(BadInput, match=message):
+        run("new", *words, "--out", tmp_path)
+
+
+def test_nothing_is_overwritten(tmp_path):
+    words = ("new", "engine", "mine", "--kind", "inline", "--bore", "86 mm", "--stroke", "86 mm", "--out", tmp_path)
+    assert run(*words).exit_code == 0 and (tmp_path / "mine.toml").exists()
+    with pytest.raises(BadInput, match="exists"):
+        run(*words)
