@@ -92,7 +92,7 @@ def test_what_is_called_lacking_is_lacking(name, tmp_path):
         if name == "generator" and not missing or command in ("eval", "sweep", "codesign", "simulate", "optimise"):
             continue
         words = [name, name] if command == "compare" else [name]
-        words += ["--ripple", "2%"] if command == "flywheel" else ["--sheet", str(tmp_path / "g.pdf")] if command == "guide" else []
+        words += {"flywheel": ["--ripple", "2%"], "guide": ["--sheet", str(tmp_path / "g.pdf")]}.get(command, [])
         try:
             refused = run(command, *words).exit_code == 2
         except BadInput:
