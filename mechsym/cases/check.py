@@ -65,7 +65,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     sections = {k: v for k, v in tables.items() if k not in (*_HEAD, "doubts")}
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
-    found, records = [*head], {}
+    found, records = [*head], dict[str, Any]()
     for section, table in sections.items():
         if section not in skipped:
             wrong, made = _section(mechanism or "", section, table)

@@ -63,7 +63,7 @@ def _section(name: str) -> dict[str, Any]:
 def _record(cls: Any, selector: str) -> dict[str, Any]:
     fields, said = dataclasses.fields(cls), comments(cls)
     one = {f.name: _field(f, f.metadata.get("about") or said.get(f.name, "")) for f in fields}
-    with_unit = {f"^{f.name}_[A-Za-z%]+$": {} for f in fields if "unit" in f.metadata}
+    with_unit: dict[str, Any] = {f"^{f.name}_[A-Za-z%]+$": {} for f in fields if "unit" in f.metadata}
     needed = [f.name for f in fields if required(f)]
     # a key may name its unit, as speed_rpm does; then the key alone is not there
     given = [_given(name, f"{name}_" if f"^{name}_[A-Za-z%]+$" in with_unit else "") for name in needed]
@@ -83,12 +83,12 @@ def _given(name: str, stem: str) -> dict[str, Any]:
 
 
 def _field(field: dataclasses.Field, about: str) -> dict[str, Any]:
-    told = {"description": f"{about} ({takes(field)})".strip()}
+    told: dict[str, Any] = {"description": f"{about} ({takes(field)})".strip()}
     if "options" in field.metadata:
         return told | {"enum": list(field.metadata["options"])}
     if "unit" in field.metadata:
         bounds = {_BOUND[k]: field.metadata[k] for k in _BOUND if field.metadata.get(k) is not None}
-        one = {"anyOf": [{"type": "number"} | bounds, _NUMBER]}
+        one: dict[str, Any] = {"anyOf": [{"type": "number", **bounds}, _NUMBER]}
         lists = {"type": "array", "items": one}
         known = kind(field)
         return told | {"number": one, "list of numbers": lists}.get(known, {"anyOf": [*one["anyOf"], lists]})

@@ -143,7 +143,7 @@ def check(record: Any) -> None:
         check_value(field, getattr(record, field.name))
 
 
-def check_value(field: dataclasses.Field, value: Any) -> None:
+def check_value(field: dataclasses.Field[Any], value: Any) -> None:
     """Refuse a value that a field cannot have, as `check` does for all fields of a record."""
     meta = field.metadata
     if "options" in meta and value not in meta["options"]:
