@@ -7,11 +7,14 @@ import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
+from mechsym.papers.rows import ARITHMETIC, REPRODUCED
 
 
 @click.command(short_help="Compute every published number again.")
 @click.argument("source", required=False)
-@click.option("--write", is_flag=True, help="Record the verdicts of all sources, to be compared with from then on.")
+@click.option(
+    "--write", is_flag=True, help="Record verdicts and values of all sources, to be compared with from then on."
+)
 @json_option
 @out_option
 @click.pass_context
@@ -34,8 +37,8 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
             found[one.stem] = one.rows()
             bar.update(1)
     flat = [row for one in found.values() for row in one]
-    files = [record.write(_PACKAGE, flat, (*_NAME, "verdict"))] if write else []
-    changed = record.differences(_PACKAGE, flat, _NAME, ("verdict",))
+    files = [record.write(_PACKAGE, flat, (*_NAME, "printed", "verdict", "computed", "tolerance"))] if write else []
+    changed = record.differences(_PACKAGE, flat, _NAME, ("printed", "verdict", "computed"))
     if out is not None:
         from mechsym.papers import page
 
@@ -68,5 +71,9 @@ def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def _notes(rows: list[dict[str, Any]]) -> str:
     """Notes of everything that is not plainly reproduced, after the table since they are long."""
-    told = [f"  {row['item']}: {row['note']}" for row in rows if row["verdict"] != "reproduced" and row["note"]]
+    told = [
+        f"  {row['item']}: {row['note']}"
+        for row in rows
+        if row["verdict"] not in (REPRODUCED, ARITHMETIC) and row["note"]
+    ]
     return "\n".join(told)

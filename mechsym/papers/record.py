@@ -1,12 +1,15 @@
-"""Findings that were recorded earlier, so that a change of a verdict is noticed."""
+"""Findings that were recorded earlier, so that a change of a verdict or of a computed value is noticed."""
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from mechsym.files import to_json, write_text
+
+_LEAST = 1e-9  # what rounding leaves where a number should be 0 [unit of the number]
 
 
 def stored(package: str) -> list[dict[str, Any]]:
@@ -37,7 +40,8 @@ def differences(
     name : sequence of str
         Keys that name a finding; one of them is `source`
     compared : sequence of str
-        Keys whose values must not change
+        Keys whose values must not change; numbers may by the recorded `tolerance` of their finding, relative and as
+        small as 1e-9 in any unit, since the last digits belong to the processor
     """
     sources = {row["source"] for row in rows}
     before = {_name(r, name): r for r in stored(package) if r["source"] in sources}
@@ -45,9 +49,16 @@ def differences(
     lines = [f"{' '.join(key)} is not recorded" for key in now if key not in before]
     lines += [f"{' '.join(key)} is recorded but was not found" for key in before if key not in now]
     for key in now.keys() & before.keys():
-        changed = [k for k in compared if now[key][k] != before[key].get(k)]
+        changed = [k for k in compared if _differs(now[key][k], before[key].get(k), before[key].get("tolerance", 0.0))]
         lines += [f"{' '.join(key)}: {k} {now[key][k]!r}, recorded {before[key].get(k)!r}" for k in changed]
     return sorted(lines)
+
+
+def _differs(now: Any, before: Any, tolerance: float) -> bool:
+    numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in (now, before))
+    if not numbers or not tolerance:
+        return bool(now != before)
+    return not math.isclose(now, before, rel_tol=tolerance, abs_tol=_LEAST)
 
 
 def _name(row: Mapping[str, Any], keys: Sequence[str]) -> tuple[str, ...]:

@@ -6,7 +6,9 @@ from mechsym.errors import BadInput
 
 REPRODUCED, SLIP = "reproduced", "reproduced with the source's slip"
 NOT_REPRODUCED, NOT_COMPUTABLE = "not reproduced", "not computable"
-VERDICTS = (REPRODUCED, SLIP, NOT_REPRODUCED, NOT_COMPUTABLE)
+# follows from other printed numbers without any model: it checks the source's arithmetic and nothing else
+ARITHMETIC = "arithmetic of the source"
+VERDICTS = (REPRODUCED, SLIP, NOT_REPRODUCED, NOT_COMPUTABLE, ARITHMETIC)
 # `printed` keeps the digits and the words of the source, `published` is its number
 KEYS = ("source", "item", "published", "computed", "rel_error", "verdict", "note", "printed")
 

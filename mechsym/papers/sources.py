@@ -19,6 +19,8 @@ class Source:
     stem: str  #: Of its file; sources are listed in the order of their stems
     name: str
     title: str  #: Authors, year and title
+    #: Relative difference of a computed value from the recorded one that is left to processor and library [-]
+    tolerance: float = 1e-6
 
     @property
     def entries(self) -> "tuple[Entry, ...]":
@@ -31,9 +33,11 @@ class Source:
         Returns
         -------
         rows : list of dict
-            Keys `rows.KEYS`, and for some sources more
+            Keys `rows.KEYS`, the tolerance of the record, and for some sources more
         """
-        return [_with_print(row) for row in load(f"mechsym.papers.{self.name}.rows:rows")()]
+        return [
+            _with_print(row) | {"tolerance": self.tolerance} for row in load(f"mechsym.papers.{self.name}.rows:rows")()
+        ]
 
     def figures(self) -> Mapping[str, Any]:
         """The figures that it prints, drawn from the computation."""

@@ -10,7 +10,7 @@ from mechsym import papers
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.papers import page, record, sources
-from mechsym.papers.rows import KEYS, NOT_REPRODUCED, REPRODUCED, VERDICTS, by_digits, last_digit, row
+from mechsym.papers.rows import ARITHMETIC, KEYS, NOT_REPRODUCED, REPRODUCED, VERDICTS, by_digits, last_digit, row
 
 FAST = ("zotov2024", "moroianu2017", "prymak")
 FIGURES = {"zotov2024": 4, "moroianu2017": 9, "chmielewski2015": 8, "prymak": 1, "nunes2017": 32}
@@ -43,7 +43,7 @@ def test_fast_sources_give_the_recorded_outcome(name):
     (source,) = sources(name)
     for one in found:
         assert set(KEYS) <= set(one) and one["source"] == source.stem and one["verdict"] in VERDICTS
-        assert one["note"] or one["verdict"] == REPRODUCED
+        assert one["note"] or one["verdict"] in (REPRODUCED, ARITHMETIC)
         for key in ("published", "computed", "rel_error"):
             assert one[key] is None or isinstance(one[key], (int, float))
 
@@ -63,6 +63,37 @@ def test_another_outcome_is_exit_status_1(monkeypatch):
     assert run("moroianu2017").exit_code == 0
     monkeypatch.setattr(record, "stored", lambda package: known[1:])
     assert run("zotov2024", "--json").exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("computed", "before", "differs"),
+    [
+        (1.0, 1.0 + 5e-7, False), (1.0, 1.0 + 2e-6, True), (1e-12, -1e-10, False), (1e-12, 1e-8, True),
+        (None, 1.0, True), (2.0, None, True), (None, None, False),
+    ],
+)  # fmt: skip
+def test_values_are_recorded_with_a_tolerance(monkeypatch, computed, before, differs):
+    kept = {"source": "s", "item": "i", "verdict": REPRODUCED, "tolerance": 1e-6}
+    monkeypatch.setattr(record, "stored", lambda package: [kept | {"computed": before}])
+    found = record.differences("p", [kept | {"computed": computed}], ("source", "item"), ("verdict", "computed"))
+    assert bool(found) is differs
+    assert all("i: computed" in line for line in found)
+
+
+def test_a_changed_value_is_noticed_though_the_verdict_stays(monkeypatch):
+    known = record.stored("mechsym.papers")
+    changed = [
+        r | {"computed": r["computed"] * 1.0001} if "share of the inertia part" in r["item"] else r for r in known
+    ]
+    monkeypatch.setattr(record, "stored", lambda package: changed)
+    result = run("zotov2024")
+    assert result.exit_code == 1 and result.stdout.split("differs from")[1].count("computed") == 1
+
+
+def test_every_recorded_number_has_its_tolerance():
+    for one in record.stored("mechsym.papers"):
+        assert 0 < one["tolerance"] <= 1e-4
+        assert one["computed"] is not None or one["verdict"] == "not computable"
 
 
 def test_unknown_source_and_write_of_one_source_are_refused():

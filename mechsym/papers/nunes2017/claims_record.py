@@ -1,15 +1,15 @@
 """What the claims of source 004 share: the reproduction of chapter 4, computed once, by item."""
 
+from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
 from mechsym.audit.entries import Decided
 from mechsym.papers.nunes2017 import sizing as nunes2017_sizing
-from mechsym.papers.nunes2017.sizing import Peaks
+from mechsym.papers.nunes2017.chapter4 import chapter4
 
 
-@cache
-def peaks() -> Peaks:
+def peaks() -> Mapping[str, Any]:
     """Peaks of the thesis's march.
 
     Returns
@@ -17,7 +17,7 @@ def peaks() -> Peaks:
     peaks : mapping
         `p` [Pa], `F` [N], `T` [N*m], and over the speeds `rpm` and `tooth` [N]
     """
-    return nunes2017_sizing.printed_peaks()
+    return chapter4().peaks
 
 
 @cache

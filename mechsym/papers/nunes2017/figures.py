@@ -1,4 +1,7 @@
-"""Figures of chapters 3 and 5 of Nunes (2017) as the source drew them, by the thesis's own one-degree march."""
+"""Figures of chapters 3 and 5 of Nunes (2017) after its text, by the thesis's own one-degree march.
+
+The thesis's drawings were not at hand: what is drawn is what its equations give, with their signs.
+"""
 
 from collections.abc import Mapping
 from functools import partial
@@ -50,7 +53,8 @@ def _kinematics(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     for order, label in ((1, "piston velocity [m/s]"), (2, "piston acceleration [m/s$^2$]")):
         for k, name in enumerate(both):
             number = f"3.{2 * order + k}"
-            found[number] = _over_turn(number, {name: both[name][order]}, f"{label} at 8000 rpm")
+            # (2.58), (2.59), (2.69), (2.70): S counts outwards from the crank, so both are negative leaving the head
+            found[number] = _over_turn(number, {name: -both[name][order]}, f"{label} at 8000 rpm")
     return found | {"3.6": _over_turn("3.6", volumes, "chamber volume [cm$^3$]")}
 
 
@@ -143,5 +147,5 @@ def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], k
 
 def _finish(axis: Any, number: str, label: str) -> None:
     axis.set_ylabel(label)
-    axis.set_title(f"Fig. {number}", loc="left", fontsize=10)
+    axis.set_title(f"Fig. {number}, after the text", loc="left", fontsize=10)
     axis.legend(fontsize=8)

@@ -11,15 +11,21 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.papers.nunes2017.chapter4 import chapter4
 from mechsym.papers.nunes2017.sizing_numbers import GEOMETRY
 from mechsym.quantities import RPM
 from mechsym.sizing.rules import gear_factors, gears
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor
 from mechsym.sizing.rules.gear_geometry import Pair, pitting_geometry_factor
+from mechsym.sizing.rules.materials import need
 
 D_PINION, D_RING, WIDEST = 0.026, 0.052, 0.052
-_BENDING, _CONTACT, _Z_E = 454.7125e6, 1300e6, 187030.0  # eq. 4.1, table 4.1, table 4.10
+_Z_E = 187030.0  # table 4.10
 _ANGLE = np.radians(25)
+
+
+def _allowed(field: str) -> float:
+    return need(chapter4().material("gears"), field)
 
 
 def load_distribution_printed(member: int) -> float:
@@ -90,12 +96,12 @@ def widths_printed(shift: float, teeth: int, rpm: np.ndarray, tooth: np.ndarray,
     for member in (1, 2):
         load = share * np.max(tooth * dynamic_printed(member, rpm, 200.0))
         factors = gears.LoadFactors(K_m=load_distribution_printed(member))
-        found.append(gears.face_width_bending(load, module, J[member - 1], _BENDING, factors))
+        found.append(gears.face_width_bending(load, module, J[member - 1], _allowed("gear_bending"), factors))
     for member, d in ((1, D_PINION), (2, D_RING)):
         load = share * np.max(tooth * dynamic_printed(member, rpm, 200.0))
         ring = twin and member == 2
         factors = gears.LoadFactors(K_m=load_distribution_twin_contact() if ring else load_distribution_printed(member))
-        found.append(gears.face_width_contact(load, d, I, _Z_E, _CONTACT, factors))
+        found.append(gears.face_width_contact(load, d, I, _Z_E, _allowed("gear_contact"), factors))
     return tuple(float(b) for b in found)
 
 
@@ -118,7 +124,7 @@ def widths_corrected(
     pinion, ring, contact : float
         Face widths for bending of either and for the contact that they share [m]
     """
-    bounds = {"bending": _BENDING, "contact": _CONTACT} | dict(limits or {})
+    bounds = {"bending": _allowed("gear_bending"), "contact": _allowed("gear_contact")} | dict(limits or {})
     module = D_PINION / teeth
     pair = Pair(kind="internal", module=module, teeth_1=teeth, teeth_2=2 * teeth, pressure_angle=_ANGLE, shift=shift)
     speed = gears.mesh_speed(D_PINION, np.asarray(rpm) * RPM)

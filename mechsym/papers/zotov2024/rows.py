@@ -16,7 +16,7 @@ from mechsym.hinge.guide import Guide
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.machine.loads import ConstantLoad
-from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
+from mechsym.papers.rows import ARITHMETIC, NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, by_digits, row
 from mechsym.papers.zotov2024 import SOURCE
 from mechsym.papers.zotov2024.computed import (
     PRESSURES,
@@ -155,7 +155,7 @@ def _retuning_rows(found: Engines) -> list[dict[str, Any]]:
     ripples = ", ".join(f"{name} {100 * ripple:.1f} %" for name, ripple in steadiest.items())
     proportional = _departure_from_proportional(found.cut)
     return [
-        _row("factor of p0 from 5 to 9.5 MPa", "1.9", 9.5 / 5, by_digits("1.9", 9.5 / 5)),
+        _row("factor of p0 from 5 to 9.5 MPa", "1.9", PRESSURES[1] / p0, ARITHMETIC, "the caption's own two pressures"),
         _claim(
             "(14): M_h* proportional to p0, largest relative departure", "proportional", proportional,
             proportional < _ZERO,
