@@ -91,4 +91,4 @@ def test_rhombic_drive_is_a_crank_train():
     assert found.exit_code == 0, found.output
     result = json.loads(found.stdout)
     assert result["power_kw"][0] == pytest.approx(4.438, abs=0.002)
-    assert result["efficiency"][0] == pytest.approx(0.357, abs=0.001)
+    assert result["efficiency"][0] == pytest.approx(0.3516, abs=0.001)

@@ -1,6 +1,9 @@
 """The Stirling cycle of the second order: limits, books, and the GPU-3 engine of NASA.
 
-The GPU-3's dimensions are those of W. R. Martini, NASA CR-168088 (1983), table 3-1.
+The GPU-3's dimensions are those of W. R. Martini, NASA CR-168088 (1983), table 3-1; exchangers, swept volumes and the
+conductance of the walls were compared with the data of the program SETT (UW-SEL/SETT, University of Wisconsin 2023),
+which agrees but for 1 % in the drive. SETT also gives a fit of NASA's measured mechanical losses of this engine, which
+turns measured brake powers into indicated ones; it was not used to tune the model.
 """
 
 import dataclasses
@@ -36,7 +39,7 @@ def gpu3(gas="helium", p=4.13e6, T_e=977.0, T_c=288.0):
 LOSSES = StirlingLosses(
     heater_diameter=0.00302, heater_length=0.2453, heater_heated=0.1554 / 0.2453, cooler_diameter=0.00108,
     cooler_length=0.0461, cooler_cooled=0.0355 / 0.0461, wire=40e-6, porosity=0.697, regenerator_length=0.0226,
-    conductance=1.36, shuttle_gap=0.00028, shuttle_length=0.0436, seal_gap=5e-6, seal_length=0.02,
+    conductance=1 / 0.61, shuttle_gap=0.00028, shuttle_length=0.0436, seal_gap=5e-6, seal_length=0.02,
     buffer_volume=4.6e-4,
 )  # fmt: skip
 
@@ -60,15 +63,31 @@ def test_base_point_of_the_literature():
     assert found.power < 0.6 * ideal.work * 2503 / 60  # the losses are no trifle
 
 
-@pytest.mark.parametrize(("gas", "rpm", "brake"), [("helium", 2500, 4260.0), ("hydrogen", 3500, 6820.0)])
-def test_brake_power_is_left_to_the_mechanism(gas, rpm, brake):
-    """NASA TM-82646 measured these brake powers at 6.9 MPa: before any friction of the drive the model has 1.75 times.
+def mechanical_loss(p_mpa, rpm):
+    """Measured losses of drive and seals of the GPU-3 [W], as fitted in SETT, +ws/GPU3.m, for extrapolation."""
+    return 1e3 * (-0.30378556 + 0.086701731 * p_mpa + 2.0086292e-7 * rpm**2)
 
-    The same share at both points stands for drive, seals and what a model of the second order leaves out.
+
+@pytest.mark.parametrize(
+    ("gas", "rpm", "brake", "ratio"), [("helium", 2500, 4260.0, 1.29), ("hydrogen", 3500, 6820.0, 1.26)]
+)
+def test_indicated_power_is_overestimated_by_a_quarter(gas, rpm, brake, ratio):
+    """NASA TM-82646 measured these brake powers at 6.9 MPa, heater gas at 950 K; walls of 977 K are assumed.
+
+    What is left above 1 is what a model of the second order does not see: losses that act back on the cycle, heat
+    exchange in the working spaces, the gap around the displacer. At 4.13 MPa it is 1.12 (the test above).
     """
-    cycle, volumes = gpu3(gas, 6.9e6, T_c=290.0)
+    cycle, volumes = gpu3(gas, 6.9e6)
     found = second_order(cycle, LOSSES, volumes, rpm * RPM)
-    assert 1.6 < found.power / brake < 1.9
+    assert found.power / (brake + mechanical_loss(6.9, rpm)) == pytest.approx(ratio, abs=0.015)
+
+
+def test_smallest_volume_of_all_spaces():
+    # 233.5 cm3 of the engine: Martini (1983), table 3-1
+    cycle, volumes = gpu3()
+    found = turn(five_spaces(cycle, volumes))
+    tubes = HOT[0] + COLD[0] + 50.55e-6
+    assert (float(np.min(found.V_e + found.V_c)) + tubes) * 1e6 == pytest.approx(233.5, rel=1e-3)
 
 
 def test_books_balance():

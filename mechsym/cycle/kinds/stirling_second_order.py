@@ -9,6 +9,8 @@ the shuttle of the hot piston. Losses do not act back on the turn but through th
 
 Sources: I. Urieli, D. M. Berchowitz, Stirling Cycle Engine Analysis (1984), chapters 5 to 7; W. R. Martini, Stirling
 Engine Design Manual, NASA CR-168088 (1983). Valid: one pressure in all spaces, flow friction small against it.
+Of the GPU-3 engine the indicated power comes out 1.12 times as large as measured at 4.13 MPa and 1.26 to 1.29 times at
+6.9 MPa: good for comparing designs, too high for a promise.
 """
 
 import math
