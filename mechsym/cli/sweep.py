@@ -18,22 +18,27 @@ _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 @click.option("--samples", type=click.IntRange(min=1), help="Monte Carlo: so many samples of ranges a..b and m+-s.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the samples.")
 @click.option("--show", multiple=True, metavar="NAME", help="Compute only this result or group; all: everything.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as pay off where left away.")
+@click.option("--fresh", is_flag=True, help="Compute all points again, whatever --out keeps.")
 @set_option
 @out_option
 @json_option
 @click.pass_context
 def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | None, samples: int | None, seed: int,
-          show: tuple[str, ...], overrides: tuple[str, ...], out: Path | None, as_json: bool) -> None:  # fmt: skip
+          show: tuple[str, ...], jobs: int | None, fresh: bool, overrides: tuple[str, ...], out: Path | None,
+          as_json: bool) -> None:  # fmt: skip
     """Run CASE over ranges of its values; results as one labelled data set.
 
     A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
-    With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg.
+    With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg; sweep.db takes the points as they come,
+    and the same command goes on where it stopped, whatever stopped it.
 
     Of a hinge only torque, guide, verdict and flywheel are computed; --show check.speed_ripple runs it too, and
     --show retune, --show losses, --show all cost a hundred times as much.
 
-    A point that cannot be computed is a gap with a reason: null, an empty cell, NaN. Exit status 1 when all are gaps.
-    An interrupt (Ctrl-C) keeps the points that are finished, writes the files and ends with status 130.
+    A point that cannot be computed is a gap with a reason: null, an empty cell, NaN; one that kills its process is
+    tried once more. Exit status 1 when all are gaps. An interrupt (Ctrl-C, SIGTERM) keeps the points that are finished,
+    writes the files and ends with status 130.
 
     \b
     Examples: mechsym sweep zotov-89 --over "spring.p0=3..8 MPa:11" --over speed_rpm=80,89,100 --out map
@@ -51,7 +56,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     if out is not None:
         make_folder(out)
     with progress(count, f"sweep of {case}") as bar:
-        found = sweeps.sweep(plan, bar.update)
+        found = sweeps.sweep(plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh))
     report = _report(found, [] if out is None else _write(found, out))
     emit(report, as_json, lambda: _text(found, report))
     ctx.exit(_INTERRUPTED if found.interrupted else 1 if len(report["failed"]) == count else 0)
@@ -61,7 +66,7 @@ def _write(found: Any, out: Path) -> list[Path]:
     from mechsym.files import write_text
     from mechsym.style import svg
     from mechsym.sweep import plots as plots_sweep
-    from mechsym.sweep import write_netcdf, write_table
+    from mechsym.sweep import store, write_netcdf, write_table
 
     files = [write_table(found, out)]
     try:
@@ -69,7 +74,8 @@ def _write(found: Any, out: Path) -> list[Path]:
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
     figure = plots_sweep.picture(found)
-    return files if figure is None else [*files, write_text(out / "sweep.svg", svg(figure))]
+    pictures = [] if figure is None else [write_text(out / "sweep.svg", svg(figure))]
+    return [*files, *pictures, out / store.NAME]
 
 
 def _report(found: Any, files: list[Path]) -> dict[str, Any]:
@@ -92,6 +98,7 @@ def _report(found: Any, files: list[Path]) -> dict[str, Any]:
         "data": {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()},
         "failed": [{"index": i, "at": _values(found, i), "reason": reason} for i, reason in reasons.items()],
         "interrupted": found.interrupted,
+        "kept": found.kept,
         "files": [str(f) for f in files],
     }
 
@@ -104,6 +111,7 @@ def _text(found: Any, report: dict[str, Any]) -> str:
     rows = [_row(found, name, column) | {"unit": unit_of(name)} for name, column in main.items()]
     dims = " x ".join(f"{size} {name}" for name, size in found.dims.items())
     lines = [f"{found.analysis} of {found.case} over {dims}: {len(report['failed'])} of {len(found.points)} failed"]
+    lines += [f"{found.kept} points kept from before"] if found.kept else []
     if rows:
         spread = ["mean", "std"] if sampled else []
         lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]), ""]

@@ -8,7 +8,10 @@ spring gets its hinge designed, an engine without one runs its cycle (as one map
 gap with a reason, not the end of the sweep.
 
 axes.py      what to run over: ranges, lists, distributions
-run.py       the points in chunks, and interrupts
+run.py       the points in chunks, from the store or computed
+work.py      chunks on processes; a worker that dies takes one point with it
+store.py     finished points in a file: the same command goes on where it stopped
+stopping.py  Ctrl-C and SIGTERM
 points.py    how a chunk is computed: simulations, hinges, cycles
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason
@@ -19,11 +22,12 @@ plots.py     the picture
 from mechsym.sweep.axes import Axis
 from mechsym.sweep.data import columns, dataset, failures, main_results, write_netcdf, write_table
 from mechsym.sweep.outcomes import Gap
-from mechsym.sweep.run import Plan, Sweep, layout, sweep
+from mechsym.sweep.run import Means, Plan, Sweep, layout, sweep
 
 __all__ = [
     "Axis",
     "Gap",
+    "Means",
     "Plan",
     "Sweep",
     "columns",

@@ -1,7 +1,6 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
 import dataclasses
-import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -26,6 +25,7 @@ class Route:
     analysis: str
     run: Callable[[Sequence[Case]], list[Outcome]]  #: Cases to outcomes, in the same order
     together: int  #: Most cases in one call; an interrupt loses one call
+    seconds: float  #: What one takes, roughly [s]
 
 
 def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route:
@@ -45,13 +45,15 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     """
     analysis = analysis or _meant(case)
     if analysis == "simulate":
-        # the integrator puts blocks of lanes on threads; threads around it would only wait for Python
-        return Route(analysis=analysis, run=_simulated, together=_LANES * (os.cpu_count() or 1))
+        # one block of lanes: what runs beside a point is the same on any machine
+        return Route(analysis=analysis, run=_simulated, together=_LANES, seconds=0.03)
     if analysis == "hinge":
-        return Route(analysis=analysis, run=_each(_hinges(show)), together=1)
+        runs = bool(show) and not all(name.startswith("guide") for name in show)
+        return Route(analysis=analysis, run=_each(_hinges(show)), together=1 if runs else 16,
+                     seconds=0.5 if runs else 0.006)  # fmt: skip
     if cycles.mapped(case):
-        return Route(analysis=analysis, run=_maps, together=cycles.BLOCK)
-    return Route(analysis=analysis, run=_each(cycles.single), together=1)
+        return Route(analysis=analysis, run=_maps, together=cycles.BLOCK, seconds=0.002)
+    return Route(analysis=analysis, run=_each(cycles.single), together=1, seconds=0.01)
 
 
 def _meant(case: Case) -> str:

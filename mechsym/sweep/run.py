@@ -2,20 +2,24 @@
 
 import contextlib
 import dataclasses
-import signal
+import os
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from mechsym import cases
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
+from mechsym.sweep import store, work
 from mechsym.sweep.axes import Axis, override, parse_axis, points, split
-from mechsym.sweep.outcomes import Gap, Outcome, asked, flat, kept, known
+from mechsym.sweep.outcomes import Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
+from mechsym.sweep.stopping import asked_to_stop
 
 Progress = Callable[[int], Any]
 INTERRUPTED = Gap(reason="interrupted")
+_WORTH = 10.0  # seconds of work from which processes pay for their start
 
 
 @record
@@ -38,6 +42,16 @@ class Plan:
 
 
 @record
+class Means:
+    """How a plan is computed; the results are the same."""
+
+    #: Processes; 0 for as many as there are cores where the work is worth their start
+    jobs: int = 1
+    folder: Path | None = None  #: Where finished points are kept as they come, see `store`
+    fresh: bool = False  #: Forget what was kept
+
+
+@record
 class Sweep:
     """What came out at every point."""
 
@@ -49,6 +63,7 @@ class Sweep:
     outcomes: tuple[Outcome, ...]  #: Results of each point by name, or why there are none
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
     interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
+    kept: int = 0  #: Points that were finished before, in the store of the same sweep
 
 
 @record
@@ -85,91 +100,105 @@ def layout(plan: Plan) -> Layout:
     return Layout(axes=tuple(axes), dims=dims, points=tuple(values))
 
 
-def sweep(plan: Plan, progress: Progress = lambda done: None) -> Sweep:
+def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | None = None) -> Sweep:
     """Run a case at every point.
 
-    An interrupt from the keyboard ends the sweep after the points that are being computed and keeps what is finished,
-    see `Sweep.interrupted`; a second one ends it at once.
+    An interrupt from the keyboard or a request to end (SIGTERM) ends the sweep after the points that are being
+    computed and keeps what is finished, see `Sweep.interrupted`; a second one ends it at once.
 
     Parameters
     ----------
     progress : callable
         Called with the number of points that were done
+    means : Means, optional
+        Processes and store; in this process without a store where it is left away
 
     Raises
     ------
     BadInput
         The case or an axis is bad, or every point fails for one and the same reason
     """
+    means = means or Means()
     base, place = cases.load(plan.case, plan.overrides), layout(plan)
     chosen = route(base, plan.analysis, plan.show)
+    order = work.SweepOrder(case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show)
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
-    with _asked_to_stop() as asked:
-        for members in _chunks(len(place.points), chosen.together):
-            if asked.is_set():
-                break
-            found = _run(plan, place, chosen, members)
-            _check_shown(plan.show, found)
-            outcomes[members.start : members.stop] = [o if isinstance(o, Gap) else kept(o, plan.show) for o in found]
-            progress(len(members))
-        else:
-            asked.clear()  # too late to change anything
-    interrupted = asked.is_set()
+    with _stored(plan, base, place, means) as kept_in, asked_to_stop() as asked_to:
+        before = store.known(kept_in) if kept_in else {}
+        for i, outcome in before.items():
+            outcomes[i] = outcome
+        if before:
+            progress(len(before))
+        chunks = [c for c in _chunks(place, chosen.together) if not all(i in before for i in c.members)]
+        with contextlib.closing(_computed(order, chosen, chunks, means, asked_to)) as results:
+            for done in results:
+                _check_shown(plan.show, done.outcomes)
+                found = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
+                for i, outcome in zip(done.members, found, strict=True):
+                    outcomes[i] = outcome
+                if kept_in:
+                    store.keep(kept_in, done.members, found, done.seconds, done.host)
+                progress(len(done.members))
+    interrupted = any(outcome is INTERRUPTED for outcome in outcomes)
     if not interrupted:
         _check_reasons(outcomes)
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
-        outcomes=tuple(outcomes), show=plan.show, interrupted=interrupted,
+        outcomes=tuple(outcomes), show=plan.show, interrupted=interrupted, kept=len(before),
     )  # fmt: skip
 
 
 @contextlib.contextmanager
-def _asked_to_stop() -> Iterator[threading.Event]:
-    """An event that an interrupt from the keyboard sets; a second one is raised at once.
-
-    As an exception the first would be lost or turned into another one wherever a library catches everything.
-    """
-    asked = threading.Event()
-
-    def note(number: int, frame: Any) -> None:
-        if asked.is_set():
-            raise KeyboardInterrupt
-        asked.set()
-
-    usual = signal.getsignal(signal.SIGINT)
-    ours = threading.current_thread() is threading.main_thread() and usual is signal.default_int_handler
-    if ours:
-        signal.signal(signal.SIGINT, note)
-    try:
-        yield asked
-    except KeyboardInterrupt:
-        asked.set()
-    finally:
-        if ours:
-            signal.signal(signal.SIGINT, usual)
+def _stored(plan: Plan, base: cases.Case, place: Layout, means: Means) -> Iterator[store.Store | None]:
+    """The store of a plan, if it has a folder for one."""
+    if means.folder is None:
+        yield None
+        return
+    key = store.identity(
+        base, over=plan.over, overrides={k: str(v) for k, v in plan.overrides.items()}, analysis=plan.analysis,
+        samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), words=_words(place),
+    )  # fmt: skip
+    with store.opened(means.folder, key, means.fresh) as found:
+        yield found
 
 
-def _chunks(count: int, together: int) -> list[range]:
-    """Chunks of nearly one size, none longer than wanted."""
+def _words(place: Layout) -> list[str]:
+    """Texts of files that an axis runs over."""
+    words = {str(v) for a in place.axes if not a.unit for v in a.values}
+    return [Path(w).read_text(encoding="latin-1") for w in sorted(words) if Path(w).is_file()]
+
+
+def _computed(
+    order: work.SweepOrder, chosen: Route, chunks: Sequence[work.Chunk], means: Means, asked_to: threading.Event
+) -> Generator[work.Done, None, None]:
+    jobs = means.jobs or _worth(chosen, chunks)
+    if jobs > 1 and len(chunks) > 1:
+        return work.on_processes(order, chunks, jobs, asked_to)
+    return work.here(order, chunks, asked_to)
+
+
+def _worth(chosen: Route, chunks: Sequence[work.Chunk]) -> int:
+    """As many processes as there are cores, or none where they would take longer to start than to work."""
+    seconds = chosen.seconds * sum(len(c.members) for c in chunks)
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") and seconds > _WORTH else 1
+
+
+def _chunks(place: Layout, together: int) -> list[work.Chunk]:
+    """Chunks of nearly one size, none longer than wanted; the same whatever was finished before."""
+    count = len(place.points)
     parts = -(-count // together)
     ends = [count * i // parts for i in range(parts + 1)]
-    return [range(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+    return [
+        work.Chunk(members=tuple(range(a, b)), heres=tuple(_here(place, i) for i in range(a, b)))
+        for a, b in zip(ends, ends[1:], strict=False)
+    ]
 
 
-def _run(plan: Plan, place: Layout, chosen: Route, members: range) -> list[Outcome]:
-    outcomes: dict[int, Outcome] = {}
-    loaded = {}
-    for i in members:
-        here = {a.key: override(a, v) for a, v in zip(place.axes, place.points[i], strict=True)}
-        try:
-            loaded[i] = cases.load(plan.case, {**plan.overrides, **here})
-        except BadInput as error:
-            outcomes[i] = known(error)
-    outcomes |= dict(zip(loaded, chosen.run(list(loaded.values())), strict=True))
-    return [o if isinstance(o, Gap) else flat(o) for o in (outcomes[i] for i in members)]
+def _here(place: Layout, index: int) -> dict[str, Any]:
+    return {a.key: override(a, v) for a, v in zip(place.axes, place.points[index], strict=True)}
 
 
-def _check_shown(show: tuple[str, ...], found: list[Outcome]) -> None:
+def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
     names = {name for outcome in found if not isinstance(outcome, Gap) for name in outcome}
     for name in show if names else ():

@@ -268,8 +268,8 @@ def test_without_netcdf(monkeypatch, tmp_path):
     monkeypatch.setattr("mechsym.sweep.data.dataset", missing)
     done = run("chmielewski", "--over", "c1=0,1", *SET, "--out", str(tmp_path), "--json")
     assert (done.exit_code, done.stderr) == (0, "no netCDF file: no xarray\n")
-    assert {f.name for f in tmp_path.iterdir()} == {"sweep.csv", "sweep.svg"}
-    assert len(json.loads(done.stdout)["files"]) == 2
+    assert {f.name for f in tmp_path.iterdir()} == {"sweep.csv", "sweep.svg", "sweep.db"}
+    assert len(json.loads(done.stdout)["files"]) == 3
 
 
 def test_help_has_examples():

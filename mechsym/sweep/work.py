@@ -1,0 +1,225 @@
+"""Chunks of points, computed here or on processes of this machine.
+
+A worker that dies (killed, out of memory, a crash in compiled code) takes no other point with it: its chunk is tried
+once more, then its points one by one, and the one that kills again is a gap with the reason.
+"""
+
+import collections
+import contextlib
+import dataclasses
+import multiprocessing as mp
+import os
+import signal
+import socket
+import threading
+import time
+import traceback
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from multiprocessing import connection
+from typing import Any
+
+from mechsym import cases
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+from mechsym.sweep.outcomes import Gap, Outcome, flat, known
+from mechsym.sweep.points import Route, route
+
+Here = Mapping[str, Any]  # values of the axes at a point, as `--set` takes them
+_PAUSE = 0.2  # between two looks at a request to end [s]
+_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+@record
+class SweepOrder:
+    """What a worker has to know."""
+
+    case: str
+    overrides: Mapping[str, Any]
+    analysis: str
+    show: tuple[str, ...]
+
+
+@record
+class Done:
+    """A finished chunk."""
+
+    members: tuple[int, ...]
+    outcomes: tuple[Outcome, ...]
+    seconds: float  #: For one point [s]
+    host: str
+
+
+@record
+class Chunk:
+    """Points that are computed in one call."""
+
+    members: tuple[int, ...]
+    heres: tuple[Here, ...]
+    died: int = 0  #: How many workers it has killed
+
+
+def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
+    """The function that computes chunks of an order."""
+    chosen = route(cases.load(order.case, order.overrides), order.analysis, order.show)
+
+    def work(chunk: Chunk) -> Done:
+        start = time.perf_counter()
+        outcomes = computed(order, chosen, chunk.heres)
+        seconds = (time.perf_counter() - start) / len(chunk.members)
+        return Done(members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=socket.gethostname())
+
+    return work
+
+
+def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:
+    """Results of points by name, or why there are none."""
+    outcomes: dict[int, Outcome] = {}
+    loaded = {}
+    for i, here in enumerate(heres):
+        try:
+            loaded[i] = cases.load(order.case, {**order.overrides, **here})
+        except BadInput as error:
+            outcomes[i] = known(error)
+    outcomes |= dict(zip(loaded, chosen.run(list(loaded.values())), strict=True))
+    return [o if isinstance(o, Gap) else flat(o) for o in (outcomes[i] for i in range(len(heres)))]
+
+
+def here(order: SweepOrder, chunks: Sequence[Chunk], asked: threading.Event) -> Generator[Done, None, None]:
+    """Chunks one after the other in this process."""
+    work = prepared(order)
+    for chunk in chunks:
+        if asked.is_set():
+            return
+        yield work(chunk)
+
+
+def on_processes(
+    order: SweepOrder, chunks: Sequence[Chunk], count: int, asked: threading.Event
+) -> Generator[Done, None, None]:
+    """Chunks on `count` processes, as they are finished."""
+    waiting = collections.deque(chunks)
+    workers = [_started(order) for _ in range(min(count, len(chunks)))]
+    busy: dict[int, Chunk] = {}
+    try:
+        while waiting or busy:
+            if asked.is_set():
+                waiting.clear()
+            for k in (k for k in range(len(workers)) if k not in busy and waiting):
+                busy[k] = _sent(workers, k, waiting.popleft(), order)
+            ready = connection.wait([workers[k].pipe for k in busy], timeout=_PAUSE)
+            for k in [k for k in busy if workers[k].pipe in ready]:
+                chunk, answer = busy.pop(k), _answer(workers[k])
+                if answer is None:
+                    again = _after_death(chunk, workers[k])
+                    workers[k] = _started(order)
+                    waiting.extendleft(reversed(again[0]))
+                    yield from again[1]
+                elif isinstance(answer, Exception):
+                    raise answer
+                else:
+                    yield answer
+    finally:
+        for worker in workers:
+            _ended(worker)
+
+
+@dataclasses.dataclass
+class _Worker:
+    process: Any
+    pipe: Any
+
+
+def _started(order: SweepOrder) -> _Worker:
+    context = mp.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_serve, args=(theirs, order), daemon=True, name="sweep")
+    # two workers with two threads each would only wait for each other
+    with _environment(dict.fromkeys(_ONE_THREAD, "1")):
+        process.start()
+    theirs.close()  # so that the end of the worker is the end of the pipe
+    return _Worker(process=process, pipe=ours)
+
+
+def _sent(workers: list[_Worker], k: int, chunk: Chunk, order: SweepOrder) -> Chunk:
+    """Hand a chunk to a worker; one that died while it was idle is replaced."""
+    try:
+        workers[k].pipe.send(chunk)
+    except OSError:
+        _ended(workers[k])
+        workers[k] = _started(order)
+        workers[k].pipe.send(chunk)
+    return chunk
+
+
+def _answer(worker: _Worker) -> Done | Exception | None:
+    try:
+        answer: Done | Exception = worker.pipe.recv()
+    except (EOFError, OSError):
+        return None
+    return answer
+
+
+def _after_death(chunk: Chunk, worker: _Worker) -> tuple[list[Chunk], list[Done]]:
+    """What is tried again, and the points that are given up."""
+    worker.process.join()
+    again = dataclasses.replace(chunk, died=chunk.died + 1)
+    if again.died < 2:
+        return [again], []
+    if len(chunk.members) > 1:
+        pairs = zip(chunk.members, chunk.heres, strict=True)
+        return [Chunk(members=(i,), heres=(place,), died=1) for i, place in pairs], []
+    gap = Gap(reason=f"the process that computed it died twice ({_cause(worker.process.exitcode)})")
+    return [], [Done(members=chunk.members, outcomes=(gap,), seconds=0.0, host=socket.gethostname())]
+
+
+def _cause(status: int | None) -> str:
+    if status is not None and status < 0:
+        return f"signal {signal.Signals(-status).name}"
+    return f"exit status {status}"
+
+
+def _ended(worker: _Worker) -> None:
+    worker.pipe.close()
+    worker.process.kill()
+    worker.process.join()
+
+
+def _serve(pipe: Any, order: SweepOrder) -> None:
+    """A worker: chunks in, what became of them out, until the pipe ends."""
+    # the parent decides when to stop; a terminal sends Ctrl-C to everybody
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    work = prepared(order)
+    while True:
+        try:
+            chunk = pipe.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            answer: Done | Exception = work(chunk)
+        except Exception as error:
+            error.add_note("".join(traceback.format_exception(error)))
+            answer = error
+        pipe.send(answer)
+
+
+def _end_with_parent() -> None:
+    parent = mp.parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+
+@contextlib.contextmanager
+def _environment(values: Mapping[str, str]) -> Iterator[None]:
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
