@@ -53,4 +53,6 @@ def crank_throw():
     m.torque(M, along=phi)
     output(m, x, order=2)
     output(m, psi, order=1)
+    m.piston("piston", travel=x, force=F, masses=m_piston)
+    m.rotor("crank", angle=phi, drive=M, inertia=I0)
     return m

@@ -47,4 +47,6 @@ def crosshead():
     m.torque(M_h - M_r, along=phi)
     output(m, x, order=2)
     output(m, psi, order=1)
+    m.piston("crosshead", travel=x, force=F, masses=(m3, m4, m5))
+    m.rotor("crank", angle=phi, load=M_r, inertia=I01)
     return m

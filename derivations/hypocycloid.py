@@ -49,5 +49,7 @@ def hypocycloid():
     m.force(-separating, along=radial)
     output(m, x, order=2)
     output_dynamic(m, "tooth_force_radial", separating, "N")
+    m.piston("piston", travel=x, force=F, masses=m3, loads="tooth_force")
+    m.rotor("crank", angle=theta, load=M, inertia=I1)
     output_dynamic(m, "piston_torque", (F - m3 * acceleration(m, x)) * m.tape.diff(x, theta), "N*m")
     return m

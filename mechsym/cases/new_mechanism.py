@@ -72,7 +72,7 @@ from mechsym import cases
 from mechsym.derive import derive
 from mechsym.derive.autodiff import disagreement
 from mechsym.derive.files import chosen
-from mechsym.jobs import own, own_turn
+from mechsym.jobs import own, own_gas, own_turn
 from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.simulate import simulate
 
@@ -99,7 +99,7 @@ def test_virtual_work_and_finite_differences_agree():
     dynamics = own.one_coordinate(CASE).functions["dynamics"]
     with_force, without = (float(dynamics(1.0, 0.0, F, 0.0)[2]) for F in (1.0, 0.0))
     step = 1e-6
-    travel = own.travel_of(own.one_coordinate(CASE), "x")
+    travel = own_gas.travel_of(own.one_coordinate(CASE), "x")
     slope = (float(travel(1.0 + step)[0]) - float(travel(1.0 - step)[0])) / (2 * step)
     assert abs(with_force - without - slope) < 1e-8
 '''

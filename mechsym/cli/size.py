@@ -41,6 +41,8 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
 def _text(found: Any) -> str:
     sizes = [row for row in found.rows if row["limit"] is None]
     checks = [row for row in found.rows if row["limit"] is not None]
+    if not checks:
+        return "\n".join(["Loads", table(sizes, ["component", "quantity", "value", "unit", "note"])])
     marked = [row | {"": "" if row["holds"] else "BELOW"} for row in checks]
     lines = [
         "Sizes and figures",

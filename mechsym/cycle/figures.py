@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,9 @@ _UNKNOWN = ("sfc_g_kwh", "efficiency", "energy_residual", *_SHARES)  # without f
 _POINTS = 1441
 
 
-def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) -> dict[str, Any]:
+def cylinder_columns(
+    cycle: Any, name: str, parameters: Any, omega: np.ndarray, guesses: Mapping[str, float] | None = None
+) -> dict[str, Any]:
     """Figures of a cycle that needs nothing but a cylinder, over the speeds.
 
     Parameters
@@ -29,6 +32,8 @@ def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) 
         Name of a mechanism with one piston, which `parameters` belong to
     omega : ndarray, shape (n,)
         Crank speeds; the algebraic cycle does not depend on them [rad/s]
+    guesses : mapping of str to float, optional
+        Of coordinates that loops hold [rad] or [m]
 
     Returns
     -------
@@ -43,9 +48,10 @@ def cylinder_columns(cycle: Any, name: str, parameters: Any, omega: np.ndarray) 
             f"[cycle] is of no kind with figures over the speed; kinds are {', '.join(known)} and, with --diagram, "
             "diagram"
         )
-    room = chamber_over(piston_travel(name, parameters), cycle.bore, cycle.compression_ratio, back_pressure(cycle))
+    moved = piston_travel(name, parameters, guesses)
+    room = chamber_over(moved, cycle.bore, cycle.compression_ratio, back_pressure(cycle))
     # the same chamber over a piston with its mass, for the largest force
-    heavy = dataclasses.replace(room, motion=piston_motion(name, dataclasses.asdict(parameters)))
+    heavy = dataclasses.replace(room, motion=piston_motion(name, dataclasses.asdict(parameters), guesses))
     found = ((*load(figures)(cycle, room, float(speed)), float(speed)) for speed in omega)
     rows = [_at(pressure, fuel, heavy, speed) for pressure, fuel, speed in found]
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}

@@ -1,59 +1,122 @@
 """From a mechanism to the motion that the engine cycle needs: the one place where the two meet.
 
-The engine knows the travel of a piston and nothing else; a mechanism with a crank angle and a travel x has all of it.
-Mechanisms whose pistons move alike share a view of it: the rodless slider moves as the piston of a hypocycloid with
-e = r, and a crank train's cylinder as that of a single throw.
+The engine knows the travel of a piston and nothing else. Which output is a travel, which input takes the gas force and
+which masses move with the piston, the declaration says with `m.piston(..)`. Angles here count from the piston's top
+dead centre. Mechanisms whose pistons move alike share a view of it: the rodless slider moves as the piston of a
+hypocycloid with e = r, and a crank train's cylinder as that of a single throw.
 """
 
+import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Motion, check_motion
 from mechsym.errors import BadInput
+from mechsym.mechanisms import loops
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.rodless import RodlessParameters
 
-# mechanism: parameters whose masses go up and down with the piston, outputs of `reactions` that limit a design
-_PISTONS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "crank_throw": (("m_piston",), ()),
-    "crosshead": (("m3", "m4", "m5"), ()),
-    "hypocycloid": (("m3",), ("tooth_force",)),
-}
+_TURN = 2 * math.pi
 
 
-def piston_motion(name: str, parameters: Mapping[str, float]) -> Motion:
+def piston_motion(
+    name: str, parameters: Mapping[str, float], guesses: Mapping[str, float] | None = None, number: int = 0
+) -> Motion:
     """The motion of a mechanism's piston, with the mechanism's parameters still free.
 
     Parameters
     ----------
     name : str
-        Name of a mechanism with one coordinate and a piston
+        Name of a mechanism with one coordinate, or one left by its loops, and a piston
+    guesses : mapping of str to float, optional
+        Of dependent coordinates; the numbers of a mechanism with loops are bound [rad] or [m]
+    number : int
+        Which of its pistons
 
     Returns
     -------
     motion : Motion
         Travel and its derivatives, and the loads that limit a design
     """
-    if name not in _PISTONS:
-        raise BadInput(f"mechanism {name!r} has no piston for an engine cycle; use {', '.join(sorted(_PISTONS))}")
-    masses, loads = _PISTONS[name]
+    role = piston_roles(name)[number]
     symbols = {key: ca.SX.sym(key) for key in parameters}
     mechanism = bind(name, symbols)
+    if mechanism.dependents:
+        mechanism = one_coordinate(bind(name, parameters), guesses)
+    elif len(mechanism.coordinates) != 1:
+        raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
     found = Motion(
         name=name,
-        function=_travel(mechanism, symbols),
+        function=_travel(mechanism, symbols, role["travel"], parameters),
         parameters=dict(parameters),
-        masses=masses,
-        loads=_loads(mechanism, symbols, loads) if loads else None,
+        masses=tuple(role.get("masses", ())),
+        loads=_loads(mechanism, symbols, role, parameters) if role.get("loads") else None,
     )
     check_motion(found)
     return found
+
+
+def piston_roles(name: str) -> list[dict[str, Any]]:
+    """What the declaration of a mechanism says of its pistons.
+
+    Raises
+    ------
+    BadInput
+        It has none
+    """
+    found = list(mechanisms.listing(name).get("roles", {}).get("piston", []))
+    if not found:
+        raise BadInput(
+            f"mechanism {name!r} has no piston for an engine cycle; declare one with m.piston(name, travel=x, force=F)"
+        )
+    return found
+
+
+def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float] | None = None) -> Mechanism:
+    """A mechanism whose loops leave one coordinate, as a function of that one."""
+    return loops.reduced(dataclasses.replace(mechanism, dependents={**mechanism.dependents, **(guesses or {})}))[0]
+
+
+def top_of(travel: ca.Function) -> float:
+    """Angle of top dead centre.
+
+    Parameters
+    ----------
+    travel : casadi.Function
+        Angle [rad] to travel [m] and its slope [m/rad]
+
+    Returns
+    -------
+    phi : float
+        In [0, 2 pi) [rad]
+    """
+    return dead_centre(travel, 1.0)
+
+
+def dead_centre(travel: ca.Function, sign: float) -> float:
+    """Angle of the least (sign 1) or greatest (-1) travel, in [0, 2 pi) [rad]; function as for `top_of`."""
+    grid = np.linspace(0, _TURN, 721)[:-1]
+    values = sign * np.asarray(travel(grid[None, :])[0]).ravel()
+    best = float(grid[int(np.argmin(values))])
+    low, high = best - _TURN / 720, best + _TURN / 720
+
+    def slope(angle: float) -> float:
+        return sign * float(travel(angle)[1])
+
+    if slope(low) < 0 < slope(high):
+        best = float(brentq(slope, low, high, xtol=1e-15))
+    else:
+        best = float(minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x)
+    return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
 
 
 def one_cylinder(name: str, parameters: Any) -> tuple[str, Any]:
@@ -83,13 +146,19 @@ def one_cylinder(name: str, parameters: Any) -> tuple[str, Any]:
     return name, parameters
 
 
-def piston_travel(name: str, parameters: Any) -> ca.Function:
-    """Travel of the piston of a mechanism with one coordinate.
+def piston_travel(
+    name: str, parameters: Any, guesses: Mapping[str, float] | None = None, number: int = 0
+) -> ca.Function:
+    """Travel of a piston of a mechanism, from its top dead centre on.
 
     Parameters
     ----------
     parameters : record
         Of the mechanism of that name
+    guesses : mapping of str to float, optional
+        Of dependent coordinates [rad] or [m]
+    number : int
+        Which of its pistons
 
     Returns
     -------
@@ -97,27 +166,68 @@ def piston_travel(name: str, parameters: Any) -> ca.Function:
         phi to `x` [m] and `dx_dphi` [m/rad]
     """
     mechanism = mechanisms.build(name, parameters)
-    kinematics, phi = mechanism.functions["kinematics"], ca.SX.sym("phi")
-    if len(mechanism.coordinates) != 1 or "x" not in kinematics.name_out():
+    if mechanism.dependents:
+        mechanism = one_coordinate(mechanism, guesses)
+    if len(mechanism.coordinates) != 1:
         raise BadInput(f"mechanism {name} has no piston that a cycle could drive")
-    found = kinematics(phi)
-    values = dict(zip(kinematics.name_out(), found, strict=True))
-    outputs = [values["x"], values[f"dx_d{mechanism.coordinates[0]}"]]
-    return ca.Function("travel", [phi], outputs, ["phi"], ["x", "dx_dphi"])
+    travel = from_top(slopes(mechanism, piston_roles(name)[number]["travel"], {}))
+    phi = ca.SX.sym("phi")
+    return ca.Function("travel", [phi], travel(phi)[:2], ["phi"], ["x", "dx_dphi"])
 
 
-def _travel(mechanism: Mechanism, symbols: Mapping[str, ca.SX]) -> ca.Function:
+def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.Function:
+    """A kinematic output of a mechanism with one coordinate, and its derivatives by it.
+
+    Parameters
+    ----------
+    name : str
+        The output
+    symbols : mapping of str to casadi.SX
+        Parameters that are still free
+
+    Returns
+    -------
+    function : casadi.Function
+        Angle, and a second input of all free parameters if there are any, to value, slope and curvature
+    """
     q, phi = mechanism.coordinates[0], ca.SX.sym("phi")
-    values = mechanism.functions["kinematics"](**{q: phi}, **symbols)
-    outputs = [values[name] for name in ("x", f"dx_d{q}", f"d2x_d{q}2")]
-    return ca.Function("travel", [phi, ca.vertcat(*symbols.values())], outputs)
+    kinematics = mechanism.functions["kinematics"]
+    values = kinematics(**{q: phi}, **{k: v for k, v in symbols.items() if k in kinematics.name_in()})
+    x = values[name]
+    first = values.get(f"d{name}_d{q}", ca.jacobian(x, phi))
+    second = values.get(f"d2{name}_d{q}2", ca.jacobian(first, phi))
+    given = [ca.vertcat(*symbols.values())] if symbols else []
+    return ca.Function("slopes", [phi, *given], [x, first, second])
 
 
-def _loads(mechanism: Mechanism, symbols: Mapping[str, ca.SX], names: tuple[str, ...]) -> ca.Function:
+def from_top(found: ca.Function, parameters: Mapping[str, float] | None = None) -> ca.Function:
+    """A travel from its top dead centre on, which is found for the numbers of the parameters."""
+    phi = ca.SX.sym("phi")
+    given = [ca.SX.sym("parameters", len(parameters))] if parameters else []
+    numbers = [ca.DM(list(parameters.values()))] if parameters else []
+    top = top_of(ca.Function("travel", [phi], found.call([phi, *numbers])[:2]))
+    if top == 0.0 and abs(float(found.call([0.0, *numbers])[0])) == 0.0:
+        return found
+    start = found.call([ca.SX(top), *given])[0]
+    x, first, second = found.call([phi + top, *given])
+    return ca.Function("travel", [phi, *given], [x - start, first, second])
+
+
+def _travel(
+    mechanism: Mechanism, symbols: Mapping[str, ca.SX], name: str, parameters: Mapping[str, float]
+) -> ca.Function:
+    return from_top(slopes(mechanism, name, symbols), parameters)
+
+
+def _loads(
+    mechanism: Mechanism, symbols: Mapping[str, ca.SX], role: Mapping[str, Any], parameters: Mapping[str, float]
+) -> ca.Function:
     q, phi, omega, force = mechanism.coordinates[0], *(ca.SX.sym(n) for n in ("phi", "omega", "F"))
-    reactions = mechanism.functions["reactions"]
-    state: dict[str, Any] = {q: phi, f"{q}d": omega, "F": force}
+    reactions, numbers = mechanism.functions["reactions"], ca.DM(list(parameters.values()))
+    travel = slopes(mechanism, role["travel"], symbols)
+    top = top_of(ca.Function("travel", [phi], travel.call([phi, numbers])[:2]))
+    state: dict[str, Any] = {q: phi + top if top else phi, f"{q}d": omega, role["force"]: force}
     values = reactions(**{n: state.get(n, symbols.get(n, 0)) for n in reactions.name_in()})
-    outputs = [values[n] for n in names]
+    outputs = [values[n] for n in role["loads"]]
     return ca.Function("loads", [phi, ca.vertcat(*symbols.values()), omega, force], outputs,
-                       ["phi", "parameters", "omega", "F"], list(names))  # fmt: skip
+                       ["phi", "parameters", "omega", "F"], list(role["loads"]))  # fmt: skip

@@ -21,6 +21,8 @@ class Roles:
     tape: Any
     kinematic_outputs: list[Symbol]
     input_list: list[Symbol]
+    parameter_list: list[Symbol]
+    units: dict[str, str]
     name: str
 
     def _start_roles(self) -> None:
@@ -42,6 +44,11 @@ class Roles:
             refuse(f"the {role} takes {symbol}, which is no input; inputs are {', '.join(map(str, self.input_list))}")
         return symbol.name
 
+    def _parameter(self, symbol: Any, unit: str) -> str:
+        if symbol not in self.parameter_list or self.units[symbol.name] != unit:
+            refuse(f"{symbol} is no parameter in {unit}; declare it: m.parameters('{symbol}', '{unit}')")
+        return symbol.name
+
     def _shown(self, value: Any, name: str, unit: str, order: int) -> str:
         """An expression as a kinematic output with its derivatives."""
         value = sympify(value)
@@ -49,19 +56,29 @@ class Roles:
         output(self, symbol, order=order)
         return symbol.name
 
-    def piston(self, name: str, *, travel: Any, force: Any, fires: float = 0.0) -> None:
+    def piston(
+        self, name: str, *, travel: Any, force: Any, fires: float = 0.0, masses: Any = (), loads: Any = ()
+    ) -> None:
         """A piston: its travel, positive away from the head [m], the net gas force on it as an input, positive likewise
-        [N], and how long after its own first top dead centre it fires [rad]."""
+        [N], how long after its own first top dead centre it fires [rad], the parameters that move with it [kg], and
+        the reactions that limit a design [N]."""
         shown = self._shown(travel, f"travel_{name}", "m", 2)
-        self._role("piston", name=name, travel=shown, force=self._input(force, "piston"), fires=float(fires))
+        said = {
+            "masses": [self._parameter(p, "kg") for p in _listed(masses)],
+            "loads": [str(r) for r in _listed(loads)],
+        }
+        self._role("piston", name=name, travel=shown, force=self._input(force, "piston"), fires=float(fires), **{
+            k: v for k, v in said.items() if v
+        })  # fmt: skip
 
-    def rotor(self, name: str, *, angle: Any, load: Any = None, drive: Any = None) -> None:
-        """A rotor: its coordinate [rad], the input that takes a load, positive against the motion, and one that
-        drives it [N*m]."""
+    def rotor(self, name: str, *, angle: Any, load: Any = None, drive: Any = None, inertia: Any = None) -> None:
+        """A rotor: its coordinate [rad], the input that takes a load, positive against the motion, one that drives it
+        [N*m], and the parameter that a flywheel adds to [kg*m^2]."""
         taken = {"load": load, "drive": drive}
+        kept = {} if inertia is None else {"inertia": self._parameter(inertia, "kg*m^2")}
         self._role("rotor", name=name, angle=str(angle), **{
             k: None if v is None else self._input(v, "rotor") for k, v in taken.items()
-        })  # fmt: skip
+        }, **kept)  # fmt: skip
 
     def bearing(self, name: str, *, reactions: tuple[Any, Any], turns: Any, radius: Any = None) -> None:
         """A pin or journal: its two reactions [N], the turn of one part in the other [rad], the radius [m]."""
@@ -115,3 +132,7 @@ class Roles:
         # an even count keeps the numbering of points
         self.shape_points[f"{name}_"] = self.shape_points[name]
         return name
+
+
+def _listed(value: Any) -> tuple[Any, ...]:
+    return tuple(value) if isinstance(value, (tuple, list)) else (value,)

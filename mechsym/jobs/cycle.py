@@ -15,9 +15,11 @@ from mechsym.cycle.figures import cylinder_columns
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.kinds.stirling import stirling_columns
+from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_columns
 from mechsym.forces import turn
-from mechsym.jobs.gas import breathing_with, engine_with, of, one_cylinder
+from mechsym.jobs import own, own_gas, own_turn
+from mechsym.jobs.gas import breathing_with, engine_with, guesses, of, one_cylinder
+from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import drive_of, fitted_law
 from mechsym.jobs.whole_engine import of_engine
 from mechsym.quantities import RPM
@@ -92,7 +94,7 @@ def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
     """
     seen = one_cylinder(case)
     with of(case):
-        return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega)
+        return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega, guesses(case))
 
 
 def columns_of_breathing(case: Case, omega: np.ndarray) -> dict[str, Any]:
@@ -131,20 +133,39 @@ def columns_of_stirling(case: Case, omega: np.ndarray) -> dict[str, Any]:
     columns : dict
         As `engine.columns`, without fuel; works and heats of a turn, temperatures, and under `losses` what is lost [W]
     """
-    drive, cycle, train = drive_of(case), case.need("cycle"), case.need("parameters")
+    extremes = _own_extremes if is_own(case.mechanism) else _extremes
     rows = []
-    with of(case):
-        for speed in omega:
-            engine = engine_of_train(cycle, train, float(speed), case.sections.get("stirling"))
-            found = turn(drive, gas_of_engine_on(engine, cycle, train), float(speed))
-            force = max(float(np.abs(push).max()) for push in found.inputs.values())
-            extremes = {"torque_max": float(found.torque.max()), "force_max": force}
-            rows.append(stirling_columns(engine, float(speed)) | extremes)
+    for speed in omega:
+        engine = _stirling(case, float(speed))
+        rows.append(stirling_columns(engine, float(speed)) | extremes(case, engine, float(speed)))
     columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0] if key != "losses"}
     shares = {"heat": 1 - columns["efficiency"], "work": columns["efficiency"]}
     none = dict.fromkeys(("exhaust", "unburnt"), np.full(len(rows), np.nan))
     losses = {name: np.array([row["losses"][name] for row in rows]) for name in rows[0]["losses"]}
     return {"speed_rpm": omega / RPM} | columns | {"fractions": shares | none, "loads": {}, "losses": losses}
+
+
+def _stirling(case: Case, omega: float) -> StirlingEngine:
+    if is_own(case.mechanism):
+        return own_gas.stirling(case, own.one_coordinate(case), omega)
+    with of(case):
+        return engine_of_train(case.need("cycle"), case.need("parameters"), omega, case.sections.get("stirling"))
+
+
+def _extremes(case: Case, engine: StirlingEngine, omega: float) -> dict[str, float]:
+    """Largest torque and force on a piston of a train."""
+    with of(case):
+        found = turn(drive_of(case), gas_of_engine_on(engine, case.need("cycle"), case.need("parameters")), omega)
+    force = max(float(np.abs(push).max()) for push in found.inputs.values())
+    return {"torque_max": float(found.torque.max()), "force_max": force}
+
+
+def _own_extremes(case: Case, engine: StirlingEngine, omega: float) -> dict[str, float]:
+    """The same of a mechanism from a file."""
+    operation = replace(case.need("operation"), speed=omega)
+    found = own_turn.turn(replace(case, sections={**case.sections, "operation": operation})).columns
+    forces = (np.abs(found[role["force"]]).max() for role in own.roles(case, "piston"))
+    return {"torque_max": float(-found["driving_torque"].min()), "force_max": float(max(forces))}
 
 
 def stirling_curves(case: Case, omega: float) -> dict[str, np.ndarray]:
@@ -160,8 +181,7 @@ def stirling_curves(case: Case, omega: float) -> dict[str, np.ndarray]:
     curves : dict of str to ndarray, shape (n,)
         `phi_deg`, `p_pa`, `v_e_m3`, `v_c_m3`, `t_e_k`, `t_c_k`, and `flow_e_kg_s`, `flow_c_kg_s` into the spaces
     """
-    with of(case):
-        found = engine_of_train(case.need("cycle"), case.need("parameters"), omega, case.sections.get("stirling")).turn
+    found = _stirling(case, omega).turn
     order = np.argsort(np.remainder(found.phi, 2 * np.pi), kind="stable")
     curves = {
         "phi_deg": np.degrees(np.remainder(found.phi, 2 * np.pi)), "p_pa": found.p, "v_e_m3": found.V_e,

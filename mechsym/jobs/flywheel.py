@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.settings import FlywheelSettings
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.errors import BadInput
 from mechsym.forces.turn import CrankDrive, faces_of, pushes
 from mechsym.hinge.trials import Trial, run
 from mechsym.jobs.gas import gas
-from mechsym.jobs.machine import heavier, load
+from mechsym.jobs.machine import heavier, kept_flywheel, load, machine
+from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import drive_of
 from mechsym.machine import ConstantLoad, Machine, settle
 from mechsym.machine.record import AngleForce
@@ -68,9 +70,9 @@ def flywheel(case: Case, ripple: float, turns: float = TURNS) -> FlywheelDesign:
     steady = steady_state(panels, omega, found.inertia or 0.0)
     trial = None
     if found.inertia is not None and len(steady.omega):
-        machine, about = shaft(case, found.inertia), f"flywheel of {found.inertia:.4g} kg m²"
-        start = steady_state(tabulate(reduced(machine)), omega)
-        trial = run("flywheel", about, machine, float(start.omega[0]), turns, Settings())
+        heavier, about = shaft(case, found.inertia), f"flywheel of {found.inertia:.4g} kg m²"
+        start = steady_state(tabulate(reduced(heavier)), omega)
+        trial = run("flywheel", about, heavier, float(start.omega[0]), turns, Settings())
     return FlywheelDesign(
         status=found.status, reason=found.reason, inertia=found.inertia, inertia_kept=kept,
         estimate=max(0.0, swing / (ripple * omega**2) - kept), torque_mean=mean_torque(panels), work_swing=swing,
@@ -93,6 +95,8 @@ def shaft(case: Case, inertia: float) -> Machine:
     inertia : float
         Of the flywheel, on top of what the case has [kg*m^2]
     """
+    if is_own(case.mechanism):
+        return _own_shaft(case, inertia)
     heavy, load_input = heavier(case, inertia)
     drive = drive_of(heavy)
     found = gas(case)
@@ -103,6 +107,13 @@ def shaft(case: Case, inertia: float) -> Machine:
     )  # fmt: skip
     torque = mean_torque(tabulate(reduced(free)))
     return replace(free, load=settle(load(case), torque, free.omega))
+
+
+def _own_shaft(case: Case, inertia: float) -> Machine:
+    kept = FlywheelSettings(inertia=inertia + kept_flywheel(case))
+    sections = {**case.sections, "flywheel": kept, "load": ConstantLoad(torque=0.0)}
+    free = machine(replace(case, sections=sections))
+    return replace(free, load=settle(load(case), mean_torque(tabulate(reduced(free))), free.omega))
 
 
 def _forces(drive: CrankDrive, found: Gas | None) -> tuple[AngleForce, ...]:

@@ -56,8 +56,14 @@ def gas(case: Case) -> Gas | None:
             found = run_breathing(breathing_with(seen, NoFriction()), [case.need("operation").speed])
         return Gas(pressure=breathing_pressure(found), chamber=found.chamber)
     with of(case):
-        travel = piston_travel(seen.mechanism, seen.need("parameters"))
+        travel = piston_travel(seen.mechanism, seen.need("parameters"), guesses(case))
     return gas_in_cylinder(cycle, travel)
+
+
+def guesses(case: Case) -> dict[str, float]:
+    """Coordinates and velocities that `[start]` gives; of coordinates that loops hold they are guesses [rad] or [m]."""
+    section = case.sections.get("start")
+    return {} if section is None else {k: v for k, v in asdict(section).items() if v is not None}
 
 
 def one_cylinder(case: Case) -> Case:
@@ -74,13 +80,15 @@ def one_cylinder(case: Case) -> Case:
     return replace(case, mechanism=name, sections={**case.sections, "parameters": parameters})
 
 
-def engine_with(case: Case, friction: Friction) -> ClosedEngine:
+def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine:
     """The engine that a case describes, with a friction law whose numbers are known.
 
     Parameters
     ----------
     case : Case
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` defaults to a constant gamma
+    number : int
+        Which piston of the declaration; all have the same chamber
 
     Raises
     ------
@@ -90,9 +98,11 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
     cycle = case.need("cycle")
     if kind_of(cycle).given != "engine":
         raise BadInput(f"{case.file}: [cycle] is not of kind 'spark-ignition', which this command needs")
+    with of(case):
+        motion = piston_motion(case.mechanism, asdict(case.need("parameters")), guesses(case), number)
     return ClosedEngine(
         chamber=case.need("chamber"),
-        motion=piston_motion(case.mechanism, asdict(case.need("parameters"))),
+        motion=motion,
         cycle=cycle,
         gas=case.sections.get("gas", ConstantGamma()),
         heat_transfer=case.need("heat_transfer"),
@@ -100,7 +110,7 @@ def engine_with(case: Case, friction: Friction) -> ClosedEngine:
     )
 
 
-def breathing_with(case: Case, friction: Friction) -> BreathingEngine:
+def breathing_with(case: Case, friction: Friction, number: int = 0) -> BreathingEngine:
     """The engine with gas exchange that a case describes, with a friction law whose numbers are known.
 
     Parameters
@@ -108,10 +118,12 @@ def breathing_with(case: Case, friction: Friction) -> BreathingEngine:
     case : Case
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[breathing]`; `[boost]` is a turbocharger, and without
         `[heat_transfer]` no heat is lost
+    number : int
+        Which piston of the declaration
     """
     return BreathingEngine(
         chamber=case.need("chamber"),
-        motion=piston_motion(case.mechanism, asdict(case.need("parameters"))),
+        motion=piston_motion(case.mechanism, asdict(case.need("parameters")), guesses(case), number),
         cycle=case.need("cycle"),
         breathing=case.need("breathing"),
         boost=case.sections.get("boost"),

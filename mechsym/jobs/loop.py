@@ -1,23 +1,28 @@
 """The loop of a case: its engine on its mechanism against its load, and its run in time."""
 
 import math
+from dataclasses import asdict
 
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import piston_motion, piston_roles, top_of
 from mechsym.errors import BadInput
+from mechsym.jobs import own
 from mechsym.jobs.cycle import engine
-from mechsym.jobs.gas import one_cylinder
-from mechsym.jobs.machine import heavier
-from mechsym.jobs.own import simulation_of
+from mechsym.jobs.gas import guesses, one_cylinder
+from mechsym.jobs.machine import heavier, kept_flywheel
+from mechsym.jobs.own import is_own, simulation_of
+from mechsym.jobs.own_gas import travel_of
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.rodless import RodlessParameters
 from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.simulate import Result, Settings
 from mechsym.simulate.loop.result import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
@@ -61,9 +66,7 @@ def loop(case: Case) -> Loop:
         No spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre
     """
     machine, omega = engine(one_cylinder(case)), case.need("operation").speed
-    heavy, load_input = heavier(case)
-    mechanism = mechanisms.build(case.mechanism, heavy.need("parameters"))
-    cylinders = _cylinders(case, mechanism)
+    mechanism, cylinders, load_input = _own(case) if is_own(case.mechanism) else _built_in(case)
     load = case.sections.get("load", PropellerLoad())
     # the figures of a chamber count all its pistons, each of which drives a mechanism of its own
     own_area = piston_area(machine.chamber.bore)
@@ -83,6 +86,26 @@ def _smooth(case: Case, load: Load) -> ConstantLoad | PropellerLoad:
     if isinstance(load, TableLoad):
         raise BadInput(f"{case.file}: the cycle in the loop takes a constant or a propeller load, no table")
     return load
+
+
+def _built_in(case: Case) -> tuple[Mechanism, tuple[LoopCylinder, ...], str]:
+    heavy, load_input = heavier(case)
+    mechanism = mechanisms.build(case.mechanism, heavy.need("parameters"))
+    return mechanism, _cylinders(case, mechanism), load_input
+
+
+def _own(case: Case) -> tuple[Mechanism, tuple[LoopCylinder, ...], str]:
+    """A mechanism from a file: each of its pistons with a motion of its own."""
+    mechanism = with_inertia(own.one_coordinate(case), kept_flywheel(case))
+    loads = [r["load"] for r in own.roles(case, "rotor") if r["load"]]
+    if not loads:
+        raise BadInput(f"{case.file}: nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)")
+    q, values, found = mechanism.coordinates[0], asdict(case.need("parameters")), []
+    for number, role in enumerate(piston_roles(case.mechanism)):
+        firing = (top_of(travel_of(mechanism, role["travel"])) + float(role["fires"])) % (4 * math.pi)
+        motion = piston_motion(case.mechanism, values, guesses(case), number) if number else None
+        found.append(LoopCylinder(input=role["force"], coordinate=q, firing=firing, motion=motion))
+    return mechanism, tuple(found), loads[0]
 
 
 def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:

@@ -4,23 +4,20 @@ Who acts is said by the roles of the declaration (`piston`, `rotor`) and by the 
 `[drive]`, `[load]`, constants in `[inputs]`; `[start]` has coordinates, velocities and guesses.
 """
 
-from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import lru_cache
 from typing import Any
 
-import casadi as ca
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.errors import BadInput
+from mechsym.jobs.gas import guesses
+from mechsym.jobs.own_gas import Piston, kinks_of, mean_torque, period_of, pistons
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, listing
-from mechsym.quantities import record
 from mechsym.simulate.engine import load_value
 from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation, StepTorque
@@ -32,7 +29,7 @@ _TURN_POINTS = 360  # results a turn
 def mechanism_of(case: Case) -> Mechanism:
     """The mechanism of a case, with the guesses that its `[start]` gives for dependent coordinates."""
     found = mechanisms.build(case.mechanism, case.need("parameters"))
-    given = {k: v for k, v in _start(case).items() if k in found.dependents}
+    given = {k: v for k, v in guesses(case).items() if k in found.dependents}
     return replace(found, dependents={**found.dependents, **given})
 
 
@@ -44,11 +41,6 @@ def one_coordinate(case: Case) -> Mechanism:
     if len(found.coordinates) != 1:
         raise BadInput(f"{case.file}: {found.name} has {len(found.coordinates)} coordinates; this command takes one")
     return found
-
-
-def _start(case: Case) -> dict[str, float]:
-    section = case.sections.get("start")
-    return {} if section is None else {k: v for k, v in asdict(section).items() if v is not None}
 
 
 def constants(case: Case) -> dict[str, float]:
@@ -72,121 +64,6 @@ def driving_input(case: Case) -> str:
     return torques[0]
 
 
-@record
-class Piston:
-    """A piston of the case with its gas."""
-
-    name: str
-    input: str  #: Takes the net gas force [N]
-    start: float  #: Crank angle of its firing dead centre [rad]
-    gas: Gas  #: Over the angle from there
-
-    def force(self, phi: Any) -> np.ndarray:
-        """Net gas force over the crank angle [rad], positive away from the head [N]."""
-        return np.asarray(self.gas.force(np.asarray(phi) - self.start))
-
-
-def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
-    """Pistons with the gas of `[cycle]`; none without that section.
-
-    Raises
-    ------
-    BadInput
-        The declaration has no piston, or its dead centres are not half a turn apart
-    """
-    if "cycle" not in case.sections:
-        return []
-    named = roles(case, "piston")
-    if not named:
-        raise BadInput(f"{case.file}: [cycle] needs a piston; declare one with m.piston(name, travel=x, force=F)")
-    return [_piston(case, mechanism, role) for role in named]
-
-
-def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any]) -> Piston:
-    travel = travel_of(mechanism, role["travel"])
-    top = _extreme(travel, 1.0)
-    start = top + float(role.get("fires", 0.0))
-    phi, lowest = ca.SX.sym("phi"), float(travel(top)[0])
-    x, dx = travel(phi + top)
-    shifted = ca.Function("travel", [phi], [x - lowest, dx], ["phi"], ["x", "dx_dphi"])
-    bottom = _extreme(shifted, -1.0)
-    if abs((bottom - np.pi + np.pi) % _TURN - np.pi) > 1e-6:
-        apart = f"dead centres {np.degrees(bottom % _TURN):.3f} deg apart"
-        raise BadInput(
-            f"{case.file}: piston {role['name']} has {apart}; the cycles know 180 deg: give [torque] a curve"
-        )
-    try:
-        gas = gas_in_cylinder(case.sections["cycle"], shifted)
-    except (BadInput, TypeError) as error:
-        raise BadInput(f"{case.file}: [cycle]: {error}") from None
-    return Piston(name=role["name"], input=role["force"], start=start, gas=gas)
-
-
-def travel_of(mechanism: Mechanism, name: str) -> ca.Function:
-    """Travel of a piston and its derivative over the crank angle [rad]: [m], [m/rad]."""
-    kinematics = mechanism.functions["kinematics"]
-    phi = ca.SX.sym("phi")
-    x = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))[name]
-    outputs = [x, ca.jacobian(x, phi)]
-    return ca.Function("travel", [phi], outputs, ["phi"], ["x", "dx_dphi"])
-
-
-def _extreme(travel: ca.Function, sign: float) -> float:
-    """Angle of the least (sign 1) or greatest (-1) travel, in [0, 2 pi) [rad]."""
-    grid = np.linspace(0, _TURN, 721)[:-1]
-    values = sign * np.asarray(travel(grid[None, :])[0]).ravel()
-    best = float(grid[int(np.argmin(values))])
-    low, high = best - _TURN / 720, best + _TURN / 720
-    slope = [sign * float(travel(a)[1]) for a in (low, high)]
-    if slope[0] < 0 < slope[1]:
-        from scipy.optimize import brentq
-
-        best = float(brentq(lambda a: sign * float(travel(a)[1]), low, high, xtol=1e-15))
-    else:
-        best = float(minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x)
-    return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
-
-
-def mean_torque(case: Case, mechanism: Mechanism, acting: list[Piston]) -> float:
-    """Mean torque of the gas on the shaft.
-
-    Returns
-    -------
-    torque : float
-        Over a period [N*m]
-    """
-    return float(np.mean(gas_torque(case, mechanism, acting)(np.linspace(0, period_of(acting), 7201)[:-1])))
-
-
-def gas_torque(case: Case, mechanism: Mechanism, acting: list[Piston]) -> Callable[[np.ndarray], np.ndarray]:
-    """Torque of the gas of all pistons on the shaft, over the crank angle [rad]: [N*m]."""
-    travels = {r["force"]: travel_of(mechanism, r["travel"]) for r in roles(case, "piston")}
-
-    def torque(phi: np.ndarray) -> np.ndarray:
-        row = np.asarray(phi, dtype=float)[None, :]
-        parts = (p.force(phi) * np.asarray(travels[p.input](row)[1]).ravel() for p in acting)
-        return sum(parts, np.zeros(row.shape[1]))
-
-    return torque
-
-
-def period_of(acting: list[Piston]) -> float:
-    """Period of the gas of all pistons [rad]."""
-    return max((p.gas.pressure.period for p in acting), default=_TURN)
-
-
-def kinks_of(acting: list[Piston]) -> tuple[float, ...]:
-    """Crank angles at which the gas of a piston is not smooth [rad]."""
-    period = period_of(acting)
-    found = (
-        (k + p.start + turn * p.gas.pressure.period) % period
-        for p in acting
-        for k in p.gas.pressure.kinks
-        for turn in range(2)
-    )
-    return tuple(sorted({round(a, 14) for a in found}))
-
-
 def problem(case: Case) -> Problem:
     """The run in time that a case describes.
 
@@ -199,9 +76,9 @@ def problem(case: Case) -> Problem:
     mechanism = mechanism_of(case)
     acting = pistons(case, one_coordinate(case)) if "cycle" in case.sections else []
     mean = mean_torque(case, one_coordinate(case), acting) if acting else 0.0
-    values = {q: mechanism.dependents.get(q, wanted.phi_start) for q in mechanism.coordinates} | _start(case)
+    values = {q: mechanism.dependents.get(q, wanted.phi_start) for q in mechanism.coordinates} | guesses(case)
     speed = _speed(case, wanted, bool(acting))
-    rates = {f"{q}d": 0.0 if q in mechanism.dependents else speed for q in mechanism.coordinates} | _start(case)
+    rates = {f"{q}d": 0.0 if q in mechanism.dependents else speed for q in mechanism.coordinates} | guesses(case)
     u0 = tuple(rates[f"{q}d"] for q in mechanism.coordinates)
     t_end, output = _end(case, wanted, u0[0])
     return Problem(

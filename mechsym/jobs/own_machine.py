@@ -15,7 +15,7 @@ from mechsym import periodic
 from mechsym.cases import Case
 from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
-from mechsym.jobs import own
+from mechsym.jobs import own, own_gas
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
 from mechsym.mechanisms.record import Mechanism
@@ -47,12 +47,12 @@ def machine(case: Case) -> Machine:
         With `[parameters]`, `[operation]`, and `[cycle]` on the pistons
     """
     mechanism, omega = own.one_coordinate(case), case.need("operation").speed
-    acting = own.pistons(case, mechanism)
+    acting = own_gas.pistons(case, mechanism)
     flywheel = case.sections.get("flywheel")
     if not acting:
         raise BadInput(f"{case.file}: nothing turns the shaft; give [cycle], for the pistons of the declaration")
     if len(acting) == 1:
-        gas, travel = _at_crank(acting[0]), own.roles(case, "piston")[0]["travel"]
+        gas, travel = own_gas.at_crank(acting[0]), own.roles(case, "piston")[0]["travel"]
     else:
         gas, travel = _on_shaft(case, mechanism, acting), ""
     shaft = _shaft(case, mechanism, omega, travel)
@@ -61,24 +61,16 @@ def machine(case: Case) -> Machine:
     return Machine(mechanism=shaft, gas=gas, load=case.sections.get("load", ConstantLoad()), omega=omega)
 
 
-def _at_crank(piston: own.Piston) -> Gas:
-    """The gas of one piston over the crank angle."""
-    pressure, start = piston.gas.pressure, piston.start
-    absolute = pressure.absolute
-    kinks = tuple(sorted((k + start) % pressure.period for k in pressure.kinks))
-    return replace(piston.gas, pressure=replace(pressure, absolute=lambda phi: absolute(phi - start), kinks=kinks))
-
-
-def _on_shaft(case: Case, mechanism: Mechanism, acting: list[own.Piston]) -> ShaftTorque:
+def _on_shaft(case: Case, mechanism: Mechanism, acting: list[own_gas.Piston]) -> ShaftTorque:
     """Gas of all pistons as one torque; pressures and sizes told are those of the first."""
     first = acting[0].gas
     pressure = replace(
         first.pressure,
-        period=own.period_of(acting),
-        kinks=own.kinks_of(acting),
+        period=own_gas.period_of(acting),
+        kinks=own_gas.kinks_of(acting),
         facts=(*first.pressure.facts, f"the torque is that of {len(acting)} pistons on one shaft"),
     )
-    return ShaftTorque(pressure=pressure, chamber=first.chamber, curve=own.gas_torque(case, mechanism, acting))
+    return ShaftTorque(pressure=pressure, chamber=first.chamber, curve=own_gas.gas_torque(case, mechanism, acting))
 
 
 def _shaft(case: Case, base: Mechanism, omega: float, travel: str) -> Mechanism:
@@ -95,7 +87,7 @@ def _shaft(case: Case, base: Mechanism, omega: float, travel: str) -> Mechanism:
     found = dict(zip(base.functions["kinematics"].name_out(), base.functions["kinematics"].call([phi]), strict=True))
     motion = {"x": phi, f"dx_d{q}": ca.SX(1), f"d2x_d{q}2": ca.SX(0)}
     if travel:
-        top = float(np.min(np.asarray(own.travel_of(base, travel)(grid[None, :])[0])))
+        top = float(np.min(np.asarray(own_gas.travel_of(base, travel)(grid[None, :])[0])))
         first = ca.jacobian(found[travel], phi)
         motion = {"x": found[travel] - top, f"dx_d{q}": first, f"d2x_d{q}2": ca.jacobian(first, phi)}
     force = at_speed - mean + F * motion[f"dx_d{q}"] - M_r + M_h

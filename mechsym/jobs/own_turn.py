@@ -14,7 +14,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import write_csv, write_text
-from mechsym.jobs import own
+from mechsym.jobs import own, own_gas
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import Mechanism, listing
 from mechsym.quantities import RPM, record
@@ -37,8 +37,8 @@ class OwnTurn:
 def turn(case: Case) -> OwnTurn:
     """One cycle of a case at its speed of operation."""
     mechanism, omega = own.one_coordinate(case), case.need("operation").speed
-    acting = own.pistons(case, mechanism)
-    period = own.period_of(acting) * _turns(case)
+    acting = own_gas.pistons(case, mechanism)
+    period = own_gas.period_of(acting) * _turns(case)
     n = round(_STEPS_PER_TURN * period / (2 * np.pi))
     phi = np.arange(n) * period / n
     (q,) = mechanism.coordinates

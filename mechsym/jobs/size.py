@@ -10,9 +10,12 @@ from mechsym.cases import Case
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
+from mechsym.jobs import own_turn
 from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
+from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import turn
+from mechsym.mechanisms.record import listing
 from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
@@ -62,12 +65,29 @@ def size(case: Case) -> Sizing:
     BadInput
         The mechanism is not one that can be sized
     """
+    if is_own(case.mechanism):
+        return _own_loads(case)
     one = task(case)
     if case.mechanism == "hypocycloid":
         return _hypocycloid(one)
     if case.mechanism == "crosshead":
         return _slider_crank(one)
     raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
+
+
+_SIZES = {"largest": lambda v: np.abs(v).max(), "root mean square": lambda v: np.sqrt(np.mean(v**2))}
+
+
+def _own_loads(case: Case) -> Sizing:
+    """Loads of every joint of a mechanism from a file: what parts are chosen by; it has no rules for its parts."""
+    found, told = own_turn.turn(case).columns, listing(case.mechanism)
+    about = {**told["reactions"], "driving_torque": "turns the shaft at the speed of operation"}
+    rows = [
+        fact(name, f"load, {what}", float(size_of(found[name])), told["outputs"].get(name, "N*m"),
+             "reaction over one cycle", source="equations of motion", note=about[name])
+        for name in about if name in found for what, size_of in _SIZES.items()
+    ]  # fmt: skip
+    return Sizing(rows=rows, failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
 
 
 def check_printed(case: Case) -> Sizing:

@@ -13,9 +13,12 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import from_top, piston_roles, slopes
 from mechsym.errors import BadInput
 from mechsym.forces.turn import shaft_torque
+from mechsym.jobs import own_turn
 from mechsym.jobs.gas import gas, of
+from mechsym.jobs.own import is_own, one_coordinate
 from mechsym.jobs.turn import drive_of
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
@@ -23,6 +26,7 @@ from mechsym.quantities import record
 
 _ADD = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw")
 _NOT_LARGER = "torque_max"
+_ALIKE = 1e-9  # of the stroke: pistons whose travels differ by less move alike
 _SAME = ("r", "l1", "l2", "offset")
 
 
@@ -43,6 +47,8 @@ def cylinders(case: Case) -> CylinderCount:
         They fire off their dead centres, move differently, or the pistons of a chamber do not divide them
     """
     parameters = case.need("parameters")
+    if is_own(case.mechanism):
+        return _own(case)
     if case.mechanism == "rodless" and "faces" in case.sections:
         areas = case.need("faces").areas
         bore = getattr(case.sections.get("chamber"), "bore", None) or case.need("cycle").bore
@@ -52,6 +58,23 @@ def cylinders(case: Case) -> CylinderCount:
     with of(case):
         _refuse_unlike(case, parameters)
     count = len(parameters.throw) // int(getattr(case.sections.get("chamber"), "pistons", 1))
+    return CylinderCount(count=count, share=float(count))
+
+
+def _own(case: Case) -> CylinderCount:
+    with of(case):
+        roles, mechanism = piston_roles(case.mechanism), one_coordinate(case)
+    phi, curves = np.linspace(0, 2 * math.pi, 73)[None, :], []
+    for role in roles:
+        travel = from_top(slopes(mechanism, role["travel"], {}))
+        curves.append(np.asarray(travel.call([phi])[0]).ravel())
+        if np.abs(curves[-1] - curves[0]).max() > _ALIKE * np.ptp(curves[0]):
+            raise BadInput(
+                f"{case.file}: piston {role['name']} moves otherwise than {roles[0]['name']}: the cycle is computed "
+                "for one of them and holds for equal cylinders; use 'mechsym forces' or 'mechsym simulate'"
+            )
+    pistons = getattr(case.sections.get("chamber"), "pistons", 1)
+    count = max(1, len(roles) // int(pistons))
     return CylinderCount(count=count, share=float(count))
 
 
@@ -92,10 +115,16 @@ def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.
 
 
 def _largest(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
-    drive, operation = drive_of(case), case.need("operation")
+    operation = case.need("operation")
     found = []
     for speed in omega:
         there = dataclasses.replace(operation, speed=float(speed))
         at = dataclasses.replace(case, sections={**case.sections, "operation": there})
-        found.append(float(shaft_torque(drive, gas(at), float(speed)).max()))
+        found.append(float(_shaft_torque(at, float(speed)).max()))
     return np.array(found)
+
+
+def _shaft_torque(case: Case, speed: float) -> np.ndarray:
+    if is_own(case.mechanism):
+        return -own_turn.turn(case).columns["driving_torque"]
+    return shaft_torque(drive_of(case), gas(case), speed)

@@ -11,7 +11,7 @@ from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.kinds.spark_ignition import timing
 from mechsym.quantities import record
-from mechsym.simulate.loop.system import OPEN, PER_CYLINDER, WORKS, Loop
+from mechsym.simulate.loop.system import OPEN, PER_CYLINDER, WORKS, Loop, engine_at
 
 CYCLE = 4 * np.pi
 
@@ -58,10 +58,11 @@ def first_state(loop: Loop, omega: float, angle: float = 0.0) -> tuple[list[GasS
     y : ndarray, shape (n,)
         State, see `right_side`, in its mixed units [-]
     """
-    angles, _, steady = dense(run(partial(closed_period, loop.engine), {"omega": omega}), parts=32)
     start, duration = (float(a) for a in timing(loop.engine.cycle, omega))
     gases, temperatures = [], []
-    for cylinder in loop.cylinders:
+    for k, cylinder in enumerate(loop.cylinders):
+        if k == 0 or cylinder.motion is not None:
+            angles, _, steady = dense(run(partial(closed_period, engine_at(loop, k)), {"omega": omega}), parts=32)
         phi = (angle - cylinder.firing + CYCLE / 2) % CYCLE - CYCLE / 2
         ends = (loop.engine.cycle.inlet_closes, start, start + duration, loop.engine.cycle.exhaust_opens)
         passed = int(np.searchsorted(ends, phi, side="right"))  # 0: before the inlet closes, 4: the exhaust is open
@@ -101,22 +102,27 @@ def gap(loop: Loop, gas: GasState, k: int, y: np.ndarray) -> float:
     return float(y[_angle(loop, k)]) - gas.dead_centre - targets[gas.phase]
 
 
-def ledger(loop: Loop) -> ca.Function:
+def ledger(loop: Loop) -> list[ca.Function]:
     """Energies of a closed period, for its audit.
 
     Returns
     -------
-    function : casadi.Function
-        (speed when the inlet closed [rad/s], temperature when the exhaust opens [K]) -> the entries of
+    functions : list of casadi.Function
+        Of each cylinder (speed when the inlet closed [rad/s], temperature when the exhaust opens [K]) -> the entries of
         `closed.SCALARS`
     """
     omega, t = ca.SX.sym("omega"), ca.SX.sym("t")
-    values = scalars(closed_period(loop.engine, {"omega": omega}), t)
-    return ca.Function("ledger", [omega, t], [ca.vertcat(*values)])
+    found = []
+    for k, cylinder in enumerate(loop.cylinders):
+        if k == 0 or cylinder.motion is not None:
+            values = scalars(closed_period(engine_at(loop, k), {"omega": omega}), t)
+            book = ca.Function("ledger", [omega, t], [ca.vertcat(*values)])
+        found.append(book)
+    return found
 
 
 def pass_event(
-    loop: Loop, books: ca.Function, gas: GasState, k: int, now: tuple[float, np.ndarray]
+    loop: Loop, books: list[ca.Function], gas: GasState, k: int, now: tuple[float, np.ndarray]
 ) -> tuple[GasState, np.ndarray, CylinderCycle | None]:
     """Bring a cylinder into its next phase.
 
@@ -146,7 +152,7 @@ def pass_event(
         centre = gas.dead_centre
         return GasState(phase=0, start=start, duration=duration, dead_centre=centre, speed=speed, whole=True), y, None
     then = dataclasses.replace(gas, phase=OPEN, dead_centre=gas.dead_centre + CYCLE)
-    return then, y, _closed(books, gas, k, t, y[own : own + len(PER_CYLINDER)]) if gas.whole else None
+    return then, y, _closed(books[k], gas, k, t, y[own : own + len(PER_CYLINDER)]) if gas.whole else None
 
 
 def _closed(books: ca.Function, gas: GasState, k: int, t: float, own: np.ndarray) -> CylinderCycle:

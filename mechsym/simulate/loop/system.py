@@ -14,7 +14,7 @@ from typing import Any
 
 import casadi as ca
 
-from mechsym.cycle.chamber import travel
+from mechsym.cycle.chamber import Motion, travel
 from mechsym.cycle.closed.equations import PHASES, pressure, rates
 from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
@@ -35,6 +35,7 @@ class LoopCylinder:
     coordinate: str  #: Coordinate that is the angle of its crank
     firing: float  #: Value of that coordinate at the cylinder's firing top dead centre, within 4 pi [rad]
     area: float | None = None  #: Of the working face; None takes the area of the bore [m^2]
+    motion: Motion | None = None  #: Of its piston, where that is not the engine's
     sense: float = 1.0  #: 1 where the input counts away from the head, -1 where it counts towards it [-]
 
 
@@ -49,6 +50,12 @@ class Loop:
     #: Input that takes the load torque, and the coordinate whose speed decides it
     load_input: str
     load_coordinate: str
+
+
+def engine_at(loop: Loop, k: int) -> ClosedEngine:
+    """The engine as a cylinder sees it: with the motion of its own piston."""
+    motion = loop.cylinders[k].motion
+    return loop.engine if motion is None else dataclasses.replace(loop.engine, motion=motion)
 
 
 def right_side(loop: Loop) -> ca.Function:
@@ -71,10 +78,10 @@ def right_side(loop: Loop) -> ca.Function:
     for k, cylinder in enumerate(loop.cylinders):
         i = q_names.index(cylinder.coordinate)
         phi, t = q[i] - held[4 * k + 3], y[2 * n + 3 * k]
-        p, per_angle = _gas(loop.engine, u[i], phi, t, held[4 * k : 4 * k + 3])
+        p, per_angle = _gas(engine_at(loop, k), u[i], phi, t, held[4 * k : 4 * k + 3])
         slopes += [slope * u[i] for slope in per_angle]
         pressures.append(p)
-        room = closed_period(loop.engine, {"omega": u[i]}).chamber
+        room = closed_period(engine_at(loop, k), {"omega": u[i]}).chamber
         force = (p - room.back_pressure) * (room.area if cylinder.area is None else cylinder.area)
         inputs[cylinder.input] += cylinder.sense * force
         piston_power += force * travel(room.motion, phi)[1] * u[i]
