@@ -172,7 +172,7 @@ def piston_travel(
         raise BadInput(f"mechanism {name} has no piston that a cycle could drive")
     travel = from_top(slopes(mechanism, piston_roles(name)[number]["travel"], {}))
     phi = ca.SX.sym("phi")
-    return ca.Function("travel", [phi], travel(phi)[:2], ["phi"], ["x", "dx_dphi"])
+    return ca.Function("travel", [phi], travel.call([phi])[:2], ["phi"], ["x", "dx_dphi"])
 
 
 def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.Function:

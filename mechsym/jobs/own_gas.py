@@ -64,7 +64,7 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
     travel = travel_of(mechanism, role["travel"])
     start = top_of(travel) + float(role.get("fires", 0.0))
     phi = ca.SX.sym("phi")
-    shifted = ca.Function("travel", [phi], from_top(travel)(phi)[:2], ["phi"], ["x", "dx_dphi"])
+    shifted = ca.Function("travel", [phi], from_top(travel).call([phi])[:2], ["phi"], ["x", "dx_dphi"])
     bottom = dead_centre(shifted, -1.0)
     if abs((bottom - np.pi + np.pi) % _TURN - np.pi) > 1e-6:
         apart = f"dead centres {np.degrees(bottom % _TURN):.3f} deg apart"
@@ -141,7 +141,7 @@ def travel_of(mechanism: Mechanism, name: str) -> ca.Function:
     """Travel of a piston and its derivative over the crank angle [rad]: [m], [m/rad]."""
     phi = ca.SX.sym("phi")
     found = slopes(mechanism, name, {})
-    return ca.Function("travel", [phi], found(phi), ["phi"], ["x", "dx_dphi", "d2x_dphi2"])
+    return ca.Function("travel", [phi], found.call([phi]), ["phi"], ["x", "dx_dphi", "d2x_dphi2"])
 
 
 def mean_torque(case: Case, mechanism: Mechanism, acting: list[Piston]) -> float:

@@ -1,0 +1,233 @@
+"""Engines on mechanisms from files: the numbers of the built-in mechanism of the same data, and closed forms."""
+
+from dataclasses import replace
+from importlib import resources
+
+import numpy as np
+import pytest
+
+from mechsym import cases
+from mechsym.errors import BadInput
+from mechsym.hinge.torque import torque
+from mechsym.jobs.cycle import cycle
+from mechsym.jobs.flywheel import flywheel
+from mechsym.jobs.loop import loop
+from mechsym.jobs.machine import machine
+from mechsym.jobs.size import size
+from mechsym.simulate.loop.run import run_loop
+
+SLIDER = """from mechsym.derive import Mechanism, cos, sin
+
+
+def slider():
+    m = Mechanism("slider")
+    phi = m.coordinates("phi")
+    r, l = m.parameters("r l", "m", above=0)
+    m_p = m.parameters("m_p", "kg", low=0)
+    I = m.parameters("I", "kg*m^2", above=0)
+    F, M_r = m.inputs("F", "N"), m.inputs("M_r", "N*m")
+    crank = m.link("crank", turns=phi, inertia=I)
+    rod, piston = m.link("rod"), m.link("piston", mass=m_p)
+    m.pin("O", m.frame, crank)
+    m.pin("A", crank.at(r), rod)
+    m.slider("G", m.frame.line(angle=TILT), piston)
+    m.pin("B", rod.at(l), piston)
+    p = piston.at()
+    x = m.let("x", r + l - p.x * cos(TILT) - p.y * sin(TILT), "m")
+    m.force(F, along=x)
+    m.torque(-M_r, along=phi)
+    m.piston("p", travel=x, force=F, masses=m_p, loads="R_n_G")
+    m.rotor("crank", angle=phi, load=M_r)
+    return m
+"""
+RHOMBIC = """from mechsym.derive import Mechanism, pi
+
+
+def rhombic():
+    m = Mechanism("rhombic")
+    phi = m.coordinates("phi")
+    r, l, c = m.parameters("r l c", "m", above=0)
+    m_p, m_d = m.parameters("m_p m_d", "kg", low=0)
+    I = m.parameters("I", "kg*m^2", above=0)
+    F_d, F_p = m.inputs("F_d F_p", "N")
+    M_r = m.inputs("M_r", "N*m")
+    right, left = m.link("right", turns=phi, inertia=I), m.link("left", turns=pi - phi, inertia=I)
+    m.pin("O1", m.frame.at(c, 0), right)
+    m.pin("O2", m.frame.at(-c, 0), left)
+    axis = m.frame.line(angle=pi / 2)
+    for name, mass, force, side in (("displacer", m_d, F_d, -1), ("power", m_p, F_p, 1)):
+        yoke, rod = m.link(name, mass=mass), m.link(f"rod_{name}")
+        m.slider(f"G_{name}", axis, yoke)
+        m.pin(f"A_{name}", right.at(r), rod)
+        m.pin(f"B_{name}", rod.at(l), yoke, branch=side)
+        x = m.let(f"x_{name}", -yoke.at().y, "m")
+        m.force(force, along=x)
+        m.piston(name, travel=x, force=force)
+    m.torque(-M_r, along=phi)
+    m.rotor("crank", angle=phi, load=M_r)
+    return m
+"""
+STIRLING = """mechanism = "./rhombic.py"
+[parameters]
+r = 0.02
+l = 0.07
+c = 0.04
+m_p = 0.5
+m_d = 0.3
+I = 0.01
+[operation]
+speed = "1000 rpm"
+[cycle]
+kind = "schmidt"
+arrangement = "beta"
+bore = 0.06
+rod_diameter = 0.01
+dead_hot = 2e-5
+dead_cold = 2e-5
+dead_regenerator = 2e-5
+T_e = 900
+T_c = 330
+mean_pressure = 5e5
+p_back = 5e5
+"""
+RADIAL = """from mechsym.derive import Mechanism, cos, pi, sin
+
+
+def radial():
+    m = Mechanism("radial")
+    phi = m.coordinates("phi")
+    r, l = m.parameters("r l", "m", above=0)
+    m_p = m.parameters("m_p", "kg", above=0)
+    I = m.parameters("I", "kg*m^2", above=0)
+    F, M_r = m.inputs("F1 F2 F3", "N"), m.inputs("M_r", "N*m")
+    crank = m.link("crank", turns=phi, inertia=I)
+    m.pin("O", m.frame, crank)
+    for n in range(3):
+        angle = 2 * pi * n / 3
+        rod, piston = m.link(f"rod{n}"), m.link(f"piston{n}", mass=m_p)
+        m.pin(f"A{n}", crank.at(r), rod)
+        m.slider(f"G{n}", m.frame.line(angle=angle), piston)
+        m.pin(f"B{n}", rod.at(l), piston)
+        p = piston.at()
+        x = m.let(f"x{n}", r + l - p.x * cos(angle) - p.y * sin(angle), "m")
+        m.force(F[n], along=x)
+        m.piston(f"p{n}", travel=x, force=F[n])
+    m.torque(-M_r, along=phi)
+    m.rotor("crank", angle=phi, load=M_r)
+    return m
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("own")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(path / "cache"))
+        yield path
+
+
+def written(folder, name, declaration, text):
+    (folder / f"{name}.py").write_text(declaration)
+    (folder / f"{name}.toml").write_text(text)
+    return cases.load(str(folder / f"{name}.toml"))
+
+
+def shipped(name):
+    """Sections of a built-in case behind its parameters, as text."""
+    text = (resources.files("mechsym.cases") / f"{name}.toml").read_text()
+    return text[text.index("[operation]") :]
+
+
+def slider_crank(folder, name, tilt):
+    """The slider crank of a built-in case, its cylinder turned by an angle."""
+    parameters = '[parameters]\nr = "26 mm"\nl = "90 mm"\nm_p = 0.25\nI = 0.002\n'
+    text = f'mechanism = "./{name}.py"\n{parameters}{shipped("nunes-slider-crank")}'
+    return written(folder, name, SLIDER.replace("TILT", tilt).replace("cos, sin", "cos, pi, sin"), text)
+
+
+@pytest.fixture(scope="module")
+def slider(folder):
+    return slider_crank(folder, "slider", "0")
+
+
+@pytest.mark.parametrize("tilt", ["0", "pi / 3"])
+def test_the_cycle_is_that_of_the_built_in_slider_crank(folder, tilt):
+    own, built_in = cycle(slider_crank(folder, f"tilted_{len(tilt)}", tilt)), cycle(cases.load("nunes-slider-crank"))
+    for key in ("torque_avg", "torque_max", "p_max_mpa", "p_max_angle_deg", "efficiency", "force_max"):
+        np.testing.assert_allclose(own[key], built_in[key], rtol=1e-9, err_msg=key)
+    assert own["loads"].keys() == {"R_n_G"}
+
+
+def test_the_cycle_in_motion_is_that_of_the_built_in_slider_crank(slider):
+    own, built_in = (
+        run_loop(loop(case), case.need("operation").speed, 2) for case in (slider, cases.load("nunes-slider-crank"))
+    )
+    assert own.status == built_in.status == "done" and len(own.cycles) == len(built_in.cycles) > 0
+    assert own.t[-1] == pytest.approx(built_in.t[-1], rel=1e-7)
+    for one, other in zip(own.cycles, built_in.cycles, strict=True):
+        assert one.work == pytest.approx(other.work, rel=1e-7)
+
+
+def test_pistons_that_move_otherwise_are_not_taken_for_one(folder, slider):
+    declaration = SLIDER.replace("TILT", "0").replace("def slider", "def two").replace('"slider"', '"two"', 1)
+    declaration = declaration.replace(
+        "    m.rotor(",
+        """    F2 = m.inputs("F2", "N")
+    x2 = m.let("x2", x / 2, "m")
+    m.force(F2, along=x2)
+    m.piston("half", travel=x2, force=F2)
+    m.rotor(""",
+    )
+    text = (folder / "slider.toml").read_text().replace("./slider.py", "./two.py")
+    with pytest.raises(BadInput, match="piston half moves otherwise than p"):
+        loop(written(folder, "two", declaration, text))
+
+
+@pytest.mark.slow
+def test_the_flywheel_is_that_of_the_built_in_slider_crank(slider):
+    own, built_in = (flywheel(case, 0.02, turns=2) for case in (slider, cases.load("nunes-slider-crank")))
+    assert own.inertia == pytest.approx(built_in.inertia, rel=1e-6)
+
+
+def test_a_rhombic_drive_does_the_work_of_the_isothermal_cycle(folder):
+    case = written(folder, "rhombic", RHOMBIC, STIRLING)
+    phi = np.arange(2048) * 2 * np.pi / 2048
+    rise = 0.02 * np.sin(phi)
+    reach = np.sqrt(0.07**2 - (0.04 + 0.02 * np.cos(phi)) ** 2)
+    x_d, x_p = -(rise - reach), -(rise + reach)
+    A, ring = np.pi * 0.03**2, np.pi * (0.03**2 - 0.005**2)
+    V_e, V_c = A * x_d, ring * (x_p - x_d)
+    V_e, V_c = V_e - V_e.min() + 2e-5, V_c - V_c.min() + 2e-5  # with heater and cooler
+    p = 1 / (V_e / 900 + V_c / 330 + 2e-5 * np.log(900 / 330) / (900 - 330))
+    p *= 5e5 / p.mean()
+    k = np.arange(1025) * 1j
+    work = np.sum(p * np.fft.irfft(np.fft.rfft(V_e + V_c) * k)) * 2 * np.pi / 2048
+    assert cycle(case)["work_j"][0] == pytest.approx(work, rel=1e-6)
+    assert machine(case).gas.curve(phi).mean() * 2 * np.pi == pytest.approx(work, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_three_pistons_on_one_shaft_give_the_sum_of_their_torques(folder, slider):
+    marine = shipped("opposed-pistons")
+    data = '[parameters]\nr = "40 mm"\nl = "150 mm"\nm_p = 0.9\nI = 0.2\n'
+    three = written(folder, "radial", RADIAL, f'mechanism = "./radial.py"\n{data}{marine}')
+    one = written(folder, "single", SLIDER.replace("TILT", "0"), f'mechanism = "./single.py"\n{data}{marine}')
+    hinges = torque(machine(three)), torque(machine(one))
+    phi = np.linspace(0, 2 * np.pi, 145)
+    summed = sum(hinges[1].gas_part(phi - turned) for turned in (0, 2 * np.pi / 3, 4 * np.pi / 3))
+    np.testing.assert_allclose(hinges[0].gas_part(phi), summed, atol=1e-8 * np.abs(summed).max())
+    assert hinges[0].load_torque == pytest.approx(3 * hinges[1].load_torque, rel=1e-9)
+    inertia = sum(hinges[1].inertia(phi - turned) for turned in (0, 2 * np.pi / 3, 4 * np.pi / 3)) - 2 * 0.2
+    np.testing.assert_allclose(hinges[0].inertia(phi), inertia, rtol=1e-9)
+
+
+def test_sizing_gives_the_loads_of_every_joint(slider):
+    rows = {(row["component"], row["quantity"]): row for row in size(slider).rows}
+    assert {"R_x_O", "R_x_A", "R_x_B", "R_n_G", "driving_torque"} <= {name for name, _ in rows}
+    pin = rows["R_x_A", "load, largest"]
+    assert pin["unit"] == "N" and pin["value"] >= rows["R_x_A", "load, root mean square"]["value"] > 0
+
+
+def test_a_mechanism_without_a_piston_says_how_to_declare_one(slider):
+    with pytest.raises(BadInput, match="has no piston for an engine cycle; declare one with m.piston"):
+        cycle(replace(slider, mechanism="rodless_constraints"))
