@@ -70,9 +70,9 @@ def flywheel(case: Case, ripple: float, turns: float = TURNS) -> FlywheelDesign:
     steady = steady_state(panels, omega, found.inertia or 0.0)
     trial = None
     if found.inertia is not None and len(steady.omega):
-        heavier, about = shaft(case, found.inertia), f"flywheel of {found.inertia:.4g} kg m²"
-        start = steady_state(tabulate(reduced(heavier)), omega)
-        trial = run("flywheel", about, heavier, float(start.omega[0]), turns, Settings())
+        driven, about = shaft(case, found.inertia), f"flywheel of {found.inertia:.4g} kg m²"
+        start = steady_state(tabulate(reduced(driven)), omega)
+        trial = run("flywheel", about, driven, float(start.omega[0]), turns, Settings())
     return FlywheelDesign(
         status=found.status, reason=found.reason, inertia=found.inertia, inertia_kept=kept,
         estimate=max(0.0, swing / (ripple * omega**2) - kept), torque_mean=mean_torque(panels), work_swing=swing,
