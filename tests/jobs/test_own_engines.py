@@ -224,6 +224,10 @@ def test_three_pistons_on_one_shaft_give_the_sum_of_their_torques(folder, slider
     assert hinges[0].load_torque == pytest.approx(3 * hinges[1].load_torque, rel=1e-9)
     inertia = sum(hinges[1].inertia(phi - turned) for turned in (0, 2 * np.pi / 3, 4 * np.pi / 3)) - 2 * 0.2
     np.testing.assert_allclose(hinges[0].inertia(phi), inertia, rtol=1e-9)
+    whole, single = cycle(three), cycle(one)
+    assert (whole["cylinders"], single["cylinders"]) == (3, 1)
+    assert whole["torque_avg"][0] == pytest.approx(hinges[0].load_torque, rel=1e-6)
+    assert single["torque_avg"][0] < whole["torque_max"][0] < 3 * single["torque_max"][0]
 
 
 def test_sizing_gives_the_loads_of_every_joint(slider):
