@@ -40,7 +40,7 @@ def piston_motion(
     guesses : mapping of str to float, optional
         Of dependent coordinates; the numbers of a mechanism with loops are bound [rad] or [m]
     number : int
-        Which of its pistons
+        Place of its role in the declaration, from 0
 
     Returns
     -------
@@ -158,7 +158,7 @@ def piston_travel(
     guesses : mapping of str to float, optional
         Of dependent coordinates [rad] or [m]
     number : int
-        Which of its pistons
+        Place of its role in the declaration, from 0
 
     Returns
     -------
@@ -180,15 +180,10 @@ def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.
 
     Parameters
     ----------
-    name : str
-        The output
-    symbols : mapping of str to casadi.SX
-        Parameters that are still free
-
     Returns
     -------
     function : casadi.Function
-        Angle, and a second input of all free parameters if there are any, to value, slope and curvature
+        Angle, and a second input of the parameters in `symbols` if any are still free, to value, slope and curvature
     """
     q, phi = mechanism.coordinates[0], ca.SX.sym("phi")
     kinematics = mechanism.functions["kinematics"]

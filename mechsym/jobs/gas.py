@@ -88,7 +88,7 @@ def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine
     case : Case
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[heat_transfer]`; `[gas]` defaults to a constant gamma
     number : int
-        Which piston of the declaration; all have the same chamber
+        Place of its role in the declaration, from 0
 
     Raises
     ------
@@ -119,7 +119,7 @@ def breathing_with(case: Case, friction: Friction, number: int = 0) -> Breathing
         With sections `[parameters]`, `[chamber]`, `[cycle]` and `[breathing]`; `[boost]` is a turbocharger, and without
         `[heat_transfer]` no heat is lost
     number : int
-        Which piston of the declaration
+        Place of its role in the declaration, from 0
     """
     return BreathingEngine(
         chamber=case.need("chamber"),

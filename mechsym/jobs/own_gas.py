@@ -91,12 +91,10 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
 
 
 def stirling(case: Case, mechanism: Mechanism, omega: float) -> StirlingEngine:
-    """The Stirling engine of a case over one turn of its shaft.
+    """The Stirling engine of a case over one turn of its shaft, on its mechanism with one coordinate.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With one coordinate
     omega : float
         Shaft speed, for a cycle that depends on it [rad/s]
 
