@@ -10,9 +10,12 @@ edits.py, required.py,            single edits; what each part would have to be;
 insertion.py, candidates.py       edits that meet it
 repair.py, verdict.py             the search and the decision
 entries.py                        what a paper holds: formulas as printed, and the claims of its text (`papers/`)
-mutants.py, trust.py              tests of the auditor itself
 findings.py, errata.py            rows, and docs/errata.md
 formula.py                        the user's own formula
+code.py, code_rows.py             formulas of programs
+displayed.py, symbols.py,         the display equations of a paper in LaTeX; a page of what was found
+paper_rows.py, page.py
+trial/                            tests of the auditor itself
 """
 
 from mechsym.audit.formula import check_file, check_formula

@@ -42,6 +42,7 @@ class Asked:
     claim: str = ""
     convention: str = ""
     theory: str = ""  #: TOML file that declares the theory
+    given: Theory | None = None  #: The theory itself, where it is at hand
     #: What an author's letter that is one of the theory's, too, comes to: a program cannot be told to rename its own
     hidden: str = "refused"
 
@@ -148,7 +149,7 @@ def _quantity(asked: Asked) -> tuple[Theory, str]:
     name, dot, quantity = asked.against.strip().rpartition(".")
     if not dot:
         raise BadInput(f"--against {asked.against!r} is not THEORY.QUANTITY, as slider_crank.x")
-    found = named(name, asked.case, asked.theory)
+    found = asked.given or named(name, asked.case, asked.theory)
     need_result(found, quantity)
     return found, quantity
 

@@ -6,13 +6,14 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, progress, table
+from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
 
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
 
 
 @click.command(short_help="Check published hand formulas against the derivations.")
+@click.argument("paper", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--source", help="Only this source: file stem or short name.")
 @click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax or LaTeX.")
 @click.option("--against", metavar="NAME.QUANTITY", help="What the formula claims to be, e.g. crosshead.inertia.")
@@ -22,46 +23,84 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.option("--claim", default="", metavar="CLAIM", help='What is claimed: "=", "approx", "lam^2" or "within 1 %".')
 @click.option("--convention", default="", metavar="NAMES", help="Conventions of the author; show lists those that fit.")
 @click.option(
-    "--theory", default="", metavar="FILE", help="TOML file that declares letters and quantities of your own."
+    "--theory", default="", metavar="FILE", help="TOML file of your own quantities; for a paper also a theory's name."
 )
 @click.option("--code", metavar="FILE::FUNCTION", help="A function or model in Python, C, Java, MATLAB or Modelica.")
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
 @click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
+@out_option
 @json_option
 @click.pass_context
 def audit(
     ctx: click.Context,
+    paper: Path | None,
     source: str | None,
     formula: str | None,
     against: str | None,
     code: str | None,
     file: Path | None,
     write: bool,
+    out: Path | None,
     as_json: bool,
-    **said: str,
+    **said: Any,
 ) -> None:
-    """Compare published hand formulas with the derivations; repair misprints by search.
+    r"""Compare published hand formulas with the derivations; repair misprints by search.
+
+    PAPER is a LaTeX file: each of its display equations is one row. --out writes a page of formulas of your own.
 
     Exit status of formulas: 0 exact, a truncation, right under a convention, or a claim kept; 1 misprint, nearer,
     wrong, or a claim broken; 3 mixed or untestable. 1 too when the audit differs from the recorded findings.
 
     \b
     Example: mechsym audit --source zotov2024
+    Example: mechsym audit paper.tex --theory slider_crank --letters "\omega=phid" --out page
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
     """
-    if own := [o for o in (formula, file, code) if o is not None]:
+    if own := [o for o in (paper, formula, file, code) if o is not None]:
         if source or write or len(own) > 1:
-            raise BadInput("--formula, --file and --code stand alone; use one of them without --source and --write")
-        rows = _own(formula, against, file, code, said)
-        emit(rows[0] if formula is not None else rows, as_json, lambda: "\n\n".join(map(_told, rows)))
+            raise BadInput(
+                "a paper, --formula, --file and --code stand alone; use one of them without --source and --write"
+            )
+        rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
+        summary = _counted(rows, paper)
+        if out is not None:
+            _page(out, str(own[0]), summary, rows)
+        lines = [*map(_told, rows), *([summary] if paper else [])]
+        emit(rows[0] if formula is not None else rows, as_json, lambda: "\n\n".join(lines))
         ctx.exit(_status(rows))
-    if against or any(said.values()):
-        raise BadInput("--against, --letters and --case belong to --formula; write for example --formula 'r*sin(phi)'")
+    if out or against or any(said.values()):
+        raise BadInput(
+            "--against, --letters, --out and the like belong to a formula; write for example --formula 'r*sin(phi)'"
+        )
     ctx.exit(_published(source, write, as_json))
 
 
+def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[dict[str, Any]]:
+    from mechsym.audit.formula import Asked
+    from mechsym.audit.paper_rows import check_paper
+
+    if against:
+        raise BadInput("--against belongs to --formula; the equations of a paper say by their left sides what they are")
+    return check_paper(paper, Asked(text="", against="", **said))
+
+
+def _counted(rows: Sequence[dict[str, Any]], paper: Path | None) -> str:
+    from mechsym.audit.paper_rows import summary
+
+    if paper is not None:
+        return summary(rows)
+    return f"{len(rows)} formulas, {sum(r['verdict'] in ('misprint', 'nearer', 'wrong') for r in rows)} findings"
+
+
+def _page(folder: Path, title: str, summary: str, rows: Sequence[dict[str, Any]]) -> None:
+    from mechsym.audit.page import html
+    from mechsym.files import write_text
+
+    click.echo(str(write_text(folder / "audit.html", html(title, summary, rows))), err=True)
+
+
 def _own(
-    formula: str | None, against: str | None, file: Path | None, code: str | None, said: dict[str, str]
+    formula: str | None, against: str | None, file: Path | None, code: str | None, said: dict[str, Any]
 ) -> list[dict[str, Any]]:
     from mechsym.audit.code_rows import check_code
     from mechsym.audit.formula import Asked, check_file, check_formula

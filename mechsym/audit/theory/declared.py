@@ -11,6 +11,8 @@ s = "r*(1 - cos(phi))"              # language.py says what may stand here
 s = "m"                             # only where dimensions do not tell it
 [conditions]
 "no friction" = ["mu"]              # what sources take for granted
+[symbols]
+"\\omega" = "phid"                  # letters of a paper (paper_rows.py): here the author's omega is phid
 """
 
 import re
@@ -25,7 +27,7 @@ from mechsym.audit.theory.tape import TheoryTape
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, parse
 
-_KEYS = ("name", "about", "source", "angle", "small", "rods", "letters", "define", "units", "conditions")
+_KEYS = ("name", "about", "source", "angle", "small", "rods", "letters", "define", "units", "conditions", "symbols")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*$")
 
