@@ -12,7 +12,7 @@ from mechsym.audit.assumptions import assumed
 from mechsym.audit.findings import Row, formula_row, unread_row
 from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
-from mechsym.audit.reader import Formula, letter_pairs, read, read_expression
+from mechsym.audit.reader import AnyLetter, Formula, letter_pairs, read, read_expression
 from mechsym.audit.statement import Statement, statement
 from mechsym.audit.theory.catalogue import named
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
@@ -175,16 +175,9 @@ def _with_left(theory: Theory, quantity: str, said: Statement, formula: Formula)
 
 def _is_name(text: str) -> bool:
     try:
-        return isinstance(read_expression(text, (), _Anything())[0], ast.Name)
+        return isinstance(read_expression(text, (), AnyLetter())[0], ast.Name)
     except BadInput:
         return False
-
-
-class _Anything:
-    """Every letter."""
-
-    def __contains__(self, letter: object) -> bool:
-        return True
 
 
 def _said(question: Question, asked: Asked, said: Statement) -> str:

@@ -47,6 +47,13 @@ class Formula:
     note: str = ""
 
 
+class AnyLetter:
+    """Every letter, for what is only looked at."""
+
+    def __contains__(self, letter: object) -> bool:
+        return True
+
+
 def read(
     text: str, known: Iterable[str], letters: Mapping[str, str] | None = None, more: Container[str] = ()
 ) -> Formula:

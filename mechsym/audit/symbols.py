@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 
 from mechsym.audit.latex import read_latex
-from mechsym.audit.reader import is_latex, read_expression
+from mechsym.audit.reader import AnyLetter, is_latex, read_expression
 from mechsym.audit.spelling import resolve
 from mechsym.audit.theory.record import Theory, known
 from mechsym.audit.tree import letters
@@ -52,15 +52,8 @@ def without_argument(left: str) -> str:
 
 def left_letter(left: str) -> str:
     """Plain name of the letter that a left side is; empty where it is an expression."""
-    tree = read_expression(left, (), _Anything())[0]
+    tree = read_expression(left, (), AnyLetter())[0]
     return tree.id if isinstance(tree, ast.Name) else ""
-
-
-class _Anything:
-    """Every letter."""
-
-    def __contains__(self, letter: object) -> bool:
-        return True
 
 
 def quantity_of(written: str, theory: Theory, symbols: Symbols) -> str:
@@ -107,7 +100,7 @@ def _letters_of(text: str) -> list[str]:
     found: list[str] = []
     for side in re.split(r"(?<![<>!])=|\\approx|\\simeq|\\equiv", text):
         try:
-            found += letters(read_expression(side if is_latex(side) else rf"\,{side}", (), _Anything())[0])
+            found += letters(read_expression(side if is_latex(side) else rf"\,{side}", (), AnyLetter())[0])
         except BadInput:
             continue  # what cannot be read is refused where it is compared
     return found
