@@ -47,8 +47,6 @@ def check_paper(path: Path, asked: Asked) -> list[Row]:
 
     Parameters
     ----------
-    path : Path
-        LaTeX file
     asked : Asked
         `theory`: name of a theory, or TOML file that declares one or says `base` and `[symbols]`; `letters`: further
         symbols; assumptions and conventions for all equations
