@@ -8,28 +8,31 @@ import click
 from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.errors import MissingExtra
 
+_ANALYSES = ["simulate", "hinge", "cycle", "forces", "size", "codesign"]
 _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
 @click.command(short_help="Run a case over ranges of its values.")
 @click.argument("case")
 @click.option("--over", multiple=True, required=True, metavar="KEY=RANGE", help="a..b UNIT:n, a list, a..b or m+-s.")
-@click.option("--of", "analysis", type=click.Choice(["simulate", "hinge", "cycle"]), help="What to compute.")
+@click.option("--of", "analysis", type=click.Choice(_ANALYSES), help="What to compute.")
 @click.option("--samples", type=click.IntRange(min=1), help="Monte Carlo: so many samples of ranges a..b and m+-s.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the samples.")
 @click.option("--show", multiple=True, metavar="NAME", help="Compute only this result or group; all: everything.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as pay off where left away.")
+@click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on a dask cluster: tcp://HOST:8786.")
 @click.option("--fresh", is_flag=True, help="Compute all points again, whatever --out keeps.")
 @set_option
 @out_option
 @json_option
 @click.pass_context
 def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | None, samples: int | None, seed: int,
-          show: tuple[str, ...], jobs: int | None, fresh: bool, overrides: tuple[str, ...], out: Path | None,
-          as_json: bool) -> None:  # fmt: skip
+          show: tuple[str, ...], jobs: int | None, scheduler: str, fresh: bool, overrides: tuple[str, ...],
+          out: Path | None, as_json: bool) -> None:  # fmt: skip
     """Run CASE over ranges of its values; results as one labelled data set.
 
-    A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses.
+    A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses
+    these or forces, size, codesign.
     With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg; sweep.db takes the points as they come,
     and the same command goes on where it stopped, whatever stopped it.
 
@@ -56,7 +59,9 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     if out is not None:
         make_folder(out)
     with progress(count, f"sweep of {case}") as bar:
-        found = sweeps.sweep(plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh))
+        found = sweeps.sweep(
+            plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
+        )
     report = _report(found, [] if out is None else _write(found, out))
     emit(report, as_json, lambda: _text(found, report))
     ctx.exit(_INTERRUPTED if found.interrupted else 1 if len(report["failed"]) == count else 0)

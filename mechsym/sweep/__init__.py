@@ -10,9 +10,10 @@ gap with a reason, not the end of the sweep.
 axes.py      what to run over: ranges, lists, distributions
 run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
+cluster.py   chunks on a dask cluster
 store.py     finished points in a file: the same command goes on where it stopped
 stopping.py  Ctrl-C and SIGTERM
-points.py    how a chunk is computed: simulations, hinges, cycles
+points.py    how a chunk is computed: simulations, hinges, cycles; singles.py has the other commands
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason
 data.py      labelled columns with units, CSV, netCDF

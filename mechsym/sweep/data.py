@@ -19,6 +19,9 @@ MAIN = {
         "flywheel_inertia_saved",
     ),
     "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa"),
+    "forces": ("max.crank_pin_load", "max.main_bearing_load", "max.side_force", "max.torque", "power_residual"),
+    "size": ("failing",),
+    "codesign": ("flywheel_inertia", "flywheel_inertia_bare", "speed_ripple.max", "misfire_speed_share.min"),
 }  # fmt: skip
 
 

@@ -7,10 +7,12 @@ from typing import Any
 from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
-from mechsym.sweep import cycles
+from mechsym.sweep import cycles, singles
 from mechsym.sweep.outcomes import Gap, Outcome, known
 
-ANALYSES = ("simulate", "hinge", "cycle")
+ANALYSES = ("simulate", "hinge", "cycle", "forces", "size", "codesign")
+# what one point takes, roughly [s]
+_SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
 # verdicts on a run whose numbers cannot be trusted
 _BAD = ("failed", "not converged", "chaotic")
 # what impossible values run into where no record refuses them; anything else is a mistake of the program
@@ -34,7 +36,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     Parameters
     ----------
     analysis : str or None
-        `simulate`, `hinge` or `cycle`; None takes what the case is for
+        A name of `ANALYSES`; None takes what the case is for
     show : tuple of str
         Results that are wanted; others need not be computed
 
@@ -51,6 +53,9 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
         runs = bool(show) and not all(name.startswith("guide") for name in show)
         return Route(analysis=analysis, run=_each(_hinges(show)), together=1 if runs else 16,
                      seconds=0.5 if runs else 0.006)  # fmt: skip
+    if analysis in _SINGLES:
+        single, seconds = _SINGLES[analysis]
+        return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)
     if cycles.mapped(case):
         return Route(analysis=analysis, run=_maps, together=cycles.BLOCK, seconds=0.002)
     return Route(analysis=analysis, run=_each(cycles.single), together=1, seconds=0.01)

@@ -11,7 +11,7 @@ from typing import Any
 from mechsym import cases
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
-from mechsym.sweep import store, work
+from mechsym.sweep import cluster, store, work
 from mechsym.sweep.axes import Axis, override, parse_axis, points, split
 from mechsym.sweep.outcomes import Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
@@ -29,7 +29,7 @@ class Plan:
     case: str  #: Name of a built-in case or path of a file
     over: tuple[str, ...]  #: What to run over, each KEY=RANGE as in `axes`
     overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)  #: Values that hold at all points
-    analysis: str | None = None  #: `simulate`, `hinge` or `cycle`; None takes what the case is for
+    analysis: str | None = None  #: A name of `points.ANALYSES`; None takes what the case is for
     samples: int | None = None  #: Number of samples instead of a grid
     seed: int = 0
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones; `all` of them
@@ -49,6 +49,7 @@ class Means:
     jobs: int = 1
     folder: Path | None = None  #: Where finished points are kept as they come, see `store`
     fresh: bool = False  #: Forget what was kept
+    scheduler: str = ""  #: Address of a dask cluster that computes in place of this machine
 
 
 @record
@@ -171,6 +172,8 @@ def _words(place: Layout) -> list[str]:
 def _computed(
     order: work.SweepOrder, chosen: Route, chunks: Sequence[work.Chunk], means: Means, asked_to: threading.Event
 ) -> Generator[work.Done, None, None]:
+    if means.scheduler:
+        return cluster.on_cluster(order, chunks, means.scheduler, asked_to)
     jobs = means.jobs or _worth(chosen, chunks)
     if jobs > 1 and len(chunks) > 1:
         return work.on_processes(order, chunks, jobs, asked_to)

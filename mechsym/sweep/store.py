@@ -8,6 +8,7 @@ anew. Chunks of points are written whole, so that what is computed later is comp
 
 import contextlib
 import errno
+import functools
 import hashlib
 import json
 import os
@@ -92,7 +93,7 @@ def keep(store: Store, members: Sequence[int], found: Sequence[Outcome], seconds
 
 def identity(case: cases.Case, **of: Any) -> str:
     """A key that changes with whatever could change a result: program, case, files that it reads, and axes `of`."""
-    digest = hashlib.sha256(_program().encode())
+    digest = hashlib.sha256(program().encode())
     digest.update(cases.text(case.path).encode())
     for path in _files(case):
         digest.update(path.read_bytes())
@@ -108,8 +109,9 @@ def _files(case: cases.Case) -> list[Path]:
     return sorted({Path(name) for name in named if name and Path(name).is_file()})
 
 
-def _program() -> str:
-    """Every line of the program, and the libraries that compute."""
+@functools.lru_cache(maxsize=1)
+def program() -> str:
+    """A key of every line of the program, and the libraries that compute."""
     from importlib.metadata import version
 
     root = Path(__file__).parents[1]

@@ -1,0 +1,45 @@
+"""What the other commands say of one case, as numbers by name: forces, size, codesign."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from mechsym.cases import Case
+
+
+def forces(case: Case) -> dict[str, Any]:
+    """Figures of `mechsym forces`."""
+    from mechsym.forces.summary import summary
+    from mechsym.jobs.forces import forces as run
+
+    return summary(run(case), case.name, case.source)
+
+
+def size(case: Case) -> dict[str, Any]:
+    """Rows of `mechsym size` as component.quantity, with .limit and .safety_factor of a check."""
+    from mechsym.jobs.size import size as sized
+
+    found = sized(case)
+    numbers: dict[str, Any] = {"failing": len(found.failing), "converged": found.converged}
+    for row in found.rows:
+        name = f"{row['component']}.{row['quantity']}".replace(" ", "_")
+        # one quantity may be held against several rules
+        name = name if name not in numbers else f"{name}.{row['rule']}".replace(" ", "_")
+        numbers[name] = row["value"]
+        if row["limit"] is not None:
+            numbers |= {f"{name}.{key}": row[key] for key in ("limit", "safety_factor")}
+    return numbers
+
+
+def codesign(case: Case) -> dict[str, Any]:
+    """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
+    from mechsym.codesign.summary import summary
+    from mechsym.jobs.codesign import codesign as design
+
+    return {key: _ends(value) for key, value in summary(design(case, case.need("codesign"))).items()}
+
+
+def _ends(value: Any) -> Any:
+    numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
+    if len(numbers) < 2 or isinstance(value, str):
+        return value
+    return {"min": min(numbers), "max": max(numbers)}
