@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.papers.chmielewski2015 import SOURCE
+from mechsym.papers.chmielewski2015 import SOURCE, outlook
 from mechsym.papers.chmielewski2015.computed import (
     CLAIMED_TIME,
     EXACT,
@@ -27,9 +27,9 @@ _CONSTANT = 0.01  # what the eye takes for constant in a figure [-]
 
 
 def rows() -> list[dict[str, Any]]:
-    """Every number and claim of section 2.2."""
+    """Every number and claim of section 2.2, and what the conclusions announce."""
     found = run(EXACT, FINEST[1], FINEST[0])
-    return [_torque(found), *_speed(found), *_shape(found), *_amplitudes(found), *_steps()]
+    return [_torque(found), *_speed(found), *_shape(found), *_amplitudes(found), *_steps(), *outlook.rows()]
 
 
 def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
