@@ -13,6 +13,7 @@ from mechsym.quantities import load
 
 # command: "module:function"
 COMMANDS = {
+    "app": "mechsym.cli.app:app",
     "audit": "mechsym.cli.audit:audit",
     "cases": "mechsym.cli.catalogue:cases",
     "check": "mechsym.cli.check:check",

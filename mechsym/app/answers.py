@@ -1,0 +1,153 @@
+"""What the workbench shows as a slider moves: verdict in words, limits with their margins, curves, a moving picture."""
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from mechsym import cases
+from mechsym.errors import BadInput
+from mechsym.hinge.result import Design
+from mechsym.hinge.summary import guide_turn
+from mechsym.jobs.hinge import hinge
+from mechsym.mechanisms import plots
+from mechsym.mechanisms.drawing import Circle, Line, Shapes, extent_of, shapes
+from mechsym.plausible import sifted
+from mechsym.quantities import record
+
+_POINTS = 361  # of each curve
+_TRACK = 90  # corners of the drawn guide
+
+
+@record
+class Curve:
+    """One curve of a chart."""
+
+    name: str
+    chart: str  #: curves of one chart stand together
+    x_name: str
+    y_name: str
+    x: tuple[float, ...]  #: in the unit that `x_name` says [-]
+    y: tuple[float, ...]  #: in the unit that `y_name` says [-]
+
+
+@record
+class Bar:
+    """A limit with what is left of it."""
+
+    name: str
+    text: str
+    kept: bool
+    margin: float | None  #: share of the limit that is left [-]
+
+
+@record
+class Answer:
+    """What is known of a case at once."""
+
+    good: bool  #: can be built
+    words: str
+    rows: tuple[tuple[str, str], ...] = ()  #: name and value with its unit
+    bars: tuple[Bar, ...] = ()
+    curves: tuple[Curve, ...] = ()
+    doubts: tuple[str, ...] = ()
+    drawn: Callable[[float], Shapes] | None = None  #: crank angle [rad] to a drawing of mechanism and guide
+
+
+def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
+    """The hinge of a case with other values; what is impossible is an answer too, in words.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        By key, as `--set` takes them [SI unit of the key]
+    """
+    try:
+        case = cases.load(name, values)
+        design = hinge(case)
+    except BadInput as refused:
+        return Answer(good=False, words=str(refused))
+    verdict = design.verdict
+    doubts = tuple(
+        f"{d.quantity} = {d.value:g}, usual is {d.usual}: {d.why}" for d in sifted(case.doubts, case.acceptances)[0]
+    )
+    return Answer(
+        good=verdict.feasible, words=verdict.reason, rows=_rows(design), doubts=doubts,
+        bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
+        curves=_curves(design), drawn=_drawing(design),
+    )  # fmt: skip
+
+
+def moving(answer: Answer, title: str) -> str | None:
+    """A page in which the drawing of an answer turns; None without a drawing."""
+    return None if answer.drawn is None else plots.animation_of(answer.drawn, title)
+
+
+def _rows(design: Design) -> tuple[tuple[str, str], ...]:
+    phi = np.linspace(0, design.hinge.period, _POINTS)
+    torque, verdict = design.hinge.torque(phi), design.verdict
+    rows = [("load torque", f"{design.hinge.load_torque:.5g} N m"),
+            ("hinge torque", f"{torque.min():.5g} to {torque.max():.5g} N m")]  # fmt: skip
+    if verdict.rho_min is not None:
+        rows += [
+            ("guide, radius", f"{1e3 * verdict.rho_min:.4g} to {1e3 * (verdict.rho_max or 0):.4g} mm"),
+            ("spring closes", f"{1e3 * (verdict.z_min or 0):.4g} to {1e3 * (verdict.z_max or 0):.4g} mm"),
+            ("roller force", f"{(verdict.roller_reaction_max or 0) / 1e3:.4g} kN"),
+            ("contact pressure", f"{(verdict.hertz_stress_max or 0) / 1e6:.4g} MPa"),
+            ("pressure angle", f"{math.degrees(verdict.pressure_angle_max or 0):.3g} deg"),
+        ]
+        if verdict.spring_pressure_max is not None:
+            rows.append(("spring pressure", f"{verdict.spring_pressure_max / 1e6:.4g} MPa"))
+    return tuple(rows)
+
+
+def _curves(design: Design) -> tuple[Curve, ...]:
+    phi = np.linspace(0, design.hinge.period, _POINTS)
+    curves = [_curve("wanted", "hinge torque", "crank angle [deg]", "kN m", np.degrees(phi),
+                     design.hinge.torque(phi) / 1e3)]  # fmt: skip
+    if design.guide.rho is not None:
+        turn, angle = guide_turn(design, _POINTS), "angle of the guide [deg]"
+        theta = np.degrees(turn.theta)
+        curves += [
+            _curve("path", "radius of the guide", angle, "mm", theta, 1e3 * turn.rho),
+            _curve("contact 1", "contact force", angle, "kN", theta, turn.reaction_1 / 1e3),
+            _curve("contact 2", "contact force", angle, "kN", theta, turn.reaction_2 / 1e3),
+        ]
+    return tuple(curves)
+
+
+def _curve(name: str, chart: str, x_name: str, unit: str, x: np.ndarray, y: np.ndarray) -> Curve:
+    return Curve(name=name, chart=chart, x_name=x_name, y_name=f"{chart} [{unit}]", x=_short(x), y=_short(y))
+
+
+def _short(values: np.ndarray) -> tuple[float, ...]:
+    return tuple(float(f"{v:.6g}") for v in values)
+
+
+def _drawing(design: Design) -> Callable[[float], Shapes] | None:
+    mechanism, parameters = design.machine.mechanism.name, design.origin.sections["parameters"]
+
+    def machine(angle: float) -> Shapes:
+        return shapes(mechanism, parameters, angle)
+
+    try:
+        left, right, low, _ = extent_of(machine)
+    except BadInput:
+        return None
+    if design.guide.rho is None:
+        return machine
+    theta, ratio = np.linspace(0, 2 * np.pi, _TRACK + 1), design.guide.parameters.shaft_ratio
+    rho = design.guide.rho(theta)
+    centre = ((left + right) / 2, low - 1.2 * (float(rho.max()) + design.rollers.radius))
+    return lambda angle: (*machine(angle), *_guide(design, rho, theta, ratio * angle, centre))
+
+
+def _guide(design: Design, rho: np.ndarray, theta: np.ndarray, turned: float, centre: tuple[float, float]) -> Shapes:
+    """The path of the roller centres, turned by an angle [rad], and its rollers, which stay on one line."""
+    x, y = centre
+    corners = zip((x + rho * np.cos(theta - turned)).tolist(), (y + rho * np.sin(theta - turned)).tolist(), strict=True)
+    r = float(np.interp(turned % (2 * np.pi), theta, rho))
+    sides = [(1, -1)[k] for k in range(design.guide.rollers)]
+    hub = Circle(role="joint", centre=centre, radius=0.1 * float(rho.min()))
+    rollers = (Circle(role="joint", centre=(x + side * r, y), radius=design.rollers.radius) for side in sides)
+    return (Line(role="rod", points=tuple(corners)), *rollers, hub)

@@ -1,0 +1,71 @@
+"""The server of the workbench, for this machine alone, and its check without a browser."""
+
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+
+from mechsym import cases
+from mechsym.app.answers import hinge_answer
+from mechsym.app.commands import tabs
+from mechsym.app.sliders import sliders
+from mechsym.app.view import Page
+from mechsym.errors import BadInput
+
+_HOST = "127.0.0.1"
+_WAIT = 60.0  # for the server in `check` [s]
+
+
+def serve(name: str, port: int) -> None:
+    """Serve the workbench of a case on this machine alone, until it is stopped."""
+    try:
+        from fastapi import Request
+        from nicegui import ui
+    except ImportError:
+        raise BadInput("the workbench needs the extra app: pip install 'mechsym[app]'") from None
+    cases.load(name)  # a bad case is refused before the server starts
+
+    @ui.page("/")
+    def page(request: Request) -> None:
+        Page(name, dict(request.query_params)).build()
+
+    ui.run(host=_HOST, port=port, title="mechsym", reload=False, show=False, show_welcome_message=False)
+
+
+def check(name: str, port: int) -> str:
+    """Start the workbench, read its page and its first answer without a browser; what was found, in words."""
+    port = port or _free()
+    server = subprocess.Popen([sys.executable, "-m", "mechsym", "app", name, "--port", str(port)],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    try:
+        text = _page_of(server, f"http://{_HOST}:{port}/")
+    finally:
+        server.terminate()
+        server.wait()
+    found = sliders(cases.load(name))
+    if name not in text:
+        raise BadInput(f"the page of the workbench does not show the case {name}")
+    answer = hinge_answer(name, {}) if "hinge" in tabs(cases.load(name)) else None
+    words = "" if answer is None else f"; hinge: {answer.words}"
+    return f"the workbench of {name} answers: {len(found)} sliders, {', '.join(tabs(cases.load(name)))}{words}"
+
+
+def _free() -> int:
+    with socket.socket() as free:
+        free.bind((_HOST, 0))
+        return int(free.getsockname()[1])
+
+
+def _page_of(server: "subprocess.Popen[str]", address: str) -> str:
+    until = time.monotonic() + _WAIT
+    while time.monotonic() < until:
+        if server.poll() is not None:
+            said = server.stderr.read().strip() if server.stderr else ""
+            raise BadInput(said.splitlines()[-1] if said else "the workbench ended at once")
+        try:
+            with urllib.request.urlopen(address, timeout=5) as answer:
+                return str(answer.read().decode())
+        except OSError:
+            time.sleep(0.2)
+    raise BadInput(f"the workbench did not answer within {_WAIT:g} s")

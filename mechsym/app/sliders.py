@@ -1,0 +1,110 @@
+"""Sliders of a case: every number of its sections that stands alone, with unit, meaning and a range around it."""
+
+import dataclasses
+import math
+import tomllib
+from collections.abc import Mapping
+
+from mechsym import cases
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.quantities import quantity, record
+
+_REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
+_STEPS = 200
+_HALVINGS = 8
+
+
+@record
+class Slider:
+    """One value that can be moved."""
+
+    key: str  #: section.name, as `--set` takes it
+    label: str
+    about: str
+    unit: str  #: SI
+    value: float = quantity("-", about="of the case, in `unit`")
+    low: float = quantity("-", about="left end, in `unit`")
+    high: float = quantity("-", about="right end, in `unit`")
+    step: float = quantity("-", above=0, about="between two places, in `unit`")
+
+
+def sliders(case: Case) -> tuple[Slider, ...]:
+    """Every number that stands alone in the text of a case; whatever single slider is moved, the case can be read."""
+    given = tomllib.loads(cases.text(case.path))
+    found = []
+    for section, data in case.sections.items():
+        if not dataclasses.is_dataclass(data) or not isinstance(given.get(section), dict):
+            continue
+        for field in dataclasses.fields(data):
+            value = getattr(data, field.name)
+            stands = any(k == field.name or k.startswith(f"{field.name}_") for k in given[section])
+            if stands and "unit" in field.metadata and isinstance(value, (int, float)):
+                found.append(_slider(case, f"{section}.{field.name}", field, float(value)))
+    return tuple(found)
+
+
+def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
+    """Values from an address in the browser, which anybody may have written.
+
+    Parameters
+    ----------
+    name : str
+        Case that the address names: a built-in one, or the one that the workbench was started with
+    own : str
+        That one
+    texts : mapping of str to str
+        Keys and SI values as text
+
+    Returns
+    -------
+    values : dict of str to float
+        Only numbers of keys that have a slider, so no file can be named [unit of the key]
+    """
+    if name != own and name not in cases.names():
+        raise BadInput(f"case {name!r} is not built in; start the workbench with it: mechsym app {name}")
+    known = {s.key for s in sliders(cases.load(name))}
+    values = {}
+    for key, text in texts.items():
+        if key not in known:
+            raise BadInput(f"{key!r} is no value of {name} that has a slider")
+        try:
+            values[key] = float(text)
+        except ValueError:
+            raise BadInput(f"{key} = {text!r} is not a number") from None
+        if not math.isfinite(values[key]):
+            raise BadInput(f"{key} = {text!r} is not finite")
+    return values
+
+
+def _slider(case: Case, key: str, field: dataclasses.Field, value: float) -> Slider:
+    meta = field.metadata
+    low, high = sorted((value / _REACH, value * _REACH)) if value else (-1.0, 1.0)
+    low = max(x for x in (low, meta.get("low"), meta.get("above")) if x is not None)
+    high = min(x for x in (high, meta.get("high"), meta.get("below")) if x is not None)
+    whole = value == round(value) and meta["unit"] == "-" and not _accepted(case, key, value + 0.5)
+    if whole:
+        low, high = float(math.ceil(low)), float(math.floor(high))
+    low, high = _reached(case, key, value, low, whole), _reached(case, key, value, high, whole)
+    step = 1.0 if whole else (high - low) / _STEPS or 1e-9
+    return Slider(key=key, label=field.name, about=meta.get("about", ""), unit=meta["unit"], value=value, low=low,
+                  high=high, step=step)  # fmt: skip
+
+
+def _reached(case: Case, key: str, value: float, end: float, whole: bool) -> float:
+    """The value nearest to an end that the case accepts, by halving the way."""
+    for _ in range(_HALVINGS):
+        if _accepted(case, key, end):
+            return end
+        end = value + (end - value) / 2
+        if whole:
+            end = float(round(end))
+    return value
+
+
+def _accepted(case: Case, key: str, value: float) -> bool:
+    try:
+        cases.load(case.path, {**case.overrides, key: value})
+    except BadInput:
+        return False
+    return True
