@@ -7,12 +7,12 @@ saving      the case with moved values as a text; report, drawing and FMU by the
 view        the page, markup its tables and charts; server shows it; needs the extra `app`
 """
 
-from mechsym.app.answers import Answer, Curve, hinge_answer
+from mechsym.app.answers import Answer, Plotted, hinge_answer
 from mechsym.app.commands import Run, run, tabs
 from mechsym.app.server import check, serve
 from mechsym.app.sliders import Slider, safe, sliders
 
-__all__ = ["Answer", "Curve", "Run", "Slider", "check", "hinge_answer", "run", "safe", "serve", "sliders", "tabs"]
+__all__ = ["Answer", "Plotted", "Run", "Slider", "check", "hinge_answer", "run", "safe", "serve", "sliders", "tabs"]
 
 
 def __dir__() -> list[str]:

@@ -20,7 +20,7 @@ _TRACK = 90  # corners of the drawn guide
 
 
 @record
-class Curve:
+class Plotted:
     """One curve of a chart."""
 
     name: str
@@ -49,7 +49,7 @@ class Answer:
     words: str
     rows: tuple[tuple[str, str], ...] = ()  #: name and value with its unit
     bars: tuple[Bar, ...] = ()
-    curves: tuple[Curve, ...] = ()
+    curves: tuple[Plotted, ...] = ()
     doubts: tuple[str, ...] = ()
     drawn: Callable[[float], Shapes] | None = None  #: crank angle [rad] to a drawing of mechanism and guide
 
@@ -101,7 +101,7 @@ def _rows(design: Design) -> tuple[tuple[str, str], ...]:
     return tuple(rows)
 
 
-def _curves(design: Design) -> tuple[Curve, ...]:
+def _curves(design: Design) -> tuple[Plotted, ...]:
     phi = np.linspace(0, design.hinge.period, _POINTS)
     curves = [_curve("wanted", "hinge torque", "crank angle [deg]", "kN m", np.degrees(phi),
                      design.hinge.torque(phi) / 1e3)]  # fmt: skip
@@ -116,8 +116,8 @@ def _curves(design: Design) -> tuple[Curve, ...]:
     return tuple(curves)
 
 
-def _curve(name: str, chart: str, x_name: str, unit: str, x: np.ndarray, y: np.ndarray) -> Curve:
-    return Curve(name=name, chart=chart, x_name=x_name, y_name=f"{chart} [{unit}]", x=_short(x), y=_short(y))
+def _curve(name: str, chart: str, x_name: str, unit: str, x: np.ndarray, y: np.ndarray) -> Plotted:
+    return Plotted(name=name, chart=chart, x_name=x_name, y_name=f"{chart} [{unit}]", x=_short(x), y=_short(y))
 
 
 def _short(values: np.ndarray) -> tuple[float, ...]:

@@ -3,7 +3,7 @@
 import html
 from typing import Any
 
-from mechsym.app.answers import Answer, Curve
+from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
 
 _COLOURS = ("#1f5fa8", "#b5342b", "#2f7d4f")
@@ -42,7 +42,7 @@ def run_table(found: Run) -> str:
     return f"<p>exit status {found.status}</p>{words}<table>{rows}</table>"
 
 
-def chart(curves: list[tuple[Curve, str]]) -> dict[str, Any]:
+def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
     """Curves with their line styles as the options of a chart."""
     first = curves[0][0]
     series = [

@@ -8,7 +8,7 @@ from urllib.parse import urlencode
 
 from mechsym import cases
 from mechsym.app import commands
-from mechsym.app.answers import Answer, Curve, hinge_answer, moving
+from mechsym.app.answers import Answer, Plotted, hinge_answer, moving
 from mechsym.app.markup import bars, chart, frame, run_table, table
 from mechsym.app.saving import FILES, case_text, file_of
 from mechsym.app.sliders import Slider, safe, sliders
@@ -209,7 +209,7 @@ class Page:
         self._draw(answer)
 
     def _draw(self, answer: Answer) -> None:
-        charts: dict[str, list[tuple[Curve, str]]] = {}
+        charts: dict[str, list[tuple[Plotted, str]]] = {}
         for curve in answer.curves:
             charts.setdefault(curve.chart, []).append((curve, "solid"))
         for curve in self.pinned.curves if self.pinned else ():
