@@ -50,9 +50,7 @@ def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     Parameters
     ----------
     name : str
-        Case that the address names: a built-in one, or the one that the workbench was started with
-    own : str
-        That one
+        Case that the address names: a built-in one, or `own`, that with which the workbench was started
     texts : mapping of str to str
         Keys and SI values as text
 
