@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities.display import heading
 
 # what another place or name mends; any other failure (disk full, device broken) is the system's
 _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
@@ -171,6 +172,20 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -
     writer.writerow(columns)
     writer.writerows(zip(*[_cells(values) for values in columns.values()], strict=True))
     return write_text(path, buffer.getvalue())
+
+
+def write_quantities(
+    path: Path, columns: Mapping[str, Sequence[float] | np.ndarray], units: Mapping[str, str] | None = None
+) -> Path:
+    """Write equally long columns with their units in the headings, `rho [m]`: SI, or what the user has chosen.
+
+    Parameters
+    ----------
+    units : mapping of str to str, optional
+        SI unit of columns whose name does not tell it
+    """
+    headed = (heading(name, values, asked=True, unit=(units or {}).get(name)) for name, values in columns.items())
+    return write_csv(path, dict(headed))
 
 
 def _cells(values: Sequence[float] | np.ndarray) -> list[Any]:

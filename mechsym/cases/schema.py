@@ -20,6 +20,7 @@ ENTRIES: dict[str, Any] = {
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
+    "report": "mechsym.cases.settings:ReportSettings",
     "speeds": "mechsym.cases.settings:Speeds",
     "optimise": "mechsym.optimise.problem:Optimise",
     "chamber": "mechsym.cycle.chamber:ChamberParameters",

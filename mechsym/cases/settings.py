@@ -33,6 +33,14 @@ class RetuneSettings:
 
 
 @record
+class ReportSettings:
+    """How results are shown."""
+
+    units: str = ""  #: Units of text, reports, pictures and tables: "mm, MPa, kN, kN*m, deg, rpm, kW"
+    project: str = ""  #: Name of the project, in the title of reports
+
+
+@record
 class Speeds:
     """The speeds of a performance map."""
 

@@ -10,6 +10,7 @@ import click
 
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import load
+from mechsym.quantities.display import choose
 
 # command: "module:function"
 COMMANDS = {
@@ -84,6 +85,16 @@ class LazyGroup(click.Group):
                     help="Exit status 3 when there are doubts.",
                 )
             )
+            command.params.append(
+                click.Option(
+                    ["--units"],
+                    metavar="LIST",
+                    expose_value=False,
+                    callback=_units,
+                    is_eager=True,
+                    help='Show text, reports, pictures and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.',
+                )
+            )
         return command
 
     def resolve_command(
@@ -125,6 +136,11 @@ def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> 
 
 def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     ctx.meta["mechsym.strict"] = wanted
+
+
+def _units(ctx: click.Context, _: click.Parameter, wanted: str | None) -> None:
+    ctx.meta["mechsym.units"] = wanted
+    choose(wanted)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

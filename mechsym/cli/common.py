@@ -13,6 +13,7 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import appear, to_json, together, try_folder, write_summary
 from mechsym.plausible import Doubt, results, sifted
+from mechsym.quantities.display import choose, figure, heading, shown_in
 
 _CASES, DOUBTED, _RUN = "mechsym.cases", "mechsym.doubted", "mechsym.run"
 
@@ -83,6 +84,8 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
 def case_of(name: str, overrides: Mapping[str, Any]) -> Case:
     """The case that a command is about; its doubts go into what the command prints."""
     case = cases.load(name, overrides)
+    if "report" in case.sections and not click.get_current_context().meta.get("mechsym.units"):
+        choose(case.need("report").units)
     click.get_current_context().meta.setdefault(_CASES, []).append(case)
     return case
 
@@ -141,24 +144,49 @@ def progress(total: int, label: str) -> Any:
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 
-def table(rows: list[dict[str, Any]], columns: list[str]) -> str:
-    """Rows as an aligned text table.
+def table(rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, str] | None = None) -> str:
+    """Rows as an aligned text table, units in the headings, each column in the unit that suits it.
+
+    Parameters
+    ----------
+    units : mapping of str to str, optional
+        SI unit of columns whose name does not tell it
 
     Returns
     -------
     text : str
         Header line and one line a row
     """
-    cells = [columns, *[[_cell(row.get(c)) for c in columns] for row in rows]]
+    headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
+    cells = [[name for name, _ in headed], *([_cell(values[i]) for _, values in headed] for i in range(len(rows)))]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
+
+
+def in_rows(rows: list[dict[str, Any]], keys: tuple[str, ...], unit: str = "unit") -> list[dict[str, Any]]:
+    """Rows that each have a unit of their own, their numbers in the unit that suits them.
+
+    Parameters
+    ----------
+    keys : tuple of str
+        The numbers of a row; None stays None
+    unit : str
+        The key under which a row has its SI unit
+    """
+    found = []
+    for row in rows:
+        values, name = (
+            shown_in([row.get(key) for key in keys], row[unit]) if row[unit] else ([row.get(k) for k in keys], "")
+        )
+        found.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
+    return found
 
 
 def _cell(value: Any) -> str:
     if value is None or value != value:
         return "-"
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return figure(value, 6)
     if isinstance(value, (list, tuple)):
         return ", ".join(str(v) for v in value)
     return str(value)

@@ -59,12 +59,12 @@ def _percent(value: float | None) -> str:
 
 def _write(out: Path, found: dict[str, Any], result: dict[str, Any]) -> list[Path]:
     from mechsym.cycle.plots import performance_picture
-    from mechsym.files import to_json, write_csv, write_text
+    from mechsym.files import to_json, write_quantities, write_text
 
     keys = ("quantity", "speed_rpm", "a", "b", "difference")
     columns = {k: [row[k] for row in result["table"]] for k in keys}
     return [
-        write_csv(out / "comparison.csv", columns),
+        write_quantities(out / "comparison.csv", columns),
         write_text(out / "comparison.json", to_json(result) + "\n"),
         performance_picture(out / "comparison.svg", found),
     ]

@@ -9,6 +9,7 @@ from mechsym.cli import cycle_breathing, cycle_stirling
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
+from mechsym.quantities.display import ratio_text
 
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 _ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
@@ -120,8 +121,7 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     count = len(found["speed_rpm"])
     every = max(1, -(-count // 20))
     shown = [k for k in found if "." in k] + list(_SHOWN)
-    names = {k: f"{k} [{units[k]}]" if k in units else k for k in shown}
-    lines = [_rows(found, names, every)]
+    lines = [_rows(found, shown, every, units)]
     if found["cylinders"] > 1:
         one = {"speed_rpm": found["speed_rpm"], **found["per_cylinder"]}
         lines = [
@@ -129,7 +129,7 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
             *lines,
             "",
             "one cylinder",
-            _rows(one, {key: key for key in _ONE}, every),
+            _rows(one, list(_ONE), every, {}),
         ]
     if every > 1:
         lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
@@ -137,28 +137,28 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
         peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
         lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]
     worst = abs(found["energy_residual"]).max()
-    closed = f"first law closed to {worst:.1g} of the fuel's heating value"
+    closed = f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"
     return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
 
 
-def _rows(found: dict[str, Any], names: dict[str, str], every: int) -> str:
+def _rows(found: dict[str, Any], names: list[str], every: int, units: dict[str, str]) -> str:
     shown = range(0, len(found["speed_rpm"]), every)
-    return table([{name: float(found[k][i]) for k, name in names.items()} for i in shown], list(names.values()))
+    return table([{name: float(found[name][i]) for name in names} for i in shown], names, units)
 
 
 def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
     from mechsym.cycle.engine import curves
     from mechsym.cycle.plots import cycle_picture, performance_picture
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
 
     flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder")}
     if found["cylinders"] > 1:
         flat |= {f"{k}_per_cylinder": v for k, v in found["per_cylinder"].items()}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]
-    files = [write_csv(out / "performance.csv", flat)]
+    files = [write_quantities(out / "performance.csv", flat)]
     if machine is not None:
         one = curves(machine, omega)
-        files += [write_csv(out / "cycle.csv", one), cycle_picture(out / "cycle.svg", one)]
+        files += [write_quantities(out / "cycle.csv", one), cycle_picture(out / "cycle.svg", one)]
     if len(set(flat["speed_rpm"])) > 1:
         files.append(performance_picture(out / "performance.svg", {"": found}))
     return files

@@ -15,7 +15,7 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
     cycles : float
         Engine cycles to run [-]
     """
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
     from mechsym.jobs.loop import loop
     from mechsym.simulate.loop.run import run_loop
     from mechsym.simulate.loop.summary import series, summary
@@ -23,7 +23,7 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
     machine = loop(case)
     result = run_loop(machine, case.need("operation").speed, cycles)
     found = summary(machine, result)
-    files = [write_csv(out / "loop.csv", series(machine, result))] if out else []
+    files = [write_quantities(out / "loop.csv", series(machine, result))] if out else []
     emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
     if result.status != "done":
         sys.exit(1)

@@ -16,12 +16,12 @@ def show(case: Any, files: tuple[str | None, str | None], as_json: bool, out: Pa
     files : tuple of str or None
         CSV files of the diagram and of a motored record, in place of the case's
     """
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
     from mechsym.jobs.measured import measured_combustion, summary
 
     found = summary(measured_combustion(case, *files))
     rows = found["cycles"]
-    written = [write_csv(out / "combustion.csv", {k: [row[k] for row in rows] for k in rows[0]})] if out else []
+    written = [write_quantities(out / "combustion.csv", {k: [row[k] for row in rows] for k in rows[0]})] if out else []
     emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in written)]))
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cli.common import emit, table
+from mechsym.quantities.display import ratio_text
 
 _SPEEDS = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "efficiency", "p_max_mpa")
 _TURN = ("work_j", "work_hot_j", "work_cold_j", "heat_in_j", "heat_out_j", "heat_regenerator_j",
@@ -44,12 +45,12 @@ def _text(found: dict[str, Any]) -> str:
     if every > 1:
         lines.append(f"{len(shown)} of {count} points shown; all with --json or --out")
     worst = float(abs(found["energy_residual"]).max())
-    return "\n".join([*lines, "", f"first law closed to {worst:.1g} of the heat from the hot side"])
+    return "\n".join([*lines, "", f"first law closed to {ratio_text(worst, 1)} of the heat from the hot side"])
 
 
 def _write(out: Path, case: Any, found: dict[str, Any], omega: float) -> list[Path]:
     from mechsym.cycle.plots_stirling import stirling_picture
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
     from mechsym.jobs.cycle import stirling_curves
 
     curves = stirling_curves(case, omega)
@@ -57,7 +58,7 @@ def _write(out: Path, case: Any, found: dict[str, Any], omega: float) -> list[Pa
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()}
     flat |= {f"loss_{name}_w": values for name, values in found["losses"].items()}
     return [
-        write_csv(out / "performance.csv", flat),
-        write_csv(out / "cycle.csv", curves),
+        write_quantities(out / "performance.csv", flat),
+        write_quantities(out / "cycle.csv", curves),
         stirling_picture(out / "cycle.svg", curves),
     ]

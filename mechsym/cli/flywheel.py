@@ -7,6 +7,7 @@ import click
 
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
+from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 
 @click.command(short_help="Flywheel for a wanted ripple of the speed.")
@@ -49,19 +50,20 @@ def _share(text: str) -> float:
 def _text(result: dict[str, Any]) -> str:
     bare, check = result["ripple_bare"], result["check"]
     lines = [
-        f"mean torque {result['torque_mean']:.6g} N*m, work that swings {result['work_swing']:.6g} J",
+        f"mean torque {quantity_text(result['torque_mean'], 'N*m')}, work that swings "
+        f"{quantity_text(result['work_swing'], 'J')}",
         f"without a flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
     ]
     if result["inertia"] is None:
         return "\n".join([*lines, f"no flywheel gives {100 * result['ripple_wanted']:.4g} %: {result['reason']}"])
     lines.append(
-        f"flywheel {result['inertia']:.6g} kg m2 besides the {result['inertia_kept']:.6g} kg m2 that turn "
-        f"(rule of thumb: {result['estimate']:.6g})"
+        f"flywheel {figure(result['inertia'])} kg*m^2 besides the {figure(result['inertia_kept'])} kg*m^2 that turn "
+        f"(rule of thumb: {figure(result['estimate'])} kg*m^2)"
     )
     if check["speed_ripple"] is not None:
         lines.append(
             f"run in time: ripple {100 * check['speed_ripple']:.5g} %, {check['status']}, "
-            f"energy residual {check['energy_residual']:.1g}"
+            f"energy residual {ratio_text(check['energy_residual'], 1)}"
         )
     return "\n".join(lines)
 
@@ -69,7 +71,7 @@ def _text(result: dict[str, Any]) -> str:
 def _write(out: Path, found: Any) -> list[Path]:
     import numpy as np
 
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
 
     columns = {"phi_deg": np.degrees(found.steady.phi), "omega_rad_s": found.steady.omega}
-    return [write_csv(out / "flywheel.csv", columns)]
+    return [write_quantities(out / "flywheel.csv", columns)]

@@ -1,14 +1,28 @@
 """`mechsym forces`: the force chain over one cycle."""
 
 import dataclasses
+import re
 from pathlib import Path
 from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, pairs, run_option, set_option, table
+from mechsym.cli.common import case_of, emit, in_rows, json_option, pairs, run_option, set_option, table
 from mechsym.cli.speeds import parse_speeds
 from mechsym.files import SUMMARY
+from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
+from mechsym.quantities.names import stem_and_unit
+
+# what bears a load, by how its name starts
+_BEARS = {
+    "p": "", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from the rod",
+    "pin_and_guide": "pin and guides together", "crank_pin": "crank pin, in the crank's frame",
+    "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
+    "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",
+    "tooth": "teeth", "journal": "journal of the planet or slider", "X_": "guide of the slider",
+}  # fmt: skip
+_RAW = re.compile(r"_force_[xy](_|$)")
+_NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")
 
 _SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal; the page has them all
 
@@ -79,9 +93,13 @@ def _own(case: Any, out: Path | None, as_json: bool) -> None:
 
 def _own_text(report: dict[str, Any]) -> str:
     acts = {name: who for name, who in report["reactions"].items()}
-    rows = [{"quantity": n, "max": v, "min": report["min"][n], "of": acts.get(n, "")} for n, v in report["max"].items()]
-    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]
-    lines += [table(rows, ["quantity", "max", "min", "of"]), "", f"power residual {report['power_residual']:.2g}"]
+    rows = [
+        {"quantity": n, "max": v, "min": report["min"][n], "of": acts.get(n, ""), "unit": stem_and_unit(n)[1]}
+        for n, v in report["max"].items()
+    ]
+    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm; SI where no unit stands", ""]
+    lines += [table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit", "of"]), ""]
+    lines.append(f"power residual {ratio_text(report['power_residual'])}")
     return "\n".join(lines + [f"written: {file}" for file in report["files"]])
 
 
@@ -93,39 +111,86 @@ def _law(case: Any, speeds: str) -> dict[str, Any]:
 
 
 def _text(report: dict[str, Any]) -> str:
-    from mechsym.forces.summary import quantities
-
-    rows = [{"quantity": n, "max": report["max"][n], "min": report["min"][n]} for n in quantities(report)]
-    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm, SI units", ""]
-    lines += [table(rows, ["quantity", "max", "min"]), "", f"power residual {report['power_residual']:.2g}"]
-    weight = report["shaking"]["counterweight"]
-    if weight["rms_before"] < 1e-6:
+    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
+    lines += [_loads(report), "", f"power residual {ratio_text(report['power_residual'])}"]
+    weight, largest = report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())
+    if weight["rms_before"] < SMALLEST * largest:
         lines.append("no force shakes the frame")
+    elif weight["rms_before"] - weight["rms_after"] < SMALLEST * weight["rms_before"]:
+        before = quantity_text(weight["rms_before"], "N", 4)
+        lines.append(f"a counterweight on the shaft cannot lessen the shaking force of {before} rms")
     else:
+        before, after = (quantity_text(weight[key], "N", 4) for key in ("rms_before", "rms_after"))
         lines.append(
-            f"counterweight {weight['unbalance']:.4g} kg m at {weight['angle_deg']:.4g} deg: "
-            f"shaking force {weight['rms_before']:.4g} -> {weight['rms_after']:.4g} N rms"
+            f"counterweight {figure(weight['unbalance'], 4)} kg*m at {figure(weight['angle_deg'], 4)} deg: "
+            f"shaking force {before} -> {after} rms"
         )
     for name, errors in (report["two_mass"] or {}).items():
-        found = ", ".join(f"{k} {100 * v:.3g} %" for k, v in errors.items())
-        lines.append(f"rod as two masses ({name.replace('_', ' ')}), error of the peak: {found}")
+        told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in errors.items() if v > SMALLEST)
+        lines.append(f"rod as two masses ({name.replace('_', ' ')}), error of the peak: {told or 'none'}")
     lines += _friction(report["friction"], report["friction_law"]) + _rodless(report["rodless"])
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
         lines += ["", table(report["comparison"], shown)]
     lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN)]
-    lines += [f"{row['verdict']}: {row['claim']} ({row['source'][:3]}); {row['note']}" for row in report["claims"]]
+    lines += [f"{row['verdict']}: {row['claim']} ({_named(row['source'])}); {row['note']}" for row in report["claims"]]
     return "\n".join(lines + [f"written: {file}" for file in report["files"]])
+
+
+def _loads(report: dict[str, Any]) -> str:
+    """Extremes of every load once: what is equal for all cylinders or throws stands in one row."""
+    from mechsym.forces.summary import quantities
+
+    rows: dict[tuple[str, ...], dict[str, Any]] = {}
+    for name in quantities(report):
+        number, ends = _NUMBERED.search(name), (report["max"][name], report["min"][name])
+        told = tuple(f"{value:.6g}" for value in ends)
+        # the same force under the mechanism's own name
+        if _RAW.search(name) and any(key[1:] == told and "bearing" in key[0] for key in rows):
+            continue
+        row = rows.setdefault((_NUMBERED.sub(r"\1*", name), *told), {"names": [], "of": [], "ends": ends})
+        row["names"].append(name)
+        row["of"] += [number[2]] if number else []
+    shown = [_row(pattern, row) for (pattern, *_), row in rows.items()]
+    several = ["of"] if any("," in row["of"] for row in shown) else []
+    return table(in_rows(shown, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"])
+
+
+def _row(pattern: str, row: dict[str, Any]) -> dict[str, Any]:
+    several, name = len(row["of"]) > 1, row["names"][0]
+    return {
+        "quantity": pattern if several else name,
+        "of": ", ".join(row["of"]) if several else "",
+        "max": row["ends"][0],
+        "min": row["ends"][1],
+        "unit": stem_and_unit(name)[1],
+        "on": _on(pattern),
+    }
+
+
+def _on(pattern: str) -> str:
+    fitting = [start for start in _BEARS if pattern.startswith(start)]
+    return _BEARS[max(fitting, key=len)] if fitting else ""
+
+
+def _named(stem: str) -> str:
+    from mechsym.papers.sources import sources
+
+    return sources(stem)[0].title.partition(",")[0]
+
+
+def _span(numbers: list[str]) -> str:
+    return "" if len(numbers) < 2 else f"{', '.join(numbers)}"
 
 
 def _friction(found: dict[str, Any] | None, law: dict[str, Any] | None) -> list[str]:
     if found is None:
         return []
-    places = ", ".join(f"{name.replace('_', ' ')} {power:.4g}" for name, power in found["places"].items())
+    places = ", ".join(f"{name.replace('_', ' ')} {quantity_text(v, 'W', 4)}" for name, v in found["places"].items())
     efficiency = found["mechanical_efficiency"]
     share = "" if efficiency is None else f", mechanical efficiency {100 * efficiency:.4g} %"
-    lines = [f"friction {found['power']:.4g} W{share} ({places})"]
+    lines = [f"friction {quantity_text(found['power'], 'W', 4)}{share} ({places})"]
     if law is not None:
         keys = ("constant", "per_peak_pressure", "per_speed", "per_speed_squared")
         lines += [f"[friction_pressure] fitted within {100 * law['misfit']:.2g} %:", 'law = "chen_flynn"']
@@ -139,6 +204,7 @@ def _rodless(found: dict[str, Any] | None) -> list[str]:
     return [
         f"constraints: rank {found['constraint_rank']} of {found['constraint_count']}; guide and pin forces hold for "
         f"the closing rule {found['closing_rule']}",
-        f"inertia resultant {found['inertia_resultant_min']:.6g} to {found['inertia_resultant_max']:.6g} N, at most "
-        f"{found['resultant_off_crank_deg']:.2g} deg off the crank",
+        f"inertia resultant {quantity_text(found['inertia_resultant_min'], 'N')} to "
+        f"{quantity_text(found['inertia_resultant_max'], 'N')}, at most "
+        f"{ratio_text(found['resultant_off_crank_deg'], 2)} deg off the crank",
     ]

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_option, set_option, table
+from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
@@ -73,27 +74,29 @@ def _shares(loads: str | None) -> list[float]:
 
 def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[Path]) -> str:
     guide, check, again = numbers["guide"], numbers["check"], numbers["retune"]
+    torque = [quantity_text(numbers[f"hinge_torque_{end}"], "N*m") for end in ("min", "max")]
+    mean = numbers["hinge_torque_mean"] / max(abs(numbers["hinge_torque_max"]), abs(numbers["hinge_torque_min"]))
     lines = [
-        f"speed            {numbers['speed_rpm']:.6g} rpm, peak pressure {numbers['p_max_bar']:.4g} bar absolute",
-        f"load torque      {numbers['load_torque']:.6g} N*m",
-        f"hinge torque     {numbers['hinge_torque_min']:.6g} to {numbers['hinge_torque_max']:.6g} N*m, "
-        f"mean {numbers['hinge_torque_mean']:.1e}",
+        f"speed            {numbers['speed_rpm']:.6g} rpm, peak pressure "
+        f"{quantity_text(1e5 * numbers['p_max_bar'], 'Pa', 4)} absolute",
+        f"load torque      {quantity_text(numbers['load_torque'], 'N*m')}",
+        f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
         f"guide            {'can' if guide['feasible'] else 'CANNOT'} be built: {guide['reason']}",
-        f"speed ripple     {_number(check['speed_ripple'])} simulated, "
-        f"energy residual {_number(check['energy_residual'])}",
-        f"flywheel saved   {_number(numbers['flywheel_inertia_saved'])} kg*m^2 (ripple 1/50 without hinge)",
+        f"speed ripple     {ratio_text(check['speed_ripple'], 4)} simulated, "
+        f"energy residual {ratio_text(check['energy_residual'])}",
+        f"flywheel saved   {figure(numbers['flywheel_inertia_saved'], 4)} kg*m^2 (ripple 1/50 without hinge)",
         *_left_out(numbers),
     ]
     for offer in numbers["offers"][1:]:
         lines.append(
             f"instead          balance = {offer['balance']!r} with shaft_ratio = {offer['shaft_ratio']:g}: ripple "
-            f"{_number(offer['ripple_constant_load'])} under constant, {_number(offer['ripple_propeller_load'])} under "
-            "propeller load"
+            f"{ratio_text(offer['ripple_constant_load'])} under constant, "
+            f"{ratio_text(offer['ripple_propeller_load'])} under propeller load"
         )
     if again["p0"] is not None:
         lines.append(
             f"at {again['speed_rpm']:.4g} rpm       best setting {setting(again['p0'])} "
-            f"({again['p0_ratio']:.3g} times), ripple {_number(again['speed_ripple'])}"
+            f"({again['p0_ratio']:.3g} times), ripple {ratio_text(again['speed_ripple'])}"
         )
     if numbers["loads"]:
         rows = [row | {"setting": setting(row["p0"])} for row in numbers["loads"]]

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.quantities.display import quantity_text
 
 
 @click.command(short_help="Best design of a case under its limits.")
@@ -23,7 +24,9 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
               mechsym optimise nunes-hypocycloid --set optimise.against=p_max --out front
     Exit status 1: no feasible design, or the solver did not converge.
     """
+    from mechsym.jobs.cycle import engine
     from mechsym.jobs.optimise import optimise
+    from mechsym.optimise.problem import design_units
 
     loaded = case_of(case, pairs(overrides))
     section = loaded.need("optimise")
@@ -31,8 +34,9 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     found, front = done.best, done.front
     result = asdict(found) | {"goal": section.goal, "objective_name": section.objective}
     result |= {"pareto": [_point(p, section) for p in front]} if front else {}
+    units = design_units(engine(loaded))
     files = _write(out, result, section) if out else []
-    emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))
+    emit(result, as_json, lambda: "\n".join([_text(result, units), *(f"written: {file}" for file in files)]))
     if any(point.status != "optimal" for point in (found, *front)):
         sys.exit(1)
 
@@ -42,22 +46,22 @@ def _point(optimum: Any, section: Any) -> dict[str, Any]:
     return {"status": optimum.status, **figures, "variables": dict(optimum.variables)}
 
 
-def _text(result: dict[str, Any]) -> str:
+def _text(result: dict[str, Any], units: dict[str, str]) -> str:
     lines = [
         f"{result['status']} ({result['reason']}) after {result['iterations']} iterations: "
         f"{result['objective_name']} = {result['objective']:.6g}",
-        *(f"{name} = {value:.6g}" for name, value in result["variables"].items()),
+        *(f"{name} = {quantity_text(value, units.get(name, '-'), 6)}" for name, value in result["variables"].items()),
     ]
     lines += ["active limits:" if result["active"] else "no limit is active"]
     lines += [f"  {row['name']} {row['side']} {row['limit']:.6g}: {row['meaning']}" for row in result["active"]]
     if "pareto" in result:
         rows = [{k: v for k, v in p.items() if k != "variables"} | p["variables"] for p in result["pareto"]]
-        lines += ["Pareto front:", table(rows, list(rows[0]))]
+        lines += ["Pareto front:", table(rows, list(rows[0]), units)]
     return "\n".join(lines)
 
 
 def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
-    from mechsym.files import to_json, write_csv, write_text
+    from mechsym.files import to_json, write_quantities, write_text
 
     files = [write_text(out / "optimum.json", to_json(result) + "\n")]
     if "pareto" in result:
@@ -66,6 +70,6 @@ def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
         points = result["pareto"]
         columns = {name: [p[name] for p in points] for name in (section.objective, section.against)}
         columns |= {name: [p["variables"][name] for p in points] for name in points[0]["variables"]}
-        files.append(write_csv(out / "pareto.csv", columns))
+        files.append(write_quantities(out / "pareto.csv", columns))
         files.append(pareto_picture(out / "pareto.svg", columns, section.objective, section.against))
     return files

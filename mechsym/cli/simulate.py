@@ -10,6 +10,7 @@ from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, se
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.quantities import ranges
+from mechsym.quantities.display import ratio_text
 
 if TYPE_CHECKING:
     from mechsym.jobs.run import FinishedRun
@@ -109,26 +110,37 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
 def _text(report: dict[str, Any]) -> str:
     keys = ["t_end", "end", "status", "energy_residual", "tolerance_difference", "steps", "wall_s"]
     units = {"t_end": " s"}
-    lines = [f"{key:22}{_number(report[key])}{units.get(key, '')}" for key in keys]
+    lines = [f"{key:22}{_figure(key, report[key])}{units.get(key, '')}" for key in keys]
     lines.append(f"{'reason':22}{report['reason']}")
     if report["event"]:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
-    rows = [{"rad/s over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
-    lines += ["", table(rows, ["rad/s over the last", "of", "mean", "min", "max"])]
+    rows = [{"over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
+    rates = dict.fromkeys(("mean", "min", "max"), "rad/s")
+    lines += ["", table(rows, ["over the last", "of", *rates], rates)]
     if report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
         natural = ", ".join(f"{f:.6g}" for f in report["natural_frequencies"])
         lines += [
             "",
-            table(report["twist"], columns),
-            f"twist in rad, torque in N*m; natural frequencies {natural} rad/s",
+            table(report["twist"], columns, dict.fromkeys(columns[1:4], "rad")),
+            f"natural frequencies {natural} rad/s",
         ]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
-        lines += ["", table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"])]
+        lines += [
+            "",
+            table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"], _UNITS),
+        ]
     if report["findings"]:
         lines += ["", *(f"- {line}" for line in report["findings"])]
     return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
+
+
+_UNITS = {"c1": "N*m*s/rad", "held_s": "s", "speed_mean_end": "rad/s", "twist_peak": "rad", "torque_peak": "N*m"}
+
+
+def _figure(key: str, value: Any) -> str:
+    return ratio_text(value) if key in ("energy_residual", "tolerance_difference") else _number(value)
 
 
 def _number(value: Any) -> str:

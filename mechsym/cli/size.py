@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table
 
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
 
@@ -42,8 +42,13 @@ def _text(found: Any) -> str:
     sizes = [row for row in found.rows if row["limit"] is None]
     checks = [row for row in found.rows if row["limit"] is not None]
     if not checks:
-        return "\n".join(["Loads", table(sizes, ["component", "quantity", "value", "unit", "note"])])
-    marked = [row | {"": "" if row["holds"] else "BELOW"} for row in checks]
+        return "\n".join(
+            ["Loads", table(in_rows(sizes, ("value",)), ["component", "quantity", "value", "unit", "note"])]
+        )
+    # a margin against nought has no factor
+    plain = {"safety_factor": None, "wanted": None}
+    marked = [row | {"": "" if row["holds"] else "BELOW"} | (plain if row["limit"] == 0 else {}) for row in checks]
+    sizes, marked = in_rows(sizes, ("value",)), in_rows(marked, ("value", "limit"))
     lines = [
         "Sizes and figures",
         table(sizes, ["component", "quantity", "value", "unit", "note"]),

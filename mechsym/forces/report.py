@@ -4,7 +4,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mechsym.files import to_json, write_csv, write_text
+from mechsym.files import to_json, write_quantities, write_text
 from mechsym.forces import plots as plots_forces
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import quantities
@@ -26,12 +26,12 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, sour
     turning = plots_mechanism.animation(drive.name, drive.parameters, about)
     files = [
         write_text(folder / "report.html", html(numbers, figures, about, source)),
-        write_csv(folder / "forces.csv", found.columns),
+        write_quantities(folder / "forces.csv", found.columns),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
         write_text(folder / "mechanism.html", turning),
     ]
     if found.comparison is not None:
-        files.append(write_csv(folder / "comparison.csv", _table(found.comparison)))
+        files.append(write_quantities(folder / "comparison.csv", _table(found.comparison)))
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.files import to_json, write_csv, write_text
+from mechsym.files import to_json, write_quantities, write_text
 from mechsym.hinge import plots, plots_loads
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
@@ -35,9 +35,9 @@ def write(design: Design, folder: Path) -> list[Path]:
     page = hasattr(design.origin.sections["parameters"], "r1")
     files = [write_text(folder / "report.html", html(design, numbers, figures))] if page else []
     files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
-    files.append(write_csv(folder / "hinge.csv", hinge_columns(design)))
+    files.append(write_quantities(folder / "hinge.csv", hinge_columns(design)))
     if design.guide.rho is not None:
-        files.append(write_csv(folder / "guide.csv", guide_columns(design, guide_turn(design, 3601))))
+        files.append(write_quantities(folder / "guide.csv", guide_columns(design, guide_turn(design, 3601))))
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.files import write_csv, write_text
+from mechsym.files import write_quantities, write_text
 from mechsym.jobs import own, own_gas
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import Mechanism, listing
@@ -129,7 +129,11 @@ def write(found: OwnTurn, case: Case, folder: Path) -> list[Path]:
     from mechsym.mechanisms import plots
     from mechsym.style import svg
 
-    files = [write_csv(folder / "forces.csv", {"phi": found.phi, **found.columns})]
+    told = listing(case.mechanism)
+    # a joint reaction is a force, or a moment where its name says so
+    joints = {name: "N*m" if name.startswith("M_") else "N" for name in told["reactions"]}
+    units = {"phi": "rad", "driving_torque": "N*m"} | joints | dict(told["outputs"])
+    files = [write_quantities(folder / "forces.csv", {"phi": found.phi, **found.columns}, units)]
     shapes = own_drawing.drawn(found.mechanism, listing(case.mechanism))
     if shapes is not None:
         files.append(write_text(folder / "mechanism.svg", svg(plots.figure_of(shapes, np.pi / 3))))

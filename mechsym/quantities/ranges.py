@@ -18,7 +18,7 @@ from mechsym.quantities.units import parse
 
 MOST = 1_000_000  # values of a range
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-_ONE = rf"\s*{_NUMBER}\s*([A-Za-z%][^:,]*?)?\s*"
+_ONE = rf"\s*{_NUMBER}\s*([A-Za-z%µμ°][^:,]*?)?\s*"
 _EVEN = re.compile(rf"{_ONE}\.\.{_ONE}(?::\s*(\d{{1,18}})\s*)?")
 _STEPS = re.compile(rf"{_ONE}:{_ONE}:{_ONE}")
 _NORMAL = re.compile(rf"\s*{_NUMBER}\s*\+-{_ONE}")

@@ -28,7 +28,16 @@ _BASE: dict[str, tuple[float, tuple[int, ...]]] = {
     "J": (1.0, (1, 2, -2, 0, 0)), "kJ": (1e3, (1, 2, -2, 0, 0)), "MJ": (1e6, (1, 2, -2, 0, 0)),
     "W": (1.0, (1, 2, -3, 0, 0)), "kW": (1e3, (1, 2, -3, 0, 0)), "MW": (1e6, (1, 2, -3, 0, 0)),
     "%": (1e-2, (0, 0, 0, 0, 0)),
+    "inch": (0.0254, (0, 1, 0, 0, 0)), "ft": (0.3048, (0, 1, 0, 0, 0)), "lb": (0.45359237, (1, 0, 0, 0, 0)),
+    "lbf": (4.4482216152605, (1, 1, -2, 0, 0)), "kgf": (9.80665, (1, 1, -2, 0, 0)),
+    "psi": (6894.757293168361, (1, -1, -2, 0, 0)), "hp": (745.6998715822702, (1, 2, -3, 0, 0)),
+    "PS": (735.49875, (1, 2, -3, 0, 0)),
 }  # fmt: skip
+# as people type them
+_SIGNS = str.maketrans({"µ": "u", "μ": "u", "·": "*", "⋅": "*", "×": "*", "°": "deg", "²": "^2", "³": "^3", "⁴": "^4",
+                        "¹": "1", "⁻": "^-"})  # fmt: skip
+_CELSIUS, _ZERO_CELSIUS = ("degC", "Celsius"), 273.15
+_GAUGE = ("barg", "bar(g)", "psig", "atu", "atü")
 RPM = _BASE["rpm"][0]  #: One revolution a minute [rad/s]
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _FACTOR = re.compile(r"([A-Za-z%]+)(?:\^?(-?\d))?$")
@@ -45,6 +54,7 @@ def units() -> list[str]:
 def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     factor, dims = 1.0, [0] * 5
     sign = 1
+    text = text.translate(_SIGNS).replace("^-^", "^-").replace("^-1", "^-1")
     known = f"{', '.join(units())} and their products like kg*m^2"
     unknown = BadInput(f"unit {shown(text)} is not known; units are {known}")
     for part in re.split(r"([*/ ])", text.strip().replace("**", "^")):
@@ -64,6 +74,28 @@ def _unit(text: str) -> tuple[float, tuple[int, ...]]:
     if sign < 0:
         raise unknown
     return factor, tuple(dims)
+
+
+def scale(unit: str) -> float:
+    """How many SI units one of a unit is [-].
+
+    Examples
+    --------
+    >>> scale("bar")
+    100000.0
+    """
+    return _unit(unit)[0]
+
+
+def exponents(unit: str) -> tuple[int, ...]:
+    """Exponents of kg, m, s, K and rad in a unit.
+
+    Examples
+    --------
+    >>> exponents("rpm")
+    (0, 0, -1, 0, 1)
+    """
+    return _unit(unit)[1]
 
 
 def dimension(unit: str) -> tuple[int, ...]:
@@ -124,7 +156,9 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
             example = "1.5" if unit == "-" else f'1.5 or "1.5 {unit}"'
             raise BadInput(f"{key} = {shown(value)} is not {wanted}; write for example {example}")
         number = float(match[1])
-        if match[2]:
+        if match[2].translate(_SIGNS).replace(" ", "") in _CELSIUS:
+            number = _kelvin(value, number, unit, key)
+        elif match[2]:
             number *= _scale(value, match[2], unit, key)
     else:
         # a whole number may be too large for a float
@@ -135,7 +169,18 @@ def parse(value: Any, unit: str, key: str = "value") -> float:
     return number
 
 
+def _kelvin(value: str, number: float, unit: str, key: str) -> float:
+    if unit != "K":
+        raise BadInput(f"{key} = {shown(value)}: degC is for temperatures only, and not in products; give it in {unit}")
+    return number + _ZERO_CELSIUS
+
+
 def _scale(value: str, text: str, unit: str, key: str) -> float:
+    if text.replace(" ", "") in _GAUGE:
+        raise BadInput(
+            f"{key} = {shown(value)}: a gauge pressure; give the absolute pressure, 1.01325 bar or 14.696 psi more, "
+            "or plain bar or psi where the key asks for an excess pressure"
+        )
     try:
         factor, dims = _unit(text)
     except BadInput as error:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_csv, write_with
+from mechsym.files import write_quantities, write_with
 from mechsym.quantities import record
 
 
@@ -58,8 +58,8 @@ class Result:
 
 
 def write_series(result: Result, path: Path) -> Path:
-    """Write the time series as CSV; the first column is t, all SI."""
-    return write_csv(path, {"t": result.t, **result.columns})
+    """Write the time series as CSV; the first column is t, units in the headings."""
+    return write_quantities(path, {"t": result.t, **result.columns}, {"t": "s", **result.units})
 
 
 def write_netcdf(result: Result, path: Path) -> Path:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_csv, write_with
+from mechsym.files import write_quantities, write_with
 from mechsym.sweep.outcomes import WORDS, Gap, asked
 from mechsym.sweep.run import Sweep
 from mechsym.sweep.units import unit_of
@@ -119,7 +119,7 @@ def write_table(result: Sweep, folder: Path) -> Path:
     reasons = failures(result)
     table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()}
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
-    return write_csv(folder / "sweep.csv", table)
+    return write_quantities(folder / "sweep.csv", table, {name: unit_of(name) for name in table if "[" not in name})
 
 
 def write_netcdf(result: Sweep, folder: Path) -> Path:

@@ -29,7 +29,11 @@ def test_start_up_keys_and_files(tmp_path):
     assert found["t_end"] == 3.0 and found["event"] is None and found["status"] == "converged"
     assert abs(found["energy_residual"]) < 1e-8
     assert found["speed_min"] <= found["speed_mean"] <= found["speed_max"]
-    assert (tmp_path / "series.csv").read_text().startswith("t,phi0,phi2,phi0d,phi2d,work_drive")
+    assert (
+        (tmp_path / "series.csv")
+        .read_text()
+        .startswith("t [s],phi0 [rad],phi2 [rad],phi0d [rad/s],phi2d [rad/s],work_drive [J]")
+    )
     assert any("natural frequency 190.281 rad/s bare" in line for line in found["findings"])
     assert found["files"][0].endswith("series.csv")
 

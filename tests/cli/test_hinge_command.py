@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tables import read_table
 
 from mechsym import cases
 from mechsym.cli import main
@@ -168,9 +169,10 @@ def test_other_speed_is_of_the_same_engine(run):
 
 def test_files(written):
     assert {"report.html", "summary.json", "hinge.csv", "guide.csv", "torque.svg", "track.svg"} <= written.keys()
-    table = np.genfromtxt(written["hinge.csv"], delimiter=",", names=True)
-    assert len(table) == 721 and table["phi"][-1] == pytest.approx(2 * math.pi)
-    guide = np.genfromtxt(written["guide.csv"], delimiter=",", names=True)
+    table, units = read_table(written["hinge.csv"])
+    assert all(units.values()) and len(table["phi"]) == 721 and table["phi"][-1] == pytest.approx(2 * math.pi)
+    guide, units = read_table(written["guide.csv"])
+    assert all(units.values()) and units["rho"] == "m"
     assert guide["rho"][0] == pytest.approx(guide["rho"][-1], rel=1e-12)
     assert_complete(strict_json(written["summary.json"].read_text()))
 

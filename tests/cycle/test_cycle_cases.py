@@ -150,7 +150,7 @@ def test_text_names_units_gaps_and_what_is_left_out():
     def text(*arguments):
         return CliRunner().invoke(cycle, arguments, catch_exceptions=False).output
 
-    assert "cycle.ignition [rad]" in text("nunes-slider-crank", "--over", "ignition=-0.3:-0.1:0.1")
+    assert "cycle.ignition [deg]" in text("nunes-slider-crank", "--over", "ignition=-0.3:-0.1:0.1")
     assert "20 of 800 points shown" in text("nunes-slider-crank", "--speeds", "10:8000:10")
     assert "nan" not in text("zotov-89")  # an algebraic cycle knows no fuel
 

@@ -1,11 +1,11 @@
 """`mechsym forces` from end to end: keys, files, exit status."""
 
-import csv
 import json
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from tables import read_table
 
 from mechsym import cases
 from mechsym.cli import mechsym
@@ -26,11 +26,11 @@ def test_chain_and_pictures_are_written(name, tmp_path):
     assert result.exit_code == 0
     found = json.loads(result.output)
     assert found["power_residual"] < 1e-10
-    with open(tmp_path / "forces.csv") as file:
-        rows = list(csv.DictReader(file))
-    for key in ("torque", "crank_pin_load"):
-        assert max(float(r[key]) for r in rows) == pytest.approx(found["max"][key], rel=1e-10)
-        assert min(float(r[key]) for r in rows) == pytest.approx(found["min"][key], rel=1e-10)
+    columns, units = read_table(tmp_path / "forces.csv")
+    for key, unit in (("torque", "N*m"), ("crank_pin_load", "N")):
+        assert units[key] == unit
+        assert columns[key].max() == pytest.approx(found["max"][key], rel=1e-10)
+        assert columns[key].min() == pytest.approx(found["min"][key], rel=1e-10)
     for picture in ("forces", "polar", "orders", "mechanism", "friction"):
         assert (tmp_path / f"{picture}.svg").read_text().startswith("<svg")
     for file in ("mechanism.html", "report.html"):

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tables import read_table
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 
@@ -63,7 +64,8 @@ def test_a_scotch_yoke_goes_through_the_commands(folder):
     forces = mechsym("forces", "scotch-yoke.toml", "--out", "forces")
     assert forces["power_residual"] < 1e-12
     assert {"R_x_O", "R_y_O", "R_n_S", "R_n_G", "M_G", "driving_torque", "F", "x"} <= set(forces["max"])
-    table = np.genfromtxt(folder / "forces" / "forces.csv", delimiter=",", names=True)
+    table, units = read_table(folder / "forces" / "forces.csv")
+    assert units["R_n_S"] == "N" and units["M_G"] == "N*m" and units["x"] == "m"
     omega = 89 * np.pi / 30
     acting = table["F"] - 460 * omega**2 * 0.5 * np.cos(table["phi"])  # gas less what the yoke's mass takes
     np.testing.assert_allclose(table["R_n_S"], -acting, rtol=1e-9, atol=1e-6)

@@ -138,7 +138,7 @@ def test_command(tmp_path):
     found = json.loads(result.stdout)
     assert found["status"] == "done" and len(found["cycles"]) == 2
     assert found.keys() >= {"speed_mean_rpm", "speed_ripple", "energy_residual", "cycles"}
-    assert (tmp_path / "loop.csv").read_text().startswith("t,theta,thetad,p_1")
+    assert (tmp_path / "loop.csv").read_text().startswith("t [s],theta [rad],thetad [rad/s],p_1 [Pa]")
 
 
 @pytest.mark.parametrize("name", ["nunes-hypocycloid", pytest.param("balandin", marks=pytest.mark.slow)])

@@ -300,7 +300,9 @@ def test_model_without_energies_has_no_residual():
 def test_files(tmp_path):
     result = simulate(stepped(), Settings(check="none"))
     lines = write_series(result, tmp_path / "series.csv").read_text().splitlines()
-    assert lines[0] == "t,phi,phid,work_drive,dissipation,kinetic_energy,potential_energy"
+    assert lines[0] == (
+        "t [s],phi [rad],phid [rad/s],work_drive [J],dissipation [J],kinetic_energy [J],potential_energy [J]"
+    )
     assert len(lines) == len(result.t) + 1
     xr = pytest.importorskip("xarray")
     pytest.importorskip("h5netcdf")

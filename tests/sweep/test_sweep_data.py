@@ -137,9 +137,9 @@ def test_csv_has_a_line_for_each_point(found, tmp_path):
     with write_table(found, tmp_path).open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [(r["c1 [N*m*s/rad]"], r["m0 [kg]"]) for r in rows] == [(c, m) for c in "012" for m in ("-1", "1.1")]
-    assert [r["speed_mean"] == "" for r in rows] == [True, False] * 3
-    assert all((r["speed_mean"] == "") == ("m0 = -1" in r["failure"]) for r in rows)
-    assert float(rows[1]["speed_mean"]) == pytest.approx(columns(found)["speed_mean"][1], rel=1e-11)
+    assert [r["speed_mean [rad/s]"] == "" for r in rows] == [True, False] * 3
+    assert all((r["speed_mean [rad/s]"] == "") == ("m0 = -1" in r["failure"]) for r in rows)
+    assert float(rows[1]["speed_mean [rad/s]"]) == pytest.approx(columns(found)["speed_mean"][1], rel=1e-11)
 
 
 SPEEDS, ANGLES = "speed_rpm=2000..8000:5", "cycle.ignition={}..-5 deg:6"
