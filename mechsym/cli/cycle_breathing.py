@@ -48,14 +48,14 @@ def _write(out: Path, run: Any, found: dict[str, Any]) -> list[Path]:
     from mechsym.cycle.breathing.engine import curves
     from mechsym.cycle.plots import performance_picture
     from mechsym.cycle.plots_breathing import breathing_picture
-    from mechsym.files import write_csv
+    from mechsym.files import write_quantities
 
     one = curves(run)
     flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder")}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()}
     files = [
-        write_csv(out / "performance.csv", flat),
-        write_csv(out / "cycle.csv", one),
+        write_quantities(out / "performance.csv", flat),
+        write_quantities(out / "cycle.csv", one),
         breathing_picture(out / "cycle.svg", one, run.engine.breathing),
     ]
     if len(found["speed_rpm"]) > 1:

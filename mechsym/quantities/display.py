@@ -101,13 +101,6 @@ def shown_in(values: Any, unit: str, asked: bool = False) -> tuple[Any, str]:
     ----------
     values : float or ndarray
         In SI [unit]
-
-    Returns
-    -------
-    values : same kind as `values`
-        In the unit that comes with them
-    unit : str
-        As a heading shows it
     """
     size = _largest(values)
     wanted = unit_for(unit, size, asked)
