@@ -13,9 +13,10 @@ from mechsym.cli.common import emit, json_option, out_option, progress
 @click.argument("names", nargs=-1)
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
 @click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
+@click.option("--latex", is_flag=True, help="Print the equations as LaTeX and write nothing.")
 @out_option
 @json_option
-def derive(names: tuple[str, ...], check: bool, show: bool, out: Path | None, as_json: bool) -> None:
+def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Path | None, as_json: bool) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
 
     The code of FILE.py or FILE.py:NAME goes to the cache by its content, with --out to a folder.
@@ -23,9 +24,13 @@ def derive(names: tuple[str, ...], check: bool, show: bool, out: Path | None, as
     \b
     Examples: mechsym derive crosshead
               mechsym derive ./scotch.py --out derived
+              mechsym derive crosshead --latex
     """
     from mechsym.mechanisms import own
 
+    if latex:
+        _latex(names, as_json)
+        return
     files = [name for name in names if own.is_file(name)]
     found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": []}
     if not files or len(files) < len(names):
@@ -36,6 +41,15 @@ def derive(names: tuple[str, ...], check: bool, show: bool, out: Path | None, as
     emit(report, as_json, lambda: _text(found, check, show))
     if found["differs"]:
         sys.exit(1)
+
+
+def _latex(names: tuple[str, ...], as_json: bool) -> None:
+    from mechsym.derive import build
+    from mechsym.mechanisms.equations import equations
+
+    found = [equations(name) for name in names or tuple(build.scripts())]
+    rows = {one.name: one.rows for one in found}
+    emit({"latex": rows}, as_json, lambda: "\n\n".join(f"% {one.name}\n{one.latex}" for one in found))
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> dict[str, Any]:

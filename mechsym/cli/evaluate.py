@@ -12,18 +12,25 @@ from mechsym.errors import BadInput
 @click.command("eval", short_help="Evaluate a mechanism at one state.")
 @click.argument("name")
 @click.option("--case", "case_name", help="Case that gives the parameters; without it set them all.")
+@click.option("--latex", is_flag=True, help="Print the equations as LaTeX instead of a state.")
 @set_option
 @json_option
-def evaluate(name: str, case_name: str | None, overrides: tuple[str, ...], as_json: bool) -> None:
+def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...], as_json: bool) -> None:
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
     What is not set is 0. mass_matrix * qdd + bias = generalized_force.
 
     \b
-    Example: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
+    Examples: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
+              mechsym eval crosshead --latex
     """
     from mechsym.mechanisms.state import state
 
+    if latex:
+        from mechsym.mechanisms.equations import equations
+
+        emit({"latex": equations(name).rows}, as_json, lambda: equations(name).latex)
+        return
     mechanism, values = _read(name, case_name, pairs(overrides))
     found = state(mechanism, values)
     emit(found, as_json, lambda: "\n".join(_lines(found)))

@@ -1,0 +1,54 @@
+"""The equations of a mechanism as papers write them, from what its derivation has stored."""
+
+import re
+
+from mechsym.mechanisms.record import listing
+from mechsym.quantities import record
+
+_DERIVED = {"crank_train": "crank_throw"}  # one throw is derived and put together
+_WORD = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}")
+
+
+@record
+class MechanismEquations:
+    """Equations of one mechanism; a notebook shows them set."""
+
+    name: str
+    rows: tuple[dict[str, str], ...]  #: Keys title and latex, in the order of the derivation
+
+    @property
+    def latex(self) -> str:
+        """All equations in one `align*`, with the title of each group before it."""
+        lines, title = [], ""
+        for row in self.rows:
+            if row["title"] != title:
+                title = row["title"]
+                lines.append(rf"  \text{{{title}:}} \\")
+            lines.append("  " + row["latex"].replace("=", "&=", 1) + r" \\")
+        return "\n".join([r"\begin{align*}", *lines, r"\end{align*}"])
+
+    def _repr_latex_(self) -> str:
+        return self.latex
+
+
+def equations(name: str) -> MechanismEquations:
+    """Equations of a mechanism: kinematics, motion, energies.
+
+    Parameters
+    ----------
+    name : str
+        Name of a mechanism, or a file with one
+
+    Examples
+    --------
+    >>> equations("crosshead").rows[0]["latex"]
+    'l = l_{1} + l_{2}'
+    """
+    found = listing(_DERIVED.get(name, name))["equations"]
+    rows = tuple({"title": row["title"], "latex": _upright(row["latex"])} for row in found)
+    return MechanismEquations(name=name, rows=rows)
+
+
+def _upright(latex: str) -> str:
+    """Names of several letters are words and stand upright; a single letter is a quantity."""
+    return _WORD.sub(lambda word: rf"\mathrm{{{word[0]}}}", latex)
