@@ -60,7 +60,7 @@ fuzz: | $(READY)
 
 # small mistakes in a module: make mutate MODULE=mechsym.hinge.springs [TESTS=tests/hinge/test_springs.py]
 mutate: | $(READY)
-	$(BIN)/python -m fuzz.mutants $(MODULE) $(if $(TESTS),--tests $(TESTS))
+	$(BIN)/python -m fuzz.mutants $(MODULE) $(if $(TESTS),--tests "$(TESTS)")
 
 lint: | $(READY)
 	$(BIN)/ruff check .

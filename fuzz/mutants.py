@@ -1,7 +1,7 @@
 """python -m fuzz.mutants MODULE [COUNT [SEED]]: how many small mistakes in a module its room's tests notice.
 
 A mutant is a copy of the tree with one change: a sign, an operator, a comparison, a constant, a condition, a result.
-The tests are those of the folder in tests/ that has the room's name; others with --tests PATH.
+The tests are those of the folder in tests/ that has the room's name; others with --tests "PATH PATH..".
 """
 
 import ast
@@ -80,12 +80,19 @@ def main(arguments: list[str]) -> int:
         del arguments[at : at + 2]
     name, count, seed = (*arguments, *("", "30", "1")[len(arguments) :])[:3]
     file = ROOT / f"{name.replace('.', '/')}.py"
-    tests = tests or f"tests/{name.split('.')[1] if name.count('.') else ''}"
-    if not file.is_file() or not (ROOT / tests).exists():
+    tests = tests or _of(name)
+    if not file.is_file() or not all((ROOT / path).exists() for path in tests.split()):
         print(f"{name}: no such module, or no {tests}; write for example mechsym.hinge.springs", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as folder:
         return _run(file.relative_to(ROOT), tests, int(count), random.Random(seed), Path(folder) / "tree")
+
+
+def _of(name: str) -> str:
+    """The tests of a module: its own file first, where the most mistakes are noticed soonest, then its room."""
+    room = f"tests/{name.split('.')[1] if name.count('.') else ''}"
+    own = f"{room}/test_{name.rpartition('.')[2]}.py"
+    return f"{own} {room}" if (ROOT / own).is_file() else room
 
 
 def _run(file: Path, tests: str, count: int, rng: random.Random, copy_of: Path) -> int:
@@ -115,7 +122,20 @@ def _run(file: Path, tests: str, count: int, rng: random.Random, copy_of: Path) 
 def _passes(folder: Path, tests: str) -> bool:
     # the copy stands before the installed package
     surroundings = os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-m", "not slow", "-p", "no:cacheprovider", tests]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-x",
+        "-q",
+        "-n",
+        "0",
+        "-m",
+        "not slow",
+        "-p",
+        "no:cacheprovider",
+        *tests.split(),
+    ]
     try:
         done = subprocess.run(command, cwd=folder, env=surroundings, capture_output=True, timeout=LIMIT, check=False)
     except subprocess.TimeoutExpired:

@@ -224,11 +224,16 @@ def air_absolute(spring: AirAbsolute) -> SpringLaw:
     def closing(U: Any) -> Any:
         U = np.asarray(U, dtype=float)
         s = _inverse_power_integral((U + A * pa * H) / full, n - 1)
+        last, done = math.inf, np.zeros(np.shape(U), bool)
         for _ in range(60):
             step = (energy_of(s) - U) / (full * np.exp((n - 1) * s) - A * pa * H * np.exp(-s))
             s = s - step
-            if np.all(np.abs(step) <= 4e-16 * (1 + np.abs(s))):
+            size = np.abs(step)
+            # the steps fall until only rounding is left, which near z_low is more than the last digit of s
+            done = done | (size <= 4e-16 * (1 + np.abs(s))) | (size >= last)
+            if done.all():
                 break
+            last = size
         return -H * np.expm1(-s)
 
     return SpringLaw(

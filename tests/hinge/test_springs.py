@@ -1,5 +1,7 @@
 """Spring laws: the printed force, energy as the integral of force, the inverse, limits."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from mechsym.errors import BadInput
+from mechsym.hinge import springs
 from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
 
 GAUGE = AirGauge(A=0.031, H=1.0, p0=5e6, n=1.25)
@@ -52,6 +55,64 @@ def test_bounds_of_energy_belong_to_bounds_of_closing(spring):
         assert float(functions.energy(functions.z_low)) == pytest.approx(functions.energy_low, rel=1e-12)
     if np.isfinite(functions.energy_high):
         assert float(functions.energy(functions.z_high)) == pytest.approx(functions.energy_high)
+
+
+def test_energy_of_the_paper_s_spring_has_the_lower_bound_it_says():
+    # (H/(H - z))^(n - 1) falls to 0 as the gas column grows without end
+    functions = law(GAUGE)
+    assert functions.energy_low == pytest.approx(-0.031 * 5e6 * 1.0 / 0.25)
+    assert float(functions.energy(-1e44)) == pytest.approx(functions.energy_low, rel=1e-9)
+    assert law(AirGauge(A=0.01, H=0.4, p0=3e6, n=1.0)).energy_low == -np.inf
+    assert functions.z_low == -np.inf and functions.z_high == 1.0 and functions.energy_high == np.inf
+
+
+def test_a_real_gas_spring_pulls_below_its_lower_bound():
+    # at z_low the gas has the pressure of the air outside: p0 + pa times (H/(H - z))^n is pa
+    functions = law(ABSOLUTE)
+    assert functions.z_low == pytest.approx(1 - (5101325 / 101325) ** 0.8)
+    work, _ = quad(functions.force, 0, functions.z_low, epsrel=1e-12)
+    assert functions.energy_low == pytest.approx(work, rel=1e-9) and functions.energy_low < 0
+    assert functions.z_high == 1.0 and functions.energy_high == np.inf
+
+
+def test_a_coil_pulls_below_its_preload():
+    functions = law(COIL)
+    assert (functions.z_low, functions.z_high) == (-0.1, 0.5)
+    assert functions.energy_low == pytest.approx(-5e3) and functions.energy_high == pytest.approx(1.75e5)
+
+
+@pytest.mark.parametrize("spring", [ABSOLUTE, AirAbsolute(A=1e-3, H=0.1, p0=2e3, n=1.4)], ids=repr)
+def test_newton_falls_onto_the_closing_in_a_few_steps(monkeypatch, spring):
+    # a wrong slope would still arrive, slowly: two of the calls belong to a step
+    functions, calls = law(spring), []
+    monkeypatch.setattr(springs.np, "abs", lambda x: calls.append(x) or np.absolute(x))
+    functions.closing(functions.energy(np.linspace(0.9 * functions.z_low, 0.95 * spring.H, 41)))
+    assert 1 < len(calls) <= 28, len(calls)
+
+
+BOUNDS = [
+    (AirGauge, {"A": (1e-8, 100), "H": (1e-4, 100), "p0": (1, 1e12), "n": (1, 2)}),
+    (AirAbsolute, {"A": (1e-8, 100), "H": (1e-4, 100), "p0": (1, 1e12), "n": (1, 2), "pa": (1e-300, None)}),
+    (Coil, {"k": (1e-300, None), "F0": (0, None), "H": (1e-4, 100)}),
+]
+GOOD = {AirGauge: GAUGE, AirAbsolute: ABSOLUTE, Coil: COIL}
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "low", "high"), [(kind, name, *ends) for kind, all_of in BOUNDS for name, ends in all_of.items()]
+)
+def test_ranges_of_springs(kind, name, low, high):
+    assert getattr(replace(GOOD[kind], **{name: low}), name) == low
+    with pytest.raises(BadInput, match=name):
+        replace(GOOD[kind], **{name: 0.95 * low if low > 1e-300 else -1e-3})
+    if high is not None:
+        assert getattr(replace(GOOD[kind], **{name: high}), name) == high
+        with pytest.raises(BadInput, match=name):
+            replace(GOOD[kind], **{name: 1.05 * high})
+
+
+def test_the_air_outside_is_the_standard_atmosphere():
+    assert ABSOLUTE.pa == 101325.0
 
 
 def test_index_one_is_the_limit_of_indices_above_one():
