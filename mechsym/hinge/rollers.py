@@ -161,7 +161,7 @@ def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) ->
     Returns
     -------
     p_H : ndarray, shape (n,)
-        Pressure in the middle of the contact; infinite where the profile is undercut [Pa]
+        Pressure in the middle of the contact; infinite where the profile is undercut, 0 where nothing presses [Pa]
 
     Notes
     -----
@@ -171,7 +171,7 @@ def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) ->
     modulus = rollers.E / (2 * (1 - rollers.nu**2))
     relative_radius = rollers.radius * np.maximum(1 + rollers.radius * kappa, 0.0)
     with np.errstate(divide="ignore"):
-        return np.sqrt(N * modulus / (math.pi * rollers.width * relative_radius))
+        return np.sqrt(np.maximum(N, 0.0) * modulus / (math.pi * rollers.width * relative_radius))
 
 
 def tilting_couple(N: np.ndarray, plane_offset: float) -> np.ndarray:
