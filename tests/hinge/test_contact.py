@@ -163,6 +163,10 @@ def test_a_track_that_bends_inwards():
     radius = -((a - 0.4) ** 3) / (a**2 + 2 * 0.4**2 - 3 * a * 0.4)
     found = one("undercut", guide=inner)
     assert found.margin == pytest.approx((radius - 0.1 - 0.01) / radius, rel=1e-6) and found.kept is (radius >= 0.11)
+    assert f"inwards with a radius of {radius * 1e3:.4g} mm" in found.text
+    assert (
+        f"leaves the profile {(radius - 0.1) * 1e3:.4g} mm at a roller radius of 100 mm; at least 10 mm" in found.text
+    )
     near = one("undercut", guide=inner, rollers=replace(ROLLERS, radius=radius - 0.009))
     assert not near.kept and "(undercut)" not in near.text and "at least 10 mm" in near.text
     assert one("undercut", guide=inner, rollers=replace(ROLLERS, radius=radius - 0.0101)).kept

@@ -1,16 +1,58 @@
 """Materials and bearings as data: the built-in ones, and those of a user's file."""
 
+import math
+
 import pytest
 
 from mechsym.errors import BadInput
 from mechsym.sizing.parts.bearing_design import Choice, choices, mass, seat_diameter
-from mechsym.sizing.rules import bearing_data, materials
+from mechsym.sizing.rules import bearing_data, bearings, materials
 
 
 def test_the_sources_materials_are_there():
     found = materials.load()
     assert {"nitralloy-n", "ferrium-s53", "al-242-t571", "al-319-t6", "al-a390-t6", "maraging-350"} == set(found)
     assert found["al-242-t571"].hot_ultimate == 90e6 and found["al-242-t571"].hot_temperature == 533.15
+
+
+# tables 4.1 to 4.5 and chapter 6.1 of Nunes (2017), copied once more: ultimate, yield, shear, fatigue, hot [MPa],
+# allowed bending and contact [MPa], E [GPa], Poisson, density [g/cm3], conductivity [W/m/K]
+TABLES = {
+    "nitralloy-n": (1310, 1240, None, None, None, 454.7125, 1300, 200, 0.3, 6.675, None),
+    "ferrium-s53": (1985, 1565, 1250, None, None, None, None, 204, 0.3, 7.98, None),
+    "al-242-t571": (220, 207, None, 75, 90, None, None, 71, 0.33, 2.823, 134),
+    "al-319-t6": (250, 165, None, 75, None, None, None, 74, 0.33, 2.79, 109),
+    "al-a390-t6": (275, 275, None, 105, None, None, None, 81.2, 0.33, 2.73, 134),
+    "maraging-350": (2340, None, None, None, None, 702, 2340, 200, 0.3, 8.0, None),
+}
+FIELDS = ("ultimate", "yield_strength", "ultimate_shear", "fatigue", "hot_ultimate", "gear_bending", "gear_contact",
+          "youngs_modulus", "poisson", "density", "conductivity")  # fmt: skip
+UNITS = dict.fromkeys(FIELDS, 1e6) | {"youngs_modulus": 1e9, "poisson": 1.0, "density": 1e3, "conductivity": 1.0}
+
+
+@pytest.mark.parametrize("key", TABLES)
+def test_every_datum_of_a_material_is_the_table_s(key):
+    found = materials.load()[key]
+    for name, value in zip(FIELDS, TABLES[key], strict=True):
+        if value is None:
+            assert getattr(found, name) is None, name
+        else:
+            assert getattr(found, name) == pytest.approx(value * UNITS[name], rel=1e-12), name
+    assert set(materials.load()) == set(TABLES)
+
+
+@pytest.mark.parametrize("reliability", [0.90, 0.95, 0.96, 0.97, 0.98, 0.99])
+def test_life_factors_are_those_of_iso_281(reliability):
+    # ISO 281:2007, table 12: a Weibull distribution of slope 1.5 with a twentieth of the life that all bearings reach
+    a_1 = bearings.life_revolutions(10e3, 10e3, "ball", reliability) / 1e6
+    assert a_1 == round(0.95 * (math.log(1 / reliability) / math.log(1 / 0.9)) ** (2 / 3) + 0.05, 2)
+
+
+@pytest.mark.parametrize(("kind", "life", "rating"), [("ball", 3.0, 0.7), ("roller", 10 / 3, 7 / 9),
+                                                      ("drawn-cup", 10 / 3, 7 / 9)])  # fmt: skip
+def test_exponents_are_those_of_iso_281(kind, life, rating):
+    assert bearings.life_revolutions(20e3, 10e3, kind) == pytest.approx(1e6 * 2**life)
+    assert bearings.set_rating(1.0, 3, kind) == pytest.approx(3**rating)
 
 
 def test_a_users_material_is_added_and_may_replace(tmp_path):
