@@ -69,6 +69,7 @@ ENTRIES: dict[str, Any] = {
         {
             "air_gauge": "mechsym.hinge.springs:AirGauge",
             "air_absolute": "mechsym.hinge.springs:AirAbsolute",
+            "air_thermal": "mechsym.hinge.thermal:AirThermal",
             "coil": "mechsym.hinge.springs:Coil",
         },
     ),

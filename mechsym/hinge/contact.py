@@ -7,9 +7,8 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.hinge import rollers
-from mechsym.hinge.guide import Guide, closing, path
+from mechsym.hinge.guide import Guide, closing, path, spring_state
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import law
 from mechsym.quantities import record
 
 
@@ -83,9 +82,8 @@ def columns(contact: Contact) -> dict[str, np.ndarray]:
 
 def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, values: Sequence[np.ndarray]) -> Contact:
     rho, drho, d2rho = values
-    functions, chosen = law(guide.spring), guide.parameters
-    z = closing(guide, rho)
-    force = functions.force(z)
+    chosen, z = guide.parameters, closing(guide, rho)
+    force, pressure = spring_state(guide, theta, z)
     kappa = rollers.curvature(rho, drho, d2rho)
     inertia_force = rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio)
     # rollers that turn with the shaft are pressed outwards by their own mass too
@@ -99,7 +97,7 @@ def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, valu
         d2rho=d2rho,
         z=z,
         force=force,
-        pressure=None if functions.pressure is None else functions.pressure(z),
+        pressure=pressure,
         pressure_angle=rollers.pressure_angle(rho, drho),
         curvature=kappa,
         reaction_1=reaction,

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from mechsym.hinge.guide import Guide, crank_torque, torque_function
+from mechsym.hinge.guide import Guide, crank_torque, kept_torque, torque_function
+from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import settle
 from mechsym.machine.record import AngleForce, Machine
@@ -18,9 +19,11 @@ def fitted(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Machi
     guide : Guide, optional
         Guide that could be cut, with the spring that works in it; none leaves the machine without hinge
     """
-    load = settle(machine.load, wanted.load_torque, machine.omega)
     if guide is None:
-        return replace(machine, load=load)
+        return replace(machine, load=settle(machine.load, wanted.load_torque, machine.omega))
+    if isinstance(guide.spring, AirThermal):  # its gas runs at the speed of the machine, whatever the guide was cut for
+        guide = replace(guide, omega=machine.omega)
+    load = settle(machine.load, wanted.load_torque - kept_torque(guide), machine.omega)
     hinge = AngleForce(
         name="hinge",
         input="M_h",

@@ -16,9 +16,9 @@ Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `
 `mechsym.hinge.choices`.
 """
 
-import functools
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -27,13 +27,15 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
-from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
-from mechsym.hinge.torque import Hinge, exists
+from mechsym.hinge.law_path import LawSpring, can_be_given, law_path, takes_work, work_range
+from mechsym.hinge.law_path import status as law_status
+from mechsym.hinge.springs import law
+from mechsym.hinge.thermal import AirThermal, GasTurn, thermal_pressure
+from mechsym.hinge.thermal_guide import ThermalPath, gas_on, thermal_path, warmth_of
+from mechsym.hinge.torque import Hinge
 from mechsym.quantities import record
 
-Spring = AirGauge | AirAbsolute | Coil
-
-_FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
+Spring = LawSpring | AirThermal
 
 
 @record
@@ -85,10 +87,12 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
         raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
-    low, high = _work_range(wanted)
+    low, high = work_range(wanted)
+    if isinstance(spring, AirThermal):
+        return _cut_thermal(wanted, spring, parameters, high - low)
     at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
-    status, reason = _status(wanted, spring, parameters, at_start - high, at_start - low)
-    rho, closure = _path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
+    status, reason = law_status(wanted, spring, parameters, at_start - high, at_start - low)
+    rho, closure = law_path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
     return Guide(
         parameters=parameters,
         spring=spring,
@@ -101,6 +105,18 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
         rho=rho,
         closure=closure,
     )
+
+
+def _cut_thermal(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParameters, swing: float) -> Guide:
+    if can_be_given(wanted):
+        found = thermal_path(wanted, spring, parameters)
+    else:
+        found = ThermalPath(rho=None, status="takes_work", reason=takes_work(wanted), kept=0.0, closure=0.0)
+    return Guide(
+        parameters=parameters, spring=spring, omega=wanted.omega, rollers=ROLLERS[parameters.arrangement],
+        status=found.status, reason=found.reason, energy_min=0.0, energy_max=swing, rho=found.rho,
+        closure=found.closure,
+    )  # fmt: skip
 
 
 def refit(guide: Guide, spring: Spring) -> Guide:
@@ -144,6 +160,42 @@ def closing(guide: Guide, rho: np.ndarray) -> np.ndarray:
     return guide.rollers * (guide.parameters.rho0 - rho)
 
 
+def spring_state(guide: Guide, theta: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    """Force of the spring on each roller [N] and excess pressure in it [Pa]; a gas that exchanges heat runs steadily.
+
+    Parameters
+    ----------
+    theta : ndarray, shape (n,)
+        Angle of the guide's shaft, which a spring with a law of its closing does not ask for [rad]
+    z : ndarray, shape (n,)
+        Closing [m]
+    """
+    spring = guide.spring
+    if not isinstance(spring, AirThermal):
+        functions = law(spring)
+        return functions.force(z), None if functions.pressure is None else functions.pressure(z)
+    pressure = thermal_pressure(z, spring.H, spring.p0, spring.pa, warmth(guide, spring)(theta))
+    return spring.A * pressure, pressure
+
+
+def gas_turn(guide: Guide, spring: AirThermal) -> GasTurn:
+    """Steady turn of a gas in the spring of a guide at its speed, at even angles of a period."""
+    return gas_on(spring, path(guide), partial(closing, guide), guide.omega * guide.parameters.shaft_ratio)
+
+
+def warmth(guide: Guide, spring: AirThermal) -> PPoly:
+    """Temperature of that gas by the wall's [-] over the angle of the guide's shaft."""
+    return warmth_of(spring, gas_turn(guide, spring), path(guide))
+
+
+def kept_torque(guide: Guide) -> float:
+    """Mean torque on the crank that a gas keeps as heat, 0 for springs that give all back [N*m]."""
+    if not isinstance(guide.spring, AirThermal) or guide.rho is None:
+        return 0.0
+    period = float(guide.rho.x[-1] - guide.rho.x[0])
+    return guide.parameters.shaft_ratio * gas_turn(guide, guide.spring).loss / period
+
+
 def crank_torque(guide: Guide, phi: np.ndarray) -> np.ndarray:
     r"""Torque of a guide on the crank by virtual work, with the spring that is in it.
 
@@ -165,7 +217,8 @@ def crank_torque(guide: Guide, phi: np.ndarray) -> np.ndarray:
     """
     rho, ratio = path(guide), guide.parameters.shaft_ratio
     theta = ratio * np.asarray(phi, dtype=float)
-    return ratio * guide.rollers * law(guide.spring).force(closing(guide, rho(theta))) * rho.derivative()(theta)
+    force, _ = spring_state(guide, theta, closing(guide, rho(theta)))
+    return ratio * guide.rollers * force * rho.derivative()(theta)
 
 
 def torque_function(guide: Guide) -> Callable[[float], float]:
@@ -176,74 +229,21 @@ def torque_function(guide: Guide) -> Callable[[float], float]:
     torque : callable
         Crank angle, any real number [rad], to torque on the crank [N*m]; about 1.5 microseconds
     """
-    point, force = periodic.scalar(path(guide)), law(guide.spring).force
+    point, force = periodic.scalar(path(guide)), _force_at(guide)
     c, rho0, ratio = guide.rollers, guide.parameters.rho0, guide.parameters.shaft_ratio
 
     def torque(phi: float) -> float:
         rho, slope = point(ratio * phi)
-        return ratio * c * force(c * (rho0 - rho)) * slope
+        return ratio * c * force(c * (rho0 - rho), ratio * phi) * slope
 
     return torque
 
 
-# the springs of a sweep share what they have to give
-@functools.lru_cache(maxsize=8)
-def _work_range(wanted: Hinge | Balance) -> tuple[float, float]:
-    """Smallest and largest work that the hinge takes [J]."""
-    low, _, high, _ = periodic.extremes(wanted.work)
-    return low, high
-
-
-@functools.lru_cache(maxsize=8)
-def _exists(wanted: Hinge | Balance) -> bool:
-    return exists(wanted.torque)
-
-
-def _status(
-    wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters, energy_min: float, energy_max: float
-) -> tuple[str, str]:
-    functions = law(spring)
-    if not _exists(wanted):
-        return "takes_work", f"the torque has a mean of {periodic.mean(wanted.torque):.6g} N*m; no spring gives that"
-    if energy_max >= functions.energy_high:
-        return "spring_bottoms", (
-            f"the spring would have to store {energy_max:.6g} J and holds {functions.energy_high:.6g} J at its full "
-            f"closing of {functions.z_high:.6g} m; make it stiffer or longer"
-        )
-    if energy_min <= functions.energy_low:
-        return "spring_pulls", (
-            f"the spring would have to relax to {energy_min:.6g} J, but its force vanishes at "
-            f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
-        )
-    z_max = float(functions.closing(energy_max))
-    if z_max >= _FULL * functions.z_high:
-        return "spring_bottoms", (
-            f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
-            "make it stiffer or longer"
-        )
-    rho_min = parameters.rho0 - z_max / ROLLERS[parameters.arrangement]
-    if rho_min <= 0:
-        return "crosses_axis", (
-            f"the path crosses the shaft axis: its smallest rho would be {rho_min * 1e3:.4g} mm; "
-            "enlarge rho0, stiffen the spring, or let two rollers share its closing"
-        )
-    return "cut", ""
-
-
-def _path(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters, at_start: float) -> tuple[PPoly, float]:
-    """Path over the guide's angle and the gap that its slope would leave after a period."""
-    functions, ratio = law(spring), parameters.shaft_ratio
-    rollers = ROLLERS[parameters.arrangement]
-
-    def z(theta: np.ndarray) -> np.ndarray:
-        return functions.closing(at_start - wanted.work(theta / ratio))
-
-    slope = periodic.fit(
-        lambda theta: wanted.torque(theta / ratio) / (ratio * rollers * functions.force(z(theta))),
-        wanted.torque.x * ratio,
-        wanted.period * ratio,
-    )
-    rho = periodic.antiderivative(slope)
-    edges = rho.x[:-1]
-    rho.c[-1] += np.mean(parameters.rho0 - z(edges) / rollers - rho(edges))
-    return rho, abs(periodic.mean(slope)) * float(slope.x[-1])
+def _force_at(guide: Guide) -> Callable[[float, float], float]:
+    """Force [N] by closing [m] and angle of the guide's shaft [rad]."""
+    spring = guide.spring
+    if not isinstance(spring, AirThermal):
+        force = law(spring).force
+        return lambda z, theta: force(z)
+    warm, A, H, p0, pa = periodic.scalar(warmth(guide, spring)), spring.A, spring.H, spring.p0, spring.pa
+    return lambda z, theta: A * thermal_pressure(z, H, p0, pa, warm(theta)[0])

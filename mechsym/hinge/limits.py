@@ -11,6 +11,7 @@ from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import Coil, law
+from mechsym.hinge.thermal import AirThermal
 from mechsym.quantities import quantity, record
 
 _CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
@@ -131,15 +132,14 @@ def highest(theta: np.ndarray, values: np.ndarray) -> float:
 def _numbers(guide: Guide, contact: Contact) -> dict[str, Any]:
     rho_min, _, rho_max, _ = periodic.extremes(path(guide))
     z_min, z_max = closing(guide, np.array([rho_max, rho_min])).tolist()
-    functions = law(guide.spring)
+    force_max, pressure_max = _largest(guide, contact, z_max)
     return {
         "rho_min": rho_min,
         "rho_max": rho_max,
         "z_min": z_min,
         "z_max": z_max,
-        # all laws rise with z
-        "spring_force_max": float(functions.force(z_max)),
-        "spring_pressure_max": None if functions.pressure is None else float(functions.pressure(z_max)),
+        "spring_force_max": force_max,
+        "spring_pressure_max": pressure_max,
         "pressure_angle_max": highest(contact.theta, np.abs(contact.pressure_angle)),
         "curvature_radius_min": 1 / highest(contact.theta, np.abs(contact.curvature)),
         "undercut_radius": undercut_radius(contact.curvature),
@@ -152,8 +152,20 @@ def _numbers(guide: Guide, contact: Contact) -> dict[str, Any]:
     }
 
 
+def _largest(guide: Guide, contact: Contact, z_max: float) -> tuple[float, float | None]:
+    """Largest force [N] and excess pressure [Pa] of the spring; with a law of the closing that of the largest one."""
+    if isinstance(guide.spring, AirThermal):
+        assert contact.pressure is not None
+        return highest(contact.theta, contact.force), highest(contact.theta, contact.pressure)
+    functions = law(guide.spring)
+    pressure = None if functions.pressure is None else float(functions.pressure(z_max))
+    return float(functions.force(z_max)), pressure
+
+
 def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> list[LimitCheck]:
-    z_min, force_min = numbers["z_min"], float(law(spring).force(numbers["z_min"]))
+    z_min = numbers["z_min"]
+    # the march of a gas that exchanges heat refuses a path on which it would pull
+    force_min = math.inf if isinstance(spring, AirThermal) else float(law(spring).force(z_min))
     longer = f"the spring is {-z_min * 1e3:.3g} mm longer than its free height; place the start"
     checks = [
         LimitCheck(
@@ -165,7 +177,7 @@ def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> l
         _at_most("closing", "closing z/H", numbers["z_max"] / spring.H, limits.closing_share, ""),
         LimitCheck(
             name="spring_force",
-            text=f"smallest spring force {force_min / 1e3:.4g} kN",
+            text=f"smallest spring force {force_min / 1e3:.4g} kN" if force_min < math.inf else "the spring pushes",
             kept=force_min > 0,
             margin=None if force_min > 0 else -1.0,
         ),

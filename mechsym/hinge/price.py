@@ -20,7 +20,7 @@ from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import AirAbsolute, AirGauge
+from mechsym.hinge.springs import AirAbsolute, Coil
 from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, TableLoad
@@ -64,7 +64,8 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
     ideal = _with_mass(reduced(fitted(machine, wanted, guide)), guide, contact, rollers)
     fill, ripple = 1.0, None
     if lost.total < wanted.load_torque:  # else the hinge takes more than the engine gives
-        fill, ripple = _best_fill(ideal, guide, contact, taken, given, lost.total, machine.omega)
+        already = heat if isinstance(guide.spring, AirThermal) else 0.0  # its own load is lowered by it
+        fill, ripple = _best_fill(ideal, guide, contact, taken, given, lost.total - already, machine.omega)
     return Price(
         losses=lost, assumed=given, speed_ripple=ripple, fill=fill,
         tau=None if gas is None else _time(guide, given), gas_index=None if gas is None else gas.n_effective,
@@ -95,9 +96,9 @@ def friction(
 def gas_turn(contact: Contact, guide: Guide, given: HingeLosses) -> GasTurn | None:
     """The gas of the spring with a wall that takes heat; None for a coil."""
     spring = guide.spring
-    if not isinstance(spring, AirAbsolute | AirGauge):
+    if isinstance(spring, Coil):
         return None
-    of = AirThermal(
+    of = spring if isinstance(spring, AirThermal) else AirThermal(
         A=spring.A, H=spring.H, p0=spring.p0, tau=_time(guide, given), gamma=given.gamma,
         wall_temperature=given.wall_temperature, pa=spring.pa if isinstance(spring, AirAbsolute) else 0.0,
     )  # fmt: skip
@@ -141,6 +142,8 @@ def _arm(machine: Machine, phi: np.ndarray) -> np.ndarray:
 
 def _time(guide: Guide, given: HingeLosses) -> float:
     """Time [s] of the gas to take the wall's temperature: as given, or such that the spring's index shows."""
+    if isinstance(guide.spring, AirThermal):
+        return guide.spring.tau
     if given.tau > 0:
         return given.tau
     n = min(max(guide.spring.n, 1 + 1e-6), given.gamma - 1e-6)  # type: ignore[union-attr]

@@ -13,6 +13,7 @@ import numpy as np
 
 from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path, refit
 from mechsym.hinge.springs import Coil, law
+from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
@@ -89,12 +90,15 @@ def affine(guide: Guide, hinge: Hinge) -> Affine:
     z = closing(guide, rho(ratio * np.append(phi, 0.0)))
     # two settings fix a straight line; the second is far enough from the first to lose no digits
     first = setting_of(guide.spring)
-    second = 2 * first if first > 0 else float(law(guide.spring).force(guide.spring.H))
+    second = 2 * first if first > 0 else float(law(guide.spring).force(guide.spring.H))  # type: ignore[arg-type]
     torques, works = [], []
     for spring in (guide.spring, with_setting(guide.spring, second)):
-        energy = law(spring).energy(z)
         torques.append(crank_torque(refit(guide, spring), phi))
-        works.append(energy[-1] - energy[:-1])
+        if isinstance(spring, AirThermal):
+            works.append(_work(torques[-1], hinge.period))
+        else:
+            energy = law(spring).energy(z)
+            works.append(energy[-1] - energy[:-1])
     torque_1, work_1 = ((values[1] - values[0]) / (second - first) for values in (torques, works))
     return Affine(
         omega=hinge.omega,
@@ -108,6 +112,12 @@ def affine(guide: Guide, hinge: Hinge) -> Affine:
         work_0=works[0] - first * work_1,
         work_1=work_1,
     )
+
+
+def _work(torque: np.ndarray, period: float) -> np.ndarray:
+    """Work of a torque at even angles [J], less the share of what the gas keeps: the load is lowered by that."""
+    swing = (torque - torque.mean()) * period / torque.size
+    return np.cumsum(swing) - (swing + swing[0]) / 2
 
 
 def missing_work(parts: Affine, setting: float) -> np.ndarray:

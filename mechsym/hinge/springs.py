@@ -6,7 +6,7 @@
 
 A law is data: `law` turns a parameter record into a record of functions, all of them of z alone. Three laws, by name:
 `air_gauge` (the paper's, which takes the excess pressure for the whole pressure), `air_absolute` (a real gas spring
-with the atmosphere outside) and `coil`.
+with the atmosphere outside) and `coil`. A fourth, `air_thermal`, has a temperature besides and stands in `thermal`.
 
 Source: Zotov et al. (2024), eq. (9).
 """

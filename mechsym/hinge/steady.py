@@ -14,6 +14,7 @@ from mechsym.hinge.guide import Guide, Spring, refit
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.hinge.springs import Coil
+from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import Trial, run
 from mechsym.machine.loads import ConstantLoad
@@ -31,6 +32,7 @@ from mechsym.simulate.steady import (
 )
 
 RIPPLE = 1 / 50
+_SENSITIVE = {Coil: (("F0", "N"), ("k", "N/m")), AirThermal: (("p0", "Pa"), ("tau", "s"))}
 
 
 @record
@@ -92,10 +94,10 @@ def sensitivities(machine: Machine, wanted: Hinge, guide: Guide) -> list[Sensiti
     Returns
     -------
     sensitivities : list of Sensitivity
-        p0 and n of an air spring, F0 and k of a coil
+        p0 and n of an air spring, p0 and tau where it exchanges heat, F0 and k of a coil
     """
     found = []
-    for name, unit in [("F0", "N"), ("k", "N/m")] if isinstance(guide.spring, Coil) else [("p0", "Pa"), ("n", "-")]:
+    for name, unit in _SENSITIVE.get(type(guide.spring), (("p0", "Pa"), ("n", "-"))):
         low, high = (
             with_guide(machine, wanted, refit(guide, _scaled(guide.spring, name, factor))) for factor in (0.99, 1.01)
         )

@@ -47,6 +47,37 @@ class GasTurn:
     leaked: float = quantity("kg", default=0.0, about="mass that make-up has to bring back in a period")
 
 
+def thermal_pressure(z: Any, H: Any, p0: Any, pa: Any, warmth: Any) -> Any:
+    r"""Excess pressure of a gas spring whose temperature is known, for numbers and symbols alike.
+
+    .. math:: p = (p_0 + p_a) \frac{H}{H - z} \frac{T}{T_w} - p_a
+
+    Parameters
+    ----------
+    z, H : float, ndarray or casadi.SX
+        Closing and free height [m]
+    p0, pa : float or casadi.SX
+        Excess pressure of the full column at the wall's temperature, and the pressure outside [Pa]
+    warmth : float, ndarray or casadi.SX
+        T / T_w [-]
+
+    Returns
+    -------
+    p : same kind as z
+        Excess pressure [Pa]
+
+    Notes
+    -----
+    Source: ideal gas of constant mass.
+
+    Examples
+    --------
+    >>> thermal_pressure(0.5, 1.0, 5e6, 1e5, 1.0)
+    10100000.0
+    """
+    return (p0 + pa) * (H / (H - z)) * warmth - pa
+
+
 def gas_temperature(volume: Any, step: Any, x: Any, gamma: float, wall: float) -> Any:
     r"""Periodic temperature of a closed gas in a volume that moves; arrays and CasADi symbols.
 
@@ -132,7 +163,7 @@ def turn(spring: AirThermal, z: np.ndarray, step: np.ndarray, omega: float) -> G
     x = omega * spring.tau
     T = gas_temperature(height, step, x, spring.gamma, spring.wall_temperature)
     filled = spring.p0 + spring.pa
-    absolute = filled * spring.H / height * T / spring.wall_temperature
+    absolute = thermal_pressure(z, spring.H, spring.p0, spring.pa, T / spring.wall_temperature) + spring.pa
     weights = (step + np.roll(step, 1)) / 2
     if x > 1:
         heat = filled * spring.A * spring.H / (spring.gamma - 1) * (T / spring.wall_temperature - 1) / x

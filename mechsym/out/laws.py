@@ -5,12 +5,14 @@ from typing import Any
 
 from scipy.interpolate import PchipInterpolator, PPoly
 
-from mechsym.hinge.guide import Guide, path
-from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, absolute_pressure, coil_force, gauge_pressure
+from mechsym.hinge.guide import Guide, Spring, path, warmth
+from mechsym.hinge.springs import AirGauge, Coil, absolute_pressure, coil_force, gauge_pressure
+from mechsym.hinge.thermal import AirThermal, thermal_pressure
 from mechsym.jobs.export import Ready
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, propeller_torque
 from mechsym.out.block import Block, Curve, Law, Port, block, curve_law
 
+_GAS = ("A", "H", "p0", "pa")  # numbers of a gas that exchanges heat which may be tuned; its temperature is a curve
 _ABOUT = {"rho0": "distance of the roller centres with the spring at its free height"}
 
 
@@ -25,33 +27,34 @@ def block_of(name: str, about: str, ready: Ready) -> Block:
     return block(name, about, problem, laws)
 
 
-def hinge_law(part: str, guide: Guide, spring: AirGauge | AirAbsolute | Coil, state: int = 0) -> Law:
+def hinge_law(part: str, guide: Guide, spring: Spring, state: int = 0) -> Law:
     r"""A guide and its spring: the path of the rollers is a curve, the numbers of the spring are parameters.
 
     .. math:: M_h = \text{shaft ratio}\; c\, F(c(\rho_0 - \rho))\, \rho'(\theta)
     """
-    fields = dataclasses.fields(spring)
+    fields = [f for f in dataclasses.fields(spring) if not isinstance(spring, AirThermal) or f.name in _GAS]
     ports = [_port(f, float(getattr(spring, f.name))) for f in fields]
     ports.append(Port(name="rho0", unit="m", start=guide.parameters.rho0, about=_ABOUT["rho0"]))
     ratio, c = guide.parameters.shaft_ratio, guide.rollers
-    curve = Curve(name="rho", state=state, ratio=ratio, poly=path(guide))
+    drawn = [Curve(name="rho", state=state, ratio=ratio, poly=path(guide))]
+    if isinstance(spring, AirThermal):  # its temperature is that of steady running at the speed of the design
+        drawn.append(Curve(name="warmth", state=state, ratio=ratio, poly=warmth(guide, spring)))
 
-    def motion(letters: Any, curves: Any) -> tuple[Any, Any, Any]:
+    def motion(letters: Any, curves: Any) -> tuple[Any, Any, Any, Any]:
         rho, slope = curves[0]
-        z = c * (letters["rho0"] - rho)
-        return rho, slope, z
+        return rho, slope, c * (letters["rho0"] - rho), curves[-1][0]
 
     def value(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> Any:
-        _, slope, z = motion(letters, curves)
-        return ratio * c * _force(spring, z, letters) * slope
+        _, slope, z, warm = motion(letters, curves)
+        return ratio * c * _force(spring, z, letters, warm) * slope
 
     def outputs(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> dict[str, Any]:
-        rho, _, z = motion(letters, curves)
-        pressure = {} if isinstance(spring, Coil) else {"spring_pressure": _pressure(spring, z, letters)}
-        return {"rho": rho, "spring_closing": z, "spring_force": _force(spring, z, letters), **pressure}
+        rho, _, z, warm = motion(letters, curves)
+        pressure = {} if isinstance(spring, Coil) else {"spring_pressure": _pressure(spring, z, letters, warm)}
+        return {"rho": rho, "spring_closing": z, "spring_force": _force(spring, z, letters, warm), **pressure}
 
     units = {"rho": "m", "spring_closing": "m", "spring_force": "N", "spring_pressure": "Pa"}
-    return Law(part=part, parameters=tuple(ports), curves=(curve,), value=value, outputs=outputs, units=units)
+    return Law(part=part, parameters=tuple(ports), curves=tuple(drawn), value=value, outputs=outputs, units=units)
 
 
 def _port(field: dataclasses.Field[Any], value: float) -> Port:
@@ -59,17 +62,19 @@ def _port(field: dataclasses.Field[Any], value: float) -> Port:
     return Port(name=field.name, unit=field.metadata["unit"], start=value, about=f"spring: {about}")
 
 
-def _pressure(spring: AirGauge | AirAbsolute, z: Any, letters: Any) -> Any:
-    H, p0, n = (letters[name] for name in ("H", "p0", "n"))
-    return (
-        gauge_pressure(z, H, p0, n) if isinstance(spring, AirGauge) else absolute_pressure(z, H, p0, n, letters["pa"])
-    )
+def _pressure(spring: Spring, z: Any, letters: Any, warm: Any) -> Any:
+    H, p0 = letters["H"], letters["p0"]
+    if isinstance(spring, AirThermal):
+        return thermal_pressure(z, H, p0, letters["pa"], warm)
+    if isinstance(spring, AirGauge):
+        return gauge_pressure(z, H, p0, letters["n"])
+    return absolute_pressure(z, H, p0, letters["n"], letters["pa"])
 
 
-def _force(spring: AirGauge | AirAbsolute | Coil, z: Any, letters: Any) -> Any:
+def _force(spring: Spring, z: Any, letters: Any, warm: Any) -> Any:
     if isinstance(spring, Coil):
         return coil_force(z, letters["k"], letters["F0"])
-    return letters["A"] * _pressure(spring, z, letters)
+    return letters["A"] * _pressure(spring, z, letters, warm)
 
 
 def load_law(part: str, load: Load, speed: int) -> Law:

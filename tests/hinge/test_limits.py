@@ -158,7 +158,7 @@ def test_fig_5_needs_a_gas_spring():
     [
         ("guide.start", "somewhere", "placed, as_printed"),
         ("guide.arrangement", "one_track", "two_tracks, one_roller, half_speed_pi_periodic"),
-        ("spring.law", "rubber", "air_gauge, air_absolute, coil"),
+        ("spring.law", "rubber", "air_gauge, air_absolute, air_thermal, coil"),
         ("spring.p0", "-3 MPa", "must be >= 1 and <= 1e"),
         ("rollers.radius", "5 kg", "give it in m"),
         ("limits.pressure_angle", "90 deg", "must be > 0 and < 1.5708 rad"),
