@@ -6,8 +6,8 @@ from typing import Any
 from mechsym.cli.common import emit, table
 
 _SPEEDS = ("speed_rpm", "torque_avg", "power_kw", "mep_kpa", "pumping_mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
-_BREATH = ("speed_rpm", "volumetric_efficiency", "residual_gas", "air_kg_h", "p_in_kpa", "T_in_k", "p_out_kpa",
-           "T_exhaust_k")  # fmt: skip
+_BREATH = ("speed_rpm", "volumetric_efficiency", "residual_gas", "air_kg_h", "p_in_kpa", "t_in_k", "p_out_kpa",
+           "t_exhaust_k")  # fmt: skip
 _BRAKE = ("speed_rpm", "friction_mep_kpa", "brake_torque", "brake_power_kw", "brake_sfc_g_kwh", "brake_efficiency")
 
 

@@ -71,6 +71,12 @@ RESULTS = (
           why="an engine gives less than it takes"),
     Usual(code="gas_temperature", keys=("t_max_k",), unit="K", low=200, high=3500,
           why="flames of fuel in air reach about 2800 K, in oxygen 3500 K"),
+    Usual(code="filling", keys=("volumetric_efficiency",), unit="-", low=0.1, high=1.3,
+          why="a throttled engine fills a fifth of its swept volume, a well-tuned one a little more than all of it"),
+    Usual(code="residual_gas", keys=("residual_gas",), unit="-", low=0, high=0.35,
+          why="mixtures with more than about a third of burnt gas do not burn"),
+    Usual(code="turbine_temperature", keys=("t_turbine_k",), unit="K", high=1323,
+          why="turbines of turbochargers bear 1323 K (1050 degrees Celsius) at most"),
     Usual(code="twist", keys=("twist_peak",), unit="rad", low=-0.2, high=0.2,
           why="a section of a real shaft yields or breaks beyond about 0.2 rad"),
 )  # fmt: skip

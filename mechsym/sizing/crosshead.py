@@ -103,5 +103,5 @@ def _film(part: CrossheadPart, loads: CrossheadLoads) -> Check:
     lasts = squeeze_time(mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start,
                          part.film_least)  # fmt: skip
     return at_least("crosshead pin", "time of the squeezed film", lasts, half, "s", wanted=part.wanted,
-                    rule="squeeze film of parallel plates", source="Cameron (1976), ch. 6",
+                    rule="squeeze film of parallel plates with open ends", source="Hays (1961)",
                     note="mean load over half a turn")  # fmt: skip

@@ -126,3 +126,16 @@ def test_refusals_are_one_line_that_names_the_way_out(options, words):
     done = CliRunner().invoke(mechsym, ["cycle", CASE, *options])
     assert isinstance(done.exception, BadInput)  # which ends the command with 2
     assert words in str(done.exception)
+
+
+def test_what_no_engine_does_is_doubted():
+    # nearly shut: little comes in, and what comes in meets what has stayed
+    codes = {doubt["code"] for doubt in shown("--set", "breathing.throttle_diameter=0.8 mm")["doubts"]}
+    assert {"filling", "residual_gas"} <= codes
+
+
+@pytest.mark.slow
+def test_a_turbine_too_hot_is_doubted(tmp_path):
+    found = shown("--set", "boost.pressure=1.6 bar", "--set", "cycle.ignition=0 deg")
+    assert found["t_turbine_k"][0] > 1323
+    assert "turbine_temperature" in {doubt["code"] for doubt in found["doubts"]}

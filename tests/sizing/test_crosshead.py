@@ -9,7 +9,9 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import sparse
 from scipy.integrate import solve_ivp
+from scipy.sparse.linalg import spsolve
 
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
@@ -30,13 +32,31 @@ def loads(**changed):
     return CrossheadLoads(**(base | changed))
 
 
-def test_squeeze_time_is_what_reynolds_equation_integrates_to():
-    # plates of width b: F = mu l b^3 (-h')/h^3
-    F, l, d, arc, mu = 4e5, 0.3, 0.2, 2.0, 0.03
-    b = d * arc / 2
-    t = squeeze_time(F, l, d, arc, mu, 50e-6, 5e-6)
-    film = solve_ivp(lambda _, h: -F * h**3 / (mu * l * b**3), (0, t), [50e-6], rtol=1e-10, atol=1e-14).y[0, -1]
-    assert film == pytest.approx(5e-6, rel=1e-6)
+def rectangle(length, width, n=120):
+    """Integral of u over a rectangle where u_xx + u_yy = -1, u = 0 at the rim, by differences of second order."""
+    one = [sparse.diags([1.0, -2.0, 1.0], [-1, 0, 1], (n - 1, n - 1)) / (size / n) ** 2 for size in (length, width)]
+    unit = sparse.identity(n - 1)
+    u = spsolve((sparse.kron(one[0], unit) + sparse.kron(unit, one[1])).tocsc(), -np.ones((n - 1) ** 2))
+    return float(u.sum()) * length * width / n**2
+
+
+@pytest.mark.parametrize("length", [0.1, 0.2, 0.3])
+def test_squeeze_time_is_what_reynolds_equation_integrates_to(length):
+    # F = 12 mu (-h')/h^3 I, with the integral I of the rectangle
+    F, d, arc, mu = 4e5, 0.2, 2.0, 0.03
+    t = squeeze_time(F, length, d, arc, mu, 50e-6, 5e-6)
+    share = 12 * mu * rectangle(length, d * arc / 2)
+    film = solve_ivp(lambda _, h: -F * h**3 / share, (0, t), [50e-6], rtol=1e-10, atol=1e-14).y[0, -1]
+    assert film == pytest.approx(5e-6, rel=3e-4)
+
+
+def test_long_and_square_films():
+    def time(length):
+        return squeeze_time(1e5 * length, length, 0.2, 2.0, 0.03, 50e-6, 5e-6)
+
+    long = 0.03 * 0.2**3 / 2e5 * (1 / 5e-6**2 - 1 / 50e-6**2)
+    assert time(200.0) == pytest.approx(long, rel=1e-3)
+    assert time(0.2) / long == pytest.approx(0.4217, abs=1e-4)  # of a square plate, in every textbook
 
 
 def test_web_stress_is_the_sum_of_bending_and_pressure():

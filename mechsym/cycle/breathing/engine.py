@@ -135,7 +135,9 @@ def figures(found: BreathingRun) -> dict[str, Any]:
     columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     columns["fractions"] = {name: columns.pop(name) for name in ("heat", "work", "exhaust", "unburnt")}
     n, around = len(rows), found.around
-    outside = {"p_in_kpa": np.asarray(around.p_in) / 1e3, "T_in_k": around.T_in,
+    if found.boosted is not None:
+        columns["t_turbine_k"] = columns["t_exhaust_k"]
+    outside = {"p_in_kpa": np.asarray(around.p_in) / 1e3, "t_in_k": around.T_in,
                "p_out_kpa": np.asarray(around.p_out) / 1e3}  # fmt: skip
     return columns | {name: np.broadcast_to(value, n).astype(float) for name, value in outside.items()} | {"loads": {}}
 
@@ -162,7 +164,7 @@ def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
         "energy_residual": breath.energy_residual, "mass_residual": breath.mass_residual,
         "pumping_mep_kpa": breath.pumping / room.displacement / 1e3,
         "volumetric_efficiency": breath.volumetric_efficiency, "residual_gas": breath.residual,
-        "T_max_k": float(breath.temperature.max()), "T_exhaust_k": breath.T_exhaust,
+        "t_max_k": float(breath.temperature.max()), "t_exhaust_k": breath.T_exhaust,
         "air_kg_h": breath.drawn * engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio) * per_second * 3600,
         "heat": breath.wall_heat / energy, "work": share, "exhaust": 1 - share - unburnt - breath.wall_heat / energy,
         "unburnt": unburnt,

@@ -13,6 +13,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.breathing.equations import GIVEN, STATES, VOLUMES, Cylinder, rate
+from mechsym.cycle.breathing.flow import orifice_flow
 from mechsym.cycle.breathing.records import PERIOD, Breath, Surroundings
 from mechsym.cycle.closed.runge_kutta import METHOD
 from mechsym.errors import BadInput
@@ -122,13 +123,23 @@ def _summed(
     temperature = history[:, 4] / (history[:, 3] * cv)
     sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
     fresh = trapped - float(history[0, 5])
+    leaving = _leaving(cylinder, outside, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
     return Breath(
         omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
         residual=1 - fresh / trapped, p_trapped=float(pressures["cylinder"][0]), T_trapped=float(temperature[0]),
         volumetric_efficiency=fresh / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=sums["m_in"],
-        T_exhaust=sums["H_out"] / (sums["m_out"] * c.gamma * cv), work=sums["work"], pumping=sums["pumping"],
+        T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
         heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure, **_residuals(history, sums),
     )  # fmt: skip
+
+
+def _leaving(cylinder: Cylinder, outside: np.ndarray, p: np.ndarray, T: np.ndarray) -> float:
+    """Mean temperature of the gas that leaves the manifold, what flows back not counted [K]."""
+    state, c = ca.SX.sym("state", 2), cylinder.charge
+    behind = (float(outside[2]), float(outside[1]))
+    flow = ca.Function("flow", [state], [orifice_flow(1.0, (state[0], state[1]), behind, c.gamma, c.R)])
+    out = np.maximum(np.asarray(flow(np.vstack([p, T]))).ravel(), 0.0)
+    return float(np.sum(out * T) / np.sum(out))
 
 
 def _residuals(history: np.ndarray, sums: dict[str, float]) -> dict[str, float]:

@@ -47,7 +47,8 @@ def specific_pressure(F: float, length: float, width: float) -> float:
 def squeeze_time(F: float, length: float, diameter: float, arc: float, mu: float, h_1: float, h_2: float) -> float:
     r"""Time in which a steady load squeezes the film of a pin from one thickness to another.
 
-    .. math:: t = \frac{\mu\,l\,b^3}{2 F}\left(\frac{1}{h_2^2} - \frac{1}{h_1^2}\right), \qquad b = d\,\alpha/2
+    .. math:: t = k\,\frac{\mu\,l\,b^3}{2 F}\left(\frac{1}{h_2^2} - \frac{1}{h_1^2}\right), \qquad
+        k = 1 - \frac{192\,b}{\pi^5\,l} \sum_{n = 1, 3, ..} \frac{\tanh(n \pi l/2 b)}{n^5}, \qquad b = d\,\alpha/2
 
     Parameters
     ----------
@@ -69,18 +70,24 @@ def squeeze_time(F: float, length: float, diameter: float, arc: float, mu: float
 
     Notes
     -----
-    Source: O. Reynolds (1886), parallel plates of width b that no oil leaves lengthwise; A. Cameron, Basic Lubrication
-    Theory (1976), ch. 6. Valid: film even over the arc, pin long against b, rigid surfaces.
+    Source: O. Reynolds (1886), parallel plates l by b; k for the oil that leaves at the ends: Poisson's equation on a
+    rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even over the
+    arc (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
 
     Examples
     --------
     >>> round(squeeze_time(500e3, 0.3, 0.2, 2.0, 0.03, 60e-6, 10e-6), 3)
-    0.7
+    0.411
     """
     require("load F", F, "N", above=0)
     require("film h_2", h_2, "m", above=0, below=h_1)
     width = diameter * arc / 2
-    return mu * length * width**3 / (2 * F) * (1 / h_2**2 - 1 / h_1**2)
+    return _ends(length / width) * mu * length * width**3 / (2 * F) * (1 / h_2**2 - 1 / h_1**2)
+
+
+def _ends(ratio: float) -> float:
+    n = np.arange(1, 60, 2)
+    return 1 - 192 / (np.pi**5 * ratio) * float(np.sum(np.tanh(n * np.pi * ratio / 2) / n**5))
 
 
 def web_stress(moment: float, F: float, width: float, thickness: float) -> float:
