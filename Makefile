@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit reproduce demo test test-slow bench fuzz mutate dist lint format clean
+.PHONY: setup setup-all derive check-derive audit certificates reproduce demo test test-slow bench fuzz mutate dist lint format clean
 
 setup: $(READY)
 
@@ -30,6 +30,10 @@ check-derive: | $(READY)
 
 audit: | $(READY)
 	$(BIN)/mechsym audit --write
+
+# every exact verdict of the sources, checked by Coq
+certificates: | $(READY)
+	@if command -v coqc >/dev/null; then mkdir -p build && $(BIN)/mechsym audit --certificate build/sources.v --json >build/sources.json && coqc build/sources.v && echo "checked by coqc: $$(grep -c ^Theorem build/sources.v) theorems"; else echo "skipped: coqc is missing; on Debian: apt-get install coq"; fi
 
 reproduce: | $(READY)
 	$(BIN)/mechsym reproduce

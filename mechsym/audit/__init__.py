@@ -5,6 +5,7 @@ algebra.py                        one tree in floats, in many digits and in symb
 theory/                           the derived quantities that formulas are compared with
 question.py                       states at which formula and quantity are compared
 prover.py                         exact? digits decide, polynomials prove
+certificate.py, certified.py      proofs as Coq scripts
 orders.py, dimensions.py          how good an approximation is; does it rescale
 edits.py, required.py,            single edits; what each part would have to be; what was left out;
 insertion.py, candidates.py       edits that meet it

@@ -116,7 +116,7 @@ def proves_equal(question: Question, tree: Node, other: Node | None = None) -> b
         False means that no proof was found
     """
     try:
-        names = _symbolic_names(question)
+        names = symbolic_names(question)
         first = evaluate(tree, names, SYMBOLS)
         second = names[question.quantity] if other is None else evaluate(other, names, SYMBOLS)
         return vanishes(sympy.sympify(first - second))
@@ -124,7 +124,7 @@ def proves_equal(question: Question, tree: Node, other: Node | None = None) -> b
         return False
 
 
-def _symbolic_names(question: Question) -> dict[str, Expr]:
+def symbolic_names(question: Question) -> dict[str, Expr]:
     """Symbols for the theory's letters, closed forms for its names and the author's letters."""
     theory, formula = question.theory, question.formula
     letters = {k: _symbol(theory, k) for k in theory.letters} | {

@@ -27,6 +27,9 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 )
 @click.option("--code", metavar="FILE::FUNCTION", help="A function or model in Python, C, Java, MATLAB or Modelica.")
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
+@click.option(
+    "--certificate", type=click.Path(path_type=Path, dir_okay=False), help="Write what is exact as a Coq script FILE.v."
+)
 @click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
 @out_option
 @json_option
@@ -39,6 +42,7 @@ def audit(
     against: str | None,
     code: str | None,
     file: Path | None,
+    certificate: Path | None,
     write: bool,
     out: Path | None,
     as_json: bool,
@@ -62,6 +66,8 @@ def audit(
                 "a paper, --formula, --file and --code stand alone; use one of them without --source and --write"
             )
         rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
+        if certificate is not None:
+            _certify(certificate, formula, against, said, rows)
         summary = _counted(rows, paper)
         if out is not None:
             _page(out, str(own[0]), summary, rows)
@@ -72,7 +78,20 @@ def audit(
         raise BadInput(
             "--against, --letters, --out and the like belong to a formula; write for example --formula 'r*sin(phi)'"
         )
-    ctx.exit(_published(source, write, as_json))
+    ctx.exit(_published(source, write, certificate, as_json))
+
+
+def _certify(
+    file: Path, formula: str | None, against: str | None, said: dict[str, Any], rows: Sequence[dict[str, Any]]
+) -> None:
+    from mechsym.audit.certified import of_formula
+    from mechsym.audit.formula import Asked
+    from mechsym.files import write_text
+
+    if formula is None:
+        raise BadInput("--certificate goes with --formula, or with the sources")
+    asked = Asked(text=formula, against=str(against), **said)
+    click.echo(str(write_text(file, of_formula(asked, rows[0]))), err=True)
 
 
 def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[dict[str, Any]]:
@@ -124,8 +143,10 @@ def _status(rows: Sequence[dict[str, Any]]) -> int:
     return 3 if any(v in ("mixed", "untestable") for v in verdicts) else 0
 
 
-def _published(source: str | None, write: bool, as_json: bool) -> int:
+def _published(source: str | None, write: bool, certificate: Path | None, as_json: bool) -> int:
     from mechsym.audit import findings
+    from mechsym.audit.certified import of_sources
+    from mechsym.files import write_text
     from mechsym.papers import record, sources
 
     if write and source:
@@ -135,6 +156,10 @@ def _published(source: str | None, write: bool, as_json: bool) -> int:
         rows = findings.rows(chosen, lambda: bar.update(1))
     differences = record.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
     emit(rows, as_json, lambda: table(rows, _COLUMNS))
+    if certificate is not None:
+        text, without = of_sources(chosen, rows)
+        click.echo(str(write_text(certificate, text)), err=True)
+        click.echo("\n".join(f"proved, without a script: {name}" for name in without), err=True)
     if write:
         _write(chosen, rows)
         return 0
