@@ -76,7 +76,7 @@ def audit(
         ctx.exit(_status(rows))
     if out or against or any(said.values()):
         raise BadInput(
-            "--against, --letters, --out and the like belong to a formula; write for example --formula 'r*sin(phi)'"
+            "--against, --letters, --out and --case belong to --formula; write for example --formula 'r*sin(phi)'"
         )
     ctx.exit(_published(source, write, certificate, as_json))
 
