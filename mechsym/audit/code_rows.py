@@ -32,7 +32,14 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
         raise BadInput(
             f"--code {place}: none of {names} is called as a quantity; name one with --against THEORY.QUANTITY"
         )
-    return [_row(assigned, target, asked) for assigned, target in pairs]
+    return _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+
+
+def _answered(rows: list[tuple[str, Row]]) -> list[Row]:
+    # a name that several theories have is asked of those whose letters it has; of one where it has none's
+    answered = {name for name, row in rows if row["understood"] is not None}
+    first = {name: row for name, row in reversed(rows)}
+    return [row for name, row in rows if row["understood"] is not None or name not in answered and row is first[name]]
 
 
 def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
@@ -77,6 +84,9 @@ def _every(found: list[Assigned], theory: str, asked: Asked) -> Iterator[tuple[A
     for assigned in found:
         for other in theories:
             for quantity in other.results:
+                # x or v alone says little where no theory is named
+                if not theory and not asked.theory and len(_words(quantity)) < 2:
+                    continue
                 if _is_called(assigned, quantity):
                     yield assigned, f"{other.name}.{quantity}"
 

@@ -100,7 +100,7 @@ class TheoryTape(Mapping[str, Entry]):
 
     def rate_name(self, of: str, derived: str) -> Node:
         """Name of a derivative; the number 0 where it vanishes, or where `of` is a letter."""
-        if of in self.free or of not in self.made and of not in self:
+        if of in self.free or of == "pi" or of not in self.made and of not in self:
             return number(0)
         entry = self.get(derived)
         if entry is None:
