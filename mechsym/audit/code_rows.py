@@ -9,6 +9,7 @@ from mechsym.audit.findings import Row, unread_row
 from mechsym.audit.formula import Asked, answer
 from mechsym.audit.reader import letter_pairs
 from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.catalogue import target as parted
 from mechsym.audit.theory.record import Theory
 from mechsym.errors import BadInput
 
@@ -25,8 +26,8 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
         Letters, assumptions and the rest, for every formula
     """
     found = read_code(place)
-    theory, dot, quantity = against.strip().rpartition(".")
-    pairs = list(_one(found, f"{theory}.{quantity}", quantity) if dot else _every(found, quantity, asked))
+    theory, quantity = parted(against)
+    pairs = list(_one(found, against.strip(), quantity) if theory else _every(found, against.strip(), asked))
     if not pairs:
         names = ", ".join(dict.fromkeys(a.name for a in found))
         raise BadInput(
@@ -64,7 +65,7 @@ def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
 def _letters(text: str, target: str, asked: Asked) -> dict[str, str]:
     # omega_m is omega where the theory has omega and the author gave nothing for omega_m
     given = letter_pairs(asked.letters) if isinstance(asked.letters, str) else dict(asked.letters)
-    theory = named(target.rpartition(".")[0], asked.case, asked.theory)
+    theory = named(parted(target)[0], asked.case, asked.theory)
     for used in dict.fromkeys(re.findall(r"(?<![\w.])[A-Za-z_]\w*", text)):
         stem = used.partition("_")[0]
         if used not in given and used not in theory.letters and used not in theory.tape and stem in theory.letters:

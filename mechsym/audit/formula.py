@@ -14,7 +14,7 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.reader import AnyLetter, Formula, letter_pairs, read, read_expression
 from mechsym.audit.statement import Statement, statement
-from mechsym.audit.theory.catalogue import named
+from mechsym.audit.theory.catalogue import named, target
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
 from mechsym.audit.theory.tape import TheoryTape
 from mechsym.audit.tree import letters as letters_of
@@ -112,7 +112,7 @@ def _kept(claim: str, question: Question, verdict: Decision, row: Row) -> Row:
 
 
 def _claimed(asked: Asked, question: Question) -> str:
-    return f"{question.theory.name}.{asked.against.strip().rpartition('.')[2]}"
+    return f"{question.theory.name}.{target(asked.against)[1]}"
 
 
 def question_of(asked: Asked, said: Statement) -> Question:
@@ -146,9 +146,9 @@ def _refuse_redefinition(theory: Theory, formula: Formula) -> None:
 
 
 def _quantity(asked: Asked) -> tuple[Theory, str]:
-    name, dot, quantity = asked.against.strip().rpartition(".")
-    if not dot:
-        raise BadInput(f"--against {asked.against!r} is not THEORY.QUANTITY, as slider_crank.x")
+    name, quantity = target(asked.against)
+    if not name:
+        raise BadInput(f"--against {asked.against!r} is not THEORY.QUANTITY, as slider_crank.x, nor ./FILE.py:QUANTITY")
     found = asked.given or named(name, asked.case, asked.theory)
     need_result(found, quantity)
     return found, quantity
@@ -191,7 +191,7 @@ def _said(question: Question, asked: Asked, said: Statement) -> str:
     except BadInput:
         return ""
     meant = found.get(left.id, left) if isinstance(left, ast.Name) else left
-    quantity = asked.against.strip().rpartition(".")[2]
+    quantity = target(asked.against)[1]
     if isinstance(meant, ast.Name) and meant.id != quantity and (meant.id in question.theory.tape):
         return f"its left side names {meant.id}, and it is compared with {quantity}"
     return ""

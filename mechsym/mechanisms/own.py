@@ -72,6 +72,12 @@ def _parts(name: str) -> tuple[Path, str, str]:
     return Path(name), "", ""
 
 
+def file_of(name: str) -> tuple[Path, str]:
+    """File of a mechanism, and which of its mechanisms is meant, empty where there is one."""
+    path, _, which = _parts(name)
+    return path, which
+
+
 def load(name: str) -> Own:
     """The mechanism of a file.
 

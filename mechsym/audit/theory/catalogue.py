@@ -7,10 +7,12 @@ from pathlib import Path
 
 from mechsym.audit.theory import drives, engines, guides, parts, rodless, sliders
 from mechsym.audit.theory.declared import read_theory, theory_of
+from mechsym.audit.theory.own import own_theory
 from mechsym.audit.theory.record import Theory
 from mechsym.cases.numbers import numbers, usual
 from mechsym.derive.build import scripts
 from mechsym.errors import BadInput
+from mechsym.mechanisms.own import is_file
 
 Build = Callable[[Mapping[str, float], str], Theory]
 
@@ -45,6 +47,17 @@ def names() -> list[str]:
     return sorted({*_THEORIES, *scripts(), *shipped()})
 
 
+def target(against: str) -> tuple[str, str]:
+    """Theory and quantity of THEORY.QUANTITY, ./FILE.py:QUANTITY or ./FILE.py:NAME.QUANTITY; both empty where it is
+    none of them."""
+    file, mark, rest = against.strip().rpartition(".py:")
+    if mark:
+        which, _, quantity = rest.rpartition(".")
+        return f"{file}.py{':' if which else ''}{which}", quantity
+    name, dot, quantity = against.strip().rpartition(".")
+    return (name, quantity) if dot and quantity != "py" else ("", "")
+
+
 def named(name: str, case: str = "", file: str = "") -> Theory:
     """A theory by its name: of a file of one's own, or one that is known here."""
     if file and Path(file).suffix == ".toml":
@@ -56,7 +69,7 @@ def named(name: str, case: str = "", file: str = "") -> Theory:
             f"--theory {file}: a theory is a TOML file; a mechanism of your own is asked as ./FILE.py:QUANTITY"
         )
     try:
-        return theory(name, case)
+        return own_theory(name, case) if is_file(name) else theory(name, case)
     except BadInput as error:
         raise BadInput(f"{error}; of your own: {own.name}" if file else str(error)) from None
 

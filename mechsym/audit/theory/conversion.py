@@ -9,12 +9,14 @@ from typing import Any
 import sympy
 from sympy import Expr
 
+from mechsym.audit.functions import MEANINGS
 from mechsym.audit.tree import Node, binary, call, name, number
 
 _FUNCTIONS = {
     sympy.sin: "sin", sympy.cos: "cos", sympy.tan: "tan", sympy.asin: "asin", sympy.acos: "acos", sympy.atan: "atan",
     sympy.exp: "exp", sympy.log: "log", sympy.Abs: "abs",
 }  # fmt: skip
+_MEANT = {sympy.atan2: "atan2", sympy.Max: "max", sympy.Min: "min"}
 
 
 def tree_of(expression: Any) -> Node:
@@ -38,6 +40,8 @@ def tree_of(expression: Any) -> Node:
         return _power(*e.args)
     if e.func in _FUNCTIONS:
         return call(_FUNCTIONS[e.func], tree_of(e.args[0]))
+    if e.func in _MEANT:
+        return reduce(MEANINGS[_MEANT[e.func]][1], map(tree_of, e.args))
     raise TypeError(f"{e.func.__name__} has no place in a formula: {e}")
 
 

@@ -28,7 +28,11 @@ def mechanism(name: str, values: Mapping[str, float], data: str) -> Theory:
     theory : Theory
         Lengths that begin with l count as rods
     """
-    equations = derive(declared(name))
+    return equations_theory(derive(declared(name)), values, data)
+
+
+def equations_theory(equations: Equations, values: Mapping[str, float], data: str) -> Theory:
+    """The theory of derived equations without results of its own; arguments as for `mechanism`."""
     m = equations.mechanism
     rods = tuple(p.name for p in m.parameter_list if p.name.startswith("l") and m.units[p.name] == "m")
     speeds = {u.name: values.get("speed", 10.0) for u in velocities(m)}
