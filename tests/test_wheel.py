@@ -1,5 +1,7 @@
 """What is shipped: the wheel holds everything that is needed at run time, and works where it is installed."""
 
+import json
+import math
 import re
 import shutil
 import subprocess
@@ -45,15 +47,20 @@ def test_wheel_holds_every_file_and_nothing_else(wheel):
     assert names == set(expected())
 
 
-@pytest.mark.slow
-def test_wheel_runs_where_it_is_installed(wheel, tmp_path):
-    home = tmp_path / "venv"
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory):
+    """Packages and Python of an environment with the wheel; numpy and the rest come from that of the tests."""
+    home = tmp_path_factory.mktemp("installed") / "venv"
     run(sys.executable, "-m", "venv", "--without-pip", home)
     packages = next((home / "lib").glob("python*")) / "site-packages"
     zipfile.ZipFile(wheel).extractall(packages)
-    # numpy and the rest come from the environment of the tests, mechsym from the wheel
     (packages / "dependencies.pth").write_text(str(Path(pytest.__file__).parent.parent) + "\n")
-    python = home / "bin" / "python"
+    return packages, home / "bin" / "python"
+
+
+@pytest.mark.slow
+def test_wheel_runs_where_it_is_installed(installed, tmp_path):
+    packages, python = installed
     assert str(packages) in run(python, "-c", "import mechsym; print(mechsym.__file__)", cwd=tmp_path)
     assert "zotov-89" in run(python, "-m", "mechsym", "cases", cwd=tmp_path)
     state = run(python, "-m", "mechsym", "eval", "crosshead", "--case", "zotov-89", "--set", "phi=1.0", cwd=tmp_path)
@@ -66,3 +73,83 @@ def test_citation_is_of_this_version():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert re.search(rf"^version: {re.escape(version)}$", citation, re.M)
     assert "\nlicense: MIT\n" in citation
+
+
+YOKE = """from mechsym.derive import Mechanism, pi
+
+
+def yoke():
+    m = Mechanism("yoke", about="Scotch yoke")
+    phi = m.coordinates("phi")
+    r = m.parameters("r", "m", above=0)
+    m_p = m.parameters("m_p", "kg", low=0)
+    I = m.parameters("I", "kg*m^2", above=0)
+    F, M_r = m.inputs("F", "N"), m.inputs("M_r", "N*m")
+    crank, slide = m.link("crank", turns=phi, inertia=I), m.link("slide", mass=m_p)
+    m.pin("O", m.frame, crank)
+    m.slider("G", m.frame, slide)
+    m.slot("S", crank.at(r), slide.line(angle=pi / 2))
+    x = m.let("x", r - slide.at().x, "m")
+    m.force(F, along=x)
+    m.torque(-M_r, along=phi)
+    m.piston("piston", travel=x, force=F, masses=m_p)
+    m.rotor("crank", angle=phi, load=M_r)
+    m.draw_line((0, 0), crank.at(r), role="crank")
+    m.draw_box(slide.at(2 * r), r / 2, r)
+    return m
+"""
+
+
+def yoke_case():
+    """The yoke with cycle, hinge and stroke of a built-in engine."""
+    text = (ROOT / "mechsym" / "cases" / "zotov-89.toml").read_text()
+    parameters = '[parameters]\nr = "0.5 m"\nm_p = "460 kg"\nI = 60\n'
+    return f'mechanism = "./yoke.py"\n{parameters}{text[text.index("[operation]") :]}'
+
+
+@pytest.mark.slow
+def test_a_mechanism_of_ones_own_goes_through_the_commands(installed, tmp_path):
+    def mechsym(*arguments):
+        return json.loads(run(installed[1], "-m", "mechsym", *arguments, "--json", cwd=tmp_path))
+
+    assert len(YOKE.splitlines()) <= 40
+    (tmp_path / "yoke.py").write_text(YOKE)
+    (tmp_path / "yoke.toml").write_text(yoke_case())
+    assert len(mechsym("derive", "./yoke.py", "--out", "code")["written"]) == 2
+    assert mechsym("derive", "./yoke.py", "--out", "code", "--check")["differs"] == []
+    at = mechsym("eval", "./yoke.py", "--case", "yoke.toml", "--set", "phi=1", "--set", "phid=9")
+    inertia = 60 + 460 * (0.5 * math.sin(1)) ** 2
+    assert at["mass_matrix"][0][0] == pytest.approx(inertia, rel=1e-12)
+    assert at["kinetic_energy"] == pytest.approx(inertia * 81 / 2, rel=1e-12)
+    assert mechsym("cycle", "yoke.toml")["mep_kpa"][0] == pytest.approx(800, rel=1e-9)
+    forces = mechsym("forces", "yoke.toml", "--out", "forces")
+    assert forces["power_residual"] < 1e-12
+    assert {"forces.csv", "mechanism.svg", "mechanism.html"} <= {Path(file).name for file in forces["files"]}
+    running = mechsym("simulate", "yoke.toml", "--set", "simulation.turns=2")
+    assert running["status"] == "converged" and abs(running["energy_residual"]) < 1e-8
+    hinge = mechsym("hinge", "yoke.toml")
+    assert hinge["guide"]["feasible"] and hinge["check"]["speed_ripple"] < 1e-6
+    row = mechsym("audit", "--formula", "r*(1 - cos(phi))", "--against", "./yoke.py:x")
+    assert row["verdict"] == "exact"
+    swept = mechsym("sweep", "yoke.toml", "--over", "spring.p0=5..6 MPa:2")
+    assert swept["shape"] == [2] and not swept["failed"]
+
+
+@pytest.mark.slow
+def test_a_package_brings_a_mechanism(installed, tmp_path):
+    packages, python = installed
+    (packages / "yokes").mkdir()
+    (packages / "yokes" / "__init__.py").write_text("")
+    (packages / "yokes" / "yoke.py").write_text(YOKE)
+    told = packages / "yokes-1.dist-info"
+    told.mkdir()
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: yokes\nVersion: 1\n")
+    (told / "entry_points.txt").write_text("[mechsym.mechanisms]\nscotch = yokes.yoke\n")
+    found = json.loads(run(python, "-m", "mechsym", "mechanisms", "--json", cwd=tmp_path))
+    assert "scotch" in {row["name"] for row in found} or "yoke" in {row["name"] for row in found}
+    (tmp_path / "brought.toml").write_text(yoke_case().replace("./yoke.py", "scotch"))
+    forces = json.loads(run(python, "-m", "mechsym", "forces", "brought.toml", "--json", cwd=tmp_path))
+    assert forces["max"]["x"] == pytest.approx(1.0, rel=1e-9)
+    row = run(python, "-m", "mechsym", "audit", "--formula", "r*(1 - cos(phi))", "--against", "scotch.x", "--json",
+              cwd=tmp_path)  # fmt: skip
+    assert json.loads(row)["verdict"] == "exact"

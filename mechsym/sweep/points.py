@@ -6,6 +6,7 @@ from typing import Any
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
+from mechsym.mechanisms.own import is_file
 from mechsym.quantities import record
 from mechsym.sweep import cycles, singles
 from mechsym.sweep.outcomes import Gap, Outcome, known
@@ -69,6 +70,8 @@ def _meant(case: Case) -> str:
         return "hinge"
     if "cycle" in case.sections:
         return "cycle"
+    if "simulation" in case.sections and is_file(case.mechanism):
+        return "simulate"  # its weight or constants of [inputs] move it
     raise BadInput(f"{case.file}: has neither [drive] nor [cycle]; nothing to run at the points of a sweep")
 
 
