@@ -5,11 +5,34 @@ import tomllib
 
 from mechsym import cases
 from mechsym.errors import BadInput
+from mechsym.mechanisms.own import file_of, is_file, located
 
 
 def usual(mechanism: str) -> str:
-    """The first built-in case of a mechanism, empty where there is none."""
+    """The first built-in case of a mechanism, or the first beside its file; empty where there is none."""
+    if is_file(mechanism):
+        return _beside(mechanism)
     return next((c for c in cases.names() if tomllib.loads(cases.text(c)).get("mechanism") == mechanism), "")
+
+
+def _beside(mechanism: str) -> str:
+    folder = file_of(mechanism)[0].resolve().parent
+    for file in sorted(folder.glob("*.toml")):
+        try:
+            said = str(tomllib.loads(file.read_text(encoding="utf-8")).get("mechanism", ""))
+        except (OSError, ValueError):
+            continue
+        if is_file(said) and _same(located(said, folder), mechanism):
+            return str(file)
+    return ""
+
+
+def _same(one: str, other: str) -> bool:
+    """Whether two names are of one mechanism; a file alone stands for the one that it declares."""
+    if not (is_file(one) and is_file(other)):
+        return one == other
+    (file, which), (wanted, meant) = file_of(one), file_of(other)
+    return file.resolve() == wanted.resolve() and ("" in (which, meant) or which == meant)
 
 
 def numbers(case: str, mechanism: str = "") -> dict[str, float]:
@@ -26,7 +49,7 @@ def numbers(case: str, mechanism: str = "") -> dict[str, float]:
         By letter, and `speed` [SI]
     """
     found = cases.load(case)
-    if mechanism and found.mechanism != mechanism:
+    if mechanism and not _same(found.mechanism, mechanism):
         raise BadInput(
             f"case {case} is of the mechanism {found.mechanism}, not of {mechanism}; name another with --case"
         )

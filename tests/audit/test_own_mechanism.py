@@ -79,7 +79,7 @@ def test_code_and_files_take_it_too(folder):
         ("./slider.py:nothing", "", "slider has no quantity 'nothing'; it has .*dx_dphi"),
         ("./other.py:x", "", "there is no file other.py"),
         ("./slider.py:rocker.x", "", "declares no mechanism 'rocker'"),
-        ("./slider.py:inertia", "zotov-89", "is of the mechanism crosshead, not of slider.py"),
+        ("./slider.py:inertia", "zotov-89", "is of the mechanism crosshead, not of ./slider.py"),
         ("./slider.py", "", "is not THEORY.QUANTITY.* nor ./FILE.py:QUANTITY"),
     ],
 )
