@@ -139,3 +139,17 @@ def test_a_turbine_too_hot_is_doubted(tmp_path):
     found = shown("--set", "boost.pressure=1.6 bar", "--set", "cycle.ignition=0 deg")
     assert found["t_turbine_k"][0] > 1323
     assert "turbine_temperature" in {doubt["code"] for doubt in found["doubts"]}
+
+
+@pytest.mark.slow
+def test_compressor_map_of_a_case(tmp_path):
+    points = """map_flow = [0.002, 0.02, 0.002, 0.02]
+map_ratio = [1.0, 1.0, 2.5, 2.5]
+map_efficiency = [0.6, 0.7, 0.6, 0.7]
+"""
+    file = tmp_path / "mapped.toml"
+    file.write_text(cases.text(CASE) + BOOST + points)
+    found = cycle(cases.load(str(file), {"boost.pressure": "1.6 bar"}), np.array([2000.0, 3500.0]) * math.pi / 30)
+    air = found["air_kg_h"] / 3600
+    assert found["compressor_efficiency"] == pytest.approx(0.6 + 0.1 * (air - 0.002) / 0.018, rel=1e-6)
+    assert found["energy_residual"].max() < 1e-9

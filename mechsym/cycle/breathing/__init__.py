@@ -4,6 +4,7 @@ flow        flow through throats, lift of valves, ports
 records     valves and volumes, the charge, the walls, what surrounds the engine, a cycle found
 equations   slopes of masses and energies
 run         cycles until one repeats
+compressor_map  efficiency of a compressor at flow and ratio
 turbocharger    boost, its shaft balance, the atmosphere at a height
 engine      an engine of a case: its balance with the turbocharger, pressure, figures over the speeds, curves
 """

@@ -66,12 +66,15 @@ def run(engine: BreathingEngine, omega: Sequence[float]) -> BreathingRun:
         )
     last: list[Any] = []
 
-    def exhaust(state: Boosted) -> np.ndarray:
+    air = engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio)
+
+    def answer(state: Boosted) -> tuple[np.ndarray, np.ndarray]:
         around = _around(b, state.p_2, state.T_2, state.p_3)
         last[:] = [around, breathe(cylinder, around, omega)]
-        return np.array([breath.T_exhaust for breath in last[1]])
+        drawn = np.array([breath.drawn * breath.omega / PERIOD for breath in last[1]])
+        return np.array([breath.T_exhaust for breath in last[1]]), drawn * air
 
-    state = boosted(engine.boost, outside, exhaust, len(omega))
+    state = boosted(engine.boost, outside, answer, len(omega))
     return BreathingRun(engine=engine, chamber=room, breaths=last[1], around=last[0], boosted=state)
 
 
@@ -137,6 +140,7 @@ def figures(found: BreathingRun) -> dict[str, Any]:
     n, around = len(rows), found.around
     if found.boosted is not None:
         columns["t_turbine_k"] = columns["t_exhaust_k"]
+        columns["compressor_efficiency"] = found.boosted.efficiency
     outside = {"p_in_kpa": np.asarray(around.p_in) / 1e3, "t_in_k": around.T_in,
                "p_out_kpa": np.asarray(around.p_out) / 1e3}  # fmt: skip
     return columns | {name: np.broadcast_to(value, n).astype(float) for name, value in outside.items()} | {"loads": {}}

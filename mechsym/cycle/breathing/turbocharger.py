@@ -1,4 +1,4 @@
-r"""A turbocharger of fixed efficiencies, its intercooler, and the atmosphere at a height.
+r"""A turbocharger of fixed efficiencies or with a compressor map, its intercooler, and the atmosphere at a height.
 
     ambient p_1, T_1 --[compressor]-- p_2 --[intercooler]-- T_2 -> engine -> p_3, T_3 --[turbine]-- p_1
 
@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.cycle.breathing.compressor_map import corrected_flow, map_efficiency
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 
@@ -29,6 +30,18 @@ class Boost:
     shaft_efficiency: float = quantity("-", default=0.97, above=0, high=1, about="mechanical, of the shaft")
     intercooler: float = quantity("-", default=0.0, low=0, below=1, about="effectiveness against ambient air")
     air_fuel_ratio: float = quantity("-", default=15.0, above=1, about="air over fuel by mass through the turbine")
+    cylinders: float = quantity("-", default=1.0, low=1, high=24, about="cylinders that it serves, for the map's flow")
+    #: Points of the compressor's map, in place of `compressor_efficiency`
+    map_flow: tuple[float, ...] = quantity("kg/s", default=(), above=0, about="corrected to 288.15 K and 101325 Pa")
+    map_ratio: tuple[float, ...] = quantity("-", default=(), low=1, about="pressure ratio of each point")
+    map_efficiency: tuple[float, ...] = quantity("-", default=(), above=0, high=1, about="efficiency of each point")
+
+    def __post_init__(self) -> None:
+        if len({len(self.map_flow), len(self.map_ratio), len(self.map_efficiency)}) > 1 or 0 < len(self.map_flow) < 4:
+            raise BadInput(
+                f"map_flow, map_ratio and map_efficiency have {len(self.map_flow)}, {len(self.map_ratio)} and "
+                f"{len(self.map_efficiency)} values; give each point of the map all three, four points at least"
+            )
 
 
 @record
@@ -38,9 +51,9 @@ class Boosted:
     #: Atmosphere: absolute pressure [Pa] and temperature [K]
     p_1: float
     T_1: float
-    #: Behind compressor and intercooler [Pa, K]
-    p_2: float
-    T_2: float
+    p_2: float  #: Behind the compressor [Pa]
+    T_2: np.ndarray  #: Behind the intercooler, one value for each speed [K]
+    efficiency: np.ndarray  #: Of the compressor, at each speed [-]
     #: Before the turbine, one value for each speed [Pa, K]
     p_3: np.ndarray
     T_3: np.ndarray
@@ -77,7 +90,7 @@ def atmosphere(altitude: float) -> tuple[float, float]:
     return 101325.0 * (T / 288.15) ** 5.25588, T
 
 
-def compressor_temperature(T: float, ratio: float, efficiency: float, gamma: float = _GAMMA_AIR) -> float:
+def compressor_temperature(T: float, ratio: float, efficiency: Any, gamma: float = _GAMMA_AIR) -> Any:
     r"""Temperature behind a compressor.
 
     .. math:: T_2 = T_1\left(1 + \frac{\pi^{(\gamma - 1)/\gamma} - 1}{\eta_c}\right)
@@ -88,14 +101,14 @@ def compressor_temperature(T: float, ratio: float, efficiency: float, gamma: flo
         Temperature before it [K]
     ratio : float
         Pressure ratio, at least 1 [-]
-    efficiency : float
+    efficiency : float or ndarray
         Isentropic efficiency [-]
     gamma : float
         Ratio of the heat capacities [-]
 
     Returns
     -------
-    T_2 : float
+    T_2 : same kind as `efficiency`
         Temperature [K]
 
     Notes
@@ -110,7 +123,7 @@ def compressor_temperature(T: float, ratio: float, efficiency: float, gamma: flo
     return T * (1 + (ratio ** ((gamma - 1) / gamma) - 1) / efficiency)
 
 
-def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float) -> Any:
+def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float, efficiency: Any = None) -> Any:
     r"""Expansion ratio of the turbine that drives the compressor.
 
     .. math:: \pi_t^{-(\gamma_e - 1)/\gamma_e} = 1 - \frac{c_p T_1 (\pi_c^{(\gamma - 1)/\gamma} - 1)}
@@ -124,6 +137,8 @@ def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float) -> Any:
         Temperature before the turbine [K]
     ratio : float
         Pressure ratio of the compressor [-]
+    efficiency : float or ndarray, optional
+        Isentropic efficiency of the compressor, else that of the record [-]
 
     Returns
     -------
@@ -141,7 +156,11 @@ def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float) -> Any:
     1.589
     """
     work = _CP_AIR * T_1 * (ratio ** ((_GAMMA_AIR - 1) / _GAMMA_AIR) - 1)
-    share = boost.compressor_efficiency * boost.turbine_efficiency * boost.shaft_efficiency
+    share = (
+        (boost.compressor_efficiency if efficiency is None else efficiency)
+        * boost.turbine_efficiency
+        * boost.shaft_efficiency
+    )
     rest = 1 - work / (share * (1 + 1 / boost.air_fuel_ratio) * _CP_EXHAUST * T_3)
     if np.any(rest <= 0):
         raise BadInput(
@@ -151,15 +170,21 @@ def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float) -> Any:
     return rest ** (-_GAMMA_EXHAUST / (_GAMMA_EXHAUST - 1))
 
 
-def boosted(boost: Boost, outside: tuple[float, float], exhaust: Callable[[Boosted], np.ndarray], n: int) -> Boosted:
+def boosted(
+    boost: Boost,
+    outside: tuple[float, float],
+    engine: Callable[[Boosted], tuple[np.ndarray, np.ndarray]],
+    n: int,
+) -> Boosted:
     """The engine and its turbocharger in balance at n speeds.
 
     Parameters
     ----------
     outside : tuple of float
         Pressure [Pa] and temperature [K] of the atmosphere
-    exhaust : callable
-        State before and behind the engine to the temperature of its exhaust, shape (n,) [K]
+    engine : callable
+        State before and behind the engine to the temperature of its exhaust [K] and the air that a cylinder draws
+        [kg/s], each of shape (n,)
     """
     p_1, T_1 = outside
     p_2 = atmosphere(0.0)[0] if boost.pressure is None else boost.pressure
@@ -168,12 +193,22 @@ def boosted(boost: Boost, outside: tuple[float, float], exhaust: Callable[[Boost
         raise BadInput(
             f"boost.pressure = {p_2:.6g} Pa is below the atmosphere's {p_1:.6g} Pa; raise it, or leave out [boost]"
         )
-    hot = compressor_temperature(T_1, ratio, boost.compressor_efficiency)
-    T_2, T_3 = hot - boost.intercooler * (hot - T_1), np.full(n, 1000.0)
+    T_3, efficiency = np.full(n, 1000.0), np.full(n, boost.compressor_efficiency)
     for _ in range(_ROUNDS):
-        state = Boosted(p_1=p_1, T_1=T_1, p_2=p_2, T_2=T_2, p_3=p_1 * turbine_ratio(boost, T_1, T_3, ratio), T_3=T_3)
-        found = exhaust(state)
-        if np.all(np.abs(found - T_3) <= _SETTLED * T_3):
+        hot = compressor_temperature(T_1, ratio, efficiency)
+        state = Boosted(
+            p_1=p_1, T_1=T_1, p_2=p_2, T_2=hot - boost.intercooler * (hot - T_1), efficiency=efficiency,
+            p_3=p_1 * turbine_ratio(boost, T_1, T_3, ratio, efficiency), T_3=T_3,
+        )  # fmt: skip
+        found, air = engine(state)
+        better = _efficiency(boost, corrected_flow(air * boost.cylinders, p_1, T_1), ratio)
+        if np.all(np.abs(found - T_3) <= _SETTLED * T_3) and np.all(np.abs(better - efficiency) <= _SETTLED):
             return state
-        T_3 = found
+        T_3, efficiency = found, better
     raise BadInput("the exhaust's temperature and the turbocharger do not settle; lower boost.pressure")
+
+
+def _efficiency(boost: Boost, flow: np.ndarray, ratio: float) -> np.ndarray:
+    if not boost.map_flow:
+        return np.full(len(flow), boost.compressor_efficiency)
+    return map_efficiency((boost.map_flow, boost.map_ratio, boost.map_efficiency), flow, ratio)
