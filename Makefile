@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit certificates reproduce demo test test-slow bench fuzz mutate dist lint format clean
+.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow bench fuzz mutate dist lint format clean
 
 setup: $(READY)
 
@@ -18,7 +18,7 @@ $(READY): pyproject.toml setup.py
 setup-all: .venv/ready-all
 
 .venv/ready-all: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,app,check]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,app,docs,check]'
 	@touch $@
 
 derive: | $(READY)
@@ -37,6 +37,10 @@ certificates: | $(READY)
 
 reproduce: | $(READY)
 	$(BIN)/mechsym reproduce
+
+# the site, offline, to docs/_build/html; a warning is an error
+docs: | .venv/ready-all
+	$(BIN)/python -m sphinx -W -q -b html docs docs/_build/html
 
 demo: | $(READY)
 	$(BIN)/mechsym hinge zotov-89 --out demo

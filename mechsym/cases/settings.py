@@ -36,8 +36,7 @@ class RetuneSettings:
 class ReportSettings:
     """How results are shown."""
 
-    units: str = ""  #: Units of text, reports, pictures and tables: "mm, MPa, kN, kN*m, deg, rpm, kW"
-    project: str = ""  #: Name of the project, in the title of reports
+    units: str = ""  #: Units of text and tables: "mm, MPa, kN, kN*m, deg, rpm, kW"
 
 
 @record

@@ -92,7 +92,7 @@ class LazyGroup(click.Group):
                     expose_value=False,
                     callback=_units,
                     is_eager=True,
-                    help='Show text, reports, pictures and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.',
+                    help='Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.',
                 )
             )
         return command

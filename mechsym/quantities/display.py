@@ -1,4 +1,4 @@
-"""Units for people: text, reports, pictures and, on request, tables are shown in these; inside every number is SI.
+"""Units for people: text and, on request, tables are shown in these; inside every number is SI.
 
 Without a choice lengths are shown in mm, pressures in MPa, angles in degrees, speeds in rpm; forces, torques, powers
 and energies with the prefix that suits their size. `choose("mm, bar, kN, kN*m, rad")` sets what the user wants.

@@ -1,0 +1,36 @@
+"""The docs site: `make docs` writes it to docs/_build/html, offline; pages that follow from the program come first."""
+
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+project = "mechsym"
+author = "The mechsym team"
+extensions = ["myst_parser"]
+html_theme = "furo"
+html_title = "mechsym"
+exclude_patterns = ["_build"]
+myst_heading_anchors = 3
+myst_enable_extensions = ["colon_fence"]
+html_copy_source = False
+_OUTSIDE = re.compile(r"\[([^\]]+)\]\(\.\./[^)]*\)")
+_FENCE = re.compile(r"^```(\w+) [^\n]*$", re.MULTILINE)
+
+
+def _read(app, name, source):
+    """Links to code beside the docs become code; what the tests read behind a block's language goes."""
+    source[0] = _FENCE.sub(r"```\1", _OUTSIDE.sub(r"`\1`", source[0]))
+
+
+def _make(app):
+    import pages
+
+    pages.make(HERE / "made")
+
+
+def setup(app):
+    app.connect("builder-inited", _make)
+    app.connect("source-read", _read)

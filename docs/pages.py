@@ -1,0 +1,143 @@
+"""Pages of the docs site that follow from the program: commands with real output, keys of cases, mechanisms, rooms."""
+
+import importlib
+import inspect
+import json
+import os
+import tempfile
+from importlib import resources
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from mechsym import mechanisms
+from mechsym.cases.keys import keys
+from mechsym.cli import COMMANDS, mechsym
+
+# one example a command whose output is shown; each runs in some seconds
+EXAMPLES = {
+    "audit": 'audit --formula "r*(1-cos(phi))+r**2/(4*l)*(1-cos(2*phi))" --against crosshead.x',
+    "cases": "cases",
+    "check": "check zotov-89",
+    "compare": "compare nunes-slider-crank nunes-hypocycloid --speeds 2000,6000",
+    "cycle": "cycle nunes-slider-crank --speeds 2000:8000:2000",
+    "eval": "eval crosshead --case zotov-89 --set phi=1",
+    "flywheel": "flywheel zotov-89 --ripple 2%",
+    "forces": "forces moroianu",
+    "hinge": "hinge zotov-89",
+    "mechanisms": "mechanisms",
+    "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
+    "optimise": "optimise nunes-hypocycloid",
+    "sections": "sections spring",
+    "simulate": "simulate alpha-stirling --set simulation.turns=3",
+    "size": "size nunes-hypocycloid",
+}
+ROOMS = (
+    "quantities periodic style plausible convert native mechanisms cycle sizing machine simulate hinge torsion forces "
+    "optimise codesign cases jobs sweep audit papers out"
+).split()
+
+
+def make(folder: Path) -> None:
+    """Write all of them."""
+    folder.mkdir(exist_ok=True)
+    pages = {"commands": commands(), "sections": sections(), "mechanisms": equations(), "rooms": rooms()}
+    for name, text in pages.items():
+        path = folder / f"{name}.md"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def commands() -> str:
+    """Each command with its help, and what an example prints."""
+    parts = ["# Commands\n\nThe output stands as the program printed it when this page was made.\n"]
+    for name in sorted(COMMANDS):
+        parts.append(f"## {name}\n\n{_block(_run(f'{name} --help'))}\n")
+        if name in EXAMPLES:
+            parts.append(_block(f"$ mechsym {EXAMPLES[name]}\n{_run(EXAMPLES[name])}"))
+    return "\n".join(parts) + "\n"
+
+
+def _run(line: str) -> str:
+    import shlex
+
+    here = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            done = CliRunner().invoke(mechsym, shlex.split(line), prog_name="mechsym", catch_exceptions=False)
+        finally:
+            os.chdir(here)
+    if done.exit_code not in (0, 1):
+        raise RuntimeError(f"mechsym {line} ended with {done.exit_code}: {done.output}")
+    return str(done.output).rstrip()
+
+
+def _block(text: str) -> str:
+    return f"````text\n{text}\n````\n"
+
+
+def sections() -> str:
+    """The case reference, from the records."""
+    parts = ["# Sections of a case\n\nEvery key with unit, range and meaning, as `mechsym sections` prints it.\n"]
+    rows = keys()
+    for section in dict.fromkeys(row["section"] for row in rows):
+        own = [row for row in rows if row["section"] == section]
+        readers = ", ".join(own[0]["commands"]) or "no command by itself"
+        parts.append(f"## [{section}]\n\nRead by: {readers}.\n")
+        for variant in dict.fromkeys(row["variant"] for row in own):
+            if variant:
+                parts.append(f"### {section}: {variant}\n")
+            parts.append("| key | unit | range | usual | meaning |\n|---|---|---|---|---|")
+            parts += [_row(row) for row in own if row["variant"] == variant]
+            parts.append("")
+    return "\n".join(parts) + "\n"
+
+
+def _row(row: dict) -> str:
+    bounds = (("above", "\\>"), ("low", "≥"), ("below", "\\<"), ("high", "≤"))
+    limits = ", ".join(f"{sign} {row[name]:g}" for name, sign in bounds if row[name] is not None)
+    limits = limits or ", ".join(row["options"] or ()) or (row["kind"] if row["unit"] is None else "")
+    usual = "**needed**" if row["required"] else "" if row["default"] in (None, [], "") else f"`{row['default']}`"
+    return f"| `{row['key']}` | {row['unit'] or ''} | {limits} | {usual} | {row['about'].replace('|', '/')} |"
+
+
+def equations() -> str:
+    """The derived mechanisms: letters with units, and their equations set by the browser."""
+    parts = ["# Mechanisms\n\nEquations as they were derived; `mechsym eval NAME --latex` prints them as LaTeX.\n"]
+    for name in mechanisms.names():
+        if name == "crank_train":
+            continue
+        stored = json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text())
+        parts.append(f"## {name}\n\n{stored['about']}\n")
+        letters = [f"`{n} [{u}]`" for kind in ("coordinates", "parameters", "inputs") for n, u in stored[kind].items()]
+        parts.append(f"Letters: {', '.join(letters)}.\n")
+        rows = "".join(f"<p><math display='block'>{row['mathml']}</math></p>" for row in stored["equations"])
+        parts.append(f"```{{raw}} html\n{rows}\n```\n")
+    return "\n".join(parts) + "\n"
+
+
+def rooms() -> str:
+    """What each room exports, with signature and docstring."""
+    parts = ["# Rooms\n\nThe public interface of Python is what each room's `__all__` names.\n"]
+    for room in ROOMS:
+        module = importlib.import_module(f"mechsym.{room}")
+        parts.append(f"## mechsym.{room}\n\n{_block(inspect.getdoc(module) or '')}\n")
+        for name in getattr(module, "__all__", ()):
+            found = getattr(module, name)
+            if inspect.ismodule(found):
+                continue
+            told = inspect.getdoc(found) if callable(found) else repr(found)
+            parts.append(
+                f"### {room}.{name}\n\n{_block(f'{name}{_signature(found)}{chr(10)}{chr(10)}{told or str()}')}\n"
+            )
+    return "\n".join(parts) + "\n"
+
+
+def _signature(found: object) -> str:
+    if not callable(found):
+        return ""
+    try:
+        return str(inspect.signature(found))
+    except (TypeError, ValueError):
+        return "(..)"
