@@ -39,6 +39,7 @@ def test_examples_are_of_commands_that_are_there(pages):
     assert all(shlex.split(line)[0] == name for name, line in pages.EXAMPLES.items())
 
 
+@pytest.mark.slow
 def test_rooms_and_sections_are_told_in_full(pages):
     text = pages.rooms()
     for room in pages.ROOMS:
