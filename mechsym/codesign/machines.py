@@ -33,6 +33,10 @@ def point(machine: Machine, load: float, law: str = "propeller", weight: float =
     weight : float
         Share of the time at this point [-]
     """
+    if gas_of(machine).on_shaft:
+        raise BadInput(
+            "co-design lets one piston misfire, with top dead centre at angle 0; others are designed by 'mechsym hinge'"
+        )
     torques, wanted = engine_torques(machine), torque(machine)
     without = unfired(gas_of(machine).force, torques.period)
     (q,) = machine.mechanism.coordinates

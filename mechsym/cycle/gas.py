@@ -40,6 +40,11 @@ class Gas:
     __hash__ = object.__hash__
 
     @property
+    def on_shaft(self) -> bool:
+        """Whether its force is a torque, of which no compression line about angle 0 is known."""
+        return False
+
+    @property
     def p_back(self) -> float:
         """Absolute pressure on the other side of the piston [Pa]."""
         return self.chamber.back_pressure

@@ -108,9 +108,12 @@ def gas_turn(contact: Contact, guide: Guide, given: HingeLosses) -> GasTurn | No
 def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers: RollerParameters) -> float | None:
     """Lowest speed in one period without combustion from dead centre, by the mean speed before; 0 for a stop [-].
 
-    The gas goes back along its compression line, the load brakes on. None where there is no steady motion before.
+    The gas goes back along its compression line, the load brakes on. None where there is no steady motion before, or
+    the gas is known by its torque only.
     """
     gas, fired = gas_of(machine), reduced(fitted(machine, wanted, guide))
+    if gas.on_shaft:
+        return None
     period = gas.pressure.period
     without = unfired(gas.force, period)
 

@@ -165,14 +165,6 @@ def gas_torque(case: Case, mechanism: Mechanism, acting: list[Piston]) -> Callab
     return torque
 
 
-def at_crank(piston: Piston) -> Gas:
-    """The gas of one piston over the crank angle."""
-    pressure, start = piston.gas.pressure, piston.start
-    absolute = pressure.absolute
-    kinks = tuple(sorted((k + start) % pressure.period for k in pressure.kinks))
-    return replace(piston.gas, pressure=replace(pressure, absolute=lambda phi: absolute(phi - start), kinks=kinks))
-
-
 def period_of(acting: list[Piston]) -> float:
     """Period of the gas of all pistons [rad]."""
     return max((p.gas.pressure.period for p in acting), default=_TURN)

@@ -33,6 +33,11 @@ class ShaftTorque(Gas):
 
     __hash__ = object.__hash__
 
+    @property
+    def on_shaft(self) -> bool:
+        """It is a torque."""
+        return True
+
     def force(self, phi: np.ndarray) -> np.ndarray:
         """The torque over the crank angle [rad]: [N*m] for each metre of travel."""
         return self.curve(np.asarray(phi, dtype=float))
@@ -51,8 +56,8 @@ def machine(case: Case) -> Machine:
     flywheel = case.sections.get("flywheel")
     if not acting:
         raise BadInput(f"{case.file}: nothing turns the shaft; give [cycle], for the pistons of the declaration")
-    if len(acting) == 1:
-        gas, travel = own_gas.at_crank(acting[0]), own.roles(case, "piston")[0]["travel"]
+    if len(acting) == 1 and acting[0].start == 0.0:
+        gas, travel = acting[0].gas, own.roles(case, "piston")[0]["travel"]
     else:
         gas, travel = _on_shaft(case, mechanism, acting), ""
     shaft = _shaft(case, mechanism, omega, travel)
@@ -68,7 +73,7 @@ def _on_shaft(case: Case, mechanism: Mechanism, acting: list[own_gas.Piston]) ->
         first.pressure,
         period=own_gas.period_of(acting),
         kinks=own_gas.kinks_of(acting),
-        facts=(*first.pressure.facts, f"the torque is that of {len(acting)} pistons on one shaft"),
+        facts=(*first.pressure.facts, f"the torque is that of {len(acting)} piston(s) on the shaft"),
     )
     return ShaftTorque(pressure=pressure, chamber=first.chamber, curve=own_gas.gas_torque(case, mechanism, acting))
 

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
+from mechsym.hinge.price import misfire_share
 from mechsym.hinge.torque import torque
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.flywheel import flywheel
@@ -224,6 +226,14 @@ def test_three_pistons_on_one_shaft_give_the_sum_of_their_torques(folder, slider
     assert hinges[0].load_torque == pytest.approx(3 * hinges[1].load_torque, rel=1e-9)
     inertia = sum(hinges[1].inertia(phi - turned) for turned in (0, 2 * np.pi / 3, 4 * np.pi / 3)) - 2 * 0.2
     np.testing.assert_allclose(hinges[0].inertia(phi), inertia, rtol=1e-9)
+    turned = written(folder, "turned", SLIDER.replace("TILT", "pi / 3").replace("cos, sin", "cos, pi, sin"),
+                     f'mechanism = "./turned.py"\n{data}{marine}')  # fmt: skip
+    found = torque(machine(turned)).gas_part(phi + np.pi / 3)
+    np.testing.assert_allclose(found, hinges[1].gas_part(phi), atol=1e-8 * np.abs(found).max())
+    for case in (three, turned):  # a torque has no compression line about angle 0
+        assert misfire_share(machine(case), hinges[0], None, None) is None
+        with pytest.raises(BadInput, match="co-design lets one piston misfire"):
+            point(machine(case), 7e5)
     whole, single = cycle(three), cycle(one)
     assert (whole["cylinders"], single["cylinders"]) == (3, 1)
     assert whole["torque_avg"][0] == pytest.approx(hinges[0].load_torque, rel=1e-6)
