@@ -1,6 +1,7 @@
 """Can the guide be built? Each limit is checked with its number; the answer carries the reason and the margin."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -201,10 +202,21 @@ def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParamete
     if math.isfinite(stress):
         checks.append(_at_most("hertz_stress", "contact pressure", stress / 1e6, limits.hertz_stress / 1e6, "MPa"))
     if guide.rollers == 2 and not isinstance(guide.spring, Coil):
-        # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
-        room = (2 * guide.parameters.rho0 - guide.spring.H) / 2
-        checks.append(_at_most("room", "roller radius beside the gas column", rollers.radius, room, "m"))
+        checks.append(_room_check(guide.parameters.rho0, guide.spring.H, rollers.radius))
     return checks
+
+
+def _room_check(rho0: float, free_height: float, radius: float) -> LimitCheck:
+    # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
+    room = (2 * rho0 - free_height) / 2
+    kept = _at_most("room", "roller radius beside the gas column", radius, room, "m")
+    if room > 0:
+        return kept
+    text = (
+        f"between the rollers is no room for the gas column: 2 rho0 = {2 * rho0:.4g} m, it is H = {free_height:.4g} m "
+        f"long; with rollers of {radius:.4g} m radius rho0 must be at least {free_height / 2 + radius:.4g} m"
+    )
+    return replace(kept, text=text)
 
 
 def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> LimitCheck:

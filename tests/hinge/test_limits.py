@@ -77,6 +77,12 @@ def test_rollers_must_leave_room_for_the_gas():
     assert "roller radius beside the gas column" in verdict(rollers={"radius": 0.31}).reason
 
 
+def test_no_room_at_all_says_which_length_is_missing():
+    found = verdict(guide={"rho0": 0.45})
+    assert not found.feasible and "at most -" not in found.reason
+    assert "2 rho0 = 0.9 m, it is H = 1 m long" in found.reason and "rho0 must be at least 0.6 m" in found.reason
+
+
 def test_no_guide_gives_the_reason_and_no_numbers():
     spring = Coil(k=1e5, F0=1e5, H=0.3)
     cut = guide.cut(whole(), spring, section("guide"))
