@@ -26,7 +26,10 @@ def radial_engine():
         p = piston.at()
         x = m.let(f"x{n}", r + l - (p.x * cos(angle) + p.y * sin(angle)), "m")
         m.force(F, along=x)
+        m.draw_line(master.at() if n == 1 else rod.at(), p, role="rod")
+        m.draw_circle(p, r / 3, role="piston")
         m.piston(f"p{n}", travel=x, force=F)
     m.torque(-M_r, along=phi)
     m.rotor("crank", angle=phi, load=M_r)
+    m.draw_line((0, 0), crank.at(r), role="crank")
     return m

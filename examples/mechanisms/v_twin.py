@@ -33,6 +33,11 @@ def v_twin():
         x = m.let(f"x{n}", r + l - p.x * cos(angle) - p.y * sin(angle), "m")
         m.force(F, along=x)
         m.piston(f"p{n}", travel=x, force=F)
+        way = (p.x - r * cos(angle), p.y - r * sin(angle)), (p.x + r / 2 * cos(angle), p.y + r / 2 * sin(angle))
+        m.draw_line(*way, role="piston")
     m.torque(-M_r, along=phi)
     m.rotor("crank", angle=phi, load=M_r)
+    m.draw_line((0, 0), crank.at(r), role="crank")
+    m.draw_line(crank.at(r), master.at(l), role="rod")
+    m.draw_line(crank.at(r), slave.at(), slave.at(l2), role="rod")
     return m

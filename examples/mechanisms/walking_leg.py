@@ -29,6 +29,9 @@ def walking_leg():
     m.pin("T", bars["h"].at(h), bars["i"].at(i), branch=-1)
     m.weight(0, -g)
     m.torque(M, along=phi)
+    m.draw_line(m.frame.at(), crank.at(r), role="crank")
+    for n, end in {"j": j, "b": b, "d": d, "e": e, "k": k, "c": c, "f": f, "g": g_, "h": h, "i": i}.items():
+        m.draw_line(bars[n].at(), bars[n].at(end), role="rod")
     x = m.let("x_foot", bars["h"].at(h).x, "m")
     output(m, x, order=1)
     return m

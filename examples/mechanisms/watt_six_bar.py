@@ -35,5 +35,9 @@ def watt_six_bar():
     m.weight(0, -g)
     m.torque(M, along=phi)
     m.rotor("crank", angle=phi, drive=M)
+    m.draw_line(m.frame.at(), crank.at(r), role="crank")
+    m.draw_line(crank.at(r), coupler.at(l2), coupler.at(u_E, v_E), crank.at(r), role="planet")
+    m.draw_line(m.frame.at(x_D, y_D), rocker.at(l3), role="rod")
+    m.draw_line(coupler.at(u_E, v_E), link.at(l4), m.frame.at(x_F, y_F), role="rod")
     output(m, m.let("x_E_out", coupler.at(u_E, v_E).x, "m"), m.let("y_E_out", coupler.at(u_E, v_E).y, "m"), order=1)
     return m

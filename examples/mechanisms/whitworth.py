@@ -29,5 +29,8 @@ def whitworth():
     m.rotor("crank", angle=phi, drive=M)
     x = m.let("x", ram.at().x, "m")
     m.force(-F, along=x)
+    m.draw_line((0, 0), crank.at(r), role="crank")
+    m.draw_line(rocker.at(), rocker.at(s), link.at(l), role="rod")
+    m.draw_box(ram.at(), l, y / 3, role="piston")
     output(m, x, m.let("rocker_angle", rocker.angle - pi / 2, "rad"), order=2)
     return m

@@ -33,6 +33,8 @@ _UNITS = (
     {k.code: k.unit for k in (*INPUTS, *RESULTS, *PROPORTIONS)} | {"drive_start": "s"} | dict.fromkeys(_MEASURED, "-")
 )
 
+_LETTERS = ("parameters", "inputs", "start")  # sections whose keys are the mechanism's letters
+
 
 def acceptances(table: Any) -> dict[str, Acceptance]:
     """The section `[doubts]` of a case file."""
@@ -64,9 +66,10 @@ def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
         for field in dataclasses.fields(record)
         if isinstance(value := getattr(record, field.name), float) and math.isfinite(value)
     }
-    found = inputs(values) + _run(sections)
     if own:
-        return found
+        known = {key: value for key, value in values.items() if key.partition(".")[0] not in _LETTERS}
+        return inputs(known) + _run(sections)
+    found = inputs(values) + _run(sections)
     stroke, ratio = _crank(sections.get("parameters"))
     area, spring = _piston_area(sections), getattr(sections.get("spring"), "A", None)
     found += proportions(stroke, ratio, getattr(sections.get("operation"), "speed", None))

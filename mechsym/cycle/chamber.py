@@ -14,15 +14,19 @@ Every attribute of a `Chamber` may be a number or a CasADi expression: the same 
 model that is differentiated.
 """
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
 import numpy as np
+from scipy.optimize import brentq
 
 from mechsym.cycle.values import Scalar, Value
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+
+_STILL = 1e-9  # slope of a piston that stands still, by its stroke [1/rad]
 
 
 @record
@@ -111,14 +115,14 @@ def chamber_over(kinematics: ca.Function, bore: float, compression_ratio: float,
     Returns
     -------
     chamber : Chamber
-        Its stroke is x at phi = pi
+        Its stroke is x at bottom dead centre
 
     Notes
     -----
-    Valid: dead centres at 0 and pi, as in every mechanism whose crank axis lies on the cylinder axis.
+    Valid: top dead centre at 0, one bottom dead centre in a turn.
     """
     motion = motion_over(kinematics)
-    stroke, area = travel(motion, np.pi)[0], piston_area(bore)
+    stroke, area = travel(motion, motion.bottom)[0], piston_area(bore)
     ranges = (("bore", bore, 0.0), ("compression_ratio", compression_ratio, 1.0), ("stroke", stroke, 0.0))
     for name, value, least in ranges:
         if not value > least:
@@ -136,7 +140,30 @@ def motion_over(kinematics: ca.Function) -> Motion:
     found = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
     x, dx = found["x"], found["dx_dphi"]
     function = ca.Function("travel", [phi, none], [x, dx, ca.jacobian(dx, phi)])
-    return Motion(name="piston", function=function, parameters={}, masses=())
+    return with_bottom(Motion(name="piston", function=function, parameters={}, masses=()))
+
+
+def with_bottom(motion: Motion) -> Motion:
+    """The motion with its bottom dead centre, which an offset or an articulated rod moves away from pi.
+
+    Raises
+    ------
+    BadInput
+        The piston goes out and back more than once in a turn
+    """
+    phi = np.linspace(0.0, 2 * np.pi, 361)
+    x, slope, _ = travel(motion, phi)
+    stroke = float(np.ptp(x))
+    if not stroke > 0 or abs(float(travel(motion, np.pi)[1])) <= _STILL * stroke:
+        return motion
+    ways = np.sign(slope[np.abs(slope) > _STILL * stroke])
+    if (count := int(np.sum(np.diff(ways) < 0))) != 1:
+        raise BadInput(f"the piston goes out and back {count} times in a turn; a cycle knows one bottom dead centre")
+    best = int(np.argmax(x))
+    low, high = phi[best - 1], phi[best + 1]
+    return dataclasses.replace(
+        motion, bottom=float(brentq(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
+    )
 
 
 def piston_area(bore: Value) -> Value:

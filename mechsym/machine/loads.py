@@ -75,11 +75,14 @@ def settle(load: Load, torque: float, speed: float) -> Load:
     Returns
     -------
     load : record of this module
-        The same law with numbers everywhere
+        The same law with numbers everywhere; where the machine takes work, a steady torque that drives it in place of
+        a propeller
     """
     match load:
         case ConstantLoad(torque=None):
             return replace(load, torque=torque)
+        case PropellerLoad(torque=None) if torque < 0:
+            return ConstantLoad(torque=torque)  # a compressor takes work: a steady torque drives it
         case PropellerLoad():
             return replace(
                 load,

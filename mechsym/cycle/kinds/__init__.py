@@ -48,6 +48,11 @@ KINDS: Mapping[str, Kind] = {
         figures="mechsym.cycle.kinds.two_stroke_zone:at_speed",
         as_diagram="mechsym.cycle.kinds.two_stroke_zone:as_diagram",
     ),
+    "compressor": Kind(
+        cycle="mechsym.cycle.kinds.compressor:CompressorCycle",
+        pressure="mechsym.cycle.kinds.compressor:compressor_pressure",
+        figures="mechsym.cycle.kinds.compressor:at_speed",
+    ),
     "diagram": Kind(
         cycle="mechsym.cycle.measured.diagram:Diagram",
         pressure="mechsym.cycle.measured.pressure:diagram_pressure",
