@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from mechsym import mechanisms
-from mechsym.cycle.chamber import Motion, check_motion
+from mechsym.cycle.chamber import Motion, check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
@@ -61,6 +61,7 @@ def piston_motion(
         masses=tuple(role.get("masses", ())),
         loads=_loads(mechanism, symbols, role, parameters) if role.get("loads") else None,
     )
+    found = with_bottom(found)
     check_motion(found)
     return found
 

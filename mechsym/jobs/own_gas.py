@@ -20,7 +20,7 @@ from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_engine, stirling_pressure
 from mechsym.cycle.kinds.stirling_spaces import areas
-from mechsym.cycle.motion import dead_centre, from_top, piston_roles, slopes, top_of
+from mechsym.cycle.motion import from_top, piston_roles, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import breathing_with, engine_with, of
 from mechsym.mechanisms.record import Mechanism
@@ -49,7 +49,7 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
     Raises
     ------
     BadInput
-        The declaration has no piston, or its dead centres are not half a turn apart
+        The declaration has no piston, or one goes out and back more than once in a turn
     """
     if "cycle" not in case.sections:
         return []
@@ -65,12 +65,6 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
     start = top_of(travel) + float(role.get("fires", 0.0))
     phi = ca.SX.sym("phi")
     shifted = ca.Function("travel", [phi], from_top(travel).call([phi])[:2], ["phi"], ["x", "dx_dphi"])
-    bottom = dead_centre(shifted, -1.0)
-    if abs((bottom - np.pi + np.pi) % _TURN - np.pi) > 1e-6:
-        apart = f"dead centres {np.degrees(bottom % _TURN):.3f} deg apart"
-        raise BadInput(
-            f"{case.file}: piston {role['name']} has {apart}; the cycles know 180 deg: give [torque] a curve"
-        )
     cycle = case.sections["cycle"]
     if kind_of(cycle).given == "engine":
         engine = engine_with(case, NoFriction(), number)
