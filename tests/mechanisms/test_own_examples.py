@@ -13,6 +13,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.jobs import own, own_turn
 from mechsym.jobs.hinge import hinge
+from mechsym.jobs.own_machine import machine
 from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import listing
@@ -184,6 +185,23 @@ def test_a_hinge_is_cut_for_it(name):
     found = hinge(case_of(name))
     assert found.verdict.feasible
     assert found.check.speed_ripple < 1e-9 and abs(found.check.result.energy.residual) < 1e-8
+
+
+def test_weight_under_a_hinge_stays_a_short_series(tmp_path):
+    text = (EXAMPLES / "compressor.py").read_text()
+    heavy = text.replace("    m.piston(", '    m.weight(0, -m.parameters("g", "m/s^2", default=9.81))\n    m.piston(')
+    (tmp_path / "compressor.py").write_text(heavy)
+    (tmp_path / "c.toml").write_text((EXAMPLES / "compressor.toml").read_text())
+    case = cases.load(str(tmp_path / "c.toml"))
+    built = machine(case)
+    assert built.mechanism.functions["energy"].n_instructions() < 1000  # each harmonic of rounding was one more
+    phi, step = np.linspace(0, 6, 25), 1e-4
+    around = [np.asarray(built.mechanism.functions["energy"](phi + s, 0.0)[1]).ravel() for s in (step, -step)]
+    whole = np.asarray(built.mechanism.functions["dynamics"](phi, 0.0, 0.0, 0.0, 0.0)[2]).ravel()
+    assert np.abs(whole).max() > 0.1
+    np.testing.assert_allclose(-(around[0] - around[1]) / (2 * step), whole, atol=1e-6)
+    result = simulate(problem_of(case), settings_of(case))
+    assert abs(result.energy.residual) < 1e-8
 
 
 def test_the_ram_returns_faster_than_it_goes():
