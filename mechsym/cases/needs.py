@@ -65,6 +65,8 @@ def lacking(mechanism: str, tables: Mapping[str, Any]) -> dict[str, list[str]]:
 
 def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
     missing = [f"[{section}]" for section in NEEDS[command] if section not in tables]
+    if command == "simulate" and {"cycle", "operation"} <= tables.keys():
+        missing = [section for section in missing if section != "[simulation]"]  # an engine runs without it
     kind = str((tables.get("cycle") or {}).get("kind", "")) if isinstance(tables.get("cycle"), dict) else ""
     given = KINDS[kind].given if kind in KINDS else ""
     if own.is_file(mechanism):

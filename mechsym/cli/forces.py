@@ -100,6 +100,15 @@ def _own_text(report: dict[str, Any]) -> str:
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm; SI where no unit stands", ""]
     lines += [table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit", "of"]), ""]
     lines.append(f"power residual {ratio_text(report['power_residual'])}")
+    if (lost := report["friction"]) is not None:
+        places = ", ".join(f"{name} {power:.4g}" for name, power in lost["places"].items())
+        lines.append(f"friction takes {lost['power']:.4g} W: {places or lost['note']}")
+    if (shaken := report["shaking"]) is not None:
+        weight = shaken["counterweight"]
+        lines.append(
+            f"shaking force {weight['rms_before']:.4g} N rms; {weight['rms_after']:.4g} N with a counterweight of "
+            f"{weight['unbalance']:.4g} kg*m at {weight['angle_deg']:.4g} deg from the crank"
+        )
     return "\n".join(lines + [f"written: {file}" for file in report["files"]])
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import write_quantities, write_text
-from mechsym.jobs import own, own_gas
+from mechsym.jobs import own, own_gas, own_losses
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import Mechanism, listing
 from mechsym.quantities import RPM, record
@@ -31,6 +31,7 @@ class OwnTurn:
     phi: np.ndarray  #: shape (n,): crank angles without the end of the cycle [rad]
     #: shape (n,): inputs, outputs and reactions by name, `driving_torque` [N*m]
     columns: Mapping[str, np.ndarray]
+    momentum: Mapping[str, np.ndarray]  #: Rates of momentum of all bodies [N, N*m]
     power_residual: float  #: Largest difference of the powers, over the largest of them [-]
 
 
@@ -56,8 +57,9 @@ def turn(case: Case) -> OwnTurn:
         columns |= _named(mechanism, "reactions", letters)
     columns.pop(f"driving_{q}", None)  # the same torque
     _require_closed(case, q, phi, columns)
+    momentum = _named(mechanism, "momentum", letters) if "momentum" in mechanism.functions else {}
     return OwnTurn(
-        mechanism=mechanism, omega=omega, phi=phi, columns=columns, power_residual=_residual(mechanism, letters, torque)
+        mechanism=mechanism, omega=omega, phi=phi, columns=columns, momentum=momentum, power_residual=_residual(mechanism, letters, torque)
     )
 
 
@@ -121,6 +123,8 @@ def summary(found: OwnTurn, case: Case) -> dict[str, Any]:
         "driving_torque_mean": float(found.columns["driving_torque"].mean()),
         "power_residual": found.power_residual,
         "reactions": told["reactions"],
+        "friction": own_losses.friction(case, found.mechanism, found.omega, found.phi, found.columns),
+        "shaking": own_losses.shaking(found.omega, found.phi, found.momentum) if found.momentum else None,
     }
 
 

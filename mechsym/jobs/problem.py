@@ -12,6 +12,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.fitted import fitted
@@ -109,7 +110,8 @@ def engine_of(case: Case) -> Machine:
     BadInput
         The guide that the case asks for cannot be cut
     """
-    if case.mechanism != "crosshead" and not is_own(case.mechanism):
+    breathes = "cycle" in case.sections and kind_of(case.sections["cycle"]).given == "breathing"
+    if not is_own(case.mechanism) and (case.mechanism != "crosshead" or breathes):
         return shaft(case, 0.0)
     engine = machine(case)
     wanted = torque(engine)
