@@ -2,7 +2,8 @@
 
 import casadi as ca
 
-from mechsym.cycle.chamber import Chamber, chamber_over
+from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.dead_centres import chamber_over
 
 
 def slider_crank(r: float, l: float, bore: float, compression_ratio: float) -> Chamber:

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.chamber import Chamber, chamber_over, piston_force, travel
+from mechsym.cycle.chamber import Chamber, piston_force, travel
+from mechsym.cycle.dead_centres import chamber_over
 from mechsym.cycle.kinds import KINDS, back_pressure, kind_of
 from mechsym.cycle.motion import piston_motion, piston_travel
 from mechsym.cycle.pressure import Pressure

@@ -9,8 +9,9 @@ import casadi as ca
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from mechsym.cycle.chamber import Chamber, chamber, motion_over, piston_area
+from mechsym.cycle.chamber import Chamber, chamber, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.dead_centres import motion_over
 from mechsym.cycle.engine import curves
 from mechsym.cycle.kinds import cylinder_pressure
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_engine, stirling_pressure

@@ -16,7 +16,8 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from mechsym import mechanisms
-from mechsym.cycle.chamber import Motion, check_motion, with_bottom
+from mechsym.cycle.chamber import Motion
+from mechsym.cycle.dead_centres import check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.crank_throw import CrankThrowParameters

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cycle.chamber import chamber_over
+from mechsym.cycle.dead_centres import chamber_over
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows

@@ -14,7 +14,8 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cycle.breathing.engine import pressure as breathing_pressure
 from mechsym.cycle.breathing.engine import run as run_breathing
-from mechsym.cycle.chamber import Chamber, motion_over, piston_area
+from mechsym.cycle.chamber import Chamber, piston_area
+from mechsym.cycle.dead_centres import motion_over
 from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine
 from mechsym.cycle.kinds import kind_of

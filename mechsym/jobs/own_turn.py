@@ -59,8 +59,9 @@ def turn(case: Case) -> OwnTurn:
     _require_closed(case, q, phi, columns)
     momentum = _named(mechanism, "momentum", letters) if "momentum" in mechanism.functions else {}
     return OwnTurn(
-        mechanism=mechanism, omega=omega, phi=phi, columns=columns, momentum=momentum, power_residual=_residual(mechanism, letters, torque)
-    )
+        mechanism=mechanism, omega=omega, phi=phi, columns=columns, momentum=momentum,
+        power_residual=_residual(mechanism, letters, torque),
+    )  # fmt: skip
 
 
 def _require_closed(case: Case, q: str, phi: np.ndarray, columns: Mapping[str, np.ndarray]) -> None:

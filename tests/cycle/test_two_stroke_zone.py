@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from mechsym import mechanisms
 from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.chamber import chamber_over
+from mechsym.cycle.dead_centres import chamber_over
 from mechsym.cycle.kinds import back_pressure, cylinder_pressure
 from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, shares, two_stroke_zone
 from mechsym.errors import BadInput

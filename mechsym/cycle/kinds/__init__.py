@@ -93,7 +93,7 @@ def cylinder_pressure(cycle: Any, kinematics: "ca.Function") -> "tuple[Pressure,
             f"[cycle] of kind {others} gives no indicator diagram here; take kind {', '.join(first)} or {last} "
             "(spark ignition in motion: 'mechsym cycle CASE --loop 10')"
         )
-    chamber_over = load("mechsym.cycle.chamber:chamber_over")
+    chamber_over = load("mechsym.cycle.dead_centres:chamber_over")
     room = chamber_over(kinematics, cycle.bore, cycle.compression_ratio, back_pressure(cycle))
     return load(kind.pressure)(cycle, room), room
 
