@@ -44,6 +44,10 @@ def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digit
         complete(theory, names, [question.quantity, *used_names(formula)], algebra)
         own = {letter: evaluate(tree, names, algebra) for letter, tree in formula.letters.items()}
         expected = names[question.quantity]
+    if not np.ndim(expected) and values:
+        # a quantity that is the same at all states
+        like = np.asarray(next(iter(values.values())))
+        expected = np.full(like.shape, expected, dtype=like.dtype)
     return Bench(theory=theory, algebra=algebra, base=names, own=own, expected=expected, digits=digits)
 
 

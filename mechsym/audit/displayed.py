@@ -47,11 +47,12 @@ def displayed(text: str) -> list[Displayed]:
         numbered = match["name"] in (*_ROWS, "equation", "multline") and not match["star"]
         offset = match.start() + match[0].index(body)
         rows = list(_rows(body)) if match["name"] in _ROWS else [(0, body)]
+        before = len(found)
         for start, row in rows:
             counts = numbered and not _UNNUMBERED.search(row) and not _TAG.search(row) and bool(row.strip())
             count += counts
             line = text.count("\n", 0, offset + start + len(row) - len(row.lstrip())) + 1
-            _add(found, row, str(count) if counts else "", line, joined=row is not rows[0][1])
+            _add(found, row, str(count) if counts else "", line, joined=len(found) > before)
     return [part for equation in found for part in _parts(equation)]
 
 

@@ -60,12 +60,19 @@ def test_what_cannot_be_read_or_matched_is_counted(tmp_path):
         (r"\begin{equation*}a=b\end{equation*}\begin{equation}c=d\end{equation}", ["", "1"]),
         (r"\begin{align}a&=b\\c&=\begin{cases}1,&x<2\\3,&x>2\end{cases}\tag{7a}\end{align}", ["1", "7a"]),
         (r"\begin{eqnarray}a&=&b\\&=&c\end{eqnarray}\begin{equation}e=f\end{equation}", ["1", "3"]),
+        (r"\begin{align}\\=x\\&=y\end{align}", ["1"]),
         (r"% \[a=b\]" + "\n" + r"\[a=b, \quad c=d \tag{2}\]", ["2", "2"]),
         (r"\begin{equation}\begin{split}a&=b\\&+c\end{split}\end{equation}", ["1"]),
     ],
 )
 def test_numbers_are_those_of_latex(text, numbers):
     assert [e.number for e in displayed(text)] == numbers
+
+
+@pytest.mark.slow
+def test_a_travel_that_never_changes_is_believed_and_refuted(tmp_path):
+    (tmp_path / "p.tex").write_text(r"\[x = r\] \[v = r\omega\sin\varphi + l\omega\]")
+    assert [r["verdict"] for r in check_paper(tmp_path / "p.tex", ENGINE)][0] == "wrong"
 
 
 @pytest.mark.parametrize(
