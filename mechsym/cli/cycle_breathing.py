@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cli.common import emit, table
+from mechsym.quantities.display import ratio_text
 
 _SPEEDS = ("speed_rpm", "torque_avg", "power_kw", "mep_kpa", "pumping_mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 _BREATH = ("speed_rpm", "volumetric_efficiency", "residual_gas", "air_kg_h", "p_in_kpa", "t_in_k", "p_out_kpa",
@@ -41,7 +42,8 @@ def _text(found: dict[str, Any]) -> str:
     if every > 1:
         lines.append(f"{len(range(0, count, every))} of {count} points shown; all with --json or --out")
     mass, energy = (float(found[f"{name}_residual"].max()) for name in ("mass", "energy"))
-    return "\n".join([*lines, "", f"mass closed to {mass:.1g} of the charge, first law to {energy:.1g} of its energy"])
+    closed = f"mass closed to {ratio_text(mass, 1)} of the charge, first law to {ratio_text(energy, 1)} of its energy"
+    return "\n".join([*lines, "", closed])
 
 
 def _write(out: Path, run: Any, found: dict[str, Any]) -> list[Path]:
