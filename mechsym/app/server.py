@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from typing import Any
 
 from mechsym import cases
 from mechsym.app.answers import hinge_answer
@@ -33,22 +34,23 @@ def serve(name: str, port: int) -> None:
     ui.run(host=_HOST, port=port, title="mechsym", reload=False, show=False, show_welcome_message=False)
 
 
-def check(name: str, port: int) -> str:
-    """Start the workbench, read its page and its first answer without a browser; what was found, in words."""
+def check(name: str, port: int) -> dict[str, Any]:
+    """Start the workbench and read its page without a browser: its case, sliders, tabs and the verdict of the hinge."""
     port = port or _free()
-    server = subprocess.Popen([sys.executable, "-m", "mechsym", "app", name, "--port", str(port)],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    case = cases.load(name)
+    server = subprocess.Popen(
+        [sys.executable, "-m", "mechsym", "app", name, "--port", str(port)],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
     try:
         text = _page_of(server, f"http://{_HOST}:{port}/")
     finally:
         server.terminate()
         server.wait()
-    found = sliders(cases.load(name))
-    if name not in text:
+    if case.name not in text:
         raise BadInput(f"the page of the workbench does not show the case {name}")
-    answer = hinge_answer(name, {}) if "hinge" in tabs(cases.load(name)) else None
-    words = "" if answer is None else f"; hinge: {answer.words}"
-    return f"the workbench of {name} answers: {len(found)} sliders, {', '.join(tabs(cases.load(name)))}{words}"
+    words = hinge_answer(name, {}).words if "hinge" in tabs(case) else None
+    return {"case": case.name, "sliders": len(sliders(case)), "tabs": list(tabs(case)), "hinge": words}
 
 
 def _free() -> int:

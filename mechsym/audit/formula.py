@@ -136,9 +136,9 @@ def question_of(asked: Asked, said: Statement) -> Question:
 
 def _refuse_redefinition(theory: Theory, formula: Formula) -> None:
     for letter, meant in formula.letters.items():
-        # an author's F may be the derived total force, but no datum may become another one
+        # an author's F may be the derived total force and r his r1 + r2, but no datum may become another one
         named_quantity = isinstance(meant, ast.Name) and (meant.id in theory.tape or meant.id == letter)
-        if letter in known(theory) and not named_quantity:
+        if letter in theory.letters and not named_quantity:
             raise BadInput(
                 f"--letters '{letter}={to_python(meant)}': {letter} is a letter of {theory.name} already; write "
                 f"another letter for it in the formula, for example {letter}_own, and --letters '{letter}_own=..'"

@@ -1,13 +1,18 @@
 """`mechsym app`: the workbench in the browser."""
 
+from typing import Any
+
 import click
+
+from mechsym.cli.common import emit, json_option
 
 
 @click.command(short_help="The workbench in the browser: sliders, verdict, runs.")
 @click.argument("case_name", metavar="[CASE]", default="zotov-89")
 @click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="Port on this machine.")
 @click.option("--check", "checked", is_flag=True, help="Start it, read its page without a browser, and end.")
-def app(case_name: str, port: int, checked: bool) -> None:
+@json_option
+def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
     """Move the values of CASE with sliders and see at once whether its hinge can be built; run commands on it.
 
     It listens on this machine alone (127.0.0.1). The address in the browser holds the values, so it can be kept.
@@ -19,7 +24,13 @@ def app(case_name: str, port: int, checked: bool) -> None:
     from mechsym.app import check, serve
 
     if checked:
-        click.echo(check(case_name, 0))
+        found = check(case_name, 0)
+        emit(found, as_json, lambda: _text(found))
     else:
         click.echo(f"http://127.0.0.1:{port}/  (Ctrl-C ends it)", err=True)
         serve(case_name, port)
+
+
+def _text(found: dict[str, Any]) -> str:
+    hinge = "" if found["hinge"] is None else f"; hinge: {found['hinge']}"
+    return f"the workbench of {found['case']} answers: {found['sliders']} sliders, {', '.join(found['tabs'])}{hinge}"

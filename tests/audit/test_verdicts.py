@@ -89,6 +89,11 @@ def test_bad_words_are_refused_with_the_way_out(more, reason):
         check_formula("r", "slider_crank.x", **more)
 
 
+def test_a_derived_name_may_be_told_again_in_data():
+    row = check_formula("r*(1-cos(phi))+r**2/(4*l)*(1-cos(2*phi))", "crosshead.x", letters="r=r1+r2,l=l1+l2")
+    assert row["verdict"] == "truncation"
+
+
 @pytest.mark.parametrize(
     ("text", "place"),
     [

@@ -60,7 +60,7 @@ def test_fig_4_and_fig_6_need_the_force_that_is_not_printed(found):
 
 
 def test_factor_of_pressure(found):
-    assert one(found, "factor of p0")["verdict"] == "reproduced"
+    assert one(found, "factor of p0")["verdict"] == "arithmetic of the source"
 
 
 def test_14_is_proportional_for_the_printed_law_only(found):
