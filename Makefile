@@ -1,4 +1,4 @@
-# Every target sets up what it needs. CI calls lint, check-derive, test, test-slow and docs, in that order.
+# Every target sets up what it needs. CI calls lint, check-derive, docs, test and test-slow, in that order.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
