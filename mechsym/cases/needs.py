@@ -75,6 +75,8 @@ def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[st
     if given == "engine" and command in ("cycle", "compare", "flywheel", "forces", "optimise", "size"):
         missing += [f"[{section}]" for section in ("chamber", "heat_transfer") if section not in tables]
     missing += _of_cycle(command, kind, given)
+    if command == "size" and kind and given != "engine" and "part_crosshead" not in tables:
+        missing += ['[cycle] kind = "spark-ignition"']
     return list(dict.fromkeys(missing))
 
 
