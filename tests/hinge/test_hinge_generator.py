@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from tables import read_table
 
 from mechsym import cases
 from mechsym.cli import main
@@ -83,11 +84,11 @@ def test_flywheel_is_found_although_the_diagram_has_noise(generator):
 @pytest.mark.slow
 def test_files_hold_two_turns(generator, tmp_path):
     files = {file.name: file for file in report.write(generator, tmp_path)}
-    table = np.genfromtxt(files["hinge.csv"], delimiter=",", names=True)
+    table, _ = read_table(files["hinge.csv"])
     assert table["phi"][-1] == pytest.approx(4 * math.pi)
     for name in ("pressure", "hinge_torque", "hinge_work"):
         assert table[name][0] == pytest.approx(table[name][-1], rel=1e-6, abs=1e-6 * np.abs(table[name]).max())
-    guide = np.genfromtxt(files["guide.csv"], delimiter=",", names=True)
+    guide, _ = read_table(files["guide.csv"])
     assert guide["theta"][-1] == pytest.approx(2 * math.pi) and guide["phi"][-1] == pytest.approx(4 * math.pi)
     assert guide["rho"][0] == pytest.approx(guide["rho"][-1], rel=1e-12)
     assert json.loads(files["summary.json"].read_text()) == json.loads(to_json(summary(generator)))
