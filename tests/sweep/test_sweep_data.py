@@ -2,7 +2,6 @@
 
 import csv
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -279,11 +278,12 @@ def test_help_has_examples():
 
 @pytest.mark.slow
 def test_ctrl_c_writes_what_is_finished(tmp_path):
-    words = [Path(sys.executable).parent / "mechsym", "sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:4000"]
     # a shell lets what it runs in the background ignore interrupts, and children inherit that
-    process = subprocess.Popen([*words, "--out", tmp_path, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, env=os.environ,
-                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # fmt: skip
+    code = ("import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+            "from mechsym.cli import main; main()")  # fmt: skip
+    words = ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:4000", "--out", str(tmp_path), "--json"]
+    process = subprocess.Popen([sys.executable, "-c", code, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True)  # fmt: skip
     for _ in range(600):
         if (tmp_path / "sweep.db").exists():
             break
