@@ -48,7 +48,7 @@ def audit(
     as_json: bool,
     **said: Any,
 ) -> None:
-    r"""Compare published hand formulas with the derivations; repair misprints by search.
+    """Compare published hand formulas with the derivations; repair misprints by search.
 
     PAPER is a LaTeX file: each of its display equations is one row. --out writes a page of formulas of your own.
 
@@ -57,7 +57,7 @@ def audit(
 
     \b
     Example: mechsym audit --source zotov2024
-    Example: mechsym audit paper.tex --theory slider_crank --letters "\omega=phid" --out page
+    Example: mechsym audit paper.tex --theory slider_crank --letters "\\omega=phid" --out page
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
     """
     if own := [o for o in (paper, formula, file, code) if o is not None]:
