@@ -5,6 +5,7 @@ An entry without a unit or shape and of five words or fewer repeats its name and
 """
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -18,6 +19,20 @@ UNIT = re.compile(r"\[[^\]]+\]")
 NUMBER = re.compile(r"\b(float|ndarray)\b")
 NAMED = re.compile(r"Mapping|dict|Callable|Sequence\[tuple")  # the unit belongs to each name
 KEEPS_TEMPLATE = ("derive",)  # its text is stamped into generated/
+
+
+def room(path):
+    return path.relative_to(ROOT).parts[0].removesuffix(".py")
+
+
+each_room = pytest.mark.parametrize(
+    "paths", [[p for p in FILES if room(p) == r] for r in sorted({*map(room, FILES)})], ids=sorted({*map(room, FILES)})
+)
+
+
+@functools.cache
+def parsed(path):
+    return ast.parse(path.read_text())
 
 
 def public_functions(tree):
@@ -66,36 +81,46 @@ def in_words(doc):
     return re.split(r"^\S[^\n]*\n-{3,}\n", doc, flags=re.M)[0]
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_docstrings_say_what_signatures_do_not(path):
-    tree = ast.parse(path.read_text())
+@each_room
+def test_docstrings_say_what_signatures_do_not(paths):
+    for path in paths:
+        says_what_signatures_do_not(path)
+
+
+def says_what_signatures_do_not(path):
+    tree = parsed(path)
     assert path.name == "__main__.py" or ast.get_docstring(tree), f"{path.name} has no module docstring"
     for name, node in public_functions(tree):
         doc = ast.get_docstring(node)
-        assert doc, f"{name} has no docstring"
+        assert doc, f"{path}: {name} has no docstring"
         if is_command(node):
             continue
         taken, given = entries(section(doc, "Parameters")), entries(section(doc, "Returns"))
         unknown = {n for names, _, _ in taken for n in names} - set(arguments(node))
-        assert not unknown, f"{name}: the docstring tells of {sorted(unknown)}, the signature does not"
+        assert not unknown, f"{path}: {name}: the docstring tells of {sorted(unknown)}, the signature does not"
         if path.relative_to(ROOT).parts[0] not in KEEPS_TEMPLATE:
             noise = [names for names, kind, about in taken + given if is_noise(kind, about)]
-            assert not noise, f"{name}: {noise} repeat the signature; say what it does not, or nothing"
+            assert not noise, f"{path}: {name}: {noise} repeat the signature; say what it does not, or nothing"
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_numbers_carry_a_unit(path):
-    for name, node in public_functions(ast.parse(path.read_text())):
+@each_room
+def test_numbers_carry_a_unit(paths):
+    for path in paths:
+        carries_units(path)
+
+
+def carries_units(path):
+    for name, node in public_functions(parsed(path)):
         if is_command(node):
             continue
         doc = ast.get_docstring(node) or ""
         told = {n for names, _, about in entries(section(doc, "Parameters")) if UNIT.search(about) for n in names}
         numbers = {n for n, kind in arguments(node).items() if NUMBER.search(kind) and not NAMED.search(kind)}
         silent = set() if UNIT.search(in_words(doc)) else numbers - told
-        assert not silent, f"{name}: {sorted(silent)} without unit in brackets"
+        assert not silent, f"{path}: {name}: {sorted(silent)} without unit in brackets"
         for names, kind, about in entries(section(doc, "Returns")):
             if kind.startswith(("float", "ndarray")):
-                assert UNIT.search(about), f"{name}: {names} without unit in brackets"
+                assert UNIT.search(about), f"{path}: {name}: {names} without unit in brackets"
 
 
 def silent_fields(node, lines):
@@ -117,21 +142,22 @@ def silent_fields(node, lines):
                 yield field.target.id
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_fields_carry_a_unit(path):
-    if path.relative_to(ROOT).parts[0] in KEEPS_TEMPLATE:
-        return
-    text = path.read_text()
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ClassDef) and any("record" in ast.unparse(d) for d in node.decorator_list):
-            assert not (silent := list(silent_fields(node, text.splitlines()))), f"{node.name}: {silent} without unit"
+@each_room
+def test_fields_carry_a_unit(paths):
+    for path in paths:
+        if room(path) in KEEPS_TEMPLATE:
+            return
+        lines = path.read_text().splitlines()
+        for node in ast.walk(parsed(path)):
+            if isinstance(node, ast.ClassDef) and any("record" in ast.unparse(d) for d in node.decorator_list):
+                assert not (silent := list(silent_fields(node, lines))), f"{path}: {node.name}: {silent} without unit"
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_sizes_stay_readable(path):
-    text = path.read_text()
-    assert text.count("\n") <= 300, f"{path.name} is too long; split it"
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.FunctionDef):
-            body = node.body[1:] if ast.get_docstring(node) else node.body
-            assert not body or body[-1].end_lineno - body[0].lineno < 40, f"{node.name} is too long"
+@each_room
+def test_sizes_stay_readable(paths):
+    for path in paths:
+        assert path.read_text().count("\n") <= 300, f"{path} is too long; split it"
+        for node in ast.walk(parsed(path)):
+            if isinstance(node, ast.FunctionDef):
+                body = node.body[1:] if ast.get_docstring(node) else node.body
+                assert not body or body[-1].end_lineno - body[0].lineno < 40, f"{path}: {node.name} is too long"

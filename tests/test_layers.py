@@ -1,6 +1,7 @@
 """Arrows run down only: one ordered list of rooms, for every import, hidden or not, and every text "module:name"."""
 
 import ast
+import functools
 import re
 import subprocess
 import sys
@@ -29,6 +30,11 @@ def room(path):
     return path.relative_to(ROOT).parts[0].removesuffix(".py")
 
 
+each_room = pytest.mark.parametrize(
+    "name, paths", [(r, [p for p in FILES if room(p) == r]) for r in sorted({*map(room, FILES)})]
+)
+
+
 def imported(tree):
     """Full names of modules that a file imports anywhere, or names in a text "module:name"."""
     for node in ast.walk(tree):
@@ -41,20 +47,24 @@ def imported(tree):
             yield node.value.partition(":")[0]
 
 
-def rooms_above(name, tree):
-    """Rooms that a file of the room `name` imports and may not; an unknown room is above all."""
-    found = {m.split(".")[1] for m in imported(tree) if m.startswith("mechsym.")} - {name, *OUTSIDE}
+@functools.cache
+def imports(path):
+    return frozenset(imported(ast.parse(path.read_text())))
+
+
+def rooms_above(name, wanted):
+    """Rooms of the modules `wanted` that a file of the room `name` may not import; an unknown room is above all."""
+    found = {m.split(".")[1] for m in wanted if m.startswith("mechsym.")} - {name, *OUTSIDE}
     below = ORDER[: ORDER.index(name)] if name in ORDER else []
     return sorted(found - set(below) - ({"__version__"} if name == "cli" else set()))
 
 
-INSIDE = [p for p in FILES if room(p) not in ("__init__", "__main__")]
-
-
-@pytest.mark.parametrize("path", INSIDE, ids=lambda p: str(p.relative_to(ROOT)))
-def test_arrows_run_down(path):
-    assert room(path) in ORDER, f"room {room(path)} is not in the list; where does it stand?"
-    assert not (found := rooms_above(room(path), ast.parse(path.read_text()))), f"{room(path)} imports {found}"
+@each_room
+def test_arrows_run_down(name, paths):
+    if name not in ("__init__", "__main__"):
+        assert name in ORDER, f"room {name} is not in the list; where does it stand?"
+        for path in paths:
+            assert not (found := rooms_above(name, imports(path))), f"{path} imports {found}"
 
 
 @pytest.mark.parametrize("name", ORDER[:-1])
@@ -68,19 +78,21 @@ def test_an_arrow_upwards_is_seen(name):
         f"from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import mechsym.{above}",
         f"x = 'mechsym.{above}.y:Z'",
     ):
-        assert rooms_above(name, ast.parse(text)) == [above], text
+        assert rooms_above(name, imported(ast.parse(text))) == [above], text
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_sympy_stays_in_its_rooms(path):
-    if room(path) not in SYMBOLIC:
-        assert not [m for m in imported(ast.parse(path.read_text())) if m.split(".")[0] in ("sympy", "mpmath")]
+@each_room
+def test_sympy_stays_in_its_rooms(name, paths):
+    if name not in SYMBOLIC:
+        for path in paths:
+            assert not [m for m in imports(path) if m.split(".")[0] in ("sympy", "mpmath")], path
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_only_the_upper_rooms_read_cases(path):
-    if room(path) not in (*READS_CASES, "__init__", "__main__"):
-        assert not {m for m in imported(ast.parse(path.read_text())) if m.startswith("mechsym.cases")} - PLAIN
+@each_room
+def test_only_the_upper_rooms_read_cases(name, paths):
+    if name not in (*READS_CASES, "__init__", "__main__"):
+        for path in paths:
+            assert not {m for m in imports(path) if m.startswith("mechsym.cases")} - PLAIN, path
 
 
 def modules():
@@ -91,7 +103,7 @@ def modules():
     arrows = {}
     for name, path in known.items():
         targets = set()
-        for wanted in imported(ast.parse(path.read_text())):
+        for wanted in imports(path):
             while wanted not in known and "." in wanted:
                 wanted = wanted.rpartition(".")[0]
             targets.add(wanted)
