@@ -13,7 +13,7 @@ from mechsym.hinge.torque import Hinge, exists
 
 LawSpring = AirGauge | AirAbsolute | Coil
 
-_FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
+FULL = 1 - 1e-6  # share of the closing beyond which rounding would decide the force of a gas spring
 
 
 # the springs of a sweep share what they have to give
@@ -59,7 +59,7 @@ def status(
             f"{functions.energy_low:.6g} J; place the start, or raise its preload or z_margin"
         )
     z_max = float(functions.closing(energy_max))
-    if z_max >= _FULL * functions.z_high:
+    if z_max >= FULL * functions.z_high:
         return "spring_bottoms", (
             f"the spring would have to store {energy_max:.6g} J, which closes it fully, by {functions.z_high:.6g} m; "
             "make it stiffer or longer"

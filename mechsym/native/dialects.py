@@ -25,7 +25,7 @@ C = {
     "if_else_zero": "({0} != 0.0 ? {1} : 0.0)",
     "sign": "({0} > 0.0 ? 1.0 : ({0} < 0.0 ? -1.0 : {0}))",
     "fmin": "ms_fmin({0}, {1})", "fmax": "ms_fmax({0}, {1})", "copysign": "copysign({0}, {1})",
-    "fmod": "fmod({0}, {1})", "remainder": "remainder({0}, {1})", "hypot": "hypot({0}, {1})",
+    "fmod": "fmod({0}, {1})", "remainder": "remainder({0}, {1})", "hypot": "ms_hypot({0}, {1})",
     "atan2": "atan2({0}, {1})", "erf": "erf({0})", "log1p": "log1p({0})", "expm1": "expm1({0})",
     "sinh": "sinh({0})", "cosh": "cosh({0})", "tanh": "tanh({0})",
     "asinh": "asinh({0})", "acosh": "acosh({0})", "atanh": "atanh({0})",

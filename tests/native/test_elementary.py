@@ -21,6 +21,7 @@ def _source() -> str:
     head = "void test_{0}(long n, const double *x, const double *z, double *y)"
     loop = head + "\n{{ MS_LANES for (long i = 0; i < n; i++) {1} }}\n"
     bodies = {name: f"y[i] = ms_{name}(x[i]);" for name in ("tan", "exp", "log", "asin")}
+    bodies["hypot"] = "y[i] = ms_hypot(x[i], z[i]);"
     bodies["pow"] = "y[i] = ms_pow(x[i], z[i]);"
     bodies["sin"] = "{ double s, c; ms_sincos(x[i], &s, &c); y[i] = s; }"
     bodies["cos"] = "{ double s, c; ms_sincos(x[i], &s, &c); y[i] = c; }"
@@ -105,3 +106,12 @@ def test_edges_of_powers(mode):
     kept = ~(np.isneginf(x) & (y != np.round(y))) & ~(np.isnan(x) & (y == 0))
     with np.errstate(all="ignore"):
         np.testing.assert_allclose(_call(mode, "pow", x, y)[kept], np.power(x, y)[kept], rtol=1e-14)
+
+
+@pytest.mark.parametrize("mode", ["strict", "fast"])
+def test_hypot(mode):
+    x, y = _random(-3, 3), np.random.default_rng(7).uniform(-3, 3, 2000)
+    assert _ulps(_call(mode, "hypot", x, y), _exact("hypot", x, y)) <= 2.0
+    x, y = (a.ravel() for a in np.meshgrid(EDGES, EDGES[~np.isnan(EDGES)]))
+    kept = ~(np.isnan(x) & np.isinf(y))
+    np.testing.assert_allclose(_call(mode, "hypot", x, y)[kept], np.hypot(x, y)[kept], rtol=1e-15)

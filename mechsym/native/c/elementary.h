@@ -2,7 +2,8 @@
  *
  * gcc turns sin(x) and cos(x) of one angle into a call that blocks vectorisation; these do not. Largest error against
  * 60 digits (tests/native/test_elementary.py checks these bounds): sine and cosine 2 ulp for |x| < 1e8 and 3e-16 up to
- * 1e10, tan 3 ulp, exp and log 1.5 ulp, pow 1.5 ulp where |y log x| < 30 and 16 ulp beyond, asin 3 ulp.
+ * 1e10, tan 3 ulp, exp and log 1.5 ulp, hypot 2 ulp, pow 1.5 ulp where |y log x| < 30 and 16 ulp beyond,
+ * asin 3 ulp.
  * Infinite exponents, and powers of what is not a number, give what is not a number.
  * Where digits cancel the subtraction is inside an fma, which no compiler option may reorder.
  */
@@ -113,6 +114,16 @@ MS_INLINE double ms_log(double x)
     const double y = fma(k, 6.93147180369123816490e-01, f - (half - tail));
     const double finite = x > 0.0 ? y : (x == 0.0 ? -INFINITY : NAN);
     return x == INFINITY ? x : finite;
+}
+
+/* What is not a number stays so, beside infinity too. */
+MS_INLINE double ms_hypot(double x, double y)
+{
+    const double a = fabs(x), b = fabs(y), sum = a + b;
+    const int first = a > b;
+    const double most = first ? a : b, least = first ? b : a, share = least / (most > 0.0 ? most : 1.0);
+    const double value = most * sqrt(MS_MADD(share, share, 1.0)), finite = most == INFINITY ? most : value;
+    return sum != sum ? sum : finite;
 }
 
 /* log(x) as high + low with about 60 bits, then exp of y times that. */
