@@ -8,7 +8,7 @@ import click
 from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.errors import MissingExtra
 
-_ANALYSES = ["simulate", "hinge", "cycle", "forces", "size", "codesign"]
+_ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
 _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
@@ -32,12 +32,13 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     """Run CASE over ranges of its values; results as one labelled data set.
 
     A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses
-    these or forces, size, codesign.
+    these or guides, forces, size, codesign.
     With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg; sweep.db takes the points as they come,
     and the same command goes on where it stopped, whatever stopped it.
 
     Of a hinge only torque, guide, verdict and flywheel are computed; --show check.speed_ripple runs it too, and
-    --show retune, --show losses, --show all cost a hundred times as much.
+    --show retune, --show losses, --show all cost a hundred times as much. --of guides asks only which guides can be
+    built: margins of all limits by one compiled function, within 1e-4 of those of --of hinge.
 
     A point that cannot be computed is a gap with a reason: null, an empty cell, NaN; one that kills its process is
     tried once more. Exit status 1 when all are gaps. An interrupt (Ctrl-C, SIGTERM) keeps the points that are finished,
@@ -45,6 +46,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
     \b
     Examples: mechsym sweep zotov-89 --over "spring.p0=3..8 MPa:11" --over speed_rpm=80,89,100 --out map
+              mechsym sweep zotov-89 --of guides --over "spring.p0=2..9 MPa:60" --over spring.H=0.6..1.4:60 --out map
               mechsym sweep chmielewski --over c1=0.1..5:50 --show speed_max
               mechsym sweep chmielewski --samples 200 --over "k1=6500+-200 N*m/rad" --over m0=1.0..1.2
               mechsym sweep nunes-slider-crank --over speed_rpm=1000..8000:71 --over "ignition=-25..-5 deg:21"

@@ -14,6 +14,7 @@ margins differ from its own by less than 1e-4, so what is kept has to be judged 
 """
 
 import dataclasses
+import functools
 import warnings
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
@@ -24,19 +25,17 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
-from mechsym.hinge import rollers as _rollers
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters
-from mechsym.hinge.kernel_spring import coordinate
-from mechsym.hinge.law_path import FULL, LawSpring
+from mechsym.hinge.kernel_formulas import coordinate, of_limits, over_the_turn
+from mechsym.hinge.law_path import LawSpring
 from mechsym.hinge.limits import Limits
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.native import compiled, marcher
+from mechsym.native import compiled, compiled_all, marcher
 from mechsym.quantities import record
 
 _POINTS, _WIDE = 33, 0.5  # angles on a piece of the torque, and the width from which it has so many [rad]
 _BLOCK = 4096  # designs at once
-track: Any = _rollers  # its formulas take symbols too
 _PEAKS = 4  # tangent of the pressure angle, curvature inwards, reaction, contact pressure
 
 
@@ -57,11 +56,10 @@ class DesignKernel:
 class _KernelParts:
     angles: np.ndarray  #: shape (k,): Of the guide's shaft; an angle that stands twice is a kink [rad]
     stages: np.ndarray  #: shape (k, 3): Torque on that shaft [N*m], its slope [N*m/rad], work [J]
-    march: Callable[[np.ndarray], np.ndarray]  #: Values (free, n) to the index of each peak (4, n)
-    values: Any  #: Stage and values to the four quantities there
-    slopes: Any  #: The same to their derivatives
-    finish: Any  #: Values and peaks to margins, the last is above 0 where there is a guide
-    finish_slopes: Any
+    march: Callable[[np.ndarray], np.ndarray]  #: Lanes (all, n) to the index of each peak (4, n)
+    values: Any  #: Stage and lanes to the four quantities there
+    finish: Any  #: Lanes and peaks to margins, the last is above 0 where there is a guide
+    slopes: Callable[[], tuple[Any, Any]]  #: Derivatives of both by what is free
     names: tuple[str, ...]
 
 
@@ -84,32 +82,40 @@ def design_kernel(
     if not isinstance(spring, LawSpring):
         raise BadInput("the limits of many guides at once take springs whose force follows from the closing alone")
     given = {"spring": spring, "guide": choices, "rollers": rollers, "limits": limits}
-    symbols = {name: ca.SX.sym(name.replace(".", "_")) for name in _checked(free, given)}
+    chosen, numbers = _checked(free, given), _numbers_of(given)
+    # all numbers come as lanes, so that one compiled function serves every case of a kind
+    low, _, high, _ = periodic.extremes(wanted.work)
+    lanes = numbers | {"low": low, "high": high, "omega": wanted.omega * choices.shaft_ratio}
+    symbols = {name: ca.SX.sym(name.replace(".", "_")) for name in lanes}
     letters = {
-        section: SimpleNamespace(**{
-            f.name: symbols.get(f"{section}.{f.name}", getattr(values, f.name)) for f in dataclasses.fields(values)
-        })
+        section: SimpleNamespace(
+            **{f.name: symbols.get(f"{section}.{f.name}", getattr(values, f.name)) for f in dataclasses.fields(values)}
+        )
         for section, values in given.items()
-    }  # fmt: skip
+    } | {"torque": SimpleNamespace(low=symbols["low"], high=symbols["high"], omega=symbols["omega"])}
     with warnings.catch_warnings():
         # numpy's functions take symbols; casadi announces that it may do so otherwise one day
         warnings.simplefilter("ignore", FutureWarning)
-        parts = _parts(wanted, type(spring), choices, letters, list(symbols.values()))
+        parts = _parts(wanted, type(spring), choices, letters, list(symbols.values()), [symbols[n] for n in chosen])
     return DesignKernel(
-        free=tuple(symbols),
+        free=tuple(chosen),
         limits=parts.names,
-        margins=lambda values: _in_blocks(lambda v: _margins(parts, v)[0], _columns(values, symbols)),
-        gradients=lambda values: _in_blocks(lambda v: _gradients(parts, v), _columns(values, symbols)),
+        margins=lambda values: _in_blocks(lambda v: _margins(parts, v)[0], values, lanes, chosen),
+        gradients=lambda values: _in_blocks(lambda v: _gradients(parts, v), values, lanes, chosen),
     )
 
 
-def _checked(free: Sequence[str], given: dict[str, Any]) -> list[str]:
-    known = [
-        f"{section}.{f.name}"
+def _numbers_of(given: dict[str, Any]) -> dict[str, float]:
+    return {
+        f"{section}.{f.name}": getattr(values, f.name)
         for section, values in given.items()
         for f in dataclasses.fields(values)
         if isinstance(getattr(values, f.name), float) and f"{section}.{f.name}" != "guide.shaft_ratio"
-    ]
+    }
+
+
+def _checked(free: Sequence[str], given: dict[str, Any]) -> list[str]:
+    known = _numbers_of(given)
     for name in free:
         if name not in known:
             raise BadInput(f"{name} cannot be free in a map of guides; {suggest(name, known)}")
@@ -118,16 +124,20 @@ def _checked(free: Sequence[str], given: dict[str, Any]) -> list[str]:
     return list(free)
 
 
-def _columns(values: np.ndarray, symbols: dict[str, Any]) -> np.ndarray:
-    columns = np.ascontiguousarray(np.asarray(values, dtype=float).T)
-    if columns.ndim != 2 or len(columns) != len(symbols):
-        raise BadInput(f"values have shape {np.shape(values)}; it must be (n, {len(symbols)}): {', '.join(symbols)}")
-    return columns
-
-
-def _in_blocks(function: Callable[[np.ndarray], np.ndarray], columns: np.ndarray) -> np.ndarray:
-    parts = [columns[:, k : k + _BLOCK] for k in range(0, columns.shape[1], _BLOCK)]
-    return np.concatenate([function(np.ascontiguousarray(p)) for p in parts])
+def _in_blocks(
+    function: Callable[[np.ndarray], np.ndarray], values: np.ndarray, lanes: dict[str, float], names: list[str]
+) -> np.ndarray:
+    """A function of lanes (all, n) for designs (n, free), a block after the other."""
+    given = np.asarray(values, dtype=float)
+    if given.ndim != 2 or given.shape[1] != len(names):
+        raise BadInput(f"values have shape {np.shape(values)}; it must be (n, {len(names)}): {', '.join(names)}")
+    at, found = [list(lanes).index(name) for name in names], []
+    for k in range(0, max(len(given), 1), _BLOCK):
+        block = given[k : k + _BLOCK]
+        columns = np.repeat(np.array([*lanes.values()])[:, None], len(block), axis=1)
+        columns[at] = block.T
+        found.append(function(columns))
+    return np.concatenate(found)
 
 
 def _parts(
@@ -136,30 +146,36 @@ def _parts(
     choices: GuideParameters,
     letters: dict[str, SimpleNamespace],
     p: list[ca.SX],
+    free: list[ca.SX],
 ) -> _KernelParts:
     ratio = choices.shaft_ratio
     phi, stages = _stages(wanted, ratio)
-    low, _, high, _ = periodic.extremes(wanted.work)
-    air = coordinate(kind, letters["spring"])
+    air, of = coordinate(kind, letters["spring"]), letters["torque"]
     zm = letters["guide"].z_margin
-    at_start = 0.0 if choices.start == "as_printed" else air.energy(air.of_closing(zm)) + high
+    at_start = 0.0 if choices.start == "as_printed" else air.energy(air.of_closing(zm)) + of.high
     stage, lane, c = ca.SX.sym("stage", 3), ca.vertcat(*p), ROLLERS[choices.arrangement]
-    found = ca.vertcat(*_over_the_turn(stage, air, at_start, c, wanted.omega * ratio, letters))
+    found = ca.vertcat(*over_the_turn(stage, air, at_start, c, letters))
     peaks = ca.SX.sym("peaks", _PEAKS)
-    margins = _of_limits(kind, c, air, at_start - low, at_start - high, peaks, letters)
-    values = ca.vertcat(*margins.values())
+    margins = of_limits(kind, c, air, at_start - of.low, at_start - of.high, peaks, letters)
+    values, chosen = ca.vertcat(*margins.values()), ca.vertcat(*free)
+
+    def slopes() -> tuple[Any, Any]:
+        by = [ca.jacobian(values, chosen), ca.jacobian(values, peaks)]
+        made = compiled_all({
+            "slopes": ca.Function("design_slopes", [stage, lane], [ca.jacobian(found, chosen)]),
+            "ends": ca.Function("design_margin_slopes", [lane, peaks], by),
+        })  # fmt: skip
+        return made["slopes"], made["ends"]
+
     return _KernelParts(
         angles=phi * ratio,
         stages=stages,
         march=_march(stage, lane, found, stages),
         values=compiled(ca.Function("design_values", [stage, lane], [found])),
-        slopes=compiled(ca.Function("design_slopes", [stage, lane], [ca.jacobian(found, lane)])),
         finish=compiled(ca.Function("design_margins", [lane, peaks], [values])),
-        finish_slopes=compiled(ca.Function(
-            "design_margin_slopes", [lane, peaks], [ca.jacobian(values, lane), ca.jacobian(values, peaks)]
-        )),
+        slopes=functools.cache(slopes),
         names=tuple(name for name in margins if name != "cut"),
-    )  # fmt: skip
+    )
 
 
 def _stages(wanted: Balance, ratio: float) -> tuple[np.ndarray, np.ndarray]:
@@ -189,51 +205,6 @@ def _march(stage: ca.SX, lane: ca.SX, found: ca.SX, stages: np.ndarray) -> Calla
         return run(start, numbered, columns)[0][_PEAKS:].astype(int)
 
     return places
-
-
-def _over_the_turn(
-    stage: ca.SX, air: SimpleNamespace, at_start: Any, c: int, omega: float, letters: dict[str, SimpleNamespace]
-) -> list[Any]:
-    """What has its largest value somewhere around the turn."""
-    M, dM, W = stage[0], stage[1], stage[2]
-    z, at = ca.SX.sym("z"), air.z(air.at(at_start - W))
-    law = air.force(z)
-    F, F_z = (ca.substitute(of, z, at) for of in (law, ca.gradient(law, z)))
-    rho, drho = letters["guide"].rho0 - at / c, M / (c * F)
-    d2rho = dM / (c * F) + M * F_z * drho / F**2
-    rollers: Any = letters["rollers"]
-    kappa = track.curvature(rho, drho, d2rho)
-    N = track.reaction(F + rollers.moving_mass * track.inertia_force(rho, d2rho, omega), rho, drho)
-    return [np.abs(drho) / rho, -kappa, N, track.hertz_stress(N, kappa, rollers)]
-
-
-def _of_limits(
-    kind: type[LawSpring], c: int, air: SimpleNamespace, most: Any, least: Any, peaks: ca.SX,
-    letters: dict[str, SimpleNamespace],
-) -> dict[str, Any]:  # fmt: skip
-    """Margins by the names of the checks, and under `cut` a number above 0 where there is a guide."""
-    s, guide, rollers, limits = (letters[name] for name in ("spring", "guide", "rollers", "limits"))
-    z_max, z_min = air.z(air.at(most)), air.z(air.at(least))
-    rho_min = guide.rho0 - z_max / c
-
-    def left(value: Any, limit: Any) -> Any:
-        return (limit - value) / ca.if_else(limit > 0, limit, value)
-
-    found = {
-        "free_height": ca.if_else(z_min < -1e-12 * s.H, z_min / s.H, ca.inf),
-        "closing": left(z_max / s.H, limits.closing_share),
-        "pressure_angle": left(track.pressure_angle(1.0, peaks[0]), limits.pressure_angle),
-        "undercut": ca.if_else(peaks[1] > 0, 1 - (rollers.radius + limits.profile_radius) * peaks[1], ca.inf),
-        "roller_reaction": left(peaks[2], limits.roller_reaction),
-        "centre": left(rollers.radius, rho_min),
-        "hertz_stress": left(peaks[3], limits.hertz_stress),
-        "cut": ca.fmin(ca.fmin(air.force(z_min), FULL * s.H - z_max), rho_min),
-    }
-    if air.pressure is not None:
-        found["spring_pressure"] = left(air.pressure(z_max), limits.spring_pressure)
-        if c == 2:
-            found["room"] = left(rollers.radius, guide.rho0 - s.H / 2)
-    return {name: ca.SX(value) for name, value in sorted(found.items(), key=lambda pair: pair[0] == "cut")}
 
 
 def _margins(parts: _KernelParts, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -270,14 +241,16 @@ def _highest(
 
 def _gradients(parts: _KernelParts, columns: np.ndarray) -> np.ndarray:
     margins, peaks, weights, places = _margins(parts, columns)
-    (k, n), m, stages = columns.shape, margins.shape[1], parts.stages
+    of_values, of_margins = parts.slopes()
+    n, m, stages = columns.shape[1], margins.shape[1], parts.stages
+    found = of_margins.batch(*columns, *peaks)
+    k = len(found) // (m + 1) - _PEAKS
     of_peaks = np.zeros((_PEAKS, k, n))
     for peak in range(_PEAKS):
         for shift in (-1, 0, 1):
             here = stages[places[peak] + shift].T
-            jacobian = parts.slopes.batch(*np.ascontiguousarray(here), *columns).reshape(k, _PEAKS, n)[:, peak]
+            jacobian = of_values.batch(*np.ascontiguousarray(here), *columns).reshape(k, _PEAKS, n)[:, peak]
             of_peaks[peak] += np.where(weights[peak, shift + 1] != 0, weights[peak, shift + 1] * jacobian, 0.0)
-    found = parts.finish_slopes.batch(*columns, *peaks)
     direct, through = found[: k * (m + 1)].reshape(k, m + 1, n), found[k * (m + 1) :].reshape(_PEAKS, m + 1, n)
     total = direct + np.einsum("pmn,pkn->kmn", through, of_peaks)
     total = np.moveaxis(total[:, :m], (2, 1, 0), (0, 1, 2))

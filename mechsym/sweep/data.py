@@ -18,6 +18,7 @@ MAIN = {
         "guide.margin", "guide.z_max", "guide.roller_reaction_max", "hinge_torque_max", "hinge_torque_min",
         "flywheel_inertia_saved",
     ),
+    "guides": ("margin", "feasible"),
     "cycle": ("torque_avg", "power_kw", "efficiency", "p_max_mpa"),
     "forces": ("max.crank_pin_load", "max.main_bearing_load", "max.side_force", "max.torque", "power_residual"),
     "size": ("failing",),

@@ -1,17 +1,17 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms.own import is_file
 from mechsym.quantities import record
-from mechsym.sweep import cycles, singles
+from mechsym.sweep import cycles, guides, singles
 from mechsym.sweep.outcomes import Gap, Outcome, known
 
-ANALYSES = ("simulate", "hinge", "cycle", "forces", "size", "codesign")
+ANALYSES = ("simulate", "hinge", "guides", "cycle", "forces", "size", "codesign")
 # what one point takes, roughly [s]
 _SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
 # verdicts on a run whose numbers cannot be trusted
@@ -29,6 +29,8 @@ class Route:
     run: Callable[[Sequence[Case]], list[Outcome]]  #: Cases to outcomes, in the same order
     together: int  #: Most cases in one call; an interrupt loses one call
     seconds: float  #: What one takes, roughly [s]
+    #: In place of `run`, where cases need not be read one by one: case, overrides and values of the axes to outcomes
+    at: Callable[[str, Mapping[str, Any], Sequence[Mapping[str, Any]]], list[Outcome]] | None = None
 
 
 def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route:
@@ -54,6 +56,9 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
         runs = bool(show) and not all(name.startswith("guide") for name in show)
         return Route(analysis=analysis, run=_each(_hinges(show)), together=1 if runs else 16,
                      seconds=0.5 if runs else 0.006)  # fmt: skip
+    if analysis == "guides":
+        return Route(analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.001,
+                     at=guides.guides)  # fmt: skip
     if analysis in _SINGLES:
         single, seconds = _SINGLES[analysis]
         return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)

@@ -22,13 +22,13 @@ _PARTS = {
     "Pa": ("spring_pressure_max", "hertz_stress_max"),
     "kg*m^2": ("flywheel_inertia_saved", "flywheel_inertia_to_turn", "flywheel_inertia_beside_faulty"),
     "-": (
-        "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "speed_ripple", "ripple_wanted",
-        "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
+        "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "judged", "speed_ripple",
+        "ripple_wanted", "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
         "torque_ratio_min", "torque_ratio_peak", "share", "fill", "gas_index", "misfire_speed_share", "bearing_mu",
         "seal_mu", "guide_mu", "gamma",
     ),
 }  # fmt: skip
-_GROUPS = {"losses.shares.": "-", "energy.work.": "J", "fractions.": "-", "loads.": "N"}
+_GROUPS = {"losses.shares.": "-", "energy.work.": "J", "fractions.": "-", "loads.": "N", "margins.": "-"}
 _KNOWN = {name: unit for unit, names in _PARTS.items() for name in names}
 
 
