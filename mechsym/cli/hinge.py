@@ -107,14 +107,19 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
 
 def _left_out(numbers: dict[str, Any]) -> list[str]:
     """What the ideal hinge does not say, beside the flywheel that it saves."""
-    lost, share = numbers["losses"], numbers["misfire_speed_share"]
+    lost, share, run = numbers["losses"], numbers["misfire_speed_share"], numbers["check"]["losses"]
     if lost is None:
         return []
     after = "not known" if share is None else f"{share:.2g} of the speed" if share > 0 else "the shaft stops"
     kinds = ", ".join(f"{kind} {100 * lost['shares'][kind]:.2g}" for kind in lost["shares"])
     ripple = "no steady motion" if lost["speed_ripple"] is None else f"ripple {lost['speed_ripple']:.2g}"
+    label, counted = "not counted ", []
+    if run is not None:
+        each = ", ".join(f"{kind} {quantity_text(torque, 'N*m', 3)}" for kind, torque in run.items())
+        label, counted = "by the angle", [f"lost in the run  {each} over its last period"]
     return [
-        f"not counted      losses of {100 * lost['share']:.3g} % of the load torque ({kinds} %; assumed unless "
+        *counted,
+        f"{label}     losses of {100 * lost['share']:.3g} % of the load torque ({kinds} %; assumed unless "
         f"[losses] says otherwise); with them {ripple}",
         f"one misfire      with the flywheel that is kept: {after}",
     ]

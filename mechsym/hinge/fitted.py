@@ -9,7 +9,7 @@ from mechsym.machine.loads import settle
 from mechsym.machine.record import AngleForce, Machine
 
 
-def fitted(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Machine:
+def fitted(machine: Machine, wanted: Hinge, guide: Guide | None = None, lost: float = 0.0) -> Machine:
     """The machine ready to run, with or without hinge.
 
     Parameters
@@ -18,12 +18,14 @@ def fitted(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Machi
         Gives the mean torque for a load law without numbers
     guide : Guide, optional
         Guide that could be cut, with the spring that works in it; none leaves the machine without hinge
+    lost : float
+        Mean torque that friction of the hinge takes from such a load [N*m]
     """
     if guide is None:
         return replace(machine, load=settle(machine.load, wanted.load_torque, machine.omega))
     if isinstance(guide.spring, AirThermal):  # its gas runs at the speed of the machine, whatever the guide was cut for
         guide = replace(guide, omega=machine.omega)
-    load = settle(machine.load, wanted.load_torque - kept_torque(guide), machine.omega)
+    load = settle(machine.load, wanted.load_torque - kept_torque(guide) - lost, machine.omega)
     hinge = AngleForce(
         name="hinge",
         input="M_h",

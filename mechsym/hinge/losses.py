@@ -6,12 +6,14 @@ r"""What a real hinge takes from the shaft: bearings of the rollers, seals and g
 c rollers move the spring along rho(phi), with the contact force N, the spring's force F and the side force S of the
 piston on its guide, each the same for all rollers. All torques are losses on the shaft, positive, and lower the torque
 that is left for the load. Friction is taken as a share of its normal force (Coulomb), small enough not to change them.
+Without `[losses]` they are computed beside the ideal design; a case that has that section has them in its runs in time
+too (`in_time`).
 """
 
 import math
+from typing import Any
 
-import numpy as np
-
+from mechsym.hinge.rollers import length
 from mechsym.quantities import quantity, record
 
 
@@ -48,18 +50,16 @@ class LossTorques:
         return self.bearing + self.seal + self.guide + self.rolling + self.gas
 
 
-def bearing_torque(
-    N: np.ndarray, rho: np.ndarray, drho: np.ndarray, mu: float, bearing_radius: float, radius: float, count: int
-) -> np.ndarray:
+def bearing_torque(N: Any, rho: Any, drho: Any, mu: float, bearing_radius: float, radius: float, count: int) -> Any:
     r"""Torque lost in the bearings of the rollers.
 
     .. math:: M = c\,\mu_b |N| r_b \left(\frac{\sqrt{\rho^2 + \rho'^2}}{r} + 1\right)
 
     Parameters
     ----------
-    N : ndarray, shape (n,)
+    N : ndarray, shape (n,), or casadi.SX
         Contact force of each roller [N]
-    rho, drho : ndarray, shape (n,)
+    rho, drho : ndarray, shape (n,), or casadi.SX
         Path of the roller centres [m] and its derivative [m/rad]
     mu : float
         Friction of the bearing [-]
@@ -70,7 +70,7 @@ def bearing_torque(
 
     Returns
     -------
-    torque : ndarray, shape (n,)
+    torque : ndarray, shape (n,), or casadi.SX
         On the shaft [N*m]
 
     Notes
@@ -80,29 +80,29 @@ def bearing_torque(
 
     Examples
     --------
-    >>> float(bearing_torque(np.array([1e5]), np.array([0.7]), np.array([0.0]), 0.0018, 0.05, 0.1, 2)[0])
+    >>> float(bearing_torque(1e5, 0.7, 0.0, 0.0018, 0.05, 0.1, 2))
     144.0
     """
-    return count * mu * np.abs(N) * bearing_radius * (np.hypot(rho, drho) / radius + 1)
+    return count * mu * abs(N) * bearing_radius * (length(rho, drho) / radius + 1)
 
 
-def seal_torque(force: np.ndarray, drho: np.ndarray, mu: float, count: int) -> np.ndarray:
+def seal_torque(force: Any, drho: Any, mu: float, count: int) -> Any:
     r"""Torque lost in the seals of the spring, whose friction follows the pressure.
 
     .. math:: M = c\,\mu_s |F \rho'|
 
     Parameters
     ----------
-    force : ndarray, shape (n,)
+    force : ndarray, shape (n,), or casadi.SX
         Of the spring on each roller [N]
-    drho : ndarray, shape (n,)
+    drho : ndarray, shape (n,), or casadi.SX
         Derivative of the path [m/rad]
     mu : float
         Friction force by spring force [-]
 
     Returns
     -------
-    torque : ndarray, shape (n,)
+    torque : ndarray, shape (n,), or casadi.SX
         On the shaft [N*m]
 
     Notes
@@ -111,33 +111,31 @@ def seal_torque(force: np.ndarray, drho: np.ndarray, mu: float, count: int) -> n
 
     Examples
     --------
-    >>> float(seal_torque(np.array([1e5]), np.array([-0.1]), 0.01, 2)[0])
+    >>> seal_torque(1e5, -0.1, 0.01, 2)
     200.0
     """
-    return count * mu * np.abs(force * drho)
+    return count * mu * abs(force * drho)
 
 
-def side_force(
-    force: np.ndarray, rho: np.ndarray, drho: np.ndarray, d2rho: np.ndarray, mass: float, omega: float
-) -> np.ndarray:
+def side_force(force: Any, rho: Any, drho: Any, d2rho: Any, mass: float, omega: Any) -> Any:
     r"""Force of a piston on the guide of the spring, which carries the torque of the track into the shaft.
 
     .. math:: S = \left[F + m_h \omega^2 (\rho - \rho'')\right] \frac{\rho'}{\rho} - 2 m_h \omega^2 \rho'
 
     Parameters
     ----------
-    force : ndarray, shape (n,)
+    force : ndarray, shape (n,), or casadi.SX
         Of the spring on each roller [N]
-    rho, drho, d2rho : ndarray, shape (n,)
+    rho, drho, d2rho : ndarray, shape (n,), or casadi.SX
         Path of the roller centres [m], [m/rad], [m/rad^2]
     mass : float
         m_h, moving with each roller [kg]
-    omega : float
+    omega : float or casadi.SX
         Speed of the shaft [rad/s]
 
     Returns
     -------
-    S : ndarray, shape (n,)
+    S : ndarray, shape (n,), or casadi.SX
         Signed [N]
 
     Notes
@@ -147,31 +145,30 @@ def side_force(
 
     Examples
     --------
-    >>> one = np.array([1.0])
-    >>> float(side_force(1e5 * one, 0.8 * one, 0.08 * one, 0 * one, 0.0, 10.0)[0])
+    >>> side_force(1e5, 0.8, 0.08, 0.0, 0.0, 10.0)
     10000.0
     """
     pull = mass * omega**2
-    return np.asarray((force + pull * (rho - d2rho)) * drho / rho - 2 * pull * drho)
+    return (force + pull * (rho - d2rho)) * drho / rho - 2 * pull * drho
 
 
-def guide_torque(side: np.ndarray, drho: np.ndarray, mu: float, count: int) -> np.ndarray:
+def guide_torque(side: Any, drho: Any, mu: float, count: int) -> Any:
     r"""Torque lost in the guides of the spring's pistons.
 
     .. math:: M = c\,\mu_g |S\,\rho'|
 
     Parameters
     ----------
-    side : ndarray, shape (n,)
+    side : ndarray, shape (n,), or casadi.SX
         Side force S of each piston [N]
-    drho : ndarray, shape (n,)
+    drho : ndarray, shape (n,), or casadi.SX
         Derivative of the path [m/rad]
     mu : float
         Friction of the guide [-]
 
     Returns
     -------
-    torque : ndarray, shape (n,)
+    torque : ndarray, shape (n,), or casadi.SX
         On the shaft [N*m]
 
     Notes
@@ -180,10 +177,10 @@ def guide_torque(side: np.ndarray, drho: np.ndarray, mu: float, count: int) -> n
 
     Examples
     --------
-    >>> float(guide_torque(np.array([1e4]), np.array([-0.1]), 0.05, 2)[0])
+    >>> guide_torque(1e4, -0.1, 0.05, 2)
     100.0
     """
-    return count * mu * np.abs(side * drho)
+    return count * mu * abs(side * drho)
 
 
 def monotone_seal_torque(swing: float, mu: float, period: float = 2 * math.pi) -> float:

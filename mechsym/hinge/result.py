@@ -11,6 +11,7 @@ from typing import Any
 from mechsym.hinge import steady, trials
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.guide import Guide
+from mechsym.hinge.in_time import RealHinge
 from mechsym.hinge.limits import Verdict
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import Price, price
@@ -64,6 +65,7 @@ class Design:
     flywheel_kept: float  #: Flywheel of the case [kg*m^2]
     turns: float  #: Turns of each trial [-]
     assumed: HingeLosses = HingeLosses()  #: What an ideal hinge leaves out
+    in_time: HingeLosses | None = None  #: Friction in the runs in time; None for an ideal hinge
     other: Callable[[], Machine | None] = lambda: None  #: The engine at the other speed of the case, if it has one
     at_loads: Callable[[Guide], tuple[AtLoad, ...]] = lambda guide: ()  #: A guide at the loads that were asked for
 
@@ -78,12 +80,17 @@ class Design:
         if self.usable is None:
             return None
         law = "propeller" if isinstance(self.machine.load, PropellerLoad) else "constant"
-        return trials.trial(f"hinge_{law}", self.machine, self.hinge, self.usable, self.turns)
+        return trials.trial(f"hinge_{law}", self.machine, self.hinge, self.real(self.usable), self.turns)
+
+    def real(self, guide: Guide) -> RealHinge:
+        """A guide with what the runs in time have beside it."""
+        return RealHinge(guide=guide, rollers=self.rollers, losses=self.in_time)
 
     @functools.cached_property
     def trials(self) -> tuple[Trial, ...]:
         """All runs in time, the proof among them."""
-        runs = trials.side_by_side(self.machine, self.hinge, self.usable, self.turns, self.check)
+        hinge = self.real(self.usable) if self.usable else None
+        runs = trials.side_by_side(self.machine, self.hinge, hinge, self.turns, self.check)
         if inertia := self.flywheels.steady.inertia:
             runs.append(trials.with_flywheel(self.machine, self.hinge, inertia, self.turns))
         return tuple(runs)
@@ -107,7 +114,9 @@ class Design:
     def retuned(self) -> Retuned | None:
         """The same guide at the other speed of the case."""
         other = self.other() if self.usable else None
-        return steady.retuned(other, torque(other), self.usable, self.turns) if other and self.usable else None
+        return (
+            steady.retuned(other, torque(other), self.real(self.usable), self.turns) if other and self.usable else None
+        )
 
     @functools.cached_property
     def price(self) -> Price | None:

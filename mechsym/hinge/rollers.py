@@ -16,7 +16,9 @@ et al. 2024, section 3). Neglected: mass of rollers, spring pistons and gas (see
 """
 
 import math
+from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from mechsym.quantities import choice, quantity, record
@@ -121,16 +123,22 @@ def profile_curvature(kappa: np.ndarray, radius: float) -> np.ndarray:
     return kappa / (1 + radius * kappa)
 
 
-def reaction(force: np.ndarray, rho: np.ndarray, drho: np.ndarray) -> np.ndarray:
+def length(a: Any, b: Any) -> Any:
+    """Root of the sum of squares, for numbers, arrays and CasADi symbols alike [unit of a]."""
+    symbols = isinstance(a, ca.SX | ca.MX) or isinstance(b, ca.SX | ca.MX)
+    return ca.hypot(a, b) if symbols else np.hypot(a, b)
+
+
+def reaction(force: Any, rho: Any, drho: Any) -> Any:
     r"""Contact force of a massless roller on its track, N1 and N2 of the source.
 
     .. math:: N = \frac{F}{\cos\alpha} = F\sqrt{1 + (\rho'/\rho)^2}
 
     Parameters
     ----------
-    force : ndarray, shape (n,)
+    force : ndarray, shape (n,), or casadi.SX
         Spring force F [N]
-    rho, drho : ndarray, shape (n,)
+    rho, drho : ndarray, shape (n,), or casadi.SX
         Path [m] and its derivative [m/rad]
 
     Returns
@@ -142,7 +150,7 @@ def reaction(force: np.ndarray, rho: np.ndarray, drho: np.ndarray) -> np.ndarray
     -----
     Virtual work: the tangential part N sin(alpha) at the radius rho is F drho/dtheta for each roller.
     """
-    return force * np.hypot(1, drho / rho)
+    return force * length(1, drho / rho)
 
 
 def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) -> np.ndarray:
@@ -194,16 +202,16 @@ def tilting_couple(N: np.ndarray, plane_offset: float) -> np.ndarray:
     return N * plane_offset
 
 
-def loss_torque(N: np.ndarray, rho: np.ndarray, drho: np.ndarray, rollers: RollerParameters) -> np.ndarray:
+def loss_torque(N: Any, rho: Any, drho: Any, rollers: RollerParameters) -> Any:
     r"""Torque that rolling resistance of one roller takes from the guide's shaft.
 
     .. math:: M_f = \frac{f N}{r}\,\sqrt{\rho^2 + \rho'^2}
 
     Parameters
     ----------
-    N : ndarray, shape (n,)
+    N : ndarray, shape (n,), or casadi.SX
         Contact force [N]
-    rho, drho : ndarray, shape (n,)
+    rho, drho : ndarray, shape (n,), or casadi.SX
         Path [m] and its derivative [m/rad]
     rollers : RollerParameters
         Friction by name; 0 for `none`
@@ -218,20 +226,20 @@ def loss_torque(N: np.ndarray, rho: np.ndarray, drho: np.ndarray, rollers: Rolle
     A roller whose centre moves by ds turns by ds / r against the track and loses f N ds / r. f is 1e-6 m in the source.
     """
     if rollers.friction == "none":
-        return np.zeros_like(N)
-    return rollers.rolling_arm * N / rollers.radius * np.hypot(rho, drho)
+        return np.zeros(N.shape)
+    return rollers.rolling_arm * N / rollers.radius * length(rho, drho)
 
 
-def inertia_force(rho: np.ndarray, d2rho: np.ndarray, omega: float) -> np.ndarray:
+def inertia_force(rho: Any, d2rho: Any, omega: Any) -> Any:
     r"""Radial force for each kilogram that moves with a roller: what the massless model leaves out.
 
     .. math:: f = \omega_\theta^2\,(\rho - \rho'')
 
     Parameters
     ----------
-    rho, d2rho : ndarray, shape (n,)
+    rho, d2rho : ndarray, shape (n,), or casadi.SX
         Path [m] and its second derivative [m/rad^2]
-    omega : float
+    omega : float or casadi.SX
         Speed of the guide's shaft [rad/s]
 
     Returns

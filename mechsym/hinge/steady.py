@@ -11,12 +11,13 @@ from scipy.optimize import minimize_scalar
 
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide, Spring, refit
+from mechsym.hinge.in_time import RealHinge
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
 from mechsym.hinge.springs import Coil
 from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
-from mechsym.hinge.trials import Trial, run
+from mechsym.hinge.trials import Trial, ready, run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
 from mechsym.quantities import record
@@ -121,16 +122,17 @@ def with_guide(machine: Machine, wanted: Hinge, guide: Guide) -> Steady:
     return steady_state(_panels(machine, wanted, guide), machine.omega)
 
 
-def retuned(other: Machine, wanted: Hinge, guide: Guide, turns: float) -> Retuned:
+def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Retuned:
     """The spring setting with the least steady ripple at another speed, and how the engine runs with it.
 
     Parameters
     ----------
-    guide : Guide
-        Guide as cut for the design speed
+    hinge : RealHinge
+        Guide as cut for the design speed, with what acts on it in time
     turns : float
         Turns to run in time [-]
     """
+    guide = hinge.guide
     design = setting_of(guide.spring)
     near = retune(guide, wanted, "least_ripple_propeller_load").setting
 
@@ -144,8 +146,9 @@ def retuned(other: Machine, wanted: Hinge, guide: Guide, turns: float) -> Retune
     steady = with_guide(other, wanted, refit(guide, spring))
     trial = None
     if steady.speed_mean is not None:
-        engine = fitted(other, wanted, refit(guide, spring))
-        trial = run("retuned", "same guide, best pressure, other speed", engine, float(steady.omega[0]), turns)
+        engine, real = ready(other, wanted, dataclasses.replace(hinge, guide=refit(guide, spring)))
+        about = "same guide, best pressure, other speed"
+        trial = run("retuned", about, engine, float(steady.omega[0]), turns, real=real)
     return Retuned(
         other=other,
         wanted=wanted,

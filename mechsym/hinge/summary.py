@@ -51,6 +51,7 @@ def _check(design: Design) -> dict[str, Any]:
         "speed_ripple": check.speed_ripple if check else None,
         "energy_residual": check.result.energy.residual if check else None,
         "tolerance_difference": check.result.tolerance_difference if check else None,
+        "losses": dict(check.losses) if check and check.losses else None,
     }
 
 

@@ -4,15 +4,22 @@ Each run audits its energy and takes the hinge's torque from the geometry of the
 from the table it was designed from. `steadiness.py` finds steady motions without running them.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
+from mechsym.hinge.contact import at_angles
 from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide
+from mechsym.hinge.in_time import KINDS, RealHinge, is_real, with_real_hinge
+from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.price import friction
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, period_of
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.periodic import even_angles
 from mechsym.quantities import record
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
@@ -20,6 +27,7 @@ from mechsym.simulate.engine import problem, reduced
 from mechsym.simulate.steady import steady_state
 from mechsym.simulate.summary import speed_ripple
 
+_ANGLES = 1440  # of a turn of the guide
 _LAWS: dict[str, Load] = {"constant": ConstantLoad(), "propeller": PropellerLoad()}
 
 
@@ -32,9 +40,14 @@ class Trial:
     about: str
     result: Result
     speed_ripple: float | None  #: (max - min) / mean over the last period; None if the shaft stopped before [-]
+    #: Mean torque that each kind of loss took over the last period [N*m]; None for an ideal hinge
+    losses: Mapping[str, float] | None = None
 
 
-def run(name: str, about: str, machine: Machine, speed: float, turns: float, settings: Settings | None = None) -> Trial:
+def run(
+    name: str, about: str, machine: Machine, speed: float, turns: float, settings: Settings | None = None,
+    real: RealHinge | None = None,
+) -> Trial:  # fmt: skip
     """Run a machine in time from top dead centre.
 
     Parameters
@@ -43,15 +56,21 @@ def run(name: str, about: str, machine: Machine, speed: float, turns: float, set
         Speed at the start [rad/s]
     turns : float
         Turns to run [-]
+    real : RealHinge or None
+        Losses and masses of its hinge; None for an ideal one
     """
-    result = simulate(problem(machine, speed, turns), settings or Settings(check="none"))
+    what = problem(machine, speed, turns)
+    result = simulate(
+        what if real is None else with_real_hinge(what, machine, real), settings or Settings(check="none")
+    )
     (angle,) = machine.mechanism.coordinates
     stopped = result.event is not None or result.status == "failed"
     ripple = None if stopped else speed_ripple(result, angle, period_of(machine))
-    return Trial(name=name, about=about, result=result, speed_ripple=ripple)
+    losses = None if real is None or stopped else _losses(result, angle, period_of(machine))
+    return Trial(name=name, about=about, result=result, speed_ripple=ripple, losses=losses)
 
 
-def trial(name: str, machine: Machine, wanted: Hinge, guide: Guide, turns: float) -> Trial:
+def trial(name: str, machine: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Trial:
     """One run with a guide.
 
     Parameters
@@ -62,19 +81,49 @@ def trial(name: str, machine: Machine, wanted: Hinge, guide: Guide, turns: float
         Turns to run [-]
     """
     kind, law = name.split("_")
-    engine = fitted(replace(machine, load=_LAWS[law]), wanted, guide)
+    engine, real = ready(replace(machine, load=_LAWS[law]), wanted, hinge)
     if kind == "hinge":
-        return run(name, f"hinge, {law} load", engine, machine.omega, turns, Settings())
-    return run(name, f"hinge, {law} load, started 1 % fast", engine, 1.01 * machine.omega, turns)
+        return run(name, f"hinge, {law} load", engine, machine.omega, turns, Settings(), real)
+    return run(name, f"hinge, {law} load, started 1 % fast", engine, 1.01 * machine.omega, turns, real=real)
+
+
+def ready(machine: Machine, wanted: Hinge, hinge: RealHinge) -> tuple[Machine, RealHinge | None]:
+    """A machine with its hinge, its load lowered by what is lost; and what that hinge has beside the ideal one."""
+    hinge = replace(hinge, guide=replace(hinge.guide, omega=machine.omega))
+    if not is_real(hinge):
+        return fitted(machine, wanted, hinge.guide), None
+    return fitted(machine, wanted, hinge.guide, _friction_torque(hinge)), hinge
+
+
+def _friction_torque(hinge: RealHinge) -> float:
+    """Mean torque on the crank that friction takes at constant speed [N*m]."""
+    theta = even_angles(2 * np.pi, _ANGLES)
+    contact = at_angles(hinge.guide, hinge.rollers, theta)
+    none = HingeLosses(bearing_mu=0.0, seal_mu=0.0, guide_mu=0.0)
+    return float(sum(np.mean(t) for t in friction(contact, hinge.guide, hinge.rollers, hinge.losses or none).values()))
+
+
+def _losses(result: Result, angle: str, period: float) -> dict[str, float]:
+    """Mean torque that each kind of loss took over the last period [N*m]."""
+    q = result.columns[angle]
+    since = max(float(q[-1]) - period, float(q[0]))
+    found = {}
+    for kind, name in KINDS.items():
+        column = result.columns.get(name)
+        lost = 0.0 if column is None else abs(float(column[-1] - np.interp(since, q, column)))
+        found[kind] = lost / (float(q[-1]) - since)
+    return found
 
 
 def side_by_side(
-    machine: Machine, wanted: Hinge, guide: Guide | None, turns: float, known: Trial | None
+    machine: Machine, wanted: Hinge, hinge: RealHinge | None, turns: float, known: Trial | None
 ) -> list[Trial]:
     """The runs of the report: without anything, and the hinge at the design speed and 1 per cent off.
 
     Parameters
     ----------
+    hinge : RealHinge or None
+        With what acts on it in time; None without a guide
     turns : float
         Turns to run [-]
     known : Trial or None
@@ -86,11 +135,11 @@ def side_by_side(
         Keys without, hinge_constant, off_constant, hinge_propeller, off_propeller
     """
     runs = [run("without", "no hinge, no flywheel", fitted(machine, wanted), machine.omega, turns)]
-    if guide is None:
+    if hinge is None:
         return runs
     for name in (f"{kind}_{law}" for law in _LAWS for kind in ("hinge", "off")):
         again = known is not None and known.name == name
-        runs.append(known if known and again else trial(name, machine, wanted, guide, turns))
+        runs.append(known if known and again else trial(name, machine, wanted, hinge, turns))
     return runs
 
 

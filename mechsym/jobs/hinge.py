@@ -51,6 +51,7 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[float] = ()) -
         machine=engine, rollers=rollers, hinge=wanted, balance=chosen.balance, guide=chosen.guide,
         verdict=chosen.verdict, instead=tuple(instead), flywheel_kept=kept_flywheel(case),
         turns=case.sections.get("trials", TrialSettings()).turns, assumed=case.sections.get("losses", HingeLosses()),
+        in_time=case.sections.get("losses"),
         other=functools.partial(_other, case), at_loads=lambda guide: tuple(at_loads(case, guide, pressures)),
     )  # fmt: skip
 

@@ -4,8 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
+from mechsym.simulate.equations import fitted
+from mechsym.simulate.problem import Periodic, Problem
 from mechsym.simulate.result import Energy
 
 # a run whose energy balances to this is integrated well; if it still differs from its check, the motion is to blame
@@ -31,8 +33,38 @@ def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.nda
     return kinetic, potential
 
 
-def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray]) -> Energy:
+def energies_beside(problem: Problem, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Energy in what turns and what is stored beside a mechanism.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray, shape (n,)
+        Of the run, with the mechanism's own kinetic energy [SI]
+
+    Returns
+    -------
+    energies : dict of str to ndarray
+        `kinetic_energy` of all, `stored_energy`; only what there is [J]
+    """
+    found: dict[str, np.ndarray] = {}
+    if problem.inertia is not None:
+        u = columns[velocities(problem.mechanism)[0]]
+        found["kinetic_energy"] = columns["kinetic_energy"] + _along(problem.inertia[0], columns) * u**2 / 2
+    if problem.stored is not None:
+        speeds = [columns[name] for name in velocities(problem.mechanism)]
+        curves = [_along(curve, columns) for curve in problem.curves]
+        found["stored_energy"] = problem.stored.function(speeds, curves, [columns[s.name] for s in problem.states])
+    return found
+
+
+def _along(curve: Periodic, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    return np.asarray(fitted(curve)(columns[curve.coordinate]))
+
+
+def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], heats: tuple[str, ...] = ()) -> Energy:
     """Balance of work, dissipation and energy over a run.
+
+    Where the energy in stores is known, it and the heat that leaves them stand in the balance for their work.
 
     Parameters
     ----------
@@ -40,18 +72,30 @@ def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray]) ->
         Side of the balance of each part by its name, `drive` counts as work in
     columns : mapping of str to ndarray
         Its columns, first entry at the start, last at the end
+    heats : tuple of str
+        Columns of heat that has left a store [J]
     """
     work = {name: float(columns[f"work_{name}"][-1]) for name in roles}
     work_in = sum(work[name] for name, role in roles.items() if role == "drive")
     lost = float(columns["dissipation"][-1])
+    losses = {name: -work[name] for name, role in roles.items() if role == "loss"}
+    losses |= {name: float(columns[name][-1] - columns[name][0]) for name in heats}
     if "kinetic_energy" not in columns:
-        return Energy(work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None)
+        return Energy(work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None,
+                      losses=losses)  # fmt: skip
     total = columns["kinetic_energy"] + columns["potential_energy"]
+    given = sum(work.values())
+    if "stored_energy" in columns:
+        total = total + columns["stored_energy"]
+        given -= sum(work[name] for name, role in roles.items() if role == "store") + sum(
+            losses[name] for name in heats
+        )
     change = float(total[-1] - total[0])
     peak = float(max(np.ptp(total), np.max(columns["kinetic_energy"])))
     reference = work_in if abs(work_in) > 1e-3 * peak else peak
-    residual = (sum(work.values()) - lost - change) / reference if reference else 0.0
-    return Energy(work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual)
+    residual = (given - lost - change) / reference if reference else 0.0
+    return Energy(work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual,
+                  losses=losses)  # fmt: skip
 
 
 def speed_difference(a: Mapping[str, np.ndarray], b: Mapping[str, np.ndarray]) -> np.ndarray:

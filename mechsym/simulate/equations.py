@@ -1,6 +1,6 @@
 """First-order equations of a problem: motion, the work of every part, and what the dampers take.
 
-    y = (q, u, work of each part, dissipation),   dy/dt = f(t, y, w)
+    y = (q, u, work of each part, dissipation, states),   dy/dt = f(t, y, w)
 
 w holds the values that no formula gives: the steps, constant in a phase, and the plain callables. f is one CasADi
 function, so that any backend can take it; scipy calls it through a buffer (0.5 microseconds a call).
@@ -12,12 +12,13 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from scipy.interpolate import PPoly
 
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, acceleration_function, velocities
 from mechsym.quantities import record
-from mechsym.simulate.problem import FormulaForce, Periodic, Problem, Steps
+from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Steps
 
 
 @record
@@ -48,41 +49,80 @@ def system(problem: Problem) -> System:
         why = "its constraints name no dependent coordinates"
         raise BadInput(f"{mechanism.name} cannot run in time: {why}; declare them with m.dependents(..)")
     n, names = len(mechanism.coordinates), velocities(mechanism)
-    t, y = ca.SX.sym("t"), ca.SX.sym("y", 2 * n + len(problem.parts) + 1)
+    works = tuple(f"work_{p.name}" for p in problem.parts)
+    columns = (*mechanism.coordinates, *names, *works, "dissipation", *(s.name for s in problem.states))
+    t, y = ca.SX.sym("t"), ca.SX.sym("y", len(columns))
     q, u = ca.vertsplit(y[:n]), ca.vertsplit(y[n : 2 * n])
     outer = outer_values(problem)
     w = ca.SX.sym("w", len(outer))
-    values = part_values(problem, t, q, u, w)
+    along = (u, _curves(problem, w), ca.vertsplit(y[len(columns) - len(problem.states) :]))
+    values = part_values(problem, t, q, u, w, along)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
-    qdd = acceleration_function(mechanism)(*q, *u, *inputs)
+    qdd = _carrying(problem, q, u, w, acceleration_function(mechanism)(*q, *u, *inputs))
     rates, loss = power(mechanism, q, u)
     powers = [value * rates[part.input] for part, value in values]
-    works = tuple(f"work_{p.name}" for p in problem.parts)
+    inner = [s.rate.function(*along) for s in problem.states]
+    found = ca.vertcat(*u, qdd, *powers, loss, *inner)
     return System(
-        function=ca.Function("system", [t, y, w], [ca.vertcat(*u, qdd, *powers, loss)], ["t", "y", "w"], ["ydot"]),
-        columns=(*mechanism.coordinates, *names, *works, "dissipation"),
-        units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1),
+        function=ca.Function("system", [t, y, w], [found], ["t", "y", "w"], ["ydot"]),
+        columns=columns,
+        units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1) + tuple(s.unit for s in problem.states),
         values=outer,
         size=n,
         audited="energy" in mechanism.functions,
     )
 
 
+def start_of(problem: Problem, equations: System) -> np.ndarray:
+    """The state at the start, no work done yet.
+
+    Returns
+    -------
+    y : ndarray, shape (m,)
+        In the order of the columns [SI]
+    """
+    states = [s.start for s in problem.states]
+    none = np.zeros(len(equations.columns) - 2 * equations.size - len(states))
+    return np.concatenate([problem.q0, problem.u0, none, states])
+
+
 def outer_values(problem: Problem) -> tuple[Any, ...]:
-    """The values that no formula gives, in the order of w."""
-    return tuple(p.value for p in problem.parts if not isinstance(p.value, FormulaForce))
+    """The values that no formula gives, in the order of w: of the parts, the curves, the inertia and its slope."""
+    parts = (p.value for p in problem.parts if not isinstance(p.value, FormulaForce | Along))
+    return (*parts, *problem.curves, *(problem.inertia or ()))
 
 
-def part_values(problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any) -> list[tuple[Any, Any]]:
-    """Each part with the symbol or the formula of its value."""
+def part_values(
+    problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any, along: tuple[Any, Any, Any] = ((), (), ())
+) -> list[tuple[Any, Any]]:
+    """Each part with the symbol or the formula of its value; `along` is what the formulas of `Along` are made of."""
     found, next_w = [], 0
     for part in problem.parts:
         if isinstance(part.value, FormulaForce):
             found.append((part, ca.SX(part.value.function(t, q, u))))
+        elif isinstance(part.value, Along):
+            found.append((part, ca.SX(part.value.function(*along))))
         else:
             found.append((part, w[next_w]))
             next_w += 1
     return found
+
+
+def _curves(problem: Problem, w: Any) -> list[Any]:
+    last = w.shape[0] - (2 if problem.inertia else 0)
+    return ca.vertsplit(w[last - len(problem.curves) : last]) if problem.curves else []
+
+
+def _carrying(problem: Problem, q: Sequence[Any], u: Sequence[Any], w: Any, qdd: Any) -> Any:
+    r"""Acceleration of a shaft that turns more inertia than its mechanism has.
+
+    .. math:: (I + I_h)\,\ddot q = I \ddot q_0 - \tfrac12 I_h' \dot q^2
+    """
+    if problem.inertia is None:
+        return qdd
+    without = [0.0] * len(problem.mechanism.inputs)
+    own = problem.mechanism.functions["dynamics"](*q, *u, *without)[0]
+    return (own * qdd - w[-1] * u[0] ** 2 / 2) / (own + w[-2])
 
 
 def power(mechanism: Mechanism, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
@@ -133,7 +173,9 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 
 @lru_cache(maxsize=64)
 def fitted(value: Periodic) -> Any:
-    """Periodic piecewise polynomial of a value, to round-off."""
+    """Periodic piecewise polynomial of a value, to round-off; one that is such a polynomial stays as it is."""
+    if isinstance(value.value, PPoly):
+        return value.value
     return periodic.fit(value.value, value.kinks, value.period)
 
 

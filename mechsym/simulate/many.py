@@ -54,6 +54,7 @@ def _groups(problems: Sequence[Problem], settings: Settings) -> list[list[int]]:
             tuple((q.name, q.input, type(q.value)) for q in p.parts),
             tuple((s.of, s.direction) for s in p.stops),
             p.turns is None,
+            (len(p.curves), len(p.states), p.inertia is None),
             p.t_start,
             len(ends_of(p)),
             tuple((k.coordinate, k.period, len(k.angles)) for k in p.kinks),

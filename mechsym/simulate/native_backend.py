@@ -9,9 +9,9 @@ import numpy as np
 from mechsym.native.compiler import NoCompiler, find
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import STATUS, Breaks, Level, Outcome, Runs, Table
-from mechsym.simulate.equations import System, fitted, held
+from mechsym.simulate.equations import System, fitted, held, start_of
 from mechsym.simulate.phase import Raw
-from mechsym.simulate.problem import FormulaForce, Periodic, Problem, Steps
+from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Steps
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.watch import Watch, watch
 
@@ -20,7 +20,7 @@ _DONE, _MET, _TOO_MANY = 0, 1, 2
 
 def unsuited(problem: Problem) -> str:
     """Why a problem cannot be run in C."""
-    plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | FormulaForce)]
+    plain = [p.name for p in problem.parts if not isinstance(p.value, Steps | Periodic | FormulaForce | Along)]
     if plain:
         return f"part {plain[0]!r} is a plain Python callable; give it as FormulaForce, Periodic or Steps"
     try:
@@ -55,7 +55,7 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
     starts = [problem.t_start, *ends[:-1]]
     return Runs(
         rhs=equations.function,
-        start=np.concatenate([problem.q0, problem.u0, np.zeros(len(equations.columns) - 2 * equations.size)]),
+        start=start_of(problem, equations),
         t=problem.t_start,
         until=np.array(ends),
         held=np.array([held(equations, t) for t in starts]),
@@ -86,10 +86,8 @@ def raw(problem: Problem, equations: System, times: np.ndarray, outcome: Outcome
     """
     t_end, status = float(outcome.t[index]), int(outcome.status[index])
     reached = times[times <= t_end]
-    start = np.zeros(outcome.y.shape[1])
-    start[: 2 * len(problem.q0)] = [*problem.q0, *problem.u0]
     t = np.concatenate([[problem.t_start], reached])
-    y = np.vstack([start, outcome.samples[index, : len(reached)]])
+    y = np.vstack([start_of(problem, equations), outcome.samples[index, : len(reached)]])
     if t[-1] < t_end:
         t, y = np.append(t, t_end), np.vstack([y, outcome.y[index]])
     failure = "" if status in (_DONE, _MET) else f"stopped at t = {t_end:.6g} s: {STATUS[status]}"

@@ -53,15 +53,35 @@ class Periodic:
 
 
 @record
+class Along:
+    """A value by a formula of the velocities, of the problem's curves and of its states; numbers and symbols alike."""
+
+    #: (velocities, values of the curves, states) to value, each a sequence in the problem's order
+    function: Callable[[Any, Any, Any], Any]
+
+
+@record
+class State:
+    """What is integrated beside the motion, such as the temperature of a gas."""
+
+    name: str
+    unit: str
+    start: float  #: [unit]
+    rate: Along  #: By time [unit/s]
+    #: `inner`, or `heat`: energy that has left a store [J]
+    role: str = choice("inner", "heat", default="inner", about="side of the energy balance")
+
+
+@record
 class Part:
     """Something that acts on one input of the mechanism and whose work is counted by itself."""
 
     name: str
     input: str  #: The mechanism's input it adds to
-    #: `drive` counts as work in; `load` and `store` (a spring outside the mechanism) do not
-    role: str = choice("drive", "load", "store", default="drive", about="side of the energy balance")
+    #: `drive` counts as work in; `load`, `store` (a spring outside the mechanism) and `loss` (friction) do not
+    role: str = choice("drive", "load", "store", "loss", default="drive", about="side of the energy balance")
     #: A plain callable takes floats (t, q, u); only the scipy backends can use it
-    value: Steps | FormulaForce | Periodic | Callable[[float, list[float], list[float]], float]
+    value: Steps | FormulaForce | Periodic | Along | Callable[[float, list[float], list[float]], float]
 
 
 @record
@@ -90,6 +110,11 @@ class Problem:
 
     mechanism: Mechanism
     parts: tuple[Part, ...]  #: What acts on its inputs; an input that no part names is 0
+    curves: tuple[Periodic, ...] = ()  #: What the formulas of `Along` are made of
+    states: tuple[State, ...] = ()
+    #: Inertia on the one coordinate of the mechanism, of parts that are none of its own [kg*m^2], and its derivative
+    inertia: tuple[Periodic, Periodic] | None = None
+    stored: Along | None = None  #: Energy in the parts with the role `store` [J]; None takes their work for it
     #: Coordinates and velocities at the start [rad, rad/s]
     q0: tuple[float, ...]
     u0: tuple[float, ...]
@@ -114,6 +139,8 @@ class Problem:
         _known("part", [p.value.coordinate for p in self.parts if isinstance(p.value, Periodic)], q)
         _known("kinks", [k.coordinate for k in self.kinks], q)
         _known("stop", [s.of for s in self.stops], (*q, *u))
+        if (self.states or self.inertia) and (len(q) > 1 or self.mechanism.dependents):
+            raise BadInput(f"{self.mechanism.name}: states and inertia beside a mechanism need one coordinate")
         if len({p.name for p in self.parts}) != len(self.parts):
             raise BadInput(f"two parts have one name ({', '.join(p.name for p in self.parts)}); rename one")
         _outputs(self.output)

@@ -1,6 +1,7 @@
 """The result of a run: labelled columns with units, energy audit, convergence, event; written as CSV and netCDF."""
 
 from collections.abc import Mapping
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ class Energy:
     #: of that [J]
     reference: float
     residual: float | None  #: (All work - dissipation - change) / reference; None for a model without energies [-]
+    losses: Mapping[str, float] = field(default_factory=dict)  #: Of the parts with the role `loss`, heat of stores [J]
 
 
 @record

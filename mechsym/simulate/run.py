@@ -9,9 +9,9 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
 from mechsym.native.compiler import NoCompiler
 from mechsym.simulate import constrained, native_backend
-from mechsym.simulate.audit import energies, energy_audit, speed_difference, verdict
+from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
 from mechsym.simulate.backends import FALLBACK, NATIVE, backend
-from mechsym.simulate.equations import System, held, system
+from mechsym.simulate.equations import System, held, start_of, system
 from mechsym.simulate.phase import Phase, Raw, Surface
 from mechsym.simulate.problem import Problem, Steps
 from mechsym.simulate.result import Event, Result
@@ -115,7 +115,7 @@ def _phase_by_phase(
     problem: Problem, equations: System, settings: Settings, wanted: np.ndarray, ends: list[float]
 ) -> Raw:
     advance = backend(settings.backend)
-    y = np.concatenate([problem.q0, problem.u0, np.zeros(len(equations.columns) - 2 * equations.size)])
+    y = start_of(problem, equations)
     t, step, steps, end, failure = problem.t_start, None, 0, "t_end", ""
     times, states = [np.array([t])], [y[None]]
     while ends and not failure:
@@ -197,6 +197,10 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
     if known is not None:
         columns |= dict(zip(("kinetic_energy", "potential_energy"), known, strict=True))
         units |= {"kinetic_energy": "J", "potential_energy": "J"}
+        if beside := energies_beside(problem, columns):
+            columns |= beside
+            units |= dict.fromkeys(beside, "J")
+    heats = tuple(s.name for s in problem.states if s.role == "heat")
     met = raw.end in {constrained.LOCKED, *(s.name for s in problem.stops)}
     state = dict(zip(equations.columns[: 2 * n], raw.y[-1].tolist(), strict=False))
     return Result(
@@ -207,7 +211,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
         units=units,
         end=raw.end,
         event=Event(name=raw.end, t=float(raw.t[-1]), state=state) if met else None,
-        energy=energy_audit({p.name: p.role for p in problem.parts}, columns),
+        energy=energy_audit({p.name: p.role for p in problem.parts}, columns, heats),
         tolerance_difference=None,
         steps=raw.steps,
         wall_s=wall_s,
