@@ -27,21 +27,21 @@ NEEDS: Mapping[str, tuple[str, ...]] = {
 
 # command: sections that it reads where they stand
 READS: Mapping[str, tuple[str, ...]] = {
-    "codesign": ("flywheel", "load", "losses"),
+    "codesign": ("flywheel", "load", "losses", "scavenging"),
     "compare": ("chamber", "gas", "heat_transfer", "friction_pressure", "friction", "rings"),
     "cycle": ("chamber", "gas", "heat_transfer", "friction_pressure", "stirling", "friction", "rings", "combustion",
-              "measured", "faces", "closing", "load"),
+              "measured", "faces", "closing", "load", "scavenging"),
     "eval": ("inputs", "start"),
-    "flywheel": ("cycle", "chamber", "gas", "heat_transfer", "load", "flywheel", "faces", "closing"),
+    "flywheel": ("cycle", "chamber", "gas", "heat_transfer", "load", "flywheel", "faces", "closing", "scavenging"),
     "forces": ("cycle", "chamber", "gas", "heat_transfer", "friction", "rings", "shaking", "comparison", "faces",
-               "closing", "inputs", "stirling"),
-    "guide": ("flywheel", "load"),
-    "hinge": ("flywheel", "load", "trials", "retune", "losses"),
+               "closing", "inputs", "stirling", "scavenging"),
+    "guide": ("flywheel", "load", "scavenging"),
+    "hinge": ("flywheel", "load", "trials", "retune", "losses", "scavenging"),
     "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure"),
     "simulate": ("drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation", "inputs", "start",
-                 *_GUIDE, "flywheel", "stirling"),
+                 *_GUIDE, "flywheel", "stirling", "scavenging"),
     "size": ("sizing", "part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_crosshead",
-             "part_masses", "chamber", "gas", "heat_transfer", "speeds", "friction"),
+             "part_masses", "chamber", "gas", "heat_transfer", "speeds", "friction", "scavenging"),
 }  # fmt: skip
 
 

@@ -12,6 +12,8 @@ from mechsym.errors import BadInput
 from mechsym.quantities.display import ratio_text
 
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
+_SCAVENGED = ("speed_rpm", "p_in_kpa", "t_in_k", "p_out_kpa", "t_turbine_k", "t_evc_k", "delivery_ratio",
+              "residual_gas", "air_kg_h")  # fmt: skip
 _ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
 
 
@@ -43,6 +45,7 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle nunes-hypocycloid --loop 10
               mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
               mechsym cycle generator-breathing --speeds 1000:4000:500
+              mechsym cycle zotov-142 --set scavenging.source=turbocharger --set "scavenging.altitude=2000 m"
     """
     from mechsym.cli import cycle_loop, cycle_measured
 
@@ -137,6 +140,8 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
         peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
         lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]
     worst = abs(found["energy_residual"]).max()
+    if "delivery_ratio" in found:
+        lines += ["", "turbocharger and scavenging", _rows(found, list(_SCAVENGED), every, {})]
     closed = f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"
     return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
 

@@ -18,8 +18,11 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_columns
 from mechsym.forces import turn
 from mechsym.jobs import own, own_gas, own_turn
-from mechsym.jobs.gas import breathing_with, engine_with, guesses, of, one_cylinder
+from mechsym.jobs.gas import breathing_with, engine_with, of, one_cylinder
 from mechsym.jobs.own import is_own
+from mechsym.jobs.scavenge import columns as scavenge_columns
+from mechsym.jobs.scavenge import follows, scavenged
+from mechsym.jobs.starts import guesses
 from mechsym.jobs.turn import drive_of, fitted_law
 from mechsym.jobs.whole_engine import of_engine
 from mechsym.quantities import RPM
@@ -92,9 +95,26 @@ def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
     omega : ndarray, shape (n,)
         Crank speeds [rad/s]
     """
+    if follows(case):
+        return _columns_of_scavenged(case, omega)
     seen = one_cylinder(case)
     with of(case):
         return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega, guesses(case))
+
+
+def _columns_of_scavenged(case: Case, omega: np.ndarray) -> dict[str, Any]:
+    states, rows = [], []
+    given = replace(case, sections={name: s for name, s in case.sections.items() if name != "scavenging"})
+    for speed in omega:
+        at, state = scavenged(case, float(speed))
+        assert state is not None
+        states.append(state)
+        there = replace(given, sections={**given.sections, "cycle": at.need("cycle")})
+        rows.append(columns_of_cylinder(there, np.array([speed])))
+    plain = {
+        name: np.concatenate([row[name] for row in rows]) for name in rows[0] if name not in ("fractions", "loads")
+    }
+    return plain | scavenge_columns(states, omega) | {"loads": {}}
 
 
 def columns_of_breathing(case: Case, omega: np.ndarray) -> dict[str, Any]:

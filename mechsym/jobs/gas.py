@@ -21,6 +21,8 @@ from mechsym.cycle.motion import one_cylinder as seen_by_one
 from mechsym.cycle.motion import piston_motion, piston_travel
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
+from mechsym.jobs.scavenge import scavenged, told
+from mechsym.jobs.starts import guesses
 
 
 @contextmanager
@@ -57,13 +59,8 @@ def gas(case: Case) -> Gas | None:
         return Gas(pressure=breathing_pressure(found), chamber=found.chamber)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"), guesses(case))
-    return gas_in_cylinder(cycle, travel)
-
-
-def guesses(case: Case) -> dict[str, float]:
-    """Coordinates and velocities that `[start]` gives; of coordinates that loops hold they are guesses [rad] or [m]."""
-    section = case.sections.get("start")
-    return {} if section is None else {k: v for k, v in asdict(section).items() if v is not None}
+    at, state = scavenged(case)
+    return told(gas_in_cylinder(at.need("cycle"), travel), state)
 
 
 def one_cylinder(case: Case) -> Case:

@@ -124,7 +124,9 @@ def _other(case: Case) -> Machine | None:
     if section is None:
         return None
     other = cases.load(section.case)
-    same = {key: record for key, record in case.sections.items() if key in ("parameters", "flywheel", "load")}
+    same = {
+        key: record for key, record in case.sections.items() if key in ("parameters", "flywheel", "load", "scavenging")
+    }
     if other.mechanism != case.mechanism:
         raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
     sections = {key: record for key, record in other.sections.items() if key != "load"}

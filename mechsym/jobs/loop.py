@@ -12,10 +12,11 @@ from mechsym.cycle.motion import piston_motion, piston_roles, top_of
 from mechsym.errors import BadInput
 from mechsym.jobs import own
 from mechsym.jobs.cycle import engine
-from mechsym.jobs.gas import guesses, one_cylinder
+from mechsym.jobs.gas import one_cylinder
 from mechsym.jobs.machine import heavier, kept_flywheel
 from mechsym.jobs.own import is_own, simulation_of
 from mechsym.jobs.own_gas import travel_of
+from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters

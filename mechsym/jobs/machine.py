@@ -12,6 +12,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs import own_machine
 from mechsym.jobs.gas import at_recorded_speed, gas
 from mechsym.jobs.own import is_own
+from mechsym.jobs.scavenge import scavenged, told
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
 from mechsym.mechanisms.crosshead import with_flywheel
@@ -51,10 +52,11 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
         assert found is not None
         mechanism = mechanisms.build(case.mechanism, parameters)
         return Machine(mechanism=mechanism, gas=found, load=load(case), omega=case.need("operation").speed)
+    at, state = scavenged(case)
     # a diagram is read from a file, which may have changed since
     make = _parts.__wrapped__ if kind_of(cycle).measured else _parts
-    mechanism, found = make(case.mechanism, parameters, cycle)
-    return Machine(mechanism=mechanism, gas=found, load=load(case), omega=case.need("operation").speed)
+    mechanism, found = make(case.mechanism, parameters, at.need("cycle"))
+    return Machine(mechanism=mechanism, gas=told(found, state), load=load(case), omega=case.need("operation").speed)
 
 
 @functools.lru_cache(maxsize=8)

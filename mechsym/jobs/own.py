@@ -13,8 +13,8 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.jobs.gas import guesses
 from mechsym.jobs.own_gas import Piston, kinks_of, mean_torque, period_of, pistons
+from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, listing

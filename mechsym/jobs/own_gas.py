@@ -24,6 +24,7 @@ from mechsym.cycle.kinds.stirling_spaces import areas
 from mechsym.cycle.motion import from_top, piston_roles, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import breathing_with, engine_with, of
+from mechsym.jobs.scavenge import scavenged, told
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import record
 
@@ -79,7 +80,8 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
         gas = Gas(pressure=breathing_pressure(run), chamber=run.chamber)
     else:
         try:
-            gas = gas_in_cylinder(cycle, shifted)
+            at, state = scavenged(case)
+            gas = told(gas_in_cylinder(at.need("cycle"), shifted), state)
         except (BadInput, TypeError) as error:
             raise BadInput(f"{case.file}: [cycle]: {error}") from None
     return Piston(name=role["name"], input=role["force"], start=start, gas=gas)

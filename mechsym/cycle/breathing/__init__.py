@@ -6,5 +6,7 @@ equations   slopes of masses and energies
 run         cycles until one repeats
 compressor_map  efficiency of a compressor at flow and ratio
 turbocharger    boost, its shaft balance, the atmosphere at a height
+scavenging  areas, charge air and residual gas of a two-stroke engine
+marine      its scavenge pressure from the balance of engine and turbocharger
 engine      an engine of a case: its balance with the turbocharger, pressure, figures over the speeds, curves
 """
