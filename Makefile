@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow bench fuzz mutate dist lint format clean
+.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy bench fuzz mutate dist lint format clean
 
 setup: $(READY)
 
@@ -46,10 +46,14 @@ demo: | $(READY)
 	$(BIN)/mechsym hinge zotov-89 --out demo
 
 test: | $(READY)
-	$(BIN)/python -m pytest -n 2 -q -m "not slow"
+	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "not slow"
 
 test-slow: | .venv/ready-all
-	$(BIN)/python -m pytest -n 2 -q -m slow
+	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "slow and not heavy"
+
+# what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids
+test-heavy: | .venv/ready-all
+	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m heavy
 
 bench: | $(READY)
 	$(BIN)/python -m benchmarks

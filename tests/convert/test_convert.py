@@ -110,6 +110,7 @@ def test_the_rolling_disc_of_sympy(monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_the_bicycle_of_sympy(monkeypatch):
     from sympy.physics.mechanics.tests import test_kane3 as sympys
 

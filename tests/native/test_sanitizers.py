@@ -17,7 +17,7 @@ from mechsym.out.laws import block_of
 from mechsym.out.text.files import files
 from mechsym.out.text.programs import of_block
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.heavy]
 
 SANITIZED = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer", "-g", "-O1"]
 # a crosshead with a guide, an elastic shaft with a switched torque, and gas and brake on a crank train

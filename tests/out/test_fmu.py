@@ -283,6 +283,7 @@ def test_a_program_in_c_runs_it_without_python(unit, exported, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_a_library_for_windows_is_inside_when_asked_for(exported):
     pytest.importorskip("ziglang", reason="the extra web is not installed")
     made = fmu(exported("zotov-89")[1], 2, ("linux64", "win64"))

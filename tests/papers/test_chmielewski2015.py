@@ -39,6 +39,7 @@ def one(found, start):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_convergence_of_both_models():
     study = studies.convergence()
     for model, mean in ((paper.EXACT, 103.9820), (paper.PRINTED, 103.956)):

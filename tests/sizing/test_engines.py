@@ -133,6 +133,7 @@ def test_candidates_are_without_fault_and_hold_the_ratio(printed):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_every_factor_holds_on_the_cases_own_grid():
     """All 800 speeds of the thesis, 10 to 8000 rpm in steps of 10."""
     found = size(load("nunes-hypocycloid", {"sizing.speed_step": "10 rpm"}))

@@ -77,6 +77,7 @@ def test_series_of_means():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_hundred_seconds_converge():
     whole = case()
     problem = problem_of(whole)
@@ -114,6 +115,7 @@ def test_capture_by_the_second_order_and_what_damping_does():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_a_fixed_step_holds_the_resonance_at_a_false_amplitude():
     """With steps just below a millisecond the printed model stays captured, and the crank peaks near 194 rad/s."""
     whole = case()
