@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy bench fuzz mutate dist lint format clean
+.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz mutate dist lint format clean
 
 setup: $(READY)
 
@@ -55,6 +55,15 @@ test-slow: | .venv/ready-all
 test-heavy: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m heavy
 
+# bodies as STEP; the kernel takes 0.4 GB, so it stands in an environment of its own and is asked for by hand
+test-step: .venv-step/ready
+	.venv-step/bin/python -m pytest -n 0 -q tests/out/test_step.py
+
+.venv-step/ready: pyproject.toml setup.py
+	$(PYTHON) -m venv .venv-step
+	.venv-step/bin/python -m pip install --quiet --disable-pip-version-check -e '.[step,dev]'
+	@touch $@
+
 bench: | $(READY)
 	$(BIN)/python -m benchmarks
 
@@ -84,4 +93,4 @@ format: | $(READY)
 	$(BIN)/ruff format .
 
 clean:
-	rm -rf .venv demo build dist *.egg-info
+	rm -rf .venv .venv-step demo build dist *.egg-info

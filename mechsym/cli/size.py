@@ -5,25 +5,29 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table, tried
 
+_FILE = click.Path(path_type=Path, dir_okay=False)
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
 
 
 @click.command(short_help="Component sizing with safety factors.")
 @click.argument("case")
 @click.option("--as-printed", is_flag=True, help="Check the parts of the case instead of sizing new ones.")
+@click.option("--step", type=_FILE, callback=tried, help="STEP file of the parts to write (extra step).")
 @json_option
 @out_option
 @set_option
-def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+def size(
+    case: str, as_printed: bool, step: Path | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]
+) -> None:
     """Size the engine of CASE for its loads over the speed range, with the factor of every rule.
 
     Exit status 1 when a factor is below the wanted one. Loads come from the case's cycle with the settings of its
     section [sizing]; the masses in the loads are those of the sized parts.
 
     \b
-    Examples: mechsym size nunes-hypocycloid --out parts
+    Examples: mechsym size nunes-hypocycloid --out parts --step parts.step
               mechsym size nunes-hypocycloid --as-printed --json
               mechsym size nunes-slider-crank --set sizing.life="500 h"
     """
@@ -32,10 +36,17 @@ def size(case: str, as_printed: bool, as_json: bool, out: Path | None, overrides
 
     loaded = case_of(case, pairs(overrides))
     found = check_printed(loaded) if as_printed else sized(loaded)
-    files = _write(out, found) if out else []
+    files = [*_step(step, found), *(_write(out, found) if out else [])]
     emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
     if found.failing or not found.converged:
         raise click.exceptions.Exit(1)
+
+
+def _step(path: Path | None, found: Any) -> list[Path]:
+    from mechsym.out.cad.parts import bodies
+    from mechsym.out.cad.step import write
+
+    return [] if path is None else [write(path, bodies(found))]
 
 
 def _text(found: Any) -> str:

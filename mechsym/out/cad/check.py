@@ -1,4 +1,4 @@
-"""A DXF file read again and measured against the path of the guide: `python -m mechsym.out.cad.check FILE CASE`.
+"""A DXF or STEP file read again and measured against the guide: `python -m mechsym.out.cad.check FILE CASE`.
 
 Nothing here comes from the writer: the file is read by ezdxf, its splines are evaluated by ezdxf, and each point's
 distance to the true path is found by Newton's method.
@@ -55,10 +55,10 @@ def _curve(entity: Any, rho: PPoly, radius: float) -> DrawnCurve:
     z, dz = z * np.exp(-1j * turned), dz * np.exp(-1j * turned)
     ends = [complex(p.x, p.y) * 1e-3 for p in tool.points([0.0, tool.max_t])]
     length, area = np.sum(nodes[1] * np.abs(dz)), np.sum(nodes[1] * np.imag(np.conj(z) * dz)) / 2
-    true_length, true_area = _true(rho, side * radius)
+    true_length, true_area = true_size(rho, side * radius)
     return DrawnCurve(
         layer=layer, points=len(entity.control_points), gap=abs(ends[1] - ends[0]),
-        deviation=float(np.max(np.abs(_distance(z, rho) - side * radius))), length=float(length), area=float(area),
+        deviation=float(np.max(np.abs(distance(z, rho) - side * radius))), length=float(length), area=float(area),
         length_error=abs(float(length) / true_length - 1), area_error=abs(float(area) / true_area - 1),
     )  # fmt: skip
 
@@ -70,7 +70,7 @@ def _nodes(knots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return (knots[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
 
 
-def _distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
+def distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
     """Signed distance of points to the path, positive outside [m]."""
     first, second = rho.derivative(), rho.derivative(2)
     theta = np.angle(z)
@@ -85,7 +85,7 @@ def _distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
     return np.real(np.conj(outward) * (z - r * turn)) / np.abs(outward)
 
 
-def _true(rho: PPoly, distance: float) -> tuple[float, float]:
+def true_size(rho: PPoly, distance: float) -> tuple[float, float]:
     """Length and area of the parallel curve, by Gauss points in the pieces of the polynomial."""
     turns = round(2 * math.pi / float(rho.x[-1]))
     edges = np.concatenate([rho.x[:-1] + k * rho.x[-1] for k in range(turns)] + [[2 * math.pi]])
@@ -102,6 +102,12 @@ def main(arguments: list[str]) -> int:
     """Measure the file of the first argument against the guide of the case of the second."""
     path, name, *settings = arguments
     guide, rollers = guide_named(name, dict(text.split("=", 1) for text in settings))
+    if Path(path).suffix in (".step", ".stp"):
+        from mechsym.out.cad.check_step import lines
+
+        told, valid = lines(Path(path), guide, rollers)
+        print("\n".join(told))
+        return int(not valid)
     rows, errors = measured(Path(path), guide.rho, rollers.radius)
     print(f"audit: {errors} errors")
     for row in rows:

@@ -74,7 +74,6 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequ
         cubic(name, offset(rho, d), edges, tolerance)
         for name, d in (("centre", 0.0), ("inner", -rollers.radius), ("outer", rollers.radius))
     ]
-    second = (math.pi,) if guide.rollers == 2 and guide.parameters.arrangement == "two_tracks" else ()
     centre, inner, outer = curves
     return Groove(
         centre=centre,
@@ -82,8 +81,13 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequ
         outer=outer,
         roller_radius=rollers.radius,
         tolerance=tolerance,
-        turned=(0.0, *second),
+        turned=tracks_of(guide),
     )
+
+
+def tracks_of(guide: Guide) -> tuple[float, ...]:
+    """Angles by which the tracks of a guide are turned about its axis, one for each track [rad]."""
+    return (0.0, math.pi) if guide.parameters.arrangement == "two_tracks" else (0.0,)
 
 
 def offset(rho: PPoly, distance: float) -> Point:

@@ -1,0 +1,143 @@
+"""A STEP file read again: each solid's validity, volume and box, and how far the walls of the disc are from the path.
+
+Volumes come from the kernel's own adaptive integration, walls from points on its surfaces; nothing from the writer.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from mechsym.errors import BadInput
+from mechsym.hinge.guide import Guide
+from mechsym.hinge.guide import path as centre_path
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.out.cad.check import distance, true_size
+from mechsym.out.cad.curve import tracks_of
+from mechsym.out.cad.step import Disc, kernel
+from mechsym.quantities import record
+
+_POINTS = 4000  # along each wall
+_MM = 1e-3
+_EPS = 1e-11  # asked of the kernel's volumes
+
+
+@record
+class StepBody:
+    """A solid of a STEP file, measured."""
+
+    name: str
+    valid: bool
+    volume: float  #: [m^3]
+    low: tuple[float, float, float]  #: corner of its box [m]
+    high: tuple[float, float, float]  #: the other corner [m]
+    shape: Any
+
+
+def read(path: Path) -> list[StepBody]:
+    """The solids of a file under their names, in its order."""
+    kernel()
+    from OCP.IFSelect import IFSelect_ReturnStatus
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+
+    document = TDocStd_Document(TCollection_ExtendedString("read"))
+    reader = STEPCAFControl_Reader()
+    if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.Transfer(document):
+        raise BadInput(f"{path}: not a STEP file that can be read")
+    return [_measured(name, shape) for name, shape in _named(document)]
+
+
+def _named(document: Any) -> Iterator[tuple[str, Any]]:
+    from OCP.collections import Sequence_TDF_Label
+    from OCP.TDataStd import TDataStd_Name
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    tool, labels = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()), Sequence_TDF_Label()
+    tool.GetFreeShapes(labels)
+    for i in range(1, labels.Length() + 1):
+        label, name = labels.Value(i), TDataStd_Name()
+        found = label.FindAttribute(TDataStd_Name.GetID_s(), name)
+        yield name.Get().ToExtString() if found else "", tool.GetShape_s(label)
+
+
+def _measured(name: str, shape: Any) -> StepBody:
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    inside, box = GProp_GProps(), Bnd_Box()
+    BRepGProp.VolumePropertiesGK_s(shape, inside, _EPS)
+    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    low, high = box.CornerMin(), box.CornerMax()
+    return StepBody(
+        name=name, valid=BRepCheck_Analyzer(shape).IsValid(), volume=_MM**3 * inside.Mass(),
+        low=(_MM * low.X(), _MM * low.Y(), _MM * low.Z()), high=(_MM * high.X(), _MM * high.Y(), _MM * high.Z()),
+        shape=shape,
+    )  # fmt: skip
+
+
+def disc_volume(disc: Disc, rho: PPoly) -> float:
+    r"""Volume of the disc from the path alone [m^3].
+
+    .. math:: V = \pi (R^2 - r_b^2) T - n \, 2 r L w, \quad L = \oint |P'|\, d\theta
+
+    By Steiner a groove of rollers of radius r along a path of length L has the area 2 r L.
+    """
+    groove = 2 * disc.track.roller_radius * true_size(rho, 0.0)[0] * disc.depth
+    around = np.pi * (disc.radius**2 - (disc.bore / 2) ** 2) * disc.thickness
+    return float(around - len(disc.track.turned) * groove)
+
+
+def wall_deviation(body: StepBody, rho: PPoly, radius: float, turned: tuple[float, ...]) -> tuple[int, float]:
+    """How many walls of grooves the disc has, and their largest distance from the true ones [m].
+
+    Parameters
+    ----------
+    radius : float
+        Of the rollers [m]
+    turned : tuple of float
+        Angles of the tracks, that in the upper face first [rad]
+    """
+    errors, middle = [], (body.low[2] + body.high[2]) / 2
+    for points, height in _walls(body.shape):
+        z = (points[:, 0] + 1j * points[:, 1]) * np.exp(-1j * turned[0 if height > middle else -1])
+        away = distance(z, rho)
+        errors.append(float(np.max(np.abs(away - np.sign(away[0]) * radius))))
+    return len(errors), max(errors, default=float("inf"))
+
+
+def lines(path: Path, guide: Guide, rollers: RollerParameters) -> tuple[list[str], bool]:
+    """What is found in a file, in words, and whether all of it is valid."""
+    found = read(path)
+    told = [
+        f"{b.name}: {'valid' if b.valid else 'NOT valid'}, {b.volume:.10g} m^3, "
+        f"{' x '.join(f'{1e3 * (high - low):.6g}' for low, high in zip(b.low, b.high, strict=True))} mm"
+        for b in found
+    ]
+    walls, deviation = wall_deviation(found[0], centre_path(guide), rollers.radius, tracks_of(guide))
+    return [*told, f"{walls} walls, at most {1e6 * deviation:.3g} um from exact"], all(b.valid for b in found)
+
+
+def _walls(shape: Any) -> Iterator[tuple[np.ndarray, float]]:
+    """Points along each extruded curve of a solid, shape (n, 2), and the height of its middle [m]."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    faces = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while faces.More():
+        surface = BRepAdaptor_Surface(TopoDS.Face(faces.Current()))
+        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_SurfaceOfExtrusion:
+            middle = (surface.FirstVParameter() + surface.LastVParameter()) / 2
+            along = np.linspace(surface.FirstUParameter(), surface.LastUParameter(), _POINTS)
+            found = [surface.Value(float(u), middle) for u in along]
+            yield _MM * np.array([(p.X(), p.Y()) for p in found]), _MM * found[0].Z()
+        faces.Next()
