@@ -14,8 +14,7 @@ from mechsym.cli import mechsym
 from mechsym.jobs.guide import workshop
 from mechsym.jobs.size import size
 from mechsym.out.cad import track
-from mechsym.out.cad.check import main
-from mechsym.out.cad.check_step import disc_volume, read, wall_deviation
+from mechsym.out.cad.check_step import disc_volume, main, read, wall_deviation
 from mechsym.out.cad.curve import tracks_of
 from mechsym.out.cad.parts import bodies
 from mechsym.out.cad.solids import volume

@@ -1,4 +1,4 @@
-"""A DXF or STEP file read again and measured against the guide: `python -m mechsym.out.cad.check FILE CASE`.
+"""A DXF file read again and measured against the path of the guide: `python -m mechsym.out.cad.check FILE CASE`.
 
 Nothing here comes from the writer: the file is read by ezdxf, its splines are evaluated by ezdxf, and each point's
 distance to the true path is found by Newton's method.
@@ -102,12 +102,6 @@ def main(arguments: list[str]) -> int:
     """Measure the file of the first argument against the guide of the case of the second."""
     path, name, *settings = arguments
     guide, rollers = guide_named(name, dict(text.split("=", 1) for text in settings))
-    if Path(path).suffix in (".step", ".stp"):
-        from mechsym.out.cad.check_step import lines
-
-        told, valid = lines(Path(path), guide, rollers)
-        print("\n".join(told))
-        return int(not valid)
     rows, errors = measured(Path(path), guide.rho, rollers.radius)
     print(f"audit: {errors} errors")
     for row in rows:

@@ -1,8 +1,9 @@
-"""A STEP file read again: each solid's validity, volume and box, and how far the walls of the disc are from the path.
+"""A STEP file of a guide read again and measured: `python -m mechsym.out.cad.check_step FILE CASE`.
 
 Volumes come from the kernel's own adaptive integration, walls from points on its surfaces; nothing from the writer.
 """
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,9 +12,8 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from mechsym.errors import BadInput
-from mechsym.hinge.guide import Guide
 from mechsym.hinge.guide import path as centre_path
-from mechsym.hinge.rollers import RollerParameters
+from mechsym.jobs.export import guide_named
 from mechsym.out.cad.check import distance, true_size
 from mechsym.out.cad.curve import tracks_of
 from mechsym.out.cad.step import Disc, kernel
@@ -112,18 +112,6 @@ def wall_deviation(body: StepBody, rho: PPoly, radius: float, turned: tuple[floa
     return len(errors), max(errors, default=float("inf"))
 
 
-def lines(path: Path, guide: Guide, rollers: RollerParameters) -> tuple[list[str], bool]:
-    """What is found in a file, in words, and whether all of it is valid."""
-    found = read(path)
-    told = [
-        f"{b.name}: {'valid' if b.valid else 'NOT valid'}, {b.volume:.10g} m^3, "
-        f"{' x '.join(f'{1e3 * (high - low):.6g}' for low, high in zip(b.low, b.high, strict=True))} mm"
-        for b in found
-    ]
-    walls, deviation = wall_deviation(found[0], centre_path(guide), rollers.radius, tracks_of(guide))
-    return [*told, f"{walls} walls, at most {1e6 * deviation:.3g} um from exact"], all(b.valid for b in found)
-
-
 def _walls(shape: Any) -> Iterator[tuple[np.ndarray, float]]:
     """Points along each extruded curve of a solid, shape (n, 2), and the height of its middle [m]."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
@@ -141,3 +129,20 @@ def _walls(shape: Any) -> Iterator[tuple[np.ndarray, float]]:
             found = [surface.Value(float(u), middle) for u in along]
             yield _MM * np.array([(p.X(), p.Y()) for p in found]), _MM * found[0].Z()
         faces.Next()
+
+
+def main(arguments: list[str]) -> int:
+    """Measure the file of the first argument against the guide of the case of the second."""
+    path, name, *settings = arguments
+    guide, rollers = guide_named(name, dict(text.split("=", 1) for text in settings))
+    found = read(Path(path))
+    for body in found:
+        box = " x ".join(f"{1e3 * (high - low):.6g}" for low, high in zip(body.low, body.high, strict=True))
+        print(f"{body.name}: {'valid' if body.valid else 'NOT valid'}, {body.volume:.10g} m^3, {box} mm")
+    walls, deviation = wall_deviation(found[0], centre_path(guide), rollers.radius, tracks_of(guide))
+    print(f"{walls} walls, at most {1e6 * deviation:.3g} um from exact")
+    return int(not all(body.valid for body in found))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
