@@ -86,7 +86,7 @@ def distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
 
 
 def true_size(rho: PPoly, distance: float) -> tuple[float, float]:
-    """Length and area of the parallel curve, by Gauss points in the pieces of the polynomial."""
+    """Length [m] and area [m^2] of the parallel curve at a distance [m], by Gauss points in the pieces of the path."""
     turns = round(2 * math.pi / float(rho.x[-1]))
     edges = np.concatenate([rho.x[:-1] + k * rho.x[-1] for k in range(turns)] + [[2 * math.pi]])
     x, w = np.polynomial.legendre.leggauss(20)
