@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.size import size
+from mechsym.jobs.size import Sizing, size
 from mechsym.out.cad.parts import bodies
 from mechsym.out.cad.solids import Plate, Turned, hull_area, tangents, tube, volume
 
@@ -56,11 +56,10 @@ def test_sized_parts_stand_where_the_engine_has_them(name):
             }
 
 
-def test_what_has_no_sized_parts_is_refused(tmp_path):
-    words = ["size", "moroianu", "--as-printed", "--step", str(tmp_path / "p.step")]
-    done = CliRunner().invoke(mechsym, words)
-    assert isinstance(done.exception, BadInput) and "only engines that are sized have parts" in str(done.exception)
-    assert not list(tmp_path.iterdir())
+def test_what_has_no_sized_parts_is_refused():
+    loads = Sizing(rows=[], failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
+    with pytest.raises(BadInput, match="only engines that are sized have parts"):
+        bodies(loads)
 
 
 def test_bad_thickness_is_refused_before_the_kernel_is_asked(tmp_path):
