@@ -7,10 +7,9 @@ from mechsym.codesign.cylinders import Count
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.verify import fine_path
 from mechsym.quantities import RPM
-from mechsym.style import BLUE, GREEN, GREY, ORANGE, RED
+from mechsym.style import BLUE, GREY, INK, ORANGE, PAPER, RED, SERIES, bare, legend, panels
 
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
-_COLORS = (BLUE, RED, GREEN, ORANGE, "#1b2a41", "#7a4fa3", "#3a9ca6", "#a05a2c")
 
 
 def works(result: CoDesignResult) -> Figure:
@@ -18,11 +17,11 @@ def works(result: CoDesignResult) -> Figure:
     figure, (left, right) = _panels(2)
     bound, best = result.bound, result.bound.best[0]
     for k, point in enumerate(result.design.task.points):
-        color, name = _COLORS[k % len(_COLORS)], f"{point.omega / RPM:.0f} rpm"
+        color, name = SERIES[k % len(SERIES)], f"{point.omega / RPM:.0f} rpm"
         left.plot(np.degrees(bound.phi), bound.wanted[k], color=color, linewidth=1, label=name)
         right.plot(np.degrees(bound.phi), bound.wanted[k] - best.shares[k] @ best.shapes, color=color, linewidth=1)
     left.set(xlabel="crank angle [deg]", ylabel="W / omega² [kg m²]")
-    left.legend(fontsize=7)
+    legend(left)
     right.set(xlabel="crank angle [deg]", ylabel=f"left by one shape, swing {best.swing:.3g} [kg m²]")
     return figure
 
@@ -46,7 +45,7 @@ def front(result: CoDesignResult) -> Figure:
     axis.set_yscale("symlog", linthresh=10)
     axis.set_ylim(bottom=0)
     axis.set(xlabel="speed ripple [%]", ylabel="added flywheel [kg m²]")
-    axis.legend(fontsize=7)
+    legend(axis)
     return figure
 
 
@@ -57,14 +56,14 @@ def guides(result: CoDesignResult) -> Figure:
     for s, (track, contact) in enumerate(zip(result.design.tracks, result.verified.contacts, strict=True)):
         phi, path = fine_path(track, result.design.task.points[0].period)
         ratio = track.hardware.shaft_ratio
-        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, np.append(path.rho, path.rho[0]), color=_COLORS[s])
+        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, np.append(path.rho, path.rho[0]), color=SERIES[s])
         polar.set_title(f"path of the roller centres, {contact.rho_min:.3f} to {contact.rho_max:.3f} m", fontsize=8)
         name = f"guide {s + 1}" if len(result.design.tracks) > 1 else "closing z"
-        force.plot(np.degrees(phi), 1e3 * path.z, color=_COLORS[s], label=name)
+        force.plot(np.degrees(phi), 1e3 * path.z, color=SERIES[s], label=name)
     polar.set_ylim(0)
     force.set(xlabel="crank angle [deg]", ylabel="closing z [mm]")
-    force.legend(fontsize=7)
-    _tidy(force)
+    bare(force)
+    legend(force)
     return figure
 
 
@@ -75,16 +74,16 @@ def points(result: CoDesignResult) -> Figure:
     speeds = np.array([p.omega / RPM for p in design.task.points])
     left.plot(speeds, 100 * found.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none")
     left.plot(speeds, 100 * found.steady_ripple, "x", color=RED, label="over the angle")
-    left.plot(speeds, 100 * found.time_ripple, "+", color="#1b2a41", label="run in time")
+    left.plot(speeds, 100 * found.time_ripple, "+", color=INK, label="run in time")
     left.axhline(100 * design.task.ripple, color=GREY, linewidth=0.8)
     left.set(xlabel="speed [rpm]", ylabel="speed ripple [%]")
     left.set_ylim(bottom=0)
-    left.legend(fontsize=7)
+    legend(left)
     for s, track in enumerate(design.tracks):
-        right.plot(speeds, track.p0 / 1e6, "o-", color=_COLORS[s], markersize=4, label=f"spring {s + 1}")
+        right.plot(speeds, track.p0 / 1e6, "o-", color=SERIES[s], markersize=4, label=f"spring {s + 1}")
     right.set(xlabel="speed [rpm]", ylabel="excess pressure p0 [MPa]")
     right.set_ylim(bottom=0)
-    right.legend(fontsize=7)
+    legend(right)
     return figure
 
 
@@ -93,14 +92,14 @@ def losses(result: CoDesignResult) -> Figure:
     figure, (axis,) = _panels(1)
     task = result.design.task
     names, below = [f"{p.omega / RPM:.0f}" for p in task.points], np.zeros(len(task.points))
-    for kind, color in zip(_KINDS, _COLORS, strict=False):
+    for kind, color in zip(_KINDS, SERIES, strict=False):
         values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
                            for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
         if values.any():
             axis.bar(names, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values
     axis.set(xlabel="speed [rpm]", ylabel="losses of the hinge [% of the load's torque]")
-    axis.legend(fontsize=7)
+    legend(axis)
     return figure
 
 
@@ -110,14 +109,14 @@ def misfires(result: CoDesignResult) -> Figure | None:
     if not rows:
         return None
     figure, (axis,) = _panels(1)
-    for s, color in zip(rows, _COLORS, strict=False):
+    for s, color in zip(rows, SERIES, strict=False):
         point = result.design.task.points[s.point]
         assert s.run is not None
         axis.plot(np.degrees(s.run.phi), s.run.omega / point.omega, color=color, label=f"{point.omega / RPM:.0f} rpm")
     axis.axhline(1.0, color=GREY, linewidth=0.8)
     axis.set(xlabel="crank angle [deg]", ylabel="speed by the mean before")
     axis.set_ylim(bottom=0)
-    axis.legend(fontsize=7)
+    legend(axis)
     return figure
 
 
@@ -137,7 +136,7 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
             [p.omega / RPM for p in result.design.task.points],
             [p.load / 1e5 for p in result.design.task.points],
             "o-",
-            color="white",
+            color=PAPER,
             markersize=3,
             linewidth=0.8,
         )
@@ -153,7 +152,7 @@ def spread(result: CoDesignResult) -> Figure | None:
     left.hist(100 * result.spread.samples, bins=24, color=BLUE)
     left.axvline(100 * result.spread.p95, color=RED, linewidth=1, label="19 of 20 keep this")
     left.set(xlabel="largest speed ripple [%]", ylabel="number of machines")
-    left.legend(fontsize=7)
+    legend(left)
     base = 100 * float(result.verified.programme_ripple.max())
     rows = sorted(result.spread.alone.items(), key=lambda row: max(row[1]))
     for y, (_, (low, high)) in enumerate(rows):
@@ -172,19 +171,10 @@ def cylinders(rows: list[Count]) -> Figure:
     axis.bar(numbers + 0.2, [max(r.hinge, 0.0) for r in rows], width=0.4, color=BLUE, label="one hinge, at least")
     axis.set_yscale("symlog", linthresh=10)
     axis.set(xlabel="cylinders, even firing", ylabel="added flywheel [kg m²]", xticks=numbers)
-    axis.legend(fontsize=7)
+    legend(axis)
     return figure
 
 
 def _panels(count: int) -> tuple[Figure, list]:
-    figure = Figure(figsize=(9 if count == 2 else 6, 3.4), layout="constrained")
-    axes = list(np.atleast_1d(figure.subplots(1, count)))
-    for axis in axes:
-        _tidy(axis)
-    return figure, axes
-
-
-def _tidy(axis: object) -> None:
-    axis.grid(True, color="#e3e6ea", linewidth=0.7)  # type: ignore[attr-defined]
-    axis.set_axisbelow(True)  # type: ignore[attr-defined]
-    axis.spines[["top", "right"]].set_visible(False)  # type: ignore[attr-defined]
+    figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count)
+    return figure, list(axes)

@@ -1,6 +1,5 @@
 """Files of a co-design: one HTML page for a builder that opens offline, tables of guides and points, pictures."""
 
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import Track
 from mechsym.codesign.verify import fine_path
 from mechsym.files import to_json, write_csv, write_text
-from mechsym.style import significant, svg
+from mechsym.style import page, svg
 
 
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:
@@ -32,12 +31,7 @@ def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list
 
 def html(result: CoDesignResult, numbers: dict[str, Any], pictures: dict[str, str]) -> str:
     """The page as text."""
-    import jinja2
-
-    source = (resources.files("mechsym") / "templates" / "codesign.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
-    environment.filters["sig"] = significant
-    return environment.from_string(source).render(result=result, numbers=numbers, figures=pictures, degrees=180 / np.pi)
+    return page("codesign.html", result=result, numbers=numbers, figures=pictures, degrees=180 / np.pi)
 
 
 def figures(result: CoDesignResult) -> dict[str, str]:

@@ -4,18 +4,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt
-from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from mechsym.style import write_picture
+from mechsym.quantities import display
+from mechsym.style import BLUE, GREEN, RED, SERIES, axis_unit, legend, over_angle, panels, unit_words, write_picture
 
-_MAP = (("torque_avg", "mean torque [N m]"), ("power_kw", "power [kW]"), ("sfc_g_kwh", "consumption [g/kWh]"),
-        ("p_max_mpa", "peak pressure [MPa]"))  # fmt: skip
+_MAP = (("torque_avg", "mean torque", "N*m"), ("power_kw", "power", "kW"), ("sfc_g_kwh", "consumption", "g/(kW*h)"),
+        ("p_max_mpa", "peak pressure", "MPa"))  # fmt: skip
+_LOOKS = (("-", BLUE), ("--", RED), (":", GREEN))
 
 
 def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
@@ -26,21 +23,30 @@ def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
     curves : mapping of str to ndarray, shape (k,)
         See `cycle.curves`
     """
-    figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
-    phi, p = curves["phi_deg"], curves["p_pa"] / 1e6
-    axes[0].loglog(curves["v_m3"] * 1e6, p)
-    _label(axes[0], "volume [cm$^3$]", "pressure [MPa]")
-    for axis in (axes[0].xaxis, axes[0].yaxis):
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_formatter(NullFormatter())
-    axes[1].plot(phi, p)
-    _label(axes[1], "crank angle from firing TDC [deg]", "pressure [MPa]")
-    axes[2].plot(phi, curves["torque_nm"])
-    _label(axes[2], "crank angle from firing TDC [deg]", "torque of one piston [N m]")
-    for axis in axes[1:]:
-        axis.set_xticks(range(-180, 181, 60))
-    return _save(figure, path)
+    figure, axes = panels(12, 3.6, 1, 3, "Pressure over volume and crank angle, and torque of one piston")
+    phi, p, v, torque = np.radians(curves["phi_deg"]), curves["p_pa"], curves["v_m3"], curves["torque_nm"]
+    (factor, unit), (room, room_unit) = axis_unit("Pa", p), axis_unit("m^3", v)
+    axes[0].loglog(v * room, p * factor, color=BLUE)
+    axes[0].set(xlabel=f"volume [{room_unit}]", ylabel=f"pressure [{unit}]")
+    both_logarithmic(axes[0])
+    for axis, values, si, label in (
+        (axes[1], p, "Pa", "pressure"),
+        (axes[2], torque, "N*m", "torque of one piston"),
+    ):
+        factor, unit = axis_unit(si, values)
+        angle = over_angle(axis, np.pi, "crank angle from firing TDC", start=-np.pi)
+        axis.plot(phi * angle, values * factor, color=BLUE)
+        axis.set_ylabel(f"{label} [{unit}]")
+    return write_picture(path, figure)
+
+
+def both_logarithmic(axis: Any) -> None:
+    """Few and plain numbers on two logarithmic axes."""
+    for one in (axis.xaxis, axis.yaxis):
+        low, high = one.get_view_interval()
+        one.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1000 * low else (1,)))
+        one.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        one.set_minor_formatter(NullFormatter())
 
 
 def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) -> Path:
@@ -51,22 +57,29 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
     engines : mapping of str to mapping
         Name of each engine to its `cycle.columns`
     """
-    figure, axes = plt.subplots(2, 3, figsize=(12, 6.4), constrained_layout=True)
-    for style, (name, found) in zip(("-", "--", ":"), engines.items(), strict=False):
-        speed = found["speed_rpm"]
-        for axis, (key, label) in zip(axes.flat, _MAP, strict=False):
-            axis.plot(speed, found[key], style, color="tab:blue" if style == "-" else "tab:red", label=name)
-            _label(axis, "speed [rpm]", label)
-        for color, (share, values) in zip(("C0", "C1", "C2", "C3"), found["fractions"].items(), strict=True):
-            axes[1, 1].plot(speed, values, style, color=color, label=f"{share} {name}".strip())
-        axes[1, 2].plot(speed, found["efficiency"], style, color="tab:blue" if style == "-" else "tab:red", label=name)
-    axes[0, 2].set_ylim(*_without_start(engines, "sfc_g_kwh"))
-    _label(axes[1, 1], "speed [rpm]", "share of the fuel's energy [-]")
-    _label(axes[1, 2], "speed [rpm]", "efficiency [-]")
-    axes[1, 1].legend(fontsize=7, ncols=len(engines), loc="upper right", bbox_to_anchor=(1, 0.9))
-    if len(engines) > 1:
-        axes[0, 0].legend(fontsize=8)
-    return _save(figure, path)
+    figure, axes = panels(12, 7.2, 2, 3, "Torque, power, consumption, peak pressure and shares of energy over speed")
+    (turning, turning_unit), runs = axis_unit("rpm"), tuple(zip(_LOOKS, engines.items(), strict=False))
+    for axis, (key, label, unit) in zip(axes, _MAP, strict=False):
+        factor, shown = axis_unit(unit, *(found[key] for found in engines.values()))
+        for (line, color), (name, found) in runs:
+            speed, values = (np.asarray(found[n], dtype=float) for n in ("speed_rpm", key))
+            axis.plot(speed * turning, values * factor, line, color=color, label=name)
+        axis.set_ylabel(f"{label} [{shown}]")
+        if key == "sfc_g_kwh":
+            low, high = _without_start(engines, key)
+            axis.set_ylim(low * factor, high * factor)
+    for (line, color), (name, found) in runs:
+        speed = np.asarray(found["speed_rpm"]) * turning
+        for shade, (share, values) in zip(SERIES, found["fractions"].items(), strict=False):
+            axes[4].plot(speed, values, line, color=shade, label=f"{share} {name}".strip())
+        axes[5].plot(speed, found["efficiency"], line, color=color, label=name)
+    for axis, label in ((axes[4], "share of the fuel's energy"), (axes[5], "efficiency")):
+        axis.set_ylabel(f"{label} [-]")
+    for axis in axes:
+        axis.set_xlabel(f"speed [{turning_unit}]")
+    for axis in axes if len(engines) > 1 else axes[4:5]:
+        legend(axis)
+    return write_picture(path, figure)
 
 
 def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, against: str) -> Path:
@@ -78,11 +91,14 @@ def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, again
         Both figures and the design variables, point by point
     """
     variables = [name for name in columns if name not in (objective, against)]
-    figure, axes = plt.subplots(1, 1 + len(variables), figsize=(3.2 * (1 + len(variables)), 3.2), layout="constrained")
-    for axis, name in zip(np.atleast_1d(axes), [objective, *variables], strict=True):
-        axis.plot(columns[against], columns[name], "o-", markersize=4)
-        _label(axis, against, name)
-    return _save(figure, path)
+    names = [objective, *variables]
+    figure, axes = panels(3.2 * len(names), 3.2, 1, len(names), f"Front of {objective} against {against}")
+    across, values = display.heading(against, columns[against])
+    for axis, name in zip(axes, names, strict=True):
+        up, shown = display.heading(name, columns[name])
+        axis.plot(values, shown, "o-", color=BLUE, markersize=4)
+        axis.set(xlabel=unit_words(across), ylabel=unit_words(up))
+    return write_picture(path, figure)
 
 
 def _without_start(engines: Mapping[str, Mapping[str, Any]], key: str) -> tuple[float, float]:
@@ -90,15 +106,3 @@ def _without_start(engines: Mapping[str, Mapping[str, Any]], key: str) -> tuple[
     values = np.concatenate([found[key] for found in engines.values()])
     low = float(np.nanmin(values))
     return 0.98 * low, min(float(np.nanmax(values)), 1.4 * low)
-
-
-def _label(axis: Any, x: str, y: str) -> None:
-    axis.set_xlabel(x)
-    axis.set_ylabel(y)
-    axis.grid(alpha=0.3)
-
-
-def _save(figure: Figure, path: Path) -> Path:
-    written = write_picture(path, figure)
-    plt.close(figure)
-    return written

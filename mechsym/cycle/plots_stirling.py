@@ -4,13 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
 
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt
-
-from mechsym.style import write_picture
+from mechsym.style import BLUE, INK, RED, axis_unit, legend, over_angle, panels, write_picture
 
 
 def stirling_picture(path: Path, curves: Mapping[str, Any]) -> Path:
@@ -21,28 +17,21 @@ def stirling_picture(path: Path, curves: Mapping[str, Any]) -> Path:
     curves : mapping of str to ndarray, shape (n,)
         `phi_deg`, `p_pa`, `v_e_m3`, `v_c_m3`, `t_e_k`, `t_c_k`
     """
-    figure, axes = plt.subplots(1, 3, figsize=(11, 3.4), layout="constrained")
+    figure, axes = panels(11, 3.8, 1, 3, "Pressure over the volumes, and temperatures over the shaft angle")
     hot, cold, p = (_closed(curves[key]) for key in ("v_e_m3", "v_c_m3", "p_pa"))
-    for name, volume, color in (("expansion", hot, "tab:red"), ("compression", cold, "tab:blue")):
-        axes[0].plot(volume * 1e6, p / 1e5, color=color, label=name)
-    axes[1].plot((hot + cold) * 1e6, p / 1e5, color="black")
-    for name, kind, color in (("expansion", "t_e_k", "tab:red"), ("compression", "t_c_k", "tab:blue")):
-        axes[2].plot(curves["phi_deg"], curves[kind], color=color, label=name)
-    _named(axes[0], "volume of the space [cm3]", "pressure [bar]")
-    _named(axes[1], "volume of both spaces [cm3]", "pressure [bar]")
-    _named(axes[2], "shaft angle [deg]", "temperature [K]")
-    axes[0].legend(fontsize=8)
-    axes[2].legend(fontsize=8)
-    written = write_picture(path, figure)
-    plt.close(figure)
-    return written
+    (room, room_unit), (factor, unit) = axis_unit("m^3", hot + cold), axis_unit("Pa", p)
+    angle = over_angle(axes[2], 2 * np.pi, "shaft angle")
+    axes[1].plot((hot + cold) * room, p * factor, color=INK)
+    for name, volume, kind, color in (("expansion", hot, "t_e_k", RED), ("compression", cold, "t_c_k", BLUE)):
+        axes[0].plot(volume * room, p * factor, color=color, label=name)
+        axes[2].plot(np.radians(curves["phi_deg"]) * angle, curves[kind], color=color, label=name)
+    for axis, of in ((axes[0], "the space"), (axes[1], "both spaces")):
+        axis.set(xlabel=f"volume of {of} [{room_unit}]", ylabel=f"pressure [{unit}]")
+    axes[2].set_ylabel("temperature [K]")
+    for axis in axes:
+        legend(axis)
+    return write_picture(path, figure)
 
 
 def _closed(values: Any) -> np.ndarray:
     return np.append(values, values[0])
-
-
-def _named(axis: Any, x: str, y: str) -> None:
-    axis.set_xlabel(x)
-    axis.set_ylabel(y)
-    axis.grid(alpha=0.3)

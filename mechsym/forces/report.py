@@ -1,6 +1,5 @@
 """Files of a force analysis: one HTML page that opens offline, tables, summary, pictures."""
 
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ from mechsym.forces import plots as plots_forces
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import quantities
 from mechsym.mechanisms import plots as plots_mechanism
-from mechsym.style import significant, svg
+from mechsym.style import page, svg
 
 
 def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, source: str) -> list[Path]:
@@ -37,14 +36,8 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, sour
 
 def html(numbers: dict[str, Any], figures: dict[str, str], about: str, source: str) -> str:
     """The page as text."""
-    import jinja2
-
-    template = (resources.files("mechsym") / "templates" / "forces.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
-    environment.filters["sig"] = significant
-    return environment.from_string(template).render(
-        numbers=numbers, figures=figures, about=about, source=source, shown=quantities(numbers)
-    )
+    shown = quantities(numbers)
+    return page("forces.html", numbers=numbers, figures=figures, about=about, source=source, shown=shown)
 
 
 def _figures(found: Forces) -> dict[str, str]:

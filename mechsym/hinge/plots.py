@@ -1,5 +1,8 @@
 """Figures of a hinge design. matplotlib is imported in plot modules only; a figure is never shown."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -7,52 +10,51 @@ from mechsym.cycle.chamber import volume
 from mechsym.hinge.contact import Contact
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
+from mechsym.hinge.trials import Trial
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import velocities
-from mechsym.style import BLUE, GREEN, GREY, ORANGE, RED, angle_axis, panels
+from mechsym.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    RED,
+    VIOLET,
+    axis_unit,
+    distinct,
+    events,
+    heading,
+    legend,
+    over_angle,
+    panels,
+)
 
-_DEG = 180 / np.pi
-
-
-def unit_of(peak: float, unit: str) -> tuple[float, str]:
-    """Unit in which numbers of a size read well: thousands of it where they are large.
-
-    Parameters
-    ----------
-    peak : float
-        Largest magnitude [SI unit]
-    unit : str
-        The SI unit as it is written
-
-    Returns
-    -------
-    factor : float
-        To be multiplied with [-]
-    unit : str
-        The unit, perhaps with a k
-    """
-    return (1e-3, f"k{unit}") if abs(peak) >= 1e3 else (1.0, unit)
+_COLORS = {
+    "without": GREY,
+    "flywheel": VIOLET,
+    "hinge_constant": BLUE,
+    "hinge_propeller": GREEN,
+    "off_constant": RED,
+    "off_propeller": ORANGE,
+}
 
 
 def pressure(design: Design) -> Figure:
     """Cylinder pressure over the crank angle with the angles of its events, and over the volume."""
     room = gas_of(design.machine)
     gas = room.pressure
-    figure, (left, right) = panels(9, 3.2, 1, 2)
+    figure, (left, right) = panels(9, 4.7, 1, 2, "Cylinder pressure over the crank angle and over the volume")
     phi = np.unique(np.append(np.linspace(0, gas.period, 1441), gas.kinks))
-    p = gas.absolute(phi) / 1e5
-    left.plot(phi * _DEG, p, color=BLUE)
-    for name, angle in gas.phases.items():
-        at = angle % gas.period
-        left.axvline(at * _DEG, color=GREY, linewidth=0.7, linestyle=":")
-        label = name.replace("_", " ")
-        left.text(at * _DEG, 0.98 * p.max(), f" {label}", rotation=90, va="top", fontsize=7, color=GREY)
-    left.set_xlabel("crank angle [deg]")
-    left.set_ylabel("absolute pressure [bar]")
-    angle_axis(left, gas.period * _DEG)
-    right.plot(1e3 * volume(room.chamber, phi), p, color=BLUE)
-    right.set_xlabel("volume [L]")
-    right.set_ylabel("absolute pressure [bar]")
+    p, v = gas.absolute(phi), volume(room.chamber, phi)
+    (factor, unit), (room_factor, room_unit) = axis_unit("Pa", p), axis_unit("m^3", v)
+    angle = over_angle(left, gas.period)
+    left.plot(phi * angle, p * factor, color=BLUE)
+    left.set_ylabel(f"absolute pressure [{unit}]")
+    events(left, {n.replace("_", " "): at % gas.period * angle for n, at in gas.phases.items()}, width=3.6)
+    right.plot(v * room_factor, p * factor, color=BLUE)
+    right.set_xlabel(f"volume [{room_unit}]")
+    right.set_ylabel(f"absolute pressure [{unit}]")
     return figure
 
 
@@ -65,30 +67,28 @@ def torque(design: Design) -> Figure:
         Two panels over the crank angle
     """
     hinge = design.hinge
-    figure, (upper, lower) = panels(9, 5.0, 2, 1, sharex=True, height_ratios=[2, 1])
+    name = "Torque of the hinge with its parts, and its work"
+    figure, (upper, lower) = panels(9, 5.0, 2, 1, name, sharex=True, height_ratios=[2, 1])
     phi = np.linspace(0, hinge.period, 1441)
-    factor, unit = unit_of(max(hinge.torque_max, -hinge.torque_min), "N m")
-    work_factor, work_unit = unit_of(max(hinge.work_max, -hinge.work_min), "J")
-    parts = [
-        ("gas and load", hinge.gas_part, RED),
-        ("inertia", hinge.inertia_part, GREEN),
-        ("gravity", hinge.gravity_part, ORANGE),
-    ]
-    for name, part, color in parts:
-        upper.plot(phi * _DEG, part(phi) * factor, color=color, linewidth=1, label=name)
-    upper.plot(phi * _DEG, hinge.torque(phi) * factor, color=BLUE, linewidth=2, label="hinge torque $M_h$")
-    upper.axhline(0, color="black", linewidth=0.6)
+    angle = over_angle(lower, hinge.period)
+    curves = {
+        "gas and load": hinge.gas_part(phi), "inertia": hinge.inertia_part(phi), "gravity": hinge.gravity_part(phi),
+        "hinge torque": hinge.torque(phi),
+    }  # fmt: skip
+    factor, unit = axis_unit("N*m", *curves.values())
+    work_factor, work_unit = axis_unit("J", hinge.work(phi))
+    for (label, values), color in zip(curves.items(), (RED, GREEN, ORANGE, BLUE), strict=True):
+        upper.plot(phi * angle, values * factor, color=color, linewidth=2 if color == BLUE else 1, label=label)
+    upper.axhline(0, color=INK, linewidth=0.6)
     upper.set_ylabel(f"torque on the crank [{unit}]")
-    upper.legend(fontsize=8, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
-    lower.plot(phi * _DEG, hinge.work(phi) * work_factor, color=BLUE)
-    lower.set_ylabel(f"work $W$ [{work_unit}]")
-    lower.set_xlabel("crank angle [deg]")
-    angle_axis(lower, hinge.period * _DEG)
+    legend(upper)
+    lower.plot(phi * angle, hinge.work(phi) * work_factor, color=BLUE)
+    lower.set_ylabel(f"work [{work_unit}]")
     return figure
 
 
 def track(design: Design, turn: Contact, radius: float) -> Figure:
-    """The path of the roller centres and the cut profile, to scale, with spring and rollers at a quarter turn.
+    """The path of the roller centres and the cut profile, to scale.
 
     Parameters
     ----------
@@ -97,24 +97,38 @@ def track(design: Design, turn: Contact, radius: float) -> Figure:
     radius : float
         Roller radius [m]
     """
-    figure, (axis,) = panels(5.2, 5.2)
+    figure, (axis,) = panels(5.4, 5.8, title="Path of the roller centres and cut profile, to scale")
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
+    factor, unit = axis_unit("m", x, y)
     circle = design.guide.parameters.rho0 * np.exp(1j * np.linspace(0, 2 * np.pi, 361))
-    axis.plot(
-        circle.real, circle.imag, color=GREY, linewidth=0.8, linestyle="--", label=r"$\rho_0$, spring at free height"
-    )
-    axis.plot(
-        turn.rho * np.cos(turn.theta), turn.rho * np.sin(turn.theta), color=BLUE, label="path of the roller centre"
-    )
-    axis.plot(x, y, color=RED, label="cut profile, first track")
+    path = turn.rho * np.exp(1j * turn.theta)
+    curves: list[tuple[Any, Any, str, dict[str, Any]]] = [
+        (circle.real, circle.imag, GREY, {"linewidth": 0.8, "linestyle": "--", "label": "spring at free height"}),
+        (path.real, path.imag, BLUE, {"label": "path of the roller centre"}),
+        (x, y, RED, {"label": "cut profile, first track"}),
+    ]
     if design.guide.rollers == 2:
-        axis.plot(-x, -y, color=RED, linewidth=0.8, linestyle=":", label="second track, turned by 180 deg")
-    axis.plot(0, 0, marker="+", color="black", markersize=10)
+        told = "second track, half a turn on"
+        if _same_turned(np.column_stack([x, y])):
+            curves[-1][3]["label"] = "cut profile, both tracks alike"
+        else:
+            curves.append((-x, -y, RED, {"linewidth": 0.9, "linestyle": ":", "label": told}))
+    for across, up, color, options in curves:
+        axis.plot(across * factor, up * factor, color=color, **options)
+    axis.plot(0, 0, marker="+", color=INK, markersize=10)
     axis.set_aspect("equal")
-    axis.set_xlabel("x [m]")
-    axis.set_ylabel("y [m]")
-    axis.legend(fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
+    axis.set_xlabel(f"x [{unit}]")
+    axis.set_ylabel(f"y [{unit}]")
+    legend(axis, width=3.6)
     return figure
+
+
+def _same_turned(points: np.ndarray) -> bool:
+    """Whether a closed curve comes back to itself after half a turn; points at even angles."""
+    half = len(points) // 2
+    return bool(len(points) % 2) and bool(
+        np.abs(points[half:] + points[: half + 1]).max() < 1e-6 * float(np.abs(points).max())
+    )
 
 
 def contact(turn: Contact) -> Figure:
@@ -130,25 +144,21 @@ def contact(turn: Contact) -> Figure:
     figure : Figure
         Four panels over the angle of the guide's shaft
     """
-    figure, axes = panels(9, 5, 2, 2, sharex=True)
-    theta = turn.theta * _DEG
-    axes[0].plot(theta, turn.reaction_1 / 1e3, color=BLUE, label="$N_1$")
-    axes[0].plot(theta, turn.reaction_2 / 1e3, color=RED, linestyle="--", label="$N_2$")
-    axes[0].legend(fontsize=8)
-    axes[0].set_ylabel("roller reaction [kN]")
-    axes[1].plot(theta, turn.pressure_angle * _DEG, color=BLUE)
-    axes[1].set_ylabel("pressure angle [deg]")
-    if turn.pressure is None:
-        axes[2].plot(theta, turn.force / 1e3, color=BLUE)
-        axes[2].set_ylabel("spring force [kN]")
-    else:
-        axes[2].plot(theta, turn.pressure / 1e6, color=BLUE)
-        axes[2].set_ylabel("excess pressure in the spring [MPa]")
-    axes[3].plot(theta, turn.curvature, color=BLUE)
-    axes[3].set_ylabel("curvature of the path [1/m]")
-    for axis in axes[2:]:
-        axis.set_xlabel("angle of the guide's shaft [deg]")
-    angle_axis(axes[3], 2 * np.pi * _DEG)
+    figure, axes = panels(9, 5.4, 2, 2, "Contact of rollers and guide around the turn", sharex=True)
+    words = ("excess pressure in the spring", "Pa") if turn.pressure is not None else ("spring force", "N")
+    spring = (*words, turn.force if turn.pressure is None else turn.pressure)
+    angles = [over_angle(axis, 2 * np.pi, "angle of the guide's shaft") for axis in axes[2:]]
+    reactions = distinct({"N₁": turn.reaction_1, "N₂": turn.reaction_2})
+    factor, unit = axis_unit("N", *reactions.values())
+    for (label, values), color, line in zip(reactions.items(), (BLUE, RED), ("-", "--"), strict=False):
+        axes[0].plot(turn.theta * angles[0], values * factor, line, color=color, label=label)
+    legend(axes[0])
+    axes[0].set_ylabel(f"roller reaction [{unit}]")
+    others = (("pressure angle", "rad", turn.pressure_angle), spring, ("curvature of the path", "1/m", turn.curvature))
+    for axis, (name, si, values) in zip(axes[1:], others, strict=True):
+        factor, unit = axis_unit(si, values)
+        axis.plot(turn.theta * angles[0], values * factor, color=BLUE)
+        axis.set_ylabel(f"{name} [{unit}]")
     return figure
 
 
@@ -160,29 +170,33 @@ def speeds(design: Design) -> Figure:
     figure : Figure
         Two panels: with hinge, and all
     """
-    figure, (left, right) = panels(9, 3.4, 1, 2)
-    colors = {
-        "without": GREY,
-        "flywheel": "black",
-        "hinge_constant": BLUE,
-        "hinge_propeller": GREEN,
-        "off_constant": RED,
-        "off_propeller": ORANGE,
-    }
+    figure, (left, right) = panels(9, 4.2, 1, 2, "Crank speed of the runs over the turns")
+    fitted = [t for t in design.trials if t.name not in ("without", "flywheel")]
+    for axis, trials, words in ((left, fitted, "with the hinge"), (right, design.trials, "all, first two turns")):
+        for label, color, turns, share in _runs(design, trials):
+            axis.plot(turns, share, color=color, linewidth=1.1, label=label)
+        heading(axis, words)
+        legend(axis)
+        axis.set_xlabel("turns of the crank [-]")
+        axis.set_ylabel("speed over design speed [-]")
+    right.set_xlim(0, 2)
+    return figure
+
+
+def _runs(design: Design, trials: Sequence[Trial]) -> list[tuple[str, str, np.ndarray, np.ndarray]]:
+    """Name, colour, turns and speed of each run; runs that cannot be told apart once, under their names."""
     (q,), (u,) = design.machine.mechanism.coordinates, velocities(design.machine.mechanism)
-    for trial in design.trials:
+    found: list[tuple[str, str, np.ndarray, np.ndarray]] = []
+    for trial in trials:
         turns = trial.result.columns[q] / (2 * np.pi)
         share = trial.result.columns[u] / design.machine.omega
-        for axis in (right,) if trial.name in ("without", "flywheel") else (left, right):
-            axis.plot(turns, share, color=colors[trial.name], linewidth=1.1, label=trial.about)
-    left.set_title("with the hinge", fontsize=9)
-    right.set_title("all, first two turns", fontsize=9)
-    right.set_xlim(0, 2)
-    right.legend(fontsize=7)
-    for axis in (left, right):
-        axis.set_xlabel("turns of the crank")
-        axis.set_ylabel("speed over design speed")
-    return figure
+        for k, (label, color, other, values) in enumerate(found):
+            if abs(other[-1] - turns[-1]) < 0.01 and np.abs(np.interp(other, turns, share) - values).max() < 1e-4:
+                found[k] = (f"{label} = {trial.about}", color, other, values)
+                break
+        else:
+            found.append((trial.about, _COLORS[trial.name], turns, share))
+    return found
 
 
 def retuning(design: Design) -> Figure:
@@ -192,25 +206,22 @@ def retuning(design: Design) -> Figure:
     again = design.retuned
     if again is None:
         raise ValueError("the design was not retuned")
-    figure, (left, right) = panels(9, 3.2, 1, 2)
+    figure, (left, right) = panels(9, 3.9, 1, 2, "The same guide at another speed: torque and crank speed")
     phi = np.linspace(0, again.wanted.period, 1441)
-    left.plot(phi * _DEG, design.hinge.torque(phi) / 1e3, color=GREY, label="wanted at the design speed")
-    left.plot(phi * _DEG, again.wanted.torque(phi) / 1e3, color=BLUE, label="wanted at the other speed")
-    left.plot(
-        phi * _DEG,
-        crank_torque(refit(design.guide, again.spring), phi) / 1e3,
-        color=RED,
-        label="same guide, best pressure",
-    )
-    left.legend(fontsize=7)
-    left.set_xlabel("crank angle [deg]")
-    left.set_ylabel("hinge torque [kN m]")
-    angle_axis(left, again.wanted.period * _DEG)
+    angle, _ = (over_angle(axis, again.wanted.period) for axis in (left, right))
+    curves = {
+        "wanted at the design speed": (design.hinge.torque(phi), GREY),
+        "wanted at the other speed": (again.wanted.torque(phi), BLUE),
+        "same guide, best pressure": (crank_torque(refit(design.guide, again.spring), phi), RED),
+    }
+    factor, unit = axis_unit("N*m", *(values for values, _ in curves.values()))
+    for label, (values, color) in curves.items():
+        left.plot(phi * angle, values * factor, color=color, label=label)
+    left.set_ylabel(f"hinge torque [{unit}]")
     for steady, color, name in ((again.steady, RED, "best pressure"), (again.paper, GREY, "paper's factor 1.9")):
         if steady.speed_mean is not None:
-            right.plot(steady.phi * _DEG, steady.omega / steady.speed_mean, color=color, label=name)
-    right.legend(fontsize=7)
-    right.set_xlabel("crank angle [deg]")
-    right.set_ylabel("speed over its mean")
-    angle_axis(right, again.wanted.period * _DEG)
+            right.plot(steady.phi * angle, steady.omega / steady.speed_mean, color=color, label=name)
+    right.set_ylabel("speed over its mean [-]")
+    for axis in (left, right):
+        legend(axis)
     return figure

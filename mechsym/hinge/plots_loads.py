@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from mechsym.hinge.result import AtLoad
 from mechsym.simulate.steady import Steady
-from mechsym.style import BLUE, GREY, RED, bare
+from mechsym.style import BLUE, GREY, RED, legend, panels
 
 
 def loads(rows: Sequence[AtLoad]) -> Figure:
@@ -17,8 +17,7 @@ def loads(rows: Sequence[AtLoad]) -> Figure:
     figure : Figure
         Two panels; a cross at the top marks a load at which the crank does not turn steadily
     """
-    figure = Figure(figsize=(9, 3.2), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = panels(9, 3.6, 1, 2, "Speed ripple and setting of the spring over the load")
     ordered = sorted(rows, key=lambda row: row.share)
     shares = [100 * row.share for row in ordered]
     for found, color, name in (
@@ -31,12 +30,10 @@ def loads(rows: Sequence[AtLoad]) -> Figure:
         left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
     left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")
     left.set_ylim(bottom=0)
-    left.legend(fontsize=7)
+    legend(left)
     right.plot(shares, [row.ratio for row in ordered], "o-", color=BLUE, markersize=4)
     right.axhline(1.0, color=GREY, linewidth=0.8)
-    right.set(xlabel="load over that of the design [%]", ylabel="setting over that of the design")
-    for axis in (left, right):
-        bare(axis)
+    right.set(xlabel="load over that of the design [%]", ylabel="setting over that of the design [-]")
     return figure
 
 

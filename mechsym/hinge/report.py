@@ -3,7 +3,6 @@
 import dataclasses
 import json
 from functools import partial
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ from mechsym.hinge.setting import setting_text
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
-from mechsym.style import significant, svg
+from mechsym.style import axis_unit, page, svg
 
 _FRAMES = 180
 
@@ -43,13 +42,9 @@ def write(design: Design, folder: Path) -> list[Path]:
 
 def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> str:
     """The report as text."""
-    import jinja2
-
-    source = (resources.files("mechsym") / "templates" / "hinge.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
-    environment.filters["sig"] = significant
-    environment.filters["setting"] = partial(setting_text, design.guide.spring)
-    return environment.from_string(source).render(
+    return page(
+        "hinge.html",
+        {"setting": partial(setting_text, design.guide.spring)},
         case=design.origin,
         design=design,
         numbers=numbers,
@@ -90,7 +85,7 @@ def _motion(design: Design) -> dict[str, Any]:
     r, l = p.r1 + p.r2, p.l1 + p.l2
     phi = np.linspace(0, design.hinge.period, _FRAMES, endpoint=False)
     found, digits = curves(design.machine.mechanism, phi), 5 - int(np.floor(np.log10(l)))
-    factor, unit = plots.unit_of(max(design.hinge.torque_max, -design.hinge.torque_min), "N m")
+    factor, unit = axis_unit("N*m", design.hinge.torque_max, design.hinge.torque_min)
     bore = gas_of(design.machine).chamber.bore
     motion = {
         "torque_unit": unit, "r": r, "l": l, "bore": bore, "phi": np.round(phi, 5).tolist(),

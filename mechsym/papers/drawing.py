@@ -1,8 +1,7 @@
-"""What the figures of all sources share: panels with a quiet grid. matplotlib is imported in figure modules only."""
+"""What the figures of all sources share. matplotlib is imported in figure modules only."""
 
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym import style
@@ -18,11 +17,8 @@ def panels(
     size : tuple of float
         Width and height [inch]
     """
-    figure = Figure(figsize=size, layout="constrained")
-    axes = list(np.atleast_1d(figure.subplots(rows, columns, **options)).ravel())
-    for axis in axes:
-        style.grid(axis)
-    return figure, axes
+    figure, axes = style.panels(*size, rows, columns, **options)
+    return figure, list(axes)
 
 
 def turn_axis(axis: Any, degrees: float = 360.0, label: str = "crank angle [deg]") -> None:

@@ -3,14 +3,13 @@
 import io
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from mechsym.files import write_bytes, write_csv, write_text
 from mechsym.papers.rows import KEYS, VERDICTS
 from mechsym.papers.sources import Source
-from mechsym.style import svg
+from mechsym.style import page, svg
 
 _DPI = 110
 
@@ -32,13 +31,14 @@ def write(
     differences : sequence of str
         How the outcome differs from the recorded one
     """
-    drawn = {source.stem: source.figures() for source in sources}
+    figures = {source.stem: source.figures() for source in sources}
+    drawn = {stem: {n: svg(f, f"{stem} {n}") for n, f in found.items()} for stem, found in figures.items()}
     files = [write_text(folder / "reproduction.html", html(sources, rows, drawn, differences))]
     flat = [row for source in sources for row in rows[source.stem]]
     files.append(write_csv(folder / "reproduction.csv", {key: [r[key] for r in flat] for key in KEYS}))
     for source in sources:
-        for name, figure in drawn[source.stem].items():
-            files.append(write_text(folder / source.name / f"{name}.svg", svg(figure)))
+        for name, figure in figures[source.stem].items():
+            files.append(write_text(folder / source.name / f"{name}.svg", drawn[source.stem][name]))
             files.append(_write_png(folder / source.name / f"{name}.png", figure))
     return files
 
@@ -46,7 +46,7 @@ def write(
 def html(
     sources: Sequence[Source],
     rows: Mapping[str, Sequence[dict[str, Any]]],
-    drawn: Mapping[str, Mapping[str, Any]],
+    drawn: Mapping[str, Mapping[str, str]],
     differences: Sequence[str],
 ) -> str:
     """The page as text.
@@ -56,19 +56,16 @@ def html(
     rows : mapping of str to sequence of dict
         Rows of each source by its stem
     drawn : mapping of str to mapping
-        Figures of each source by its stem
+        Figures of each source as SVG, by its stem
     differences : sequence of str
         How the outcome differs from the recorded one
     """
-    import jinja2
-
-    source = (resources.files("mechsym") / "templates" / "reproduction.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=True, trim_blocks=True)
-    return environment.from_string(source).render(
+    return page(
+        "reproduction.html",
         sources=sources,
         rows=rows,
         counts={s.stem: counts(rows[s.stem]) for s in sources},
-        pictures={stem: {n: svg(f) for n, f in found.items()} for stem, found in drawn.items()},
+        pictures=drawn,
         differences=differences,
     )
 

@@ -4,10 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechsym.quantities import RPM
 from mechsym.simulate.result import Result
 from mechsym.simulate.summary import last_period
-from mechsym.style import BLUE, INK, RED, panels
+from mechsym.style import BLUE, INK, RED, axis_unit, envelope, heading, legend, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,17 +22,25 @@ def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Fig
     wanted : float
         Speed of operation, drawn as a line [rad/s]
     """
-    figure, (whole, last) = panels(9.0, 3.6, 1, 2, width_ratios=(2, 1), sharey=True)
-    t, q, u = result.t, result.columns[coordinate], result.columns[f"{coordinate}d"] / RPM
-    whole.plot(t, u, color=BLUE, lw=0.8, label="speed")
+    figure, (whole, last) = panels(
+        9.0, 3.9, 1, 2, "Speed over time and over the angle", width_ratios=(2, 1), sharey=True
+    )
+    t, q, u = result.t, result.columns[coordinate], result.columns[f"{coordinate}d"]
+    factor, unit = axis_unit("rad/s", u)
+    envelope(whole, t, u * factor, BLUE, "speed")
     ends = np.interp(np.arange(q[0], q[-1], period), np.maximum.accumulate(q), t)
     if len(ends) > 1:
-        means = period / np.diff(ends) / RPM
-        whole.stairs(means, ends, baseline=None, color=RED, lw=1.4, label=f"mean over {period / np.pi * 180:.0f} deg")
-    whole.axhline(wanted / RPM, color=INK, lw=0.9, ls="--", label="speed of operation")
-    whole.set(xlabel="t [s]", ylabel="speed [rpm]", title=f"{coordinate}: ended by {result.end}")
-    whole.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+        means = period / np.diff(ends) * factor
+        turns = round(period / (2 * np.pi))
+        label = f"mean over {'a turn' if turns == 1 else f'{turns} turns'}"
+        whole.stairs(means, ends, baseline=None, color=RED, lw=1.4, label=label)
+    whole.axhline(wanted * factor, color=INK, lw=0.9, ls="--", label="speed of operation")
+    whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
+    heading(whole, f"{coordinate}: ended by {result.end}")
+    legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)
-    last.plot(np.degrees(q[keep] - q[keep][0]), u[keep], color=BLUE, lw=1.2)
-    last.set(xlabel="angle [deg]", title="last period")
+    angle, unit = axis_unit("rad", period)
+    last.plot((q[keep] - q[keep][0]) * angle, u[keep] * factor, color=BLUE, lw=1.2)
+    last.set(xlabel=f"angle [{unit}]")
+    heading(last, "last period")
     return figure

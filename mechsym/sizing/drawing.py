@@ -4,17 +4,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Rectangle
 
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
 from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import Choice
 from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
-from mechsym.style import RED, write_picture
+from mechsym.style import INK, PAPER, RED, axis_unit, legend, panels, write_picture
+from mechsym.style.palette import BEARING, CARRIER, CRANK, CYLINDER, GEAR, PISTON, SHAFT
 
-_COLOURS = {"piston and rod": "#8fb6d9", "cylinder": "#c9ced6", "crankshaft": "#b9a27c", "gears": "#d9b44a",
-            "bearings": "#7a8b6f", "carrier": "#e6dff0", "output shaft": "#9a86b8", "bore": "#ffffff"}  # fmt: skip
+_COLOURS = {"piston and rod": PISTON, "cylinder": CYLINDER, "crankshaft": CRANK, "gears": GEAR, "bearings": BEARING,
+            "carrier": CARRIER, "output shaft": SHAFT, "bore": PAPER}  # fmt: skip
 _CAP_WALL = 4e-3  # of the rod's cap, for the picture [m]
 
 Box = tuple[float, float, float, float, str]  # x from, x to, y from, y to, colour key
@@ -26,16 +26,17 @@ def section_view(path: Path, parts: Parts | SliderParts, forces: PartForces | Sl
         boxes, labels = hypocycloid_boxes(parts, forces, stock)
     else:
         boxes, labels = slider_crank_boxes(parts, forces)  # type: ignore[arg-type]
-    figure = Figure(figsize=(13, 8), layout="constrained")
-    axes = figure.subplots()
+    figure, (axes,) = panels(13, 8, title="Section of the engine at top dead centre, to scale")
     for box in boxes:
         for sign in (-1, 1):
             _draw(axes, box, sign)
-    shown = [Patch(facecolor=colour, edgecolor="#3a3f47", label=name) for name, colour in _COLOURS.items()
-             if name != "bore" and any(box[4] == name for box in boxes)]  # fmt: skip
-    axes.legend(handles=shown, loc="center", fontsize=8, frameon=False, bbox_to_anchor=(0.5, 0.93), ncols=4)
+    for name, colour in _COLOURS.items():
+        if name != "bore" and any(box[4] == name for box in boxes):
+            axes.add_patch(Rectangle((0, 0), 0, 0, facecolor=colour, edgecolor=INK, label=name))
+    legend(axes)
+    factor, _ = axis_unit("m", 1.0)
     for x, y, text in labels:
-        axes.annotate(text, (x * 1e3, y * 1e3), ha="center", va="center", fontsize=7)
+        axes.annotate(text, (x * factor, y * factor), ha="center", va="center", fontsize=7, color=INK)
     axes.axhline(0, color=RED, linewidth=0.6, linestyle="-.")
     _frame(axes, boxes)
     return write_picture(path, figure)
@@ -174,21 +175,20 @@ def _bearing(x: float, choice: Choice, inner: float, y: float, side: int) -> lis
 def _draw(axes: Any, box: Box, sign: int) -> None:
     x_from, x_to, y_from, y_to, colour = box
     low, high = sorted((sign * x_from, sign * x_to))
-    axes.add_patch(Rectangle((low * 1e3, y_from * 1e3), (high - low) * 1e3, (y_to - y_from) * 1e3,
-                             facecolor=_COLOURS[colour], edgecolor="#3a3f47", linewidth=0.6))  # fmt: skip
+    k, _ = axis_unit("m", 1.0)
+    axes.add_patch(Rectangle((low * k, y_from * k), (high - low) * k, (y_to - y_from) * k, facecolor=_COLOURS[colour],
+                             edgecolor=INK, linewidth=0.6))  # fmt: skip
 
 
 def _frame(axes: Any, boxes: list[Box]) -> None:
-    x = 1e3 * max(max(abs(b[0]), abs(b[1])) for b in boxes)
-    y = 1e3 * max(max(abs(b[2]), abs(b[3])) for b in boxes)
+    factor, unit = axis_unit("m", 1.0)
+    x = factor * max(max(abs(b[0]), abs(b[1])) for b in boxes)
+    y = factor * max(max(abs(b[2]), abs(b[3])) for b in boxes)
     axes.set_aspect("equal")
     axes.set_xlim(-1.03 * x, 1.03 * x)
     axes.set_ylim(-1.05 * y, 1.05 * y)
-    axes.set_xlabel("along the cylinder axis [mm]")
-    axes.set_ylabel("along the crank axes [mm]")
-    axes.grid(True, color="#eef0f3", linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
+    axes.set_xlabel(f"along the cylinder axis [{unit}]")
+    axes.set_ylabel(f"along the crank axes [{unit}]")
 
 
 def total_width(boxes: list[Box]) -> float:

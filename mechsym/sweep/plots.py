@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.style import BLUE, GREEN, GREY, INK, ORANGE, RED, bare
+from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, bare
+from mechsym.style.palette import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
 from mechsym.sweep.units import unit_of
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
-_COLORS = (BLUE, RED, GREEN, ORANGE, INK, "#7a4fa3", "#3a9ca6", "#a05a2c")
 
 
 def picture(result: Sweep) -> Figure | None:
@@ -112,13 +112,13 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
             label = None if other is None else _value(other, other.values[k])
             # nothing lies between two words, and many dots hide the line
             style = "o" if isinstance(along.values[0], str) else "o-" if len(x) <= 25 else "-"
-            axis.plot(x, y, style, color=_COLORS[k % len(_COLORS)], markersize=3, label=label)
+            axis.plot(x, y, style, color=SERIES[k % len(SERIES)], markersize=3, label=label)
         gaps = np.isnan(values).any(axis=0)
         if gaps.any():
             foot = axis.get_xaxis_transform()
             axis.plot(x[gaps], np.zeros(gaps.sum()), "x", color=GREY, transform=foot, clip_on=False)
         if _changes_sign(values):
-            axis.axhline(0, color="black", linewidth=0.6)
+            axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_xlabel(_label(along.key, along.unit))
         axis.set_ylabel(_label(name, unit_of(name)))
     if other is not None:
@@ -134,14 +134,14 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
     x, y = np.array(right.values), np.array(up.values)
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
         values = _slice(result, list(over), column).T
-        axis.set_facecolor("#f0f1f3")
+        axis.set_facecolor(NOTHING)
         axis.grid(False)
         if np.isfinite(values).any():
             filled = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
             figure.colorbar(filled, ax=axis)
         if _changes_sign(values):
             # where a margin ends
-            axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors="white", linestyles="--")
+            axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors=PAPER, linestyles="--")
         gaps = np.argwhere(np.isnan(values))
         if gaps.size:
             axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
@@ -164,7 +164,11 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
         there = np.isfinite(column)
         y = column[there]
         upper, lower = axes[k], axes[len(shown) + k]
-        upper.hist(y, bins=min(40, max(5, round(np.sqrt(y.size)))), color=BLUE, alpha=0.8)
+        upper.hist(
+            y,
+            bins=min(40, max(5, round(np.sqrt(y.size)))),
+            color=BLUE,
+        )
         upper.axvline(y.mean(), color=RED, linewidth=1)
         upper.set_title(f"{y.mean():.5g} ± {y.std():.2g}", fontsize=9)
         upper.set_xlabel(_label(name, unit_of(name)))

@@ -1,41 +1,45 @@
 """Pictures of torsional analysis: Campbell diagram, start-up, twist. Each returns a matplotlib figure."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.simulate import Result
-from mechsym.style import BLUE, GREEN, GREY, INK, ORANGE, RED, bare
+from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import StartUp
 from mechsym.torsion.twist import pairs
 
-_SERIES = (RED, BLUE, GREEN, ORANGE, INK)
+_MOST_ORDERS = 4
 
 
 def campbell(found: StartUp) -> Figure:
     """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft."""
-    figure = Figure(figsize=(7.5, 4.5), layout="constrained")
-    axes = figure.add_subplot()
+    figure, (axes,) = panels(7.5, 4.8, title="Orders of excitation and natural frequency over the crank speed")
+    factor, unit = axis_unit("rad/s", found.natural)
     top = 1.1 * max(c.speed for c in found.criticals)
-    shown = [c for c in found.criticals if c.order <= 4]
-    axes.axhline(found.natural, color=INK, lw=1.5)
-    label = f"natural frequency {found.natural:.1f} rad/s"
-    axes.text(0.84 * top, found.natural * 1.02, label, color=INK, va="bottom", ha="right")
-    held = {c.critical.order for c in found.captures}
-    for critical in shown:
-        end = min(top, 1.3 * critical.speed)
-        axes.plot([0, end], [0, critical.order * end], color=GREY, lw=1.0)
-        axes.text(end, critical.order * end, f" order {critical.order:g}", color=INK, va="bottom")
-        color = RED if critical.order in held else "white"
-        axes.plot(critical.speed, found.natural, "o", mec=INK, mfc=color, ms=7)
-        axes.annotate(
-            f"{critical.speed:.1f}", (critical.speed, found.natural), (0, -16), textcoords="offset points", ha="center"
-        )
-    axes.set(xlim=(0, 1.08 * top), ylim=(0, 1.45 * found.natural), xlabel="crank speed [rad/s]")
-    axes.set(ylabel="frequency [rad/s]", title="Orders of excitation and natural frequency")
-    bare(axes)
+    shown = [c for c in found.criticals if c.order <= _MOST_ORDERS]
+    natural, held = found.natural * factor, {c.critical.order for c in found.captures}
+    high = 1.45 * natural
+    axes.axhline(natural, color=INK, lw=1.5, label=f"natural frequency {natural:.4g} {unit}")
+    ends = [min(top, 1.3 * c.speed) for c in shown]
+    heights = spread([min(c.order * e * factor / high, 1.0) for c, e in zip(shown, ends, strict=True)], 0.06, 0.0, 1.0)
+    for critical, end, height in zip(shown, ends, heights, strict=True):
+        speed = critical.speed * factor
+        axes.plot([0, end * factor], [0, critical.order * end * factor], color=GREY, lw=1.0)
+        told, at = f"order {critical.order:g}: {speed:.4g} {unit}", (end * factor, critical.order * end * factor)
+        axes.annotate(told, at, (1.02, height), textcoords="axes fraction", va="center", fontsize=8, color=INK,
+                      arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.5})  # fmt: skip
+        color = RED if critical.order in held else PAPER
+        axes.plot(speed, natural, "o", mec=INK, mfc=color, ms=7)
+    axes.set(
+        xlim=(0, 1.08 * top * factor), ylim=(0, high), xlabel=f"crank speed [{unit}]", ylabel=f"frequency [{unit}]"
+    )
+    for color, told in ((PAPER, "critical speed"), (RED, "critical speed that held the shaft")):
+        axes.plot([], [], "o", mec=INK, mfc=color, ms=7, label=told)
+    legend(axes)
     return figure
 
 
@@ -47,48 +51,59 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figur
     claim_speed : float, optional
         Speed that the source reports [rad/s]
     """
-    figure = Figure(figsize=(7.5, 6.5), layout="constrained")
-    speed, twist = figure.subplots(2, 1, sharex=True)
+    figure, (speed, twist) = panels(7.5, 6.5, 2, 1, "Start-up: mean speed and twist over time", sharex=True)
     first = runs[0]
+    factor, unit = axis_unit("rad/s", first.natural)
+    angle, angle_unit = axis_unit("rad", 1.0)
     onset, end = first.drive.time, float(first.result.t[-1])
-    speed.plot([onset, end], [0, first.rigid_rate * (end - onset)], "--", color=GREY, label="rigid shaft")
-    for run, color in zip(runs, _SERIES, strict=False):
-        speed.plot(run.t, run.speed_mean, color=color, lw=1.6, label=f"c1 = {run.c1:g} N m s/rad")
-        twist.semilogy(run.t, np.maximum(run.twist_amplitude, 1e-5), color=color, lw=1.2)
+    speed.plot([onset, end], [0, first.rigid_rate * (end - onset) * factor], "--", color=GREY, label="rigid shaft")
+    for run, color in zip(runs, SERIES[1:], strict=False):
+        speed.plot(run.t, run.speed_mean * factor, color=color, lw=1.6, label=f"c1 = {run.c1:g} N m s/rad")
+        twist.semilogy(run.t, np.maximum(run.twist_amplitude, 1e-5) * angle, color=color, lw=1.2)
+    marks = {f"order {c.order:g}": c.speed * factor for c in first.criticals if c.order <= _MOST_ORDERS}
     if claim_speed is not None:
-        speed.axhline(claim_speed, color=INK, lw=0.8, ls="-.")
-        speed.text(0.02 * end, claim_speed, f"printed: {claim_speed:g} rad/s", va="bottom", fontsize=8)
-        speed.set_ylim(top=1.12 * claim_speed)
-    for critical in first.criticals:
-        if critical.order <= 4 and critical.speed < speed.get_ylim()[1]:
-            speed.axhline(critical.speed, color=GREY, lw=0.7, ls=":")
-            speed.text(end, critical.speed, f" order {critical.order:g}", va="center", color=INK, fontsize=8)
-    speed.set(ylabel="mean crank speed [rad/s]", title="Start-up by a constant torque")
-    speed.legend(loc="upper left", bbox_to_anchor=(0.0, 0.9), frameon=False, fontsize=8)
-    twist.set(xlabel="t [s]", ylabel="twist amplitude [rad]")
-    for axes in (speed, twist):
-        bare(axes)
+        marks["printed"] = claim_speed * factor
+        speed.set_ylim(top=1.12 * claim_speed * factor)
+    _levels(speed, marks)
+    speed.set(ylabel=f"mean crank speed [{unit}]")
+    legend(speed)
+    twist.set(xlabel="time [s]", ylabel=f"twist amplitude [{angle_unit}]")
     return figure
 
 
+def _levels(axis: Any, marks: Mapping[str, float]) -> None:
+    """Lines across a panel with their names at its right."""
+    low, high = axis.get_ylim()
+    shown = {name: at for name, at in marks.items() if low <= at <= high}
+    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
+    for (name, at), place in zip(shown.items(), places, strict=True):
+        axis.axhline(at, color=GREY, lw=0.7, ls=":")
+        axis.text(1.01, place, name, transform=axis.transAxes, va="center", color=INK, fontsize=8)
+
+
 def twist(result: Result, shafts: int) -> Figure:
-    """Speed of the ends of a shaft and twist of its sections over time.
+    """Speed of the ends of a shaft and twist of its sections over time, and the last two turns of the crank.
 
     Parameters
     ----------
     result : Result
         A run of an elastic shaft
     """
-    figure = Figure(figsize=(7.5, 6.0), layout="constrained")
-    speed, twisted = figure.subplots(2, 1, sharex=True)
+    name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
+    figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
     found = pairs(result, shafts)
-    for name, color in ((found[0][0], RED), (found[-1][1], BLUE)):
-        speed.plot(result.t, result.columns[f"{name}d"], color=color, lw=0.9, label=name)
-    for (a, b), color in zip(found, cycle((*_SERIES, GREY)), strict=False):
-        twisted.plot(result.t, result.columns[a] - result.columns[b], color=color, lw=0.9, label=f"{a} - {b}")
-    speed.set(ylabel="speed [rad/s]", title="Speed of both ends, and twist of the shaft")
-    twisted.set(xlabel="t [s]", ylabel="twist [rad]")
-    for axes in (speed, twisted):
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
-        bare(axes)
+    ends = {n: result.columns[f"{n}d"] for n in (found[0][0], found[-1][1])}
+    twists = {f"{a} - {b}": result.columns[a] - result.columns[b] for a, b in found}
+    last = result.columns[found[0][0]] >= result.columns[found[0][0]][-1] - 4 * np.pi
+    for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
+        whole, zoomed = axes[2 * row : 2 * row + 2]
+        factor, unit = axis_unit(si, *curves.values())
+        for (curve, values), color in zip(curves.items(), cycle(SERIES[1:]), strict=False):
+            envelope(whole, result.t, values * factor, color, curve)
+            zoomed.plot(result.t[last], values[last] * factor, color=color, lw=0.9)
+        whole.set(ylabel=f"{label} [{unit}]")
+        legend(whole, width=5.0)
+    for axis in axes[2:]:
+        axis.set(xlabel="time [s]")
+    heading(axes[1], "last two turns")
     return figure

@@ -20,7 +20,7 @@ from mechsym.papers.chmielewski2015.computed import (
 )
 from mechsym.papers.chmielewski2015.studies import TELLING_STEP
 from mechsym.papers.drawing import panels
-from mechsym.style import BLUE, GREEN, GREY, RED
+from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
 _FIGURES = (
@@ -94,9 +94,9 @@ def _speeds() -> Figure:
     _band(axis, t, y[:, 2], color=RED, alpha=0.15, linewidth=0, label="the same, momentary speed")
     end = float(exact.t[-1])
     axis.plot([1, end], [0, rigid_speed_with_piston(end)], "--", color=GREY, label="rigid shaft, hand check")
-    axis.plot([CLAIMED_TIME, end], [CLAIMED_SPEED] * 2, color="black", linewidth=2, label="printed: 194 rad/s")
+    axis.plot([CLAIMED_TIME, end], [CLAIMED_SPEED] * 2, color=INK, linewidth=2, label="printed: 194 rad/s")
     axis.set(xlabel="t [s]", ylabel="mean crank speed over a second [rad/s]", xlim=(0, end))
-    axis.legend(fontsize=8)
+    legend(axis)
     return figure
 
 

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.moroianu2017.computed import FIGURES, curves
-from mechsym.style import BLUE
+from mechsym.style import BLUE, INK
 
 
 def figures() -> dict[str, Figure]:
@@ -15,7 +15,7 @@ def figures() -> dict[str, Figure]:
     for number, (field, name, unit) in FIGURES.items():
         figure, (axis,) = panels(size=(6.4, 3.4))
         axis.plot(np.degrees(one.phi), getattr(found, field) / 1e3, color=BLUE)
-        axis.axhline(0, color="black", linewidth=0.6)
+        axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_ylabel(f"{name} {field} [k{unit.replace('*', ' ')}]")
         axis.set_title(f"Fig. {number}, assumed data", loc="left", fontsize=10)
         turn_axis(axis)

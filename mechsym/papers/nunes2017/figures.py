@@ -20,7 +20,7 @@ from mechsym.jobs.cycle import engine
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.nunes2017.computed import over_printed_speeds
 from mechsym.quantities import RPM
-from mechsym.style import BLUE, GREEN, ORANGE, RED
+from mechsym.style import BLUE, GREEN, ORANGE, RED, legend
 
 _TOP_SPEED = 8000 * RPM
 _SPEEDS_RPM = (2000, 4000, 6000, 8000)
@@ -148,4 +148,4 @@ def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], k
 def _finish(axis: Any, number: str, label: str) -> None:
     axis.set_ylabel(label)
     axis.set_title(f"Fig. {number}, after the text", loc="left", fontsize=10)
-    axis.legend(fontsize=8)
+    legend(axis)

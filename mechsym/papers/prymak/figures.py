@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from mechsym.papers.drawing import panels, turn_axis
 from mechsym.papers.prymak.computed import MASS, RADIUS, SPEED, inertia_resultant
-from mechsym.style import BLUE, GREEN, RED
+from mechsym.style import BLUE, GREEN, INK, RED, legend
 
 
 def figures() -> dict[str, Figure]:
@@ -18,13 +18,13 @@ def figures() -> dict[str, Figure]:
     for at, color, label in (((x[k], 0), BLUE, "rod a"), ((0, y[k]), RED, "rod b"), ((x[k], y[k]), GREEN, "resultant")):
         left.annotate("", at, (0, 0), arrowprops={"arrowstyle": "-|>", "color": color, "lw": 1.8})
         left.text(1.08 * at[0] + 0.1, 1.08 * at[1] + 0.1, label, color=color)
-    left.plot([x[k], x[k], 0], [0, y[k], y[k]], ":", color="black", linewidth=0.8)
+    left.plot([x[k], x[k], 0], [0, y[k], y[k]], ":", color=INK, linewidth=0.8)
     left.set_aspect("equal")
     left.set(xlabel="along axis a", ylabel="along axis b", xlim=(-5, 6.2), ylim=(-5, 5.4))
     left.set_title("Fig. 3, inertia forces at one angle, over $m r \\omega^2$", fontsize=10)
     right.plot(np.degrees(alpha), x, color=BLUE, label="rod a")
     right.plot(np.degrees(alpha), y, color=RED, ls="--", label="rod b")
     right.plot(np.degrees(alpha), np.hypot(x, y), color=GREEN, label="resultant")
-    right.legend(fontsize=8, loc="center left")
+    legend(right)
     turn_axis(right)
     return {"figure_3": figure}

@@ -16,7 +16,7 @@ from mechsym.papers.zotov2024.computed import (
     guides,
     printed_torque,
 )
-from mechsym.style import BLUE, GREEN, GREY, RED
+from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend
 
 _PHI = np.linspace(0, 2 * np.pi, 1441)
 _DEG = np.degrees(_PHI)
@@ -40,7 +40,7 @@ def _forces(found: Engines) -> Figure:
         axis.plot(_DEG, gas_of(engine).force(_PHI) / 1e3, color=color, linestyle=line, label=name)
     axis.set_ylabel("force on the piston [kN]")
     axis.set_title("Fig. 3, stated cycle")
-    axis.legend()
+    legend(axis)
     turn_axis(axis)
     return figure
 
@@ -50,11 +50,11 @@ def _torques(found: Engines) -> Figure:
     for index, (axis, name) in enumerate(zip(axes, ("a: 89 rpm", "b: 142 rpm"), strict=True)):
         axis.plot(_DEG, found.hinges[index].torque(_PHI) / 1e3, color=BLUE, label="exact equation")
         axis.plot(_DEG, printed_torque(index, _PHI) / 1e3, color=RED, ls="--", label="(8) as printed")
-        axis.axhline(0, color="black", linewidth=0.6)
+        axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_title(f"Fig. 4 {name}, stated cycle")
         turn_axis(axis)
     axes[0].set_ylabel("hinge torque $M_h$ [kN m]")
-    axes[0].legend()
+    legend(axes[0])
     return figure
 
 
@@ -69,7 +69,7 @@ def _guides() -> Figure:
             axis.plot(
                 rho * np.cos(theta), rho * np.sin(theta), color=color, linestyle=line, label=f"{number}: p0 = {p0} MPa"
             )
-        axis.plot(0, 0, "+", color="black")
+        axis.plot(0, 0, "+", color=INK)
         axis.set_aspect("equal")
         axis.set_title(f"Fig. 5 {letter}: {words}, stated cycle", fontsize=10)
         axis.set(xlabel="x [m]", ylabel="y [m]")
@@ -88,10 +88,10 @@ def _fit(found: Engines) -> Figure:
     )
     for name, torque, color, line in curves:
         axis.plot(_DEG, torque / 1e3, color=color, linestyle=line, label=name)
-    axis.axhline(0, color="black", linewidth=0.6)
+    axis.axhline(0, color=INK, linewidth=0.6)
     axis.set_ylabel("hinge torque [kN m]")
     axis.set_title("Fig. 6, stated cycle")
-    axis.legend(fontsize=8)
+    legend(axis)
     turn_axis(axis)
     return figure
 

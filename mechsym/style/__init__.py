@@ -1,0 +1,70 @@
+"""What pictures of every room share: one palette for light and dark, panels, legends, units on axes, SVG.
+
+palette    colours on light and on dark paper, their contrast
+panels     figures with quiet panels, legends above them, axes in the units that were chosen
+labels     labels that keep clear of each other, curves that are equal named once
+page       pages of a template with the common styles
+picture    a figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it
+numbers    significant digits
+
+matplotlib is imported inside functions, so that whoever only needs a colour or a number does not load it.
+"""
+
+from mechsym.style.labels import clear_places, distinct, envelope, events, spread
+from mechsym.style.numbers import significant
+from mechsym.style.page import page
+from mechsym.style.palette import (
+    BLUE,
+    DARK,
+    GREEN,
+    GREY,
+    GRID,
+    INK,
+    ORANGE,
+    PAPER,
+    PINK,
+    QUIET,
+    RED,
+    SERIES,
+    TEAL,
+    VIOLET,
+    contrast,
+)
+from mechsym.style.panels import angle_axis, axis_unit, bare, grid, heading, legend, over_angle, panels, unit_words
+from mechsym.style.picture import svg, write_picture
+
+__all__ = [
+    "BLUE",
+    "DARK",
+    "GREEN",
+    "GREY",
+    "GRID",
+    "INK",
+    "ORANGE",
+    "PAPER",
+    "PINK",
+    "QUIET",
+    "RED",
+    "SERIES",
+    "TEAL",
+    "VIOLET",
+    "angle_axis",
+    "axis_unit",
+    "bare",
+    "clear_places",
+    "contrast",
+    "distinct",
+    "envelope",
+    "events",
+    "grid",
+    "heading",
+    "legend",
+    "over_angle",
+    "page",
+    "panels",
+    "significant",
+    "spread",
+    "svg",
+    "unit_words",
+    "write_picture",
+]

@@ -1,0 +1,102 @@
+"""A figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it."""
+
+import hashlib
+import io
+import re
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mechsym.files import write_text
+from mechsym.style.palette import DARK, INK
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_RC: dict[Any, Any] = {
+    "svg.hashsalt": "mechsym",
+    "svg.fonttype": "none",
+    # letters as wide as those that the layout was made with, or narrower
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
+}
+_NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+_ID, _USED = re.compile(r' id="([^"]+)"'), re.compile(r'(url\(#|href="#)([^")]+)')
+
+
+def svg(figure: "Figure", name: str = "") -> str:
+    """A figure as SVG, which may be a file or stand in a page; equal data give equal text.
+
+    Parameters
+    ----------
+    name : str
+        What tells this figure from an equal one in the same page
+    """
+    import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    buffer = io.StringIO()
+    with matplotlib.rc_context(_RC):
+        # not savefig, which lays everything out twice
+        FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :].replace("#000000", INK)
+    return _finished(text, title(figure), _description(figure), hashlib.sha256((name + text).encode()).hexdigest()[:8])
+
+
+def write_picture(path: Path, figure: "Figure") -> Path:
+    """Write a figure as a file of SVG."""
+    return write_text(path, svg(figure))
+
+
+def title(figure: "Figure") -> str:
+    """What a figure shows: its label, its heading, or what its first panel draws."""
+    first = next(iter(_panels(figure)), None)
+    found = figure.get_label() or figure.get_suptitle()
+    return " ".join(str(found or ("" if first is None else _said(first)) or "drawing").split())
+
+
+def _finished(text: str, name: str, about: str, own: str) -> str:
+    used = {found[2] for found in _USED.finditer(text)}
+    known = {old: f"{own}-{k}" for k, old in enumerate(sorted(used))}
+    text = _ID.sub(lambda m: f' id="{known[m[1]]}"' if m[1] in known else "", text)
+    text = _USED.sub(lambda m: m[1] + known[m[2]], text)
+    text = re.sub(r'<style type="text/css">.*?</style>', "", text, flags=re.S).replace("<defs>\n  \n </defs>", "")
+    head, _, rest = text.partition(">")
+    told = f'<title id="{own}-t">{escape(name)}</title>\n <desc id="{own}-d">{escape(about)}</desc>'
+    named = f'{head} class="picture" role="img" aria-labelledby="{own}-t {own}-d">'
+    return f"{named}\n {told}\n <style>{_sheet(rest)}</style>{rest}"
+
+
+def _sheet(text: str) -> str:
+    """Rules of a figure's own: the joints of its lines, and its colours on dark paper."""
+    dark = "".join(
+        # no ancestor is named: what a `use` repeats has none of the figure's
+        f'[style*="{kind}: {light}"]{{{kind}:{shade} !important}}'
+        for light, shade in DARK.items()
+        for kind in ("fill", "stroke")
+        if f"{kind}: {light}" in text
+    )
+    rules = f".picture *{{stroke-linejoin:round;stroke-linecap:butt}}.picture text{{fill:{INK}}}"
+    return f"{rules}@media screen and (prefers-color-scheme:dark){{.picture text{{fill:{DARK[INK]}}}{dark}}}"
+
+
+def _panels(figure: "Figure") -> Iterator[Any]:
+    return (axis for axis in figure.axes if axis.get_visible() and axis.get_label() != "<colorbar>")
+
+
+def _description(figure: "Figure") -> str:
+    """Panel by panel what is drawn over what, with the names of the curves."""
+    parts = []
+    for axis in _panels(figure):
+        shown = axis.get_legend()
+        names = [text.get_text() for text in shown.get_texts()] if shown is not None else []
+        parts.append(_said(axis) + (f": {', '.join(names)}" if names else ""))
+    return "; ".join(" ".join(part.split()) for part in parts if part) or title(figure)
+
+
+def _said(axis: Any) -> str:
+    across, up = axis.get_xlabel(), axis.get_ylabel()
+    drawn = f"{up} over {across}" if across and up else up or across
+    heads = [axis.get_title(loc) for loc in ("left", "center", "right")]
+    return ", ".join(part for part in (*heads, drawn) if part)

@@ -1,0 +1,92 @@
+"""What is wrong with a figure: texts on each other or out of the paper, as matplotlib's renderer places them; ids."""
+
+import itertools
+import re
+from collections import Counter
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+import mechsym.style.picture as picture
+
+_NEAR = 0.5  # points that two boxes may share
+
+
+def drawn(monkeypatch):
+    """All figures that become SVG from here on, with their text."""
+    found, plain = [], picture.svg
+
+    def keep(figure, name=""):
+        found.append((figure, plain(figure, name)))
+        return found[-1][1]
+
+    monkeypatch.setattr(picture, "svg", keep)  # for write_picture
+    for module in _users():
+        monkeypatch.setattr(module, "svg", keep)
+    return found
+
+
+def _users():
+    import importlib
+
+    import mechsym.style
+
+    names = ("codesign.report", "forces.report", "hinge.report", "jobs.own_turn", "papers.page", "sweep.plots")
+    modules = [importlib.import_module(f"mechsym.{name}") for name in names]
+    return [mechsym.style, *(m for m in modules if getattr(m, "svg", None) is mechsym.style.svg)]
+
+
+def boxes(figure):
+    """Every text that is seen, with its box in points of the figure."""
+    FigureCanvasAgg(figure)
+    figure.set_dpi(72)
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    ticks = set()
+    seen = []
+    for axis in figure.axes:
+        if not axis.get_visible():
+            continue
+        for one in axis._axis_map.values():
+            ticks |= {id(t) for tick in (*one.majorTicks, *one.minorTicks) for t in (tick.label1, tick.label2)}
+            if axis.axison and one.get_visible():
+                shown = [t for tick in one._update_ticks() for t in (tick.label1, tick.label2)]
+                seen += [t for t in shown if t.get_visible()]
+    hidden = {id(t) for axis in figure.axes if not (axis.get_visible() and axis.axison) for t in _of_axis(axis)}
+    for text in figure.findobj(Text):
+        if id(text) not in ticks and id(text) not in hidden and text.get_visible():
+            seen.append(text)
+    return [(t.get_text(), t.get_window_extent(renderer)) for t in seen if t.get_text().strip()]
+
+
+def _of_axis(axis):
+    if not axis.get_visible():
+        return axis.findobj(Text)
+    return [t for one in axis._axis_map.values() for t in one.findobj(Text)]
+
+
+def faults(figure):
+    """Texts that lie on each other, or leave the paper."""
+    found, (width, height) = [], 72 * figure.get_size_inches()
+    seen = boxes(figure)
+    for text, box in seen:
+        if box.x0 < -_NEAR or box.y0 < -_NEAR or box.x1 > width + _NEAR or box.y1 > height + _NEAR:
+            found.append(f"{text!r} leaves the paper: {box.x0:.0f}..{box.x1:.0f} of {width:.0f}, "
+                         f"{box.y0:.0f}..{box.y1:.0f} of {height:.0f}")  # fmt: skip
+    for (one, a), (other, b) in itertools.combinations(seen, 2):
+        across, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+        if across > _NEAR and up > _NEAR:
+            found.append(f"{one!r} on {other!r}")
+    return found
+
+
+def ids(page):
+    """Ids that stand more than once in a page, and references to ids that are not there."""
+    given = Counter(re.findall(r'\sid="([^"]+)"', page))
+    used = set(re.findall(r'(?:url\(#|href="#)([^")]+)', page))
+    return {i for i, n in given.items() if n > 1} | (used - set(given))
+
+
+def colours(text):
+    """Colours of lines, filled areas and letters in a figure."""
+    return set(re.findall(r"(?:fill|stroke): (#[0-9a-f]{6})", re.sub(r"<style>.*?</style>", "", text)))
