@@ -166,7 +166,8 @@ def _with_left(theory: Theory, quantity: str, said: Statement, formula: Formula)
         raise
     if isinstance(left, ast.Name):
         return theory, quantity
-    if not set(letters_of(left)) & {quantity, *dependencies(theory, [quantity])}:
+    meant = {m for n in letters_of(left) for m in letters_of(formula.letters.get(n, ast.Name(n, ast.Load())))}
+    if not meant & {quantity, *dependencies(theory, [quantity])}:
         raise BadInput(f"the left side {said.left[:40]!r} has nothing of {quantity}; write '{quantity} = expression'")
     tape = theory.tape.base if isinstance(theory.tape, TheoryTape) else dict(theory.tape)
     full = {k: t for k, t in formula.letters.items() if k not in theory.letters and k not in tape}

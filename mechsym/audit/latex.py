@@ -29,7 +29,8 @@ _FUNCTIONS = {
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 _TIMES, _OVER = {"*", "\\cdot", "\\times"}, {"/", "\\div"}
-_STOP = {")", "]", "}", "\\}", "|", "+", "-", ""}
+_STOP = {")", "]", "}", "\\}", "|", "+", "-", "\\over", ""}
+_SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reverse=True),)
 
 
 def read_latex(text: str) -> tuple[Node, dict[str, str]]:
@@ -131,6 +132,9 @@ def _group(cursor: Cursor) -> Node:
     opening = cursor.take()
     with _deeper(cursor):
         tree = _sum(cursor)
+        if cursor.peek() == "\\over":
+            cursor.take()
+            tree = binary(ast.Div, tree, _sum(cursor))
     cursor.take(_CLOSING[opening])
     return call("abs", tree) if opening == "|" else tree
 
@@ -235,7 +239,17 @@ def _function_name(cursor: Cursor) -> str | None:
     if token.startswith("\\") and token[1:] in _FUNCTIONS:
         cursor.take()
         return _FUNCTIONS[token[1:]]
+    # sin(x) without its backslash
+    for word in _SPELLED if token.isalpha() else ():
+        if tuple(cursor.peek(i) for i in range(len(word))) == tuple(word) and _opens(cursor.peek(len(word))):
+            cursor.position += len(word)
+            return _FUNCTIONS.get(word, word)
     return None
+
+
+def _opens(token: str) -> bool:
+    # what can only be the argument of a function that three letters spell
+    return token in ("(", "[") or token.startswith("\\") and token[1:].isalpha() and token[1:] not in _FUNCTIONS
 
 
 def _function(cursor: Cursor, function: str) -> Node:

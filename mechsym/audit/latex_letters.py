@@ -13,7 +13,7 @@ _GREEK = {
     "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
 }  # fmt: skip
 _DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
-WORDS = {"\\mathrm", "\\text", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
+WORDS = {"\\mathrm", "\\text", "\\mbox", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
 
 
 @dataclass
@@ -77,11 +77,21 @@ def letter(cursor: Cursor, bare: bool) -> Node:
     if braced:
         cursor.take("}")
         subscript = subscript or _subscript(cursor)
+    subscript += _star(cursor, bare)
     if cursor.peek() == "'":
         raise BadInput(f"LaTeX: primes are not read {place(cursor)}; write \\frac{{dx}}{{d\\varphi}} for x'")
     found = plain(base, subscript, dots)
     cursor.spelled.setdefault(found, _join(cursor.tokens[start : cursor.position]))
     return name(found)
+
+
+def _star(cursor: Cursor, bare: bool) -> str:
+    # E^* is one letter
+    for length, mark in ((2, ("*",)), (2, ("\\ast",)), (4, ("{", "*", "}")), (4, ("{", "\\ast", "}"))):
+        if not bare and tuple(cursor.peek(i) for i in range(length)) == ("^", *mark):
+            cursor.position += length
+            return "star"
+    return ""
 
 
 def _decorated(cursor: Cursor) -> Node:
@@ -109,6 +119,8 @@ def _base(cursor: Cursor) -> str:
             word += cursor.take()
         cursor.take("}")
         return word
+    if token == "\\Delta" and _is_letter(cursor.peek()):
+        return f"Delta{_base(cursor)}"
     if token[1:] in _GREEK and token.startswith("\\"):
         return token[1:]
     if len(token) == 1 and token.isalpha():
@@ -116,6 +128,10 @@ def _base(cursor: Cursor) -> str:
     cursor.position -= 1
     what = repr(token) if token else "an end"
     raise BadInput(f"LaTeX: {what} is not read {place(cursor)}; use fractions, roots, powers, letters and functions")
+
+
+def _is_letter(token: str) -> bool:
+    return len(token) == 1 and token.isalpha() or token.startswith("\\") and token[1:] in _GREEK
 
 
 def _subscript(cursor: Cursor) -> str:

@@ -10,7 +10,8 @@ from mechsym.audit.bench import Bench, bench, used_names, value
 from mechsym.audit.question import Question, digit_values, float_values
 from mechsym.audit.states import drawn
 from mechsym.audit.theory.record import Theory, complete
-from mechsym.audit.tree import Node
+from mechsym.audit.tree import Node, name
+from mechsym.audit.units_of import ANGLE, kind_of
 from mechsym.derive.identity import vanishes
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -26,6 +27,7 @@ class Judges:
 
     quick: Bench  #: In floats: refutes almost everything that is wrong
     strict: Bench
+    angle: bool = False  #: Whether the quantity is an angle, the same after a whole turn
 
 
 def judges(question: Question, seed: int = 1) -> Judges:
@@ -40,7 +42,9 @@ def judges(question: Question, seed: int = 1) -> Judges:
     with mpmath.workdps(WORKING_DIGITS):
         strict = digit_values(values)
     return Judges(
-        quick=bench(question, float_values(values), FLOATS), strict=bench(question, strict, DIGITS, WORKING_DIGITS)
+        quick=bench(question, float_values(values), FLOATS),
+        strict=bench(question, strict, DIGITS, WORKING_DIGITS),
+        angle=kind_of(question.theory, name(question.quantity)) == ANGLE,
     )
 
 
@@ -51,6 +55,7 @@ class Agreement:
     expected: int  #: States at which the quantity has a value [-]
     valued: int  #: States of these at which the formula has one too [-]
     agrees: bool  #: Whether they agree to 40 digits at these, and there are any
+    turned: bool = False  #: Whether an angle differs by whole turns at some
 
     @property
     def exact(self) -> bool:
@@ -61,7 +66,7 @@ class Agreement:
 def agreement(judged: Judges, tree: Node) -> Agreement:
     """Compare a formula with the derived quantity at every random state."""
     printed = value(judged.strict, tree)
-    expected = valued = met = 0
+    expected = valued = met = turns = 0
     with mpmath.workdps(judged.strict.digits):
         for p, e in zip(printed, judged.strict.expected, strict=True):
             if mpmath.isnan(e):
@@ -69,8 +74,11 @@ def agreement(judged: Judges, tree: Node) -> Agreement:
             expected += 1
             if not mpmath.isnan(p):
                 valued += 1
-                met += bool(abs(p - e) <= mpmath.mpf(10) ** -TOLERANCE_DIGITS * abs(e))
-    return Agreement(expected=expected, valued=valued, agrees=met == valued > 0)
+                turn = 2 * mpmath.pi * mpmath.nint((p - e) / (2 * mpmath.pi)) if judged.angle else 0
+                same = bool(abs(p - turn - e) <= mpmath.mpf(10) ** -TOLERANCE_DIGITS * abs(e))
+                met += same
+                turns += same and turn != 0
+    return Agreement(expected=expected, valued=valued, agrees=met == valued > 0, turned=turns > 0)
 
 
 def is_exact(judged: Judges, tree: Node) -> bool:
@@ -82,6 +90,8 @@ def agrees_quickly(judged: Judges, tree: Node) -> bool:
     """Whether floats leave it open that a formula is exact; False is a refutation."""
     printed, expected = value(judged.quick, tree), judged.quick.expected
     with np.errstate(all="ignore"):
+        if judged.angle:
+            printed = printed - 2 * np.pi * np.round((printed - expected) / (2 * np.pi))
         wrong = ~(np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected)))
     return not np.any(wrong & np.isfinite(expected))
 

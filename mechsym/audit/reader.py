@@ -11,7 +11,7 @@ from mechsym.audit import tree as trees
 from mechsym.audit.functions import MEANINGS, MODULES, meaning
 from mechsym.audit.latex import read_latex
 from mechsym.audit.printer import to_latex, to_python
-from mechsym.audit.spelling import bracketed, from_greek, resolve
+from mechsym.audit.spelling import bracketed, from_greek, resolve, unprogrammed
 from mechsym.audit.statement import statement
 from mechsym.audit.tree import Node
 from mechsym.errors import BadInput
@@ -142,13 +142,20 @@ def letter_pairs(text: str) -> dict[str, str]:
 def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
     found = {}
     for written, value in letters.items():
-        tree = read_latex(written)[0] if is_latex(written) else _read_python(written)
+        tree = _author_letter(written)
         if not isinstance(tree, ast.Name):
             raise BadInput(f"{written!r} is not a letter; write for example R=r1+r2")
         if tree.id in (*CONSTANTS, *limits.FUNCTIONS, *_ALIASES, *MEANINGS):
             raise BadInput(f"--letters {written!r} cannot be a letter: {tree.id} has its meaning already; name another")
         found[tree.id] = value
     return found
+
+
+def _author_letter(written: str) -> Node:
+    # \\text{stroke length} is one letter, and so is E^*
+    if re.fullmatch(r"[^\W\d_]+(?: +[^\W\d_]+)+", written):
+        return trees.name(written.replace(" ", ""))
+    return read_latex(written)[0] if is_latex(written) or written.endswith("^*") else _read_python(written)
 
 
 def _hidden(own: Mapping[str, Node], known: list[str]) -> Iterator[str]:
@@ -169,7 +176,7 @@ def _known_letter(written: str, known: list[str], more: Container[str]) -> str:
 
 
 def _read_python(text: str) -> Node:
-    source = from_greek(bracketed(text)).replace("^", "**")
+    source = from_greek(bracketed(unprogrammed(text))).replace("^", "**")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)  # of 2if: what is no formula is refused below
@@ -196,6 +203,8 @@ def _hint(source: str) -> str:
 def _tidy(node: Node) -> Node | None:
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.UAdd):
         return trees.substitute(node.operand, _tidy)
+    if isinstance(node, ast.Attribute) and node.attr.lower() == "pi" and ast.unparse(node.value) in MODULES:
+        return trees.name("pi")
     if not isinstance(node, ast.Call):
         return None
     function = _function(node)
@@ -210,6 +219,8 @@ def _one(function: str, arguments: list[Node]) -> Node:
     if len(arguments) != 1:
         raise BadInput(f"{function} takes one argument, not {len(arguments)}")
     plain = _ALIASES.get(function, function)
+    if plain not in limits.FUNCTIONS and plain.lower() in limits.FUNCTIONS:
+        plain = plain.lower()
     if plain not in limits.FUNCTIONS:
         there = ", ".join([*limits.FUNCTIONS, *MEANINGS])
         raise BadInput(

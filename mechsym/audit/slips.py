@@ -125,12 +125,13 @@ def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
 def _brackets(node: Node) -> Iterator[tuple[str, Node]]:
     # a*(b + c) read as a*b + c, sqrt(a) + b read as sqrt(a + b), and back
     if not isinstance(node, ast.BinOp):
-        if isinstance(node, ast.Call) and is_operation(node.args[0], ast.Add, ast.Sub):
+        if isinstance(node, ast.Call) and is_operation(node.args[0], ast.Add, ast.Sub, ast.Mult, ast.Div):
             inner = node.args[0]
             assert isinstance(inner, ast.BinOp)
             yield "bracket", binary(type(inner.op), call(str(function_of(node)), inner.left), inner.right)
         return
     left, right = node.left, node.right
+    yield from (("bracket", new) for new in _closed_too_soon(node))
     if is_operation(node, ast.Add, ast.Sub):
         if is_operation(left, ast.Mult, ast.Div):
             assert isinstance(left, ast.BinOp)
@@ -146,6 +147,19 @@ def _brackets(node: Node) -> Iterator[tuple[str, Node]]:
     if is_operation(node, ast.Mult, ast.Div) and is_operation(right, ast.Add, ast.Sub):
         assert isinstance(right, ast.BinOp)
         yield "bracket", binary(type(right.op), binary(type(node.op), left, right.left), right.right)
+
+
+def _closed_too_soon(node: ast.BinOp) -> Iterator[Node]:
+    # cos(a*b) printed cos(a)*b, also behind a factor
+    if not is_operation(node, ast.Mult, ast.Div):
+        return
+    left = node.left
+    if isinstance(left, ast.Call):
+        yield call(str(function_of(left)), binary(type(node.op), left.args[0], node.right))
+    if is_operation(left, ast.Mult, ast.Div) and isinstance(left.right, ast.Call):  # type: ignore[attr-defined]
+        assert isinstance(left, ast.BinOp) and isinstance(left.right, ast.Call)
+        whole = call(str(function_of(left.right)), binary(type(node.op), left.right.args[0], node.right))
+        yield binary(type(left.op), left.left, whole)
 
 
 def _lost_brackets(node: ast.BinOp) -> Iterator[Node]:

@@ -10,7 +10,8 @@ _GREEK = {
     "κ": "kappa", "λ": "lam", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau",
     "φ": "phi", "ϕ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega", "Δ": "Delta", "Σ": "Sigma", "Φ": "Phi",
     "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "²": "**2", "³": "**3", "·": "*",
-    "×": "*", "−": "-", "√": "sqrt",
+    "×": "*", "−": "-", "√": "sqrt", "⁰": "**0", "¹": "**1", **{c: f"**{n}" for n, c in enumerate("⁴⁵⁶⁷⁸⁹", 4)},
+    **{c: f"_{n}" for n, c in enumerate("₀₁₂₃₄₅₆₇₈₉")},
 }  # fmt: skip
 _ALIASES = {"lambda": "lam", "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho"}
 _LATEX = {
@@ -29,6 +30,21 @@ _NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A
 _CALLS = "arcsin|arccos|arctan|asin|acos|atan|sqrt|sin|cos|tan|cot|tg|ctg|exp|log|ln"
 _BARE = re.compile(rf"\b({_CALLS})\s+((?:\d+(?:\.\d+)?\s*\*?\s*)?[^\W\d]\w*)(?!\s*\()")
 _POWERED = re.compile(rf"\b({_CALLS})\s*(?:(²|³|⁴)|(?:\^|\*\*)\s*\{{?\(?(-?\d)\)?\}}?)\s*(?=[^\W\d]|\()")
+
+
+# operations element by element, Scilab's %pi, a root's sign in front of a bare letter
+_PROGRAMS = (
+    (re.compile(r"\.(?=[*/^])"), ""),
+    (re.compile(r"%(?=pi\b)"), ""),
+    (re.compile(r"√\s*([^\W_]\w*)"), r"√(\1)"),
+)
+
+
+def unprogrammed(text: str) -> str:
+    """What only programs write, as a formula has it: `a.*b` is `a*b`."""
+    for pattern, instead in _PROGRAMS:
+        text = pattern.sub(instead, text)
+    return text
 
 
 def bracketed(text: str) -> str:

@@ -65,7 +65,8 @@ def _plain(exam: Examination) -> Decision | None:
     if met.exact:
         proof = "polynomial" if proves_equal(exam.question, tree) else "50 digits"
         start = standing(exam, tree)
-        return _verdict(exam, "exact", start, certificate=proof, domain=domain(exam.question))
+        turns = "up to whole turns" if met.turned else ""
+        return _verdict(exam, "exact", start, certificate=proof, domain=domain(exam.question), note=turns)
     if met.expected <= POINTS // 2 or met.agrees:
         return _verdict(exam, "untestable", _unordered(exam, tree), note=_without_value(met))
     if not is_consistent(exam.scales, tree):

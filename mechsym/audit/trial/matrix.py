@@ -10,13 +10,14 @@ from typing import Any
 from mechsym.audit.formula import Asked, check_formula, question_of
 from mechsym.audit.prover import agreement, judges
 from mechsym.audit.statement import statement
+from mechsym.audit.trial import public
 from mechsym.audit.trial.spoiled import Spoiled, content, doubles, singles
 from mechsym.files import to_json, write_text
 
 VERDICTS = ("exact", "truncation", "convention", "mixed", "untestable", "misprint", "nearer", "wrong")
 SEED = 31  # not the one that the search was looked at with
 SINGLE_KINDS, DOUBLES = 5, 2  # how often each form is spoiled
-STEPS = 5  # how often `done` is called
+STEPS = 7  # how often `done` is called
 _STORED = "results.json"
 
 
@@ -35,8 +36,13 @@ def trial(done: Callable[[], Any] = lambda: None) -> dict[str, Any]:
     done()
     twice = counted(doubles(DOUBLES, SEED))
     done()
+    benches = {}
+    for half in public.HALVES:
+        benches[half] = public.bench(half)
+        done()
     return {
         "verdicts": {k: dict(sorted(v.items())) for k, v in verdicts.items()}, "one slip": once, "two slips": twice,
+        "public": benches,
     }  # fmt: skip
 
 
@@ -105,7 +111,9 @@ def lines(found: Mapping[str, Any]) -> list[str]:
     trap = (
         f"- traps, right for one sign or on one branch: {traps.get('exact', 0)} of {sum(traps.values())} called exact"
     )
-    return [*head, *body, "", trap, *(_rates(k, found[k]) for k in ("one slip", "two slips"))]
+    rates = (_rates(k, found[k]) for k in ("one slip", "two slips"))
+    shown = ["", *public.INTRODUCTION, "", *public.lines(found["public"])] if "public" in found else []
+    return [*head, *body, "", trap, *rates, *shown]
 
 
 _ROWS = {
