@@ -26,6 +26,7 @@ ENTRIES: dict[str, Any] = {
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
     "breathing": "mechsym.cycle.breathing.records:Breathing",
+    "gas_limits": "mechsym.cases.gas_limits:GasLimits",
     "scavenging": "mechsym.cycle.breathing.scavenging:Scavenging",
     "boost": "mechsym.cycle.breathing.turbocharger:Boost",
     "stirling": "mechsym.cycle.kinds.stirling_second_order:StirlingLosses",

@@ -8,7 +8,7 @@ from mechsym.quantities.display import ratio_text
 
 _SPEEDS = ("speed_rpm", "torque_avg", "power_kw", "mep_kpa", "pumping_mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 _BREATH = ("speed_rpm", "volumetric_efficiency", "residual_gas", "air_kg_h", "p_in_kpa", "t_in_k", "p_out_kpa",
-           "t_exhaust_k")  # fmt: skip
+           "t_exhaust_k", "knock")  # fmt: skip
 _BRAKE = ("speed_rpm", "friction_mep_kpa", "brake_torque", "brake_power_kw", "brake_sfc_g_kwh", "brake_efficiency")
 
 
@@ -22,12 +22,17 @@ def show(case: Any, omega: Any, as_json: bool, out: Path | None) -> None:
     """
     from mechsym.cycle.breathing.engine import figures
     from mechsym.jobs.cycle import breathing
+    from mechsym.jobs.judged import of_limits
     from mechsym.jobs.whole_engine import of_engine
 
     run = breathing(case, omega)
     found = of_engine(case, figures(run), omega)
     files = _write(out, run, found) if out else []
-    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    emit(
+        found | {"doubts": of_limits(case, found)},
+        as_json,
+        lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]),
+    )
 
 
 def _text(found: dict[str, Any]) -> str:

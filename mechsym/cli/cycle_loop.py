@@ -16,6 +16,7 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
         Engine cycles to run [-]
     """
     from mechsym.files import write_quantities
+    from mechsym.jobs.judged import of_limits
     from mechsym.jobs.loop import loop
     from mechsym.simulate.loop.run import run_loop
     from mechsym.simulate.loop.summary import series, summary
@@ -24,7 +25,11 @@ def show(case: Any, cycles: float, as_json: bool, out: Path | None) -> None:
     result = run_loop(machine, case.need("operation").speed, cycles)
     found = summary(machine, result)
     files = [write_quantities(out / "loop.csv", series(machine, result))] if out else []
-    emit(found, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    emit(
+        found | {"doubts": of_limits(case, found)},
+        as_json,
+        lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]),
+    )
     if result.status != "done":
         sys.exit(1)
 

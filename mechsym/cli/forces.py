@@ -73,7 +73,7 @@ def forces(
     report = summary(found, loaded.name, loaded.source)
     shaking = vibration(loaded, found.turn)
     report["vibration"] = None if shaking is None else dataclasses.asdict(shaking)
-    report["doubts"] = of_forces(found) + (train.doubts(shaking) if shaking else ())
+    report["doubts"] = of_forces(loaded, found) + (train.doubts(shaking) if shaking else ())
     report["facts"] += train.words(shaking) if shaking else ()
     report["friction_law"] = _law(loaded, law) if law else None
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]

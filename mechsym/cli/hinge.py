@@ -54,7 +54,7 @@ def hinge(
             bar.update(1)
     numbers = summary(found)
     setting = partial(setting_text, case.need("spring"))
-    emit(numbers | {"doubts": of_gas(gas_of(found.machine))}, as_json, lambda: _text(numbers, setting, files))
+    emit(numbers | {"doubts": of_gas(case, gas_of(found.machine))}, as_json, lambda: _text(numbers, setting, files))
     if not numbers["guide"]["feasible"]:
         sys.exit(1)
 

@@ -89,6 +89,7 @@ def columns(found: Performance) -> dict[str, Any]:
         "p_max_mpa": found.p_max / 1e6,
         "p_max_angle_deg": np.degrees(found.p_max_angle),
         "t_max_k": found.t_max,
+        "knock": found.knock,
         "force_max": found.force_max,
         "fractions": shares,
         "loads": found.loads,

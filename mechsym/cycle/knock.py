@@ -17,6 +17,7 @@ ATM = 101325.0
 _SYMBOLS = (ca.SX, ca.MX, ca.DM)
 # end weights that make equal steps exact for cubics (Gregory)
 _ENDS = (3 / 8, 7 / 6, 23 / 24)
+_NODES = 481
 
 
 def ignition_delay(p: Any, T: Any, octane: Any) -> Any:
@@ -93,10 +94,10 @@ def share_of_delay(s_slope: Any, p: Any, T: Any, omega: Any, octane: Any) -> Any
 
     Parameters
     ----------
-    s_slope : ndarray or CasADi row, shape (n,)
+    s_slope : ndarray, shape (n,) or (k, n), or CasADi row
         dphi/ds at the nodes, n at least 6 [rad]
-    p, T : ndarray or CasADi row, shape (n,)
-        Pressure and temperature of the end gas at the nodes [Pa, K]
+    p, T : ndarray, shape (n,) or (k, n), or CasADi row
+        Pressure and temperature of the end gas at the nodes, of k cycles side by side [Pa, K]
     omega : float or CasADi expression
         Crank speed [rad/s]
     octane : float or CasADi expression
@@ -104,7 +105,7 @@ def share_of_delay(s_slope: Any, p: Any, T: Any, omega: Any, octane: Any) -> Any
 
     Returns
     -------
-    share : float or CasADi expression
+    share : float, ndarray of shape (k,) or CasADi expression
         1 where the end gas ignites by itself [-]
 
     Notes
@@ -118,12 +119,12 @@ def share_of_delay(s_slope: Any, p: Any, T: Any, omega: Any, octane: Any) -> Any
     >>> round(float(share_of_delay(200.0 * tau * n, 2e6 * n, 800.0 * n, 200.0, 95.0)), 12)
     1.0
     """
-    n = p.numel() if isinstance(p, _SYMBOLS) else np.size(p)
+    n = p.numel() if isinstance(p, _SYMBOLS) else np.shape(p)[-1]
     weights = np.ones(n) / (n - 1)
     weights[:3] *= _ENDS
     weights[-3:] *= _ENDS[::-1]
     rate = s_slope / (omega * ignition_delay(p, T, octane))
-    return ca.mtimes(rate, ca.DM(weights)) if isinstance(rate, _SYMBOLS) else float(rate @ weights)
+    return ca.mtimes(rate, ca.DM(weights)) if isinstance(rate, _SYMBOLS) else (rate @ weights)[()]
 
 
 def knock_integral(found: Mapping[str, Any], steps: int, gas: ConstantGamma | NasaMixture, octane: Any) -> Any:
@@ -141,10 +142,70 @@ def knock_integral(found: Mapping[str, Any], steps: int, gas: ConstantGamma | Na
     first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
     before = found["p"][:first], found["t"][:first]
     p, p_0, T_0 = found["p"][first : first + second], before[0][first - 1], before[1][first - 1]
-    air = properties(gas, T_0, 0.0)
-    T = end_gas_temperature(p, p_0, T_0, air.gas_constant / (air.heat_capacity + air.gas_constant))
+    T = end_gas_temperature(p, p_0, T_0, kappa(gas, T_0))
     power = GRADING["during"]
     grading = ca.DM(power * np.linspace(0, 1, second) ** (power - 1)).T
     still, burning = found["starts"] - found["closes"], found["ends"] - found["starts"]
     ahead = share_of_delay(still * ca.DM.ones(1, first), *before, found["omega"], octane)
     return ahead + share_of_delay(burning * grading, p, T, found["omega"], octane)
+
+
+def knock_of_runs(found: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixture, octane: Any) -> np.ndarray:
+    """The same integral of closed periods that are numbers, one beside the other.
+
+    Parameters
+    ----------
+    found : mapping of str to ndarray
+        Nodes `p` [Pa] and `t` [K] of shape (k, steps + 3), angles between the phases [rad] and `omega` [rad/s] of
+        shape (k,)
+    octane : float or ndarray, shape (k,)
+        Octane number of the fuel [-]
+
+    Returns
+    -------
+    share : ndarray, shape (k,)
+        1 where the end gas ignites by itself [-]
+    """
+    steps = found["p"].shape[1] - 3
+    first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
+    column = {name: np.asarray(found[name], float)[:, None] for name in ("closes", "starts", "ends", "omega")}
+    number = np.broadcast_to(np.asarray(octane, float), found["p"].shape[:1])[:, None]
+    p, p_0, T_0 = found["p"][:, first : first + second], found["p"][:, [first - 1]], found["t"][:, [first - 1]]
+    T = end_gas_temperature(p, p_0, T_0, kappa(gas, T_0))
+    power = GRADING["during"]
+    grading = power * np.linspace(0, 1, second) ** (power - 1)
+    ahead = share_of_delay(column["starts"] - column["closes"], found["p"][:, :first], found["t"][:, :first],
+                           column["omega"], number)  # fmt: skip
+    return np.asarray(
+        ahead + share_of_delay((column["ends"] - column["starts"]) * grading, p, T, column["omega"], number)
+    )
+
+
+def knock_along(
+    curves: tuple[Any, Any], angles: tuple[float, float, float], omega: float, share: float, octane: float
+) -> float:
+    """The same integral along a cycle whose pressure [Pa] and temperature [K] are functions of the crank angle [rad].
+
+    Parameters
+    ----------
+    angles : tuple of float
+        Where the inlet closes, combustion starts and ends [rad]
+    omega : float
+        Crank speed [rad/s]
+    share : float
+        Gas constant by heat capacity at constant pressure [-]
+    octane : float
+        Octane number of the fuel [-]
+    """
+    (pressure, temperature), (closes, starts, ends) = curves, angles
+    before, during = np.linspace(closes, starts, _NODES), np.linspace(starts, ends, _NODES)
+    p = pressure(during)
+    T = end_gas_temperature(p, p[0], temperature(starts), share)
+    ahead = share_of_delay(starts - closes, pressure(before), temperature(before), omega, octane)
+    return float(ahead + share_of_delay(ends - starts, p, T, omega, octane))
+
+
+def kappa(gas: ConstantGamma | NasaMixture, T: Any) -> Any:
+    """Gas constant by heat capacity at constant pressure, of the unburnt gas at a temperature [K]."""
+    air = properties(gas, T, 0.0)
+    return air.gas_constant / (air.heat_capacity + air.gas_constant)

@@ -1,5 +1,6 @@
 """Case and results -> doubts that no single number tells: gas of a run, forces by its force, bound of efficiency."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,16 +14,43 @@ from mechsym.jobs.gas import gas
 from mechsym.jobs.own import is_own
 from mechsym.plausible import Doubt, proportion, results
 
+# what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
+_LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
+            ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
 _COLD_AIR = 1.4  # no mixture of air, fuel and products has more
 
 
-def of_gas(found: Gas | None) -> tuple[Doubt, ...]:
+def of_gas(case: Case, found: Gas | None) -> tuple[Doubt, ...]:
     """Peak pressure, mean pressure and temperature of the gas that drives a machine; none without gas."""
     if found is None:
         return ()
     pressure = found.pressure
     told = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}
-    return results(told if pressure.t_max is None else told | {"t_max_k": pressure.t_max})
+    told |= {} if pressure.t_max is None else {"t_max_k": pressure.t_max}
+    return results(told) + of_limits(case, told)
+
+
+def of_limits(case: Case, columns: Mapping[str, Any]) -> tuple[Doubt, ...]:
+    """Where the gas goes beyond what `[gas_limits]` of the case allows.
+
+    Parameters
+    ----------
+    columns : mapping of str to float or ndarray
+        Any of `p_max_mpa`, `p_max_bar`, `t_max_k` and `knock`, and rows of cycles in `cycles` [MPa, bar, K, -]
+    """
+    limits, doubts = case.sections.get("gas_limits"), []
+    for name, key, unit in _LIMITED if limits is not None else ():
+        rows = [row[name] for row in columns.get("cycles", ()) if name in row]
+        values = np.asarray(np.append(columns.get(name, ()), rows), float)
+        limit = getattr(limits, key)
+        if limit is None or not np.any(values[np.isfinite(values)] > limit / unit):
+            continue
+        why = f"gas_limits.{key} of the case; change the design, or the limit"
+        worst = float(np.nanmax(values))
+        doubts.append(
+            Doubt(code=f"limit_{key}", quantity=name, value=worst, usual=f"at most {limit / unit:g}", why=why)
+        )
+    return tuple(doubts)
 
 
 def of_run(case: Case, length: float) -> tuple[Doubt, ...]:
@@ -34,18 +62,18 @@ def of_run(case: Case, length: float) -> tuple[Doubt, ...]:
         How long it ran [s]
     """
     wanted, known = case.sections.get("simulation"), "cycle" in case.sections and not is_own(case.mechanism)
-    found = of_gas(gas(case)) if known else ()
+    found = of_gas(case, gas(case)) if known else ()
     if wanted is None or wanted.window is None or not length > 0:
         return found
     return found + proportion("window", "simulation.window / length of the run", wanted.window / length)
 
 
-def of_forces(found: Forces) -> tuple[Doubt, ...]:
+def of_forces(case: Case, found: Forces) -> tuple[Doubt, ...]:
     """Doubts of the forces of a turn: its gas, and pins, bearings and guides by the largest gas force."""
     pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
     largest = max((float(np.hypot(x, y).max()) for x, y in _vectors(found)), default=0.0)
     largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
-    doubts = of_gas(found.turn.gas)
+    doubts = of_gas(case, found.turn.gas)
     if found.turn.gas is None or not max(pushes, default=0.0) > 0:
         return doubts
     return doubts + proportion("force_ratio", "largest bearing force / gas force", largest / max(pushes))
@@ -66,7 +94,10 @@ def of_cycle(case: Case, columns: dict[str, Any]) -> tuple[Doubt, ...]:
         With `efficiency`; nan where no fuel is known [-]
     """
     best, bound = float(np.nanmax(np.append(columns["efficiency"], -np.inf))), _bound(case)
-    return proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
+    beyond = of_limits(case, columns)
+    return beyond + (
+        proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
+    )
 
 
 def _bound(case: Case) -> float | None:

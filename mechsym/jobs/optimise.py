@@ -1,8 +1,10 @@
 """Case -> optimum: the design problem of `[optimise]`, solved once, and against a second aim where one is named."""
 
+from dataclasses import replace
+
 from mechsym.cases import Case
 from mechsym.jobs.cycle import engine
-from mechsym.optimise.problem import problem
+from mechsym.optimise.problem import Optimise, problem
 from mechsym.optimise.solver import Optimum, pareto, solve
 from mechsym.quantities import record
 
@@ -13,6 +15,18 @@ class Optimised:
 
     best: Optimum
     front: tuple[Optimum, ...] = ()  #: Empty where no second aim is named; its first point is the best design
+
+
+_LIMITS = {"peak_pressure": "p_max", "peak_temperature": "t_max", "knock": "knock"}
+
+
+def _limited(case: Case) -> Optimise:
+    """`[optimise]` with the limits of `[gas_limits]` that it does not name itself."""
+    section: Optimise = case.need("optimise")
+    limits = case.sections.get("gas_limits")
+    known = {figure: getattr(limits, key, None) for key, figure in _LIMITS.items()}
+    asked = {figure: {"high": value} for figure, value in known.items() if value is not None}
+    return replace(section, constraints=asked | section.constraints)
 
 
 def optimise(case: Case) -> Optimised:
@@ -28,7 +42,7 @@ def optimise(case: Case) -> Optimised:
     found : Optimised
         Status, variables, active limits and multipliers
     """
-    section = case.need("optimise")
+    section = _limited(case)
     task = problem(engine(case), case.need("operation").speed, section)
     if not section.against:
         return Optimised(best=solve(task))

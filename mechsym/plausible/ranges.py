@@ -75,6 +75,8 @@ RESULTS = (
           why="a throttled engine fills a fifth of its swept volume, a well-tuned one a little more than all of it"),
     Usual(code="residual_gas", keys=("residual_gas",), unit="-", low=0, high=0.35,
           why="mixtures with more than about a third of burnt gas do not burn"),
+    Usual(code="knock", keys=("knock",), unit="-", high=1,
+          why="the end gas is ready to ignite before the flame reaches it (Livengood and Wu, Douaud and Eyzat)"),
     Usual(code="delivery", keys=("delivery_ratio",), unit="-", low=0.8, high=2.5,
           why="two-stroke engines are swept by 1 to 1.7 times their volume of air"),
     Usual(code="compressor_ratio", keys=("compressor_ratio",), unit="-", low=1, high=6,

@@ -1,18 +1,22 @@
 """The knock integral against its closed forms, fine quadrature, and the derivative by differences."""
 
+import json
 from functools import partial
 
 import casadi as ca
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from scipy.integrate import quad
 
 from mechsym import cases
+from mechsym.cli import mechsym
 from mechsym.cycle.closed.differentiable import design_function
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
-from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, share_of_delay
+from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, share_of_delay
 from mechsym.jobs.cycle import engine
+from mechsym.jobs.optimise import optimise
 from mechsym.optimise.problem import Optimise, problem
 from mechsym.optimise.solver import solve
 
@@ -97,3 +101,64 @@ def test_optimum_with_a_limit_on_knock_leaves_its_bound():
     assert limited.figures["knock"] == pytest.approx(1.0, rel=1e-6)
     assert limited.variables["chamber.compression_ratio"] == pytest.approx(11.62, abs=0.02)
     assert limited.figures["efficiency"] < free.figures["efficiency"] - 0.03
+
+
+def cycled(*words):
+    done = CliRunner().invoke(mechsym, ["cycle", *words, "--json"])
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout)
+
+
+def test_command_shows_what_the_optimiser_holds():
+    machine = engine(cases.load("nunes-hypocycloid"))
+    speeds = np.array([2000.0, 6000.0]) * np.pi / 30
+    found = cycled("nunes-hypocycloid", "--speeds", "2000:6000:4000")["knock"]
+    function = design_function(machine, ["omega"])
+    assert found == pytest.approx([float(function.call({"design": w})["knock"]) for w in speeds], rel=1e-6)
+    # Douaud and Eyzat's power of the octane number
+    better = cycled("nunes-hypocycloid", "--set", "cycle.octane=105", "--speeds", "2000")["knock"][0]
+    assert better == pytest.approx(found[0] * (95 / 105) ** 3.402, rel=1e-9)
+
+
+def test_integral_along_curves_is_that_of_a_closed_form():
+    # constant state before combustion, constant pressure during it: both stretches are time by delay
+    tau = ignition_delay(30e5, 800.0, 95.0)
+    found = knock_along((lambda a: 30e5 + 0 * a, lambda a: 800.0 + 0 * a), (0.0, 0.5, 1.25), 100.0, 0.25, 95.0)
+    assert found == pytest.approx(1.25 / (100.0 * tau), rel=1e-12)
+
+
+def test_gas_exchange_knows_its_octane():
+    low, high = (cycled("generator-breathing", "--set", f"cycle.octane={o}")["knock"][0] for o in (90, 100))
+    assert low / high == pytest.approx((100 / 90) ** 3.402, rel=1e-9)
+
+
+def test_in_the_loop_the_integral_is_that_of_the_speed_it_runs_at():
+    """With a flywheel the loop turns evenly, and its cycles are those of the map at that speed."""
+    heavy = ("--set", "flywheel.inertia=100")
+    found = cycled("nunes-hypocycloid", "--loop", "2", *heavy)["cycles"][-1]
+    case = cases.load("nunes-hypocycloid")
+    omega = found["speed_rpm"] * np.pi / 30
+    usual = float(design_function(engine(case), ["omega"]).call({"design": omega})["knock"])
+    assert found["knock"] == pytest.approx(usual, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_limits_of_the_user_are_doubts_and_constraints(tmp_path):
+    text = cases.text("nunes-hypocycloid") + '\n[gas_limits]\npeak_pressure = "6 MPa"\nknock = 0.3\n'
+    file = tmp_path / "own.toml"
+    file.write_text(text)
+    found = {d["code"]: d for d in cycled(str(file))["doubts"]}
+    assert set(found) == {"limit_peak_pressure", "limit_knock"}
+    assert found["limit_peak_pressure"]["value"] > 6 and found["limit_peak_pressure"]["usual"] == "at most 6"
+    free = cycled(str(file), "--set", "gas_limits.peak_pressure=20 MPa", "--set", "gas_limits.knock=5")["doubts"]
+    assert free == []
+    best = optimise(cases.load(str(file), {"gas_limits.knock": 1.0})).best
+    assert best.status == "optimal"
+    assert best.figures["p_max"] <= 8e6 * (1 + 1e-6)  # [optimise] names its own limit
+    assert best.figures["knock"] <= 1 + 1e-6
+
+
+@pytest.mark.parametrize("value", ["-1 MPa", "0", "1 K", "nan"])
+def test_limits_that_are_none_are_refused(value):
+    done = CliRunner().invoke(mechsym, ["cycle", "nunes-hypocycloid", "--set", f"gas_limits.peak_pressure={value}"])
+    assert done.exit_code != 0 and "Traceback" not in done.output

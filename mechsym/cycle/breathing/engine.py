@@ -21,6 +21,7 @@ from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, p
 from mechsym.cycle.friction import Friction, NoFriction, friction_pressure
 from mechsym.cycle.heat import Adiabatic, Law
 from mechsym.cycle.kinds.gas_exchange import GasExchange, charge
+from mechsym.cycle.knock import knock_along
 from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, record
@@ -168,11 +169,19 @@ def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
         "energy_residual": breath.energy_residual, "mass_residual": breath.mass_residual,
         "pumping_mep_kpa": breath.pumping / room.displacement / 1e3,
         "volumetric_efficiency": breath.volumetric_efficiency, "residual_gas": breath.residual,
+        "knock": _knock(found, breath),
         "t_max_k": float(breath.temperature.max()), "t_exhaust_k": breath.T_exhaust,
         "air_kg_h": breath.drawn * engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio) * per_second * 3600,
         "heat": breath.wall_heat / energy, "work": share, "exhaust": 1 - share - unburnt - breath.wall_heat / energy,
         "unburnt": unburnt,
     }  # fmt: skip
+
+
+def _knock(found: BreathingRun, breath: Breath) -> float:
+    c, closes = found.engine.cycle, found.engine.breathing.inlet_closes
+    temperature = CubicSpline(breath.phi, breath.temperature)
+    angles = (closes, PERIOD + c.ignition, PERIOD + c.ignition + c.duration)
+    return knock_along((_curve(breath), temperature), angles, breath.omega, (c.gamma - 1) / c.gamma, c.octane)
 
 
 def curves(found: BreathingRun) -> dict[str, np.ndarray]:

@@ -26,7 +26,7 @@ SCALAR_UNITS = {
     "piston_speed": "m/s", "stroke": "m", "knock": "-",
 }  # fmt: skip
 # outputs along the cycle, bounded or minimised as peaks; loads of the mechanism come on top and are in N
-PEAK_UNITS = {"p_max": "Pa", "force_max": "N", "torque_max": "N*m"}
+PEAK_UNITS = {"p_max": "Pa", "t_max": "K", "force_max": "N", "torque_max": "N*m"}
 
 
 def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STEPS) -> ca.Function:
@@ -42,7 +42,7 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
     Returns
     -------
     function : casadi.Function
-        (design (k,)) -> the scalars of `SCALAR_UNITS`, and the columns `p_max`, `force_max`, `torque_max` and the
+        (design (k,)) -> the scalars of `SCALAR_UNITS`, and the columns of `PEAK_UNITS` and the
         mechanism's loads, whose largest entries are the peaks
     """
     design = ca.MX.sym("design", len(names))
@@ -54,6 +54,7 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
     forces = {name: value.T for name, value in zip(along.name_out(), values, strict=True)}
     peaks = {
         "p_max": found["p"].T,
+        "t_max": found["t"].T,
         "force_max": forces.pop("force"),
         "torque_max": forces.pop("torque"),
         **forces,

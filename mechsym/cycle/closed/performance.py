@@ -13,8 +13,9 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel
 from mechsym.cycle.closed.model import ClosedEngine, at_design, check_design, closed_period
-from mechsym.cycle.closed.run import MANY, dense, run
+from mechsym.cycle.closed.run import MANY, ClosedRun, dense, run
 from mechsym.cycle.friction import Friction, friction_pressure
+from mechsym.cycle.knock import knock_of_runs
 from mechsym.native import compiled
 from mechsym.quantities import record
 
@@ -41,6 +42,7 @@ class Performance:
     p_max: np.ndarray
     p_max_angle: np.ndarray
     t_max: np.ndarray  #: Highest mean temperature of the gas [K]
+    knock: np.ndarray  #: Livengood and Wu's integral, 1 where the end gas ignites by itself; nan where not known [-]
     force_max: np.ndarray  #: Largest force of one piston, from absolute pressure and inertia [N]
     #: Shares of the heating value [-]
     heat: np.ndarray
@@ -76,7 +78,7 @@ def performance(engine: ClosedEngine, design: Mapping[str, Any]) -> Performance:
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
     return Performance(
         **figures(_friction(engine, design), scalars, p_max), **_shares(scalars),
-        p_max=p_max, p_max_angle=p_max_angle, t_max=t.max(axis=1),
+        p_max=p_max, p_max_angle=p_max_angle, t_max=t.max(axis=1), knock=_knock(engine, design, result),
         torque_max=largest.pop("torque"), force_max=largest.pop("force"),
         energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
     )  # fmt: skip
@@ -155,6 +157,12 @@ def _shares(scalars: Mapping[str, Any]) -> dict[str, Any]:
 
 def _friction(engine: ClosedEngine, design: Mapping[str, Any]) -> Friction:
     return at_design(engine, {k: np.asarray(v, float) for k, v in design.items()}).friction_pressure
+
+
+def _knock(engine: ClosedEngine, design: Mapping[str, Any], result: ClosedRun) -> np.ndarray:
+    here = at_design(engine, {k: np.atleast_1d(np.asarray(v, float))[:, None] for k, v in design.items()})
+    nodes = {"p": result.p, "t": result.t, **result.scalars}
+    return knock_of_runs(nodes, here.gas, np.ravel(here.cycle.octane))
 
 
 def _along(engine: ClosedEngine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:

@@ -19,6 +19,7 @@ class GasExchange:
     #: X = (1 - exp(-a y^(m + 1)))/(1 - exp(-a)) [-]
     wiebe_a: float = quantity("-", default=5.0, above=0, about="completeness factor")
     wiebe_m: float = quantity("-", default=2.0, low=0, about="form factor")
+    octane: float = quantity("-", default=95.0, low=60, high=130, about="octane number of the fuel, for knock")
     gamma: float = quantity("-", default=1.32, above=1, below=2, about="ratio of the heat capacities, fresh and burnt")
     gas_constant: float = quantity("J/(kg*K)", default=287.0, above=0, about="of fresh and burnt gas")
 

@@ -77,7 +77,7 @@ def performance_printed(engine: ClosedEngine, omega: np.ndarray) -> Performance:
     force = piston_force(room, angle, omega, result.p)
     return Performance(
         **found, **shares, unburnt=1 - sum(shares.values()), p_max=p_max, p_max_angle=angle[top, 0],
-        t_max=result.t.max(axis=0),
+        t_max=result.t.max(axis=0), knock=np.full(omega.shape, np.nan),
         torque_max=crank_torque(room, result).max(axis=0), force_max=force.max(axis=0),
         energy_residual=_residual(result, gas, work) / fuel_heat, loads=_loads(engine, angle, omega, result),
     )  # fmt: skip

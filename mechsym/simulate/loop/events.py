@@ -27,6 +27,7 @@ class CylinderCycle:
     work: float
     wall_heat: float
     residual: float  #: First law over the closed period, by the heat released [-]
+    knock: float = 0.0  #: Livengood and Wu's integral, 1 where the end gas ignites by itself [-]
 
 
 @record

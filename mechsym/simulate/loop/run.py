@@ -1,6 +1,7 @@
 """Running a loop: one smooth piece after another, from valve or combustion event to event, with its audits."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.integrate import solve_ivp
 from mechsym.quantities import record
 from mechsym.simulate.audit import energies
 from mechsym.simulate.loop.events import CYCLE, CylinderCycle, first_state, gap, ledger, pass_event
+from mechsym.simulate.loop.knocking import EndGas
 from mechsym.simulate.loop.system import WORKS, Loop, right_side
 
 _PASSED = 1e-9  # events closer than this are one [rad]
@@ -76,6 +78,7 @@ def run_loop(
     t, grid, steps = 0.0, 2 * np.pi / omega / points, 0
     samples: list[tuple[float, np.ndarray, np.ndarray]] = []
     done: list[CylinderCycle] = []
+    end_gas = EndGas(loop)
     verdict = ("done", f"{cycles:g} cycles", "turns")
     while y[0] - angle < cycles * CYCLE - _PASSED:
         held = np.concatenate([(g.phase, g.start, g.duration, g.dead_centre) for g in gases])
@@ -86,6 +89,7 @@ def run_loop(
         for s in np.arange(np.ceil(t / grid), np.ceil(piece.t[-1] / grid)) * grid:
             z = piece.sol(s)
             samples.append((s, z, np.asarray(function(z, held)[1]).ravel()))
+        end_gas.follow(piece, function, held, gases)
         t, y, steps = float(piece.t[-1]), piece.y[:, -1].copy(), steps + piece.t.size - 1
         if piece.t_events[-1].size:
             why = f"the shaft fell to {_STALL:g} of its first speed at t = {t:.4g} s"
@@ -96,8 +100,9 @@ def run_loop(
             break
         for k, gas in enumerate(gases):
             if gap(loop, gas, k, y) > -_PASSED:
-                gases[k], y, cycle = pass_event(loop, books, gas, k, (t, y))
-                done += [cycle] if cycle else []
+                gases[k], after, cycle = pass_event(loop, books, gas, k, (t, y))
+                end_gas.event(k, gas, gases[k], y, float(function(y, held)[1][k]))
+                y, done = after, done + ([replace(cycle, knock=end_gas.share[k])] if cycle else [])
     samples.append((t, y, np.asarray(function(y, held)[1]).ravel()))
     return _result(loop, verdict, samples, done, steps)
 

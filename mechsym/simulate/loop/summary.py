@@ -16,15 +16,16 @@ def summary(loop: Loop, result: LoopResult) -> dict[str, Any]:
     -------
     summary : dict
         `status`, `reason`; over the last two turns `speed_mean_rpm`, `speed_min_rpm`, `speed_max_rpm`, `speed_ripple`
-        of the loaded shaft; `cycles`, rows of cylinder (from 1), t_s, speed_rpm, work, wall_heat, energy_residual;
-        `energy_residual` of the whole run
+        of the loaded shaft; `cycles`, rows of cylinder (from 1), t_s, speed_rpm, work, wall_heat, energy_residual,
+        knock; `energy_residual` of the whole run
     """
     u = result.u[:, loop.mechanism.coordinates.index(loop.load_coordinate)]
     q = result.q[:, 0]
     last = u[q > q[-1] - 4 * np.pi]
     rows = [
         {"cylinder": c.cylinder + 1, "t_s": c.time, "speed_rpm": c.speed / RPM, "work": c.work,
-         "wall_heat": c.wall_heat, "energy_residual": c.residual}
+         "wall_heat": c.wall_heat, "energy_residual": c.residual,
+         "knock": c.knock}
         for c in result.cycles
     ]  # fmt: skip
     mean = float(last.mean())
