@@ -21,7 +21,13 @@ class EndGas:
         self._start = [(1.0, 1.0, 0.0)] * len(loop.cylinders)  # p [Pa], T [K] and R/cp [-] when combustion starts
 
     def follow(self, piece: Any, function: Any, held: np.ndarray, gases: list[GasState]) -> None:
-        """Add what a smooth piece of the run brings to the cylinders that are closed and not burnt out."""
+        """Add what a smooth piece of the run brings to the cylinders that are closed and not burnt out.
+
+        Parameters
+        ----------
+        held : ndarray, shape (4 * cylinders,)
+            As for `right_side` [rad]
+        """
         waiting = [k for k, gas in enumerate(gases) if gas.whole and gas.phase <= _BURNING]
         if not waiting:
             return
