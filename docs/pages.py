@@ -33,8 +33,8 @@ EXAMPLES = {
     "size": "size nunes-hypocycloid",
 }
 ROOMS = (
-    "quantities periodic style plausible convert native mechanisms cycle sizing machine simulate hinge torsion forces "
-    "optimise codesign cases jobs sweep audit papers out"
+    "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
+    "torsion forces optimise codesign cases jobs sweep audit papers out"
 ).split()
 
 

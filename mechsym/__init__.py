@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 __all__ = [
-    # ground: errors with the way out, units, files, periodic curves, what pictures share
-    "errors", "quantities", "files", "periodic", "style",
+    # ground: errors with the way out, units, files, periodic curves, what pictures and pages share
+    "errors", "quantities", "files", "periodic", "style", "page",
     # mechanisms: declared and derived, expressions to other systems, as functions of numbers, as compiled C
     "derive", "convert", "mechanisms", "native",
     # physics, each room from records and numbers

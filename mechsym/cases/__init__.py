@@ -22,7 +22,7 @@ from mechsym.mechanisms import own
 from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
 
-__all__ = ["Case", "load", "locate", "names", "text", "underlaid"]
+__all__ = ["Case", "load", "locate", "names", "text", "underlaid", "written"]
 _HEAD = ("mechanism", "source", "about")
 
 
@@ -131,6 +131,11 @@ def underlaid(case: Case, settings: Mapping[str, Any]) -> Case:
         Values to replace, by dotted key, where the user has not
     """
     return load(case.path, {**settings, **case.overrides})
+
+
+def written(case: Case) -> Mapping[str, Any]:
+    """The sections of a case as its file has them, with what is replaced, not read into records."""
+    return _raw(case.path, case.overrides)[2]
 
 
 def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, option: str = "--set") -> Place:

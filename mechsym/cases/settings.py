@@ -37,6 +37,11 @@ class ReportSettings:
     """How results are shown."""
 
     units: str = ""  #: Units of text and tables: "mm, MPa, kN, kN*m, deg, rpm, kW"
+    #: Title block of `mechsym report`
+    project: str = ""
+    engine: str = ""
+    author: str = ""
+    date: str = ""
 
 
 @record

@@ -34,6 +34,7 @@ COMMANDS = {
     "new": "mechsym.cli.new:new",
     "optimise": "mechsym.cli.optimise:optimise",
     "page": "mechsym.cli.page:page",
+    "report": "mechsym.cli.report:report",
     "reproduce": "mechsym.cli.reproduce:reproduce",
     "sections": "mechsym.cli.sections:sections",
     "simulate": "mechsym.cli.simulate:simulate",

@@ -1,7 +1,6 @@
 """`mechsym forces`: the force chain over one cycle."""
 
 import dataclasses
-import re
 from pathlib import Path
 from typing import Any
 
@@ -12,17 +11,6 @@ from mechsym.cli.speeds import parse_speeds
 from mechsym.files import SUMMARY
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
 from mechsym.quantities.names import stem_and_unit
-
-# what bears a load, by how its name starts
-_BEARS = {
-    "p": "", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from the rod",
-    "pin_and_guide": "pin and guides together", "crank_pin": "crank pin, in the crank's frame",
-    "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
-    "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",
-    "tooth": "teeth", "journal": "journal of the planet or slider", "X_": "guide of the slider",
-}  # fmt: skip
-_RAW = re.compile(r"_force_[xy](_|$)")
-_NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")
 
 _SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal; the page has them all
 
@@ -148,49 +136,17 @@ def _text(report: dict[str, Any]) -> str:
 
 
 def _loads(report: dict[str, Any]) -> str:
-    """Extremes of every load once: what is equal for all cylinders or throws stands in one row."""
-    from mechsym.forces.summary import quantities
+    from mechsym.forces.borne import borne
 
-    rows: dict[tuple[str, ...], dict[str, Any]] = {}
-    for name in quantities(report):
-        number, ends = _NUMBERED.search(name), (report["max"][name], report["min"][name])
-        told = tuple(f"{value:.6g}" for value in ends)
-        # the same force under the mechanism's own name
-        if _RAW.search(name) and any(key[1:] == told and "bearing" in key[0] for key in rows):
-            continue
-        row = rows.setdefault((_NUMBERED.sub(r"\1*", name), *told), {"names": [], "of": [], "ends": ends})
-        row["names"].append(name)
-        row["of"] += [number[2]] if number else []
-    shown = [_row(pattern, row) for (pattern, *_), row in rows.items()]
-    several = ["of"] if any("," in row["of"] for row in shown) else []
-    return table(in_rows(shown, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"])
-
-
-def _row(pattern: str, row: dict[str, Any]) -> dict[str, Any]:
-    several, name = len(row["of"]) > 1, row["names"][0]
-    return {
-        "quantity": pattern if several else name,
-        "of": ", ".join(row["of"]) if several else "",
-        "max": row["ends"][0],
-        "min": row["ends"][1],
-        "unit": stem_and_unit(name)[1],
-        "on": _on(pattern),
-    }
-
-
-def _on(pattern: str) -> str:
-    fitting = [start for start in _BEARS if pattern.startswith(start)]
-    return _BEARS[max(fitting, key=len)] if fitting else ""
+    rows = borne(report)
+    several = ["of"] if any(row["of"] for row in rows) else []
+    return table(in_rows(rows, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"])
 
 
 def _named(stem: str) -> str:
     from mechsym.papers.sources import sources
 
     return sources(stem)[0].title.partition(",")[0]
-
-
-def _span(numbers: list[str]) -> str:
-    return "" if len(numbers) < 2 else f"{', '.join(numbers)}"
 
 
 def _friction(found: dict[str, Any] | None, law: dict[str, Any] | None) -> list[str]:

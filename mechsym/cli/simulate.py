@@ -86,24 +86,15 @@ def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
 
 def _write(run: "FinishedRun", out: Path) -> list[str]:
     from mechsym.simulate import write_netcdf, write_series
-    from mechsym.simulate.plots import speed
     from mechsym.style import svg
-    from mechsym.torsion import plots as plots_torsion
 
-    result, shafts, starts = run.result, len(run.twist), run.start_ups
+    result = run.result
     files = [write_series(result, out / "series.csv")]
     try:
         files.append(write_netcdf(result, out / "series.nc"))
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
-    figures = {"twist": plots_torsion.twist(result, shafts)} if shafts else {}
-    if run.engine and len(result.t) > 1:
-        figures["speed"] = speed(result, run.engine.coordinate, run.engine.period, run.engine.wanted)
-    if starts:
-        figures["campbell"] = plots_torsion.campbell(starts[0])
-        figures["startup"] = plots_torsion.start_up(starts, starts[0].claim.claim_speed)
-    if figures:
-        files += [write_text(out / f"{name}.svg", svg(figure)) for name, figure in figures.items()]
+    files += [write_text(out / f"{picture.name}.svg", svg(picture.draw())) for picture in run.view.pictures]
     return [str(f) for f in files]
 
 

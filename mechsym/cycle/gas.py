@@ -21,6 +21,7 @@ from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train import build_rigid
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.page import Shown
 from mechsym.quantities import record
 
 _STEP = math.radians(0.25)  # of the tabulated cycle
@@ -28,7 +29,7 @@ _DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
 
 @record
-class Gas:
+class Gas(Shown):
     """Gas on a piston, over the angle from its firing dead centre."""
 
     pressure: Pressure

@@ -4,27 +4,31 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.files import to_json, write_quantities, write_text
-from mechsym.forces import plots as plots_forces
+from mechsym.forces.borne import borne
 from mechsym.forces.result import Forces
-from mechsym.forces.summary import quantities
 from mechsym.mechanisms import plots as plots_mechanism
+<<<<<<< HEAD
 from mechsym.style import page, svg
+=======
+from mechsym.page import page
+from mechsym.style import svg
+>>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 
-def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, source: str) -> list[Path]:
+def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str) -> list[Path]:
     """Write page, tables, summary and pictures.
 
     Parameters
     ----------
     folder : Path
         Where to write; made when missing
-    about, source : str
-        What the page says of the machine, and where its data come from
+    about : str
+        What the page says of the machine
     """
     drive, figures = found.turn.drive, _figures(found)
     turning = plots_mechanism.animation(drive.name, drive.parameters, about)
     files = [
-        write_text(folder / "report.html", html(numbers, figures, about, source)),
+        write_text(folder / "report.html", html(found, numbers, figures, about)),
         write_quantities(folder / "forces.csv", found.columns),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
         write_text(folder / "mechanism.html", turning),
@@ -34,25 +38,31 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str, sour
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 
-def html(numbers: dict[str, Any], figures: dict[str, str], about: str, source: str) -> str:
+def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str], about: str) -> str:
     """The page as text."""
+<<<<<<< HEAD
     shown = quantities(numbers)
     return page("forces.html", numbers=numbers, figures=figures, about=about, source=source, shown=shown)
+=======
+    rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(numbers)]
+    largest = max(abs(value) for value in numbers["max"].values())
+    return page(
+        "forces.html", numbers=numbers, figures=figures, about=about, see=_see(found), rows=rows,
+        cards=found.view.cards, several=any(row["of"] for row in rows), largest=largest,
+        heaviest=largest / found.turn.omega**2,
+    )  # fmt: skip
+
+
+def _see(found: Forces) -> dict[str, str]:
+    return {picture.name: picture.see for picture in found.view.pictures}
+>>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 
 def _figures(found: Forces) -> dict[str, str]:
     drive = found.turn.drive
-    figures = {
-        "forces": plots_forces.chain(found),
-        "polar": plots_forces.polar_diagrams(found),
-        "orders": plots_forces.orders(found),
-        "mechanism": plots_mechanism.figure(drive.name, drive.parameters, 0.8),
-    }
-    if found.losses is not None:
-        figures["friction"] = plots_forces.friction(found)
-    if found.comparison is not None:
-        figures["comparison"] = plots_forces.comparison(found.comparison)
-    return {name: svg(figure) for name, figure in figures.items()}
+    drawn = {picture.name: picture.draw() for picture in found.view.pictures}
+    drawn["mechanism"] = plots_mechanism.figure(drive.name, drive.parameters, 0.8)
+    return {name: svg(figure) for name, figure in drawn.items()}
 
 
 def _table(rows: list[dict[str, Any]]) -> dict[str, Any]:

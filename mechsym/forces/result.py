@@ -13,11 +13,12 @@ from mechsym.forces.rings import NoRings, Rings
 from mechsym.forces.shaking import BalanceWanted, Shaking, shaking, verdict
 from mechsym.forces.table import columns
 from mechsym.forces.turn import Turn
+from mechsym.page import Shown
 from mechsym.quantities import record
 
 
 @record
-class Forces:
+class Forces(Shown):
     """Everything that `mechsym forces` reports."""
 
     turn: Turn

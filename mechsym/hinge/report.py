@@ -9,14 +9,20 @@ from typing import Any
 import numpy as np
 
 from mechsym.files import to_json, write_quantities, write_text
-from mechsym.hinge import plots, plots_loads
+from mechsym.hinge import plots
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.setting import setting_text
+from mechsym.hinge.shown import cards, pictures
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
+<<<<<<< HEAD
 from mechsym.style import axis_unit, page, svg
+=======
+from mechsym.page import page
+from mechsym.style import svg
+>>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 _FRAMES = 180
 
@@ -29,10 +35,11 @@ def write(design: Design, folder: Path) -> list[Path]:
     folder : Path
         Where to write; made when missing
     """
-    numbers, figures = summary(design), _figures(design)
+    numbers, drawn = summary(design), pictures(design)
+    figures = {picture.name: svg(picture.draw()) for picture in drawn}
     # the page draws a slider crank; other mechanisms turn in the page of `mechsym forces`
-    page = hasattr(design.origin.sections["parameters"], "r1")
-    files = [write_text(folder / "report.html", html(design, numbers, figures))] if page else []
+    turning = hasattr(design.origin.sections["parameters"], "r1")
+    files = [write_text(folder / "report.html", html(design, numbers, figures))] if turning else []
     files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
     files.append(write_quantities(folder / "hinge.csv", hinge_columns(design)))
     if design.guide.rho is not None:
@@ -44,11 +51,17 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
     """The report as text."""
     return page(
         "hinge.html",
+<<<<<<< HEAD
         {"setting": partial(setting_text, design.guide.spring)},
+=======
+>>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
         case=design.origin,
         design=design,
         numbers=numbers,
+        cards=cards(design, numbers),
         figures=figures,
+        see={picture.name: picture.see for picture in pictures(design)},
+        setting=partial(setting_text, design.guide.spring),
         parameters=_parameters(design),
         equations=listing(design.machine.mechanism.name)["equations"],
         motion=json.dumps(_motion(design)),
@@ -64,19 +77,6 @@ def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
             if "unit" in field.metadata and isinstance(value, float):
                 rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
     return rows
-
-
-def _figures(design: Design) -> dict[str, str]:
-    figures = {"pressure": plots.pressure(design), "torque": plots.torque(design), "speeds": plots.speeds(design)}
-    if design.guide.rho is not None:
-        turn = guide_turn(design)
-        radius = design.rollers.radius
-        figures |= {"track": plots.track(design, turn, radius), "contact": plots.contact(turn)}
-    if design.retuned is not None:
-        figures["retuning"] = plots.retuning(design)
-    if design.loads:
-        figures["loads"] = plots_loads.loads(design.loads)
-    return {name: svg(figure) for name, figure in figures.items()}
 
 
 def _motion(design: Design) -> dict[str, Any]:

@@ -22,6 +22,7 @@ from mechsym.hinge.trials import Trial
 from mechsym.hinge.ways import Offer
 from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
+from mechsym.page import Shown
 from mechsym.quantities import record
 from mechsym.simulate.steady import Flywheel, Steady
 
@@ -50,7 +51,7 @@ class Origin:
 
 
 @record
-class Design:
+class Design(Shown):
     """A designed hinge and how it runs."""
 
     origin: Origin

@@ -17,6 +17,7 @@ from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
 
 
 @record
@@ -49,19 +50,14 @@ def setting_of(spring: Spring) -> float:
 
 
 def setting_text(spring: Spring, setting: float) -> str:
-    """A setting with its unit, for people.
+    """A setting with its unit, for people, four digits.
 
     Parameters
     ----------
     setting : float
         p0 [Pa], or F0 of a coil [N]
-
-    Returns
-    -------
-    text : str
-        Four digits, in MPa or kN
     """
-    return f"{setting / 1e3:.4g} kN" if isinstance(spring, Coil) else f"{setting / 1e6:.4g} MPa"
+    return quantity_text(setting, "N" if isinstance(spring, Coil) else "Pa", 4)
 
 
 def with_setting(spring: Spring, setting: float) -> Spring:

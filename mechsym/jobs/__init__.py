@@ -10,6 +10,7 @@ forces      the force chain over one turn
 size        every part with load, limit and factor
 optimise    the design that `[optimise]` declares
 compare     two engines side by side
+report      all of these on one page; shown says what of a result is worth seeing
 """
 
 from mechsym.jobs.codesign import codesign, codesign_task

@@ -5,10 +5,16 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.page import ShownFigures
+
 _PEAKS = ("torque_avg", "torque_max", "power_kw", "mep_kpa", "efficiency", "p_max_mpa", "force_max", "brake_torque")
 _ALONG = ("torque_avg", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa", "heat", "work", "exhaust",
           "unburnt")  # fmt: skip
 _SPEEDS_IN_TABLE = 9
+
+
+class EngineComparison(ShownFigures):
+    """Two engines at the same speeds, under the names of `mechsym compare`."""
 
 
 def crossovers(speed: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -32,7 +38,7 @@ def crossovers(speed: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.sort(np.concatenate([inner, speed[gap == 0]]))
 
 
-def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
+def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> EngineComparison:
     """Two engines at the same speeds.
 
     Parameters
@@ -42,7 +48,7 @@ def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
 
     Returns
     -------
-    comparison : dict
+    comparison : EngineComparison
         `crossover_rpm` (of the mean torque), `brake_crossover_rpm` (after friction), `at_crossover` (figures of the
         first engine there) and `table`, rows of `quantity`, `speed_rpm`, `a`, `b`, `difference` (b/a - 1); first the
         largest value of each quantity with its speed for either engine, then values at a few speeds
@@ -55,7 +61,8 @@ def compare(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
     rows = [_largest(k, speed, flat_a[k], flat_b[k]) for k in _PEAKS]
     rows += [_row(k, float(speed[i]), flat_a[k][i], flat_b[k][i]) for k in _ALONG for i in shown]
     brake = crossovers(speed, flat_a["brake_torque"], flat_b["brake_torque"])
-    return {"crossover_rpm": crossing, "brake_crossover_rpm": brake, "at_crossover": at, "table": rows}
+    told = {"crossover_rpm": crossing, "brake_crossover_rpm": brake, "at_crossover": at, "table": rows}
+    return EngineComparison(told)
 
 
 def _flat(found: Mapping[str, Any]) -> dict[str, np.ndarray]:

@@ -25,12 +25,17 @@ from mechsym.jobs.scavenge import follows, scavenged
 from mechsym.jobs.starts import guesses
 from mechsym.jobs.turn import drive_of, fitted_law
 from mechsym.jobs.whole_engine import of_engine
+from mechsym.page import ShownFigures
 from mechsym.quantities import RPM
 
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
 
 
-def cycle(case: Case, omega: np.ndarray | None = None) -> dict[str, Any]:
+class CycleFigures(ShownFigures):
+    """Figures of an engine over the speeds, under the names of `mechsym cycle`."""
+
+
+def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
     """Figures of the engine cycle of a case, at its speed of operation or over several.
 
     Parameters
@@ -42,21 +47,21 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> dict[str, Any]:
 
     Returns
     -------
-    columns : dict of str to ndarray
-        The names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the engine;
-        `per_cylinder` of one cylinder
+    columns : CycleFigures
+        Arrays under the names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the
+        engine; `per_cylinder` of one cylinder
     """
     speeds = np.array([case.need("operation").speed]) if omega is None else omega
     given = kind_of(case.need("cycle")).given
     if given == "train":
-        return columns_of_stirling(case, speeds)
+        return CycleFigures(columns_of_stirling(case, speeds))
     if given == "engine":
         found = columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
     elif given == "breathing":
         found = columns_of_breathing(case, speeds)
     else:
         found = columns_of_cylinder(case, speeds)
-    return of_engine(case, found, speeds)
+    return CycleFigures(of_engine(case, found, speeds))
 
 
 def engine(case: Case) -> ClosedEngine:

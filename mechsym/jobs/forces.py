@@ -41,4 +41,4 @@ def write(case: Case, found: Forces, numbers: dict[str, Any], folder: Path) -> l
     folder : Path
         Where to write; made when missing
     """
-    return report.write(found, numbers, folder, case.about, case.source)
+    return report.write(found, numbers, folder, case.about)

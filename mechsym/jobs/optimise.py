@@ -6,11 +6,12 @@ from mechsym.cases import Case
 from mechsym.jobs.cycle import engine
 from mechsym.optimise.problem import Optimise, problem
 from mechsym.optimise.solver import Optimum, pareto, solve
+from mechsym.page import Shown
 from mechsym.quantities import record
 
 
 @record
-class Optimised:
+class Optimised(Shown):
     """The best design, and the front against the second aim."""
 
     best: Optimum

@@ -15,6 +15,7 @@ from mechsym.jobs.settling import settled
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
 from mechsym.jobs.vibration import vibration
+from mechsym.page import Shown
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.simulate import Result, simulate
@@ -39,7 +40,7 @@ class EngineSpeed:
 
 
 @record
-class FinishedRun:
+class FinishedRun(Shown):
     """A finished run and what is said of it."""
 
     settings: Settings

@@ -16,6 +16,7 @@ from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import turn
 from mechsym.mechanisms.record import listing
+from mechsym.page import Shown
 from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
@@ -35,7 +36,7 @@ from mechsym.sizing.wants import Wants
 
 
 @record
-class Sizing:
+class Sizing(Shown):
     """What sizing an engine gave."""
 
     rows: list[dict[str, Any]]

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.files import write_bytes, write_csv, write_text
+from mechsym.page import page
 from mechsym.papers.rows import KEYS, VERDICTS
 from mechsym.papers.sources import Source
 from mechsym.style import page, svg

@@ -6,8 +6,12 @@ import numpy as np
 
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
+<<<<<<< HEAD
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import Periodic, Problem
+=======
+from mechsym.quantities.display import ratio_text
+>>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 from mechsym.simulate.result import Energy
 
 # a run whose energy balances to this is integrated well; if it still differs from its check, the motion is to blame
@@ -138,7 +142,7 @@ def verdict(
     """
     worst = float(np.max(difference))
     if worst <= allowed:
-        return "converged", f"speeds differ by {worst:.2g} at most from the run at the tighter tolerance"
+        return "converged", f"speeds differ by {ratio_text(worst, 2)} at most from the run at the tighter tolerance"
     since = float(t[int(np.argmax(difference > allowed))])
     parted = f"the runs at the two tolerances part by more than {allowed:g} from t = {since:.6g} s on"
     if all(r is not None and abs(r) < _GOOD_ENERGY for r in residuals):

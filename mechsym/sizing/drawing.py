@@ -21,7 +21,12 @@ Box = tuple[float, float, float, float, str]  # x from, x to, y from, y to, colo
 
 
 def section_view(path: Path, parts: Parts | SliderParts, forces: PartForces | SliderForces, stock: Stock) -> Path:
-    """Draw both cranks and the cylinder at top dead centre."""
+    """Draw both cranks and the cylinder at top dead centre, into a file."""
+    return write_picture(path, section(parts, forces, stock))
+
+
+def section(parts: Parts | SliderParts, forces: PartForces | SliderForces, stock: Stock) -> Figure:
+    """Both cranks and the cylinder at top dead centre."""
     if isinstance(parts, Parts) and isinstance(forces, PartForces):
         boxes, labels = hypocycloid_boxes(parts, forces, stock)
     else:
@@ -39,7 +44,7 @@ def section_view(path: Path, parts: Parts | SliderParts, forces: PartForces | Sl
         axes.annotate(text, (x * factor, y * factor), ha="center", va="center", fontsize=7, color=INK)
     axes.axhline(0, color=RED, linewidth=0.6, linestyle="-.")
     _frame(axes, boxes)
-    return write_picture(path, figure)
+    return figure
 
 
 def hypocycloid_boxes(

@@ -1,0 +1,117 @@
+"""Where each value of a case comes from: the comments of its file, key by key.
+
+    bore = "0.3 m"   # Zotov et al. 2024, text above Fig. 3
+
+A comment "same" names the source above it in its section. What is overridden says so; what the file leaves away
+has mechsym's usual value.
+"""
+
+import dataclasses
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mechsym import cases
+from mechsym.cases import Case
+from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
+
+_SECTION = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]\]?")
+_KEY = re.compile(r"\s*([\w-]+(?:\.[\w-]+)*)\s*=")
+_OPEN, _CLOSED = "[{", "]}"
+_UNTOLD = "the case file does not say"
+
+
+@record
+class SourcedValue:
+    """One value of a case."""
+
+    key: str  #: Section and field, dotted
+    value: str  #: With its unit
+    about: str  #: What it means
+    origin: str  #: Where it comes from
+
+
+def sourced(case: Case) -> list[SourcedValue]:
+    """The values of a case with unit, meaning and origin, section by section."""
+    told, replaced = comments(cases.text(case.path)), _overridden(case)
+    rows = []
+    for section, values in case.sections.items():
+        for field in dataclasses.fields(values):
+            shown = _shown(getattr(values, field.name), field.metadata.get("unit", ""))
+            key = f"{section}.{field.name}"
+            if shown:
+                origin = "set for this run" if key in replaced else told.get(key) or _usual(told, key, field)
+                rows.append(SourcedValue(key=key, value=shown, about=field.metadata.get("about", ""), origin=origin))
+    return rows
+
+
+def comments(text: str) -> dict[str, str]:
+    """Comment of each key of a case file, by dotted key without a unit; empty where there is none.
+
+    Examples
+    --------
+    >>> comments('[operation]\\nspeed = "89 rpm" # a; b')
+    {'operation.speed': 'a; b'}
+    """
+    found: dict[str, str] = {}
+    section, source = "", ""
+    for line, comment in _joined(text):
+        if heading := _SECTION.match(line):
+            section, source = heading[1], comment
+        elif key := _KEY.match(line):
+            same = re.match(r"same\b", comment)
+            source = source if same or not comment else comment
+            found[f"{section}.{key[1]}"] = source.partition(":")[0] + comment[4:] if same else comment
+    return found
+
+
+def _joined(text: str) -> Iterator[tuple[str, str]]:
+    """Lines without their comments, an array over several lines as one, and the comments."""
+    held, notes = "", list[str]()
+    for raw in text.splitlines():
+        line, _, comment = _parted(raw)
+        held += line
+        notes += [comment.strip()] if comment.strip() else []
+        if sum(held.count(c) for c in _OPEN) <= sum(held.count(c) for c in _CLOSED):
+            yield held, "; ".join(notes)
+            held, notes = "", []
+
+
+def _parted(line: str) -> tuple[str, str, str]:
+    """A line at the # that is not in a text."""
+    quote = ""
+    for i, letter in enumerate(line):
+        if quote:
+            quote = "" if letter == quote else quote
+        elif letter in "\"'":
+            quote = letter
+        elif letter == "#":
+            return line[:i], "#", line[i + 1 :]
+    return line, "", ""
+
+
+def _usual(told: Mapping[str, str], key: str, field: dataclasses.Field[Any]) -> str:
+    # a key may carry its unit: speed_rpm = 142
+    written = [k for k in told if k == key or k.startswith(f"{key}_")]
+    return next((told[k] for k in written if told[k]), _UNTOLD if written else "usual value of mechsym")
+
+
+def _overridden(case: Case) -> set[str]:
+    places = [cases.locate(case.path, key) for key in case.overrides]
+    return {f"{place.section}.{place.field}" for place in places}
+
+
+def _shown(value: Any, unit: str) -> str:
+    if isinstance(value, bool) or isinstance(value, str):
+        return str(value)
+    if isinstance(value, (int, float)):
+        return quantity_text(float(value), unit, 6)
+    if isinstance(value, (tuple, list)) and value and all(isinstance(v, (int, float)) for v in value):
+        shown = list(dict.fromkeys(quantity_text(float(v), unit, 6) for v in value))
+        return (
+            shown[0] + " (each)"
+            if len(shown) == 1 and len(value) > 1
+            else ", ".join(quantity_text(float(v), unit, 6) for v in value)
+        )
+    return ""

@@ -1,0 +1,98 @@
+"""`mechsym report`: everything that is known of a case, or of several side by side, as one page."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import case_of, emit, file_option, json_option, pairs, progress, set_option
+from mechsym.errors import BadInput, suggest
+
+
+@click.command(short_help="Cycle, hinge, forces, sizes and run of a case as one report.")
+@click.argument("cases", metavar="CASE..", nargs=-1, required=True)
+@click.option("--parts", metavar="A,B..", help="Only these: cycle, hinge, forces, size, simulate.")
+@click.option("--date", default="", metavar="TEXT", help="Date for the title block; without it there is none.")
+@click.option("--pdf", is_flag=True, help="Print the report to PDF as well; needs a Chromium.")
+@file_option("CASE-report.html where it is left away")
+@set_option
+@json_option
+@click.pass_context
+def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: str, pdf: bool, out: Path | None,
+           overrides: tuple[str, ...], as_json: bool) -> None:  # fmt: skip
+    """Report of CASE, or of several side by side: the answer on the first page, then figures, tables, data with origin.
+
+    Parts that the case has no sections for are named and left out; one that fails is named on the first page, and the
+    rest is there. [report] project, engine, author, date and units go into the title block. Exit status 1 when a design
+    is infeasible or a run did not converge, 2 when a part was refused; the report is written all the same.
+
+    \b
+    Examples: mechsym report zotov-89
+              mechsym report nunes-slider-crank nunes-hypocycloid --parts cycle,forces --out both.html
+              mechsym report mine.toml --pdf --date 2026-11-22 --units "bar, kN, mm"
+    """
+    from mechsym.files import write_text
+    from mechsym.jobs.report import case_report, html
+    from mechsym.jobs.report.build import PARTS
+    from mechsym.out.pdf import chromium, to_pdf
+
+    wanted = _wanted(parts, PARTS)
+    if pdf:
+        chromium()  # said before the work begins
+    loaded = [case_of(name, pairs(overrides)) for name in cases]
+    with progress(len(loaded) * len(wanted) + 1, "report") as bar:
+        found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
+        path = out or Path("-".join([*(case.name for case in loaded), "report.html"]))
+        text = html(found, date)
+        files = [write_text(path, text)]
+        if pdf:
+            files.append(to_pdf(text, path.with_suffix(".pdf")))
+        bar.update(1)
+    told = _numbers(found, files)
+    emit(told, as_json, lambda: _text(found, files))
+    refused, infeasible = (any(getattr(one, kind) for one in found) for kind in ("refused", "infeasible"))
+    ctx.exit(2 if refused else 1 if infeasible else 0)
+
+
+def _wanted(text: str | None, known: tuple[str, ...]) -> tuple[str, ...]:
+    wanted = [word.strip() for word in text.split(",")] if text is not None else list(known)
+    for word in wanted:
+        if word not in known:
+            raise BadInput(f"--parts {text}: {word!r} is no part of a report; {suggest(word, known)}")
+    return tuple(name for name in known if name in wanted)
+
+
+def _source(stem: str) -> str:
+    """Authors, year and title of a source; an engine of one's own has none."""
+    from mechsym.papers.sources import sources
+
+    return next((one.title for one in sources() if one.stem == stem), "own engine" if stem == "own" else stem)
+
+
+def _numbers(found: list[Any], files: list[Path]) -> dict[str, Any]:
+    from mechsym.jobs.report.parts import doubts_of
+
+    reports = [
+        {
+            "case": one.case.name,
+            "sha256": one.digest,
+            "parts": {p.name: {"state": p.state, "reason": p.reason, "result": p.numbers} for p in one.parts},
+            "values": [vars(value) for value in one.values],
+        }
+        for one in found
+    ]
+    doubts = [doubt for one in found for p in one.parts for doubt in doubts_of(p)]
+    return {"reports": reports, "written": [str(file) for file in files], "doubts": doubts}
+
+
+def _text(found: list[Any], files: list[Path]) -> str:
+    from mechsym.jobs.report.answer import answer
+
+    lines = []
+    for one in found:
+        first = answer(one.case, one.parts)
+        lines += [f"{one.case.name} ({one.source})"]
+        lines += [f"  {'! ' if mark else ''}{sentence}" for mark, sentence in first.verdicts]
+        lines += [f"  limits: {text}" for text in first.limits]
+        lines += [f"  left out: {text}" for text in first.absent]
+    return "\n".join([*lines, *(f"written: {file}" for file in files)])

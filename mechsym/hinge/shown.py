@@ -1,0 +1,100 @@
+"""What of a hinge design is worth seeing: its cards, its figures, its curves."""
+
+from functools import partial
+from typing import Any
+
+from mechsym.hinge import plots, plots_loads
+from mechsym.hinge.result import Design
+from mechsym.hinge.setting import setting_of, setting_text
+from mechsym.hinge.springs import Coil
+from mechsym.hinge.summary import guide_turn, hinge_columns, summary
+from mechsym.machine.record import gas_of
+from mechsym.page import Card, Picture, View, shows
+from mechsym.quantities import RPM
+from mechsym.quantities.display import figure, quantity_text, ratio_text
+
+
+@shows(Design)
+def design_view(design: Design) -> View:
+    """Verdict and numbers of a hinge; what runs is computed when it is asked for."""
+    return View(
+        title=f"Elastic hinge of {design.origin.name}",
+        cards=cards(design, summary(design)),
+        pictures=pictures(design),
+        columns=lambda: hinge_columns(design),
+    )
+
+
+def cards(design: Design, numbers: dict[str, Any]) -> tuple[Card, ...]:
+    """The numbers that decide."""
+    guide, check, lost = numbers["guide"], numbers["check"], numbers["losses"]
+    found = [
+        Card(name="guide", value="can be built" if guide["feasible"] else "cannot be built", about=guide["reason"],
+             mark="yes" if guide["feasible"] else "no"),
+        Card(name="speed ripple", value=ratio_text(check["speed_ripple"], 2), about="simulated with the hinge at "
+             f"{quantity_text(design.machine.omega, 'rad/s')}, ideal: no losses"),
+        Card(name="flywheel saved", value=quantity_text(numbers["flywheel_inertia_saved"], "kg*m^2", 4),
+             about="what a ripple of 1/50 would need without the hinge"),
+        *_dimensions(design, guide),
+    ]  # fmt: skip
+    if lost is not None:
+        share, ripple = numbers["misfire_speed_share"], lost["speed_ripple"]
+        with_them = "no steady motion" if ripple is None else f"ripple {figure(ripple, 2)}"
+        found += [
+            Card(name="lost in the hinge", value=f"{figure(100 * lost['share'], 3)} %",
+                 about=f"of the load torque, with assumed friction and heat; with them {with_them}"),
+            Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
+                 about="with the flywheel that is kept", mark="" if share else "no"),
+        ]  # fmt: skip
+    return tuple(found)
+
+
+def _dimensions(design: Design, guide: dict[str, Any]) -> list[Card]:
+    spring, setting = design.guide.spring, partial(setting_text, design.guide.spring)
+    sizes = "" if isinstance(spring, Coil) else f"piston {quantity_text(spring.A, 'm^2')}, column "\
+        f"{quantity_text(spring.H, 'm')}, n = {figure(getattr(spring, 'n', None))}"  # fmt: skip
+    found = [Card(name="spring", value=setting(setting_of(spring)), about=sizes)]
+    if design.usable is None:
+        return found
+    ends = [quantity_text(guide[f"rho_{end}"], "m", 4) for end in ("min", "max")]
+    rollers = f"{design.guide.rollers} roller{'s' * (design.guide.rollers > 1)} of radius "
+    about = f"{rollers}{quantity_text(design.rollers.radius, 'm', 4)}; spring closes "
+    about += " to ".join(quantity_text(guide[f"z_{end}"], "m", 4) for end in ("min", "max"))
+    force = quantity_text(guide["roller_reaction_max"], "N", 4)
+    return [
+        Card(name="guide, radius of the roller centres", value=f"{ends[0]} to {ends[1]}", about=about), *found,
+        Card(name="force on a roller", value=force,
+             about=f"pressure angle up to {quantity_text(guide['pressure_angle_max'], 'rad', 3)}"),
+    ]  # fmt: skip
+
+
+def pictures(design: Design) -> tuple[Picture, ...]:
+    """The figures that there is something to draw for."""
+    kind = gas_of(design.machine).pressure.kind
+    found = [
+        Picture(name="pressure", draw=lambda: plots.pressure(design),
+                see=f"Pressure of the cycle {kind} with its events; the gas torque follows from it."),
+        Picture(name="torque", draw=lambda: plots.torque(design),
+                see="Hinge torque on the crank with its parts, and below its work, which comes back after a period."),
+        Picture(name="speeds", draw=lambda: plots.speeds(design),
+                see="Crank speed over the design speed: flat with the hinge, a wave without."),
+    ]  # fmt: skip
+    if design.guide.rho is not None:
+        radius = design.rollers.radius
+        found[2:2] = [
+            Picture(name="track", draw=lambda: plots.track(design, guide_turn(design), radius),
+                    see="Guide to scale; the profile is the exact parallel curve at the roller radius."),
+            Picture(name="contact", draw=lambda: plots.contact(guide_turn(design)),
+                    see="Contact around the turn; N1 and N2 are the reactions that Zotov et al. (2024) name as their "
+                    "open problem."),
+        ]  # fmt: skip
+    if design.retuned is not None:
+        rpm = figure(design.retuned.other.omega / RPM, 4)
+        found.append(Picture(name="retuning", draw=lambda: plots.retuning(design),
+                             see=f"The same guide at {rpm} rpm: left the torque that is wanted and given, right the "
+                             "speed over a steady turn."))  # fmt: skip
+    if design.loads:
+        found.append(Picture(name="loads", draw=lambda: plots_loads.loads(design.loads),
+                             see="Left: speed ripple over the load, a cross where the crank does not turn steadily. "
+                             "Right: the setting of the spring that fits best."))  # fmt: skip
+    return tuple(found)

@@ -1,0 +1,128 @@
+"""A case -> the parts of its report; reports of one or more cases -> one page."""
+
+import hashlib
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import mechsym
+from mechsym import cases
+from mechsym.cases import Case
+from mechsym.cases.provenance import SourcedValue, sourced
+from mechsym.jobs.report.answer import answer, side_by_side
+from mechsym.jobs.report.part import INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
+from mechsym.jobs.report.parts import TITLES, part
+from mechsym.page import page
+from mechsym.quantities import record
+from mechsym.style import svg
+
+PARTS = tuple(TITLES)
+
+
+@record
+class CaseReport:
+    """What a report says of one case."""
+
+    case: Case
+    parts: tuple[ReportPart, ...]
+    values: tuple[SourcedValue, ...]  #: Every value with where it comes from
+    digest: str  #: Of the case's text with what is overridden
+    source: str  #: Whose engine it is, by name and year
+
+    @property
+    def infeasible(self) -> tuple[ReportPart, ...]:
+        """Parts whose design does not hold."""
+        return tuple(p for p in self.parts if p.state == INFEASIBLE)
+
+    @property
+    def refused(self) -> tuple[ReportPart, ...]:
+        """Parts that bad input kept from being computed."""
+        return tuple(p for p in self.parts if p.state == REFUSED)
+
+
+def case_report(
+    case: Case, names: Sequence[str] = PARTS, source: str = "", progress: Callable[[], Any] = lambda: None
+) -> CaseReport:
+    """The report of a case.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Parts that are wanted, of `PARTS`
+    source : str
+        Whose engine it is, by name and year
+    """
+    made = []
+    for name in names:
+        made.append(part(name, case))
+        progress()
+    return CaseReport(
+        case=case, parts=tuple(made), values=tuple(sourced(case)), digest=digest(case), source=source
+    )  # fmt: skip
+
+
+def digest(case: Case) -> str:
+    """Twelve hex digits that change with every value of a case."""
+    told = [cases.text(case.path), *(f"{key}={value}" for key, value in sorted(case.overrides.items()))]
+    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:12]
+
+
+def html(reports: Sequence[CaseReport], date: str = "") -> str:
+    """The page as text; the same reports give the same page.
+
+    Parameters
+    ----------
+    date : str
+        Printed in the title block; without one `[report] date`, or none
+    """
+    shown, number = [], 0
+    for place, one in enumerate(reports, 1):
+        parts = []
+        for found in one.parts:
+            if found.state in (LEFT_OUT, REFUSED) or found.view is None:
+                continue
+            figures = []
+            for picture in found.view.pictures:
+                number += 1
+                figures.append({"number": number, "see": picture.see, "svg": _svg(picture.draw(), f"f{number}-")})
+            parts.append({"part": found, "figures": figures, "id": f"{found.name}-{place}"})
+        shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
+    return page(
+        "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
+        block=[_block(one, date) for one in reports], many=len(reports) > 1,
+    )  # fmt: skip
+
+
+def _svg(figure: Any, prefix: str) -> str:
+    """A figure as SVG whose ids are its own on the page."""
+    text = svg(figure)
+    for old, new in (('id="', f'id="{prefix}'), ('"#', f'"#{prefix}'), ("url(#", f"url(#{prefix}")):
+        text = text.replace(old, new)
+    return text
+
+
+def _title(reports: Sequence[CaseReport]) -> str:
+    return " and ".join(_engine(one.case) for one in reports)
+
+
+def _engine(case: Case) -> str:
+    wanted = case.sections.get("report")
+    return getattr(wanted, "engine", "") or case.name
+
+
+def _block(one: CaseReport, date: str) -> dict[str, str]:
+    wanted = one.case.sections.get("report")
+    overrides = ", ".join(f"{key} = {value}" for key, value in one.case.overrides.items())
+    rows = {
+        "project": getattr(wanted, "project", ""),
+        "engine": f"{_engine(one.case)}: {one.case.about}" if one.case.about else _engine(one.case),
+        "data from": one.source,
+        "changed for this report": overrides,
+        "prepared by": getattr(wanted, "author", ""),
+        "date": date or getattr(wanted, "date", ""),
+        "made with": f"mechsym {mechsym.__version__}",
+        "case": f"{one.case.name}, sha256 {one.digest}",
+    }
+    return {key: value for key, value in rows.items() if value}
+
+
+__all__ = ["PARTS", "CaseReport", "case_report", "digest", "html"]

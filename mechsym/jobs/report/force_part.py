@@ -1,0 +1,50 @@
+"""Forces in a report: what bears what once, friction, shaking, and what limits."""
+
+import dataclasses
+
+from mechsym.cases import Case
+from mechsym.forces.borne import borne
+from mechsym.forces.result import Forces
+from mechsym.forces.summary import summary
+from mechsym.jobs.report.part import DONE, INFEASIBLE, ReportPart
+from mechsym.jobs.vibration import vibration
+from mechsym.page import Grid
+from mechsym.plausible import Doubt
+from mechsym.quantities.display import figure, quantity_text
+from mechsym.torsion import train
+
+
+def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
+    """The part of a force analysis."""
+    numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
+    doubts += train.doubts(shaking) if shaking else ()
+    facts = tuple(train.words(shaking)) if shaking else ()
+    reasons = tuple(numbers["balance"]["reasons"])
+    losses = found.losses
+    told = "without friction: the case has no [friction]" if losses is None else _friction(found)
+    return ReportPart(
+        name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
+        verdict=f"Bearings and guides: {told}.", facts=(*numbers["facts"], *facts), grids=(_borne(numbers),),
+        decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
+        numbers=numbers | {"vibration": None if shaking is None else dataclasses.asdict(shaking)},
+    )  # fmt: skip
+
+
+def _friction(found: Forces) -> str:
+    if found.losses is None:
+        return ""
+    share = found.losses.mechanical_efficiency
+    power = quantity_text(sum(found.losses.places.values()), "W", 4)
+    return f"friction takes {power}" + ("" if share is None else f", mechanical efficiency {figure(100 * share, 4)} %")
+
+
+def _borne(numbers: dict) -> Grid:
+    rows = borne(numbers)
+    several = any(row["of"] for row in rows)
+    cells = [
+        (row["quantity"].replace("_", " "), *([row["of"]] if several else []), quantity_text(row["max"], row["unit"]),
+         quantity_text(row["min"], row["unit"]), row["on"]) for row in rows
+    ]  # fmt: skip
+    headings = ("quantity", *(["of"] if several else []), "largest", "smallest", "on")
+    right = tuple(name in ("largest", "smallest") for name in headings)
+    return Grid(title="What bears what", headings=headings, rows=tuple(cells), numbers=right)

@@ -1,0 +1,171 @@
+"""The parts of a report, each by the job of its command."""
+
+import dataclasses
+from collections.abc import Callable, Mapping
+
+from mechsym.cases import Case, written
+from mechsym.cases.needs import lacking
+from mechsym.cycle.kinds import kind_of
+from mechsym.errors import BadInput
+from mechsym.hinge.result import complete
+from mechsym.hinge.summary import summary as hinge_summary
+from mechsym.jobs.cycle import cycle
+from mechsym.jobs.forces import forces
+from mechsym.jobs.gas import gas
+from mechsym.jobs.hinge import hinge
+from mechsym.jobs.judged import of_cycle, of_forces, of_gas
+from mechsym.jobs.own import is_own
+from mechsym.jobs.report.force_part import force_part
+from mechsym.jobs.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
+from mechsym.jobs.run import run
+from mechsym.jobs.shown import tightest
+from mechsym.jobs.size import check_printed, size
+from mechsym.machine.record import gas_of
+from mechsym.page import grid
+from mechsym.plausible import results
+from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
+
+TITLES = {
+    "cycle": "Engine cycle",
+    "hinge": "Hinge, guide and spring",
+    "forces": "Forces on bearings, pins and guides",
+    "size": "Sizes and safety factors",
+    "simulate": "Run in time",
+}
+_MODEL, _CLOSED = "the cycle is a model: ", "the closed period only, gas exchange at constant pressure"
+_HINGE = (
+    "the ripple is that of an ideal hinge at one speed and one load; friction, heat and a lost combustion stand beside "
+    "it, with assumed data",
+    "rigid links, massless rollers, no play",
+)
+_ENDS = {"turns": "did its turns", "t_end": "came to its end"}
+
+
+def part(name: str, case: Case) -> ReportPart:
+    """A part of the report of a case; bad input and what is missing are told in it."""
+    missing = lacking(case.mechanism, written(case))[name]
+    if missing:
+        return ReportPart(name=name, title=TITLES[name], state=LEFT_OUT, reason=f"the case lacks {'; '.join(missing)}")
+    try:
+        return _MADE[name](case)
+    except BadInput as error:
+        return ReportPart(name=name, title=TITLES[name], state=REFUSED, reason=" ".join(str(error).split()))
+
+
+def _cycle(case: Case) -> ReportPart:
+    found = cycle(case)
+    view, acting = found.view, None if is_own(case.mechanism) else gas(case)
+    pictures = () if acting is None else acting.view.pictures
+    power, rpm = float(found["power_kw"][0]), float(found["speed_rpm"][0])
+    many = found.get("cylinders", 1)
+    verdict = f"{quantity_text(1e3 * power, 'W', 4)} at {figure(rpm, 4)} rpm" + (
+        f", {many} cylinders" if many > 1 else ""
+    )
+    one = found.get("per_cylinder") or {}
+    rows = [{"of": "engine", **{k: float(found[k][0]) for k in one}}]
+    rows += [{"of": "one cylinder", **{k: float(v[0]) for k, v in one.items()}}] if many > 1 else []
+    facts = () if acting is None else tuple(acting.pressure.facts)
+    given = kind_of(case.need("cycle")).given
+    return ReportPart(
+        name="cycle", title=TITLES["cycle"], view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
+        verdict=f"The gas gives {verdict}.", facts=facts,
+        grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
+        silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),),
+        numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(acting)),
+    )  # fmt: skip
+
+
+def _hinge(case: Case) -> ReportPart:
+    design = complete(hinge(case))
+    numbers, verdict = hinge_summary(design), design.verdict
+    checks = sorted((c for c in verdict.checks if c.margin is not None), key=lambda c: c.margin or 0.0)
+    rows = [{"check": c.name.replace("_", " "), "value and limit": c.text, "kept": "yes" if c.kept else "NO",
+             "margin": _per_cent(c.margin)} for c in verdict.checks]  # fmt: skip
+    runs = [{"run": t.about, "ripple": ratio_text(t.speed_ripple), "ends": t.result.end} for t in design.trials]
+    saved = quantity_text(numbers["flywheel_inertia_saved"], "kg*m^2", 4)
+    decide, told = [], f"The hinge {'can' if verdict.feasible else 'CANNOT'} be built: {verdict.reason}."
+    if not verdict.feasible:
+        decide.append(f"the hinge as it stands cannot be built: {verdict.reason}; change spring, guide or limits")
+    if numbers["misfire_speed_share"] == 0:
+        decide.append("the flywheel beside the hinge: with the one that is kept a single misfire stops the shaft "
+                      "('mechsym codesign' gives one that does not)")  # fmt: skip
+    if numbers["losses"] is not None:
+        share = figure(100 * numbers["losses"]["share"], 3)
+        decide.append(f"whether the flywheel that the hinge saves pays for {share} % of the load torque lost in it")
+    limits = [c.text for c in checks if not c.kept] or [f"{c.text} (margin {figure(100 * (c.margin or 0), 3)} %)"
+                                                        for c in checks[:3]]  # fmt: skip
+    return ReportPart(
+        name="hinge", title=TITLES["hinge"], view=design.view, state=DONE if verdict.feasible else INFEASIBLE,
+        reason="" if verdict.feasible else verdict.reason,
+        verdict=f"{told} It saves a flywheel of {saved}." if verdict.feasible else told,
+        grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
+               grid("Runs in time", runs, ["run", "ripple", "ends"])),
+        limits=tuple(limits), decide=tuple(decide), numbers=numbers, doubts=of_gas(gas_of(design.machine)),
+        silent=_HINGE,
+    )  # fmt: skip
+
+
+def _per_cent(share: float | None) -> str:
+    return "–" if share is None else f"{figure(100 * share, 3)} %"
+
+
+def _forces(case: Case) -> ReportPart:
+    if is_own(case.mechanism):
+        raise BadInput(f"{case.file}: forces of a mechanism from a file are not in the report; use 'mechsym forces'")
+    found = forces(case)
+    return force_part(TITLES["forces"], case, found, of_forces(found))
+
+
+def _size(case: Case) -> ReportPart:
+    printed = case.mechanism == "crosshead" and "part_crosshead" in case.sections
+    found = check_printed(case) if printed else size(case)
+    sizes = [_sized(row) for row in found.rows if row["limit"] is None]
+    checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in found.rows if row["limit"] is not None]
+    tight = [f"{row['component']}, {row['quantity']}: factor {figure(row['safety_factor'], 3)}, wanted "
+             f"{figure(row['wanted'], 3)}" for row in tightest(found)[:3]]  # fmt: skip
+    bad = bool(found.failing) or not found.converged
+    state = f"{len(found.failing)} of {len(checks)} safety factors are too low" if found.failing else \
+        f"All {len(checks)} safety factors hold"  # fmt: skip
+    shown = ["component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", ""]
+    return ReportPart(
+        name="size", title=TITLES["size"], view=found.view, state=INFEASIBLE if bad else DONE, verdict=f"{state}.",
+        reason="" if not bad else state if found.failing else "masses and loads do not agree",
+        grids=(grid("Sizes", sizes, ["component", "quantity", "value", "unit", "note"]), grid("Checks", checks, shown)),
+        limits=tuple(tight), numbers=found.rows, silent=("sizes follow standards; no finite elements",),
+        decide=tuple(f"{c.component}: {c.quantity} is below the wanted factor" for c in found.failing),
+    )  # fmt: skip
+
+
+def _sized(row: Mapping[str, object]) -> dict[str, object]:
+    """A row with value and limit in the unit that suits them."""
+    if not row["unit"]:
+        return dict(row)
+    values, unit = shown_in([row["value"], row["limit"]], str(row["unit"]))
+    return {**row, "value": values[0], "limit": values[1], "unit": unit}
+
+
+def _simulate(case: Case) -> ReportPart:
+    found = run(case)
+    bad = found.summary["status"] in ("failed", "not converged", "chaotic")
+    told = found.summary
+    low, high = (quantity_text(told[k], "rad/s") for k in ("speed_min", "speed_max"))
+    speed = f"the speed stays at {low}" if low == high else f"over the last period the speed is {low} to {high}"
+    numbers = {k: v for k, v in told.items() if k != "wall_s"}  # another each time
+    end = _ENDS.get(told["end"], f"ended by {told['end']}")
+    stall = tuple(text for text in found.findings if text.startswith("the shaft stops"))
+    return ReportPart(
+        name="simulate", title=TITLES["simulate"], view=found.view, state=INFEASIBLE if bad else DONE,
+        reason=told["reason"] if bad else "", facts=found.findings, decide=stall, numbers=numbers,
+        verdict=f"The run {end} in {figure(told['t_end'], 3)} s; {speed}.",
+        silent=("the load of the run is the case's, or a propeller that takes the mean torque",), doubts=found.doubts,
+    )  # fmt: skip
+
+
+_MADE: Mapping[str, Callable[[Case], ReportPart]] = {
+    "cycle": _cycle, "hinge": _hinge, "forces": _forces, "size": _size, "simulate": _simulate,
+}  # fmt: skip
+
+
+def doubts_of(found: ReportPart) -> tuple:
+    """Doubts of a part: its own, and those that its numbers show."""
+    return (*found.doubts, *results(found.numbers or {}))

@@ -1,0 +1,45 @@
+"""A table of a page: headings with units, cells as text."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mechsym.quantities import record
+from mechsym.quantities.display import figure, heading
+
+
+@record
+class Grid:
+    """A table of a page, all text."""
+
+    title: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    numbers: tuple[bool, ...]  #: Columns that are set to the right
+
+
+def grid(
+    title: str, rows: Sequence[Mapping[str, Any]], columns: Sequence[str], units: Mapping[str, str] | None = None
+) -> Grid:
+    """Rows as a table, each column in the unit that suits it.
+
+    Parameters
+    ----------
+    units : mapping of str to str, optional
+        SI unit of columns whose name does not tell it
+
+    Examples
+    --------
+    >>> grid("Loads", [{"force": 2000.0}], ["force"]).headings
+    ('force [kN]',)
+    """
+    headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
+    cells = [[_cell(values[i]) for _, values in headed] for i in range(len(rows))]
+    number = tuple(any(isinstance(v, (int, float)) for v in values) for _, values in headed)
+    names = tuple(name.replace("_", " ") for name, _ in headed)
+    return Grid(title=title, headings=names, rows=tuple(tuple(row) for row in cells), numbers=number)
+
+
+def _cell(value: Any) -> str:
+    if value is None or value != value:
+        return "–"
+    return figure(value, 5) if isinstance(value, float) else str(value)

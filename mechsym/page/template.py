@@ -1,0 +1,55 @@
+"""Pages as text: the templates of `mechsym/templates`, numbers in the units that the user has chosen."""
+
+import functools
+import re
+from typing import Any
+
+from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.style import significant
+
+_TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
+
+
+def page(name: str, **values: Any) -> str:
+    """A page that opens offline, from a file of `mechsym/templates`; a value that it lacks is an error.
+
+    Examples
+    --------
+    >>> "prefers-color-scheme: dark" in page("cards.html", cards=(), title="Empty")
+    True
+    """
+    return str(_environment().get_template(name).render(**values))
+
+
+@functools.lru_cache(maxsize=1)
+def _environment() -> Any:
+    import jinja2
+
+    made = jinja2.Environment(
+        loader=jinja2.PackageLoader("mechsym", "templates"), undefined=jinja2.StrictUndefined, autoescape=True,
+        trim_blocks=True,
+    )  # fmt: skip
+    made.filters |= {
+        "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "pretty": pretty,
+        "quantity": lambda value, unit, digits=5: pretty(quantity_text(value, unit, digits)),
+    }  # fmt: skip
+    return made
+
+
+def _percent(share: float | None, digits: int = 3) -> str:
+    """A share as per cent; round-off is 0."""
+    if share is None:
+        return "–"
+    return "0 %" if abs(share) < 1e-9 else f"{figure(100 * share, digits)} %"
+
+
+def pretty(text: Any) -> str:
+    """Units as a book sets them: `kN*m` as kN m, `kg*m^2` as kg m².
+
+    Examples
+    --------
+    >>> pretty("37810 kg*m^2")
+    '37810 kg m²'
+    """
+    found = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³")
+    return found.replace("1e-9", "1e\u20119")  # a hyphen that does not break

@@ -1,0 +1,104 @@
+"""How a result shows itself: in a report, in a notebook and at the prompt, by one view.
+
+A room says in its `shown.py` what of its results is worth seeing (`@shows(Design)`); a result that is `Shown` finds it
+there when it is asked, so that physics needs no picture to be computed.
+"""
+
+import importlib
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mechsym.errors import BadInput, suggest
+from mechsym.page.table import ResultTable
+from mechsym.page.template import page
+from mechsym.quantities import record
+
+_VIEWS: dict[type, Callable[[Any], "View"]] = {}
+_SHORT = 400  # characters of a repr
+
+
+@record
+class Card:
+    """One number with what it is."""
+
+    name: str
+    value: str  #: With its unit
+    about: str = ""
+    mark: str = ""  #: `yes` and `no` are coloured
+
+
+@record
+class Picture:
+    """A figure that is drawn when it is looked at."""
+
+    name: str
+    see: str  #: What to look for, one sentence
+    draw: Callable[[], Any]  #: Gives a matplotlib Figure
+
+
+@record
+class View:
+    """What of a result is worth seeing."""
+
+    title: str
+    cards: tuple[Card, ...]
+    pictures: tuple[Picture, ...] = ()
+    columns: Callable[[], Mapping[str, Any]] = dict  #: Equally long, by name
+
+
+def shows(kind: type) -> Callable[[Callable[[Any], View]], Callable[[Any], View]]:
+    """Say how results of a class are seen: `@shows(Design)` above a function from a design to its `View`."""
+
+    def kept(view: Callable[[Any], View]) -> Callable[[Any], View]:
+        _VIEWS[kind] = view
+        return view
+
+    return kept
+
+
+class Shown:
+    """A result that shows itself; what there is to see stands in `shown.py` beside its class."""
+
+    @property
+    def view(self) -> View:
+        """Its cards, pictures and columns."""
+        kind = type(self)
+        if kind not in _VIEWS:
+            importlib.import_module(f"{kind.__module__.rpartition('.')[0]}.shown")
+        return _VIEWS[kind](self)
+
+    def plot(self, name: str = "") -> Any:
+        """One of its figures, the first without a name.
+
+        Returns
+        -------
+        figure : matplotlib.figure.Figure
+            A notebook shows it; `figure.savefig("name.svg")` keeps it
+        """
+        pictures = {picture.name: picture for picture in self.view.pictures}
+        if not pictures:
+            raise BadInput(f"{type(self).__name__} has no picture")
+        if name and name not in pictures:
+            raise BadInput(f"no picture {name!r}; {suggest(name, list(pictures))}")
+        return pictures[name or next(iter(pictures))].draw()
+
+    def table(self) -> ResultTable:
+        """Its curves or figures as columns with units."""
+        return ResultTable(self.view.columns())
+
+    def _repr_html_(self) -> str:
+        view = self.view
+        return page("cards.html", cards=view.cards, title=view.title)
+
+
+class ShownFigures(dict[str, Any], Shown):
+    """Figures by name that show themselves; a dictionary in all else."""
+
+    def __repr__(self) -> str:
+        text = f"{type(self).__name__}({', '.join(f'{k}={_value(v)}' for k, v in self.items())})"
+        return text if len(text) <= _SHORT else f"{text[: _SHORT - 5]} ...)"
+
+
+def _value(value: Any) -> str:
+    text = f"array{value.shape}" if hasattr(value, "shape") else repr(value)
+    return text if len(text) < 60 else f"{type(value).__name__} of {len(value)}" if hasattr(value, "__len__") else "…"

@@ -1,0 +1,115 @@
+"""Results that show themselves: short repr, cards, figures by name, columns with units."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from mechsym import cases
+from mechsym.errors import BadInput
+from mechsym.jobs.compare import compare
+from mechsym.jobs.cycle import cycle
+from mechsym.jobs.forces import forces
+from mechsym.jobs.gas import gas
+from mechsym.jobs.hinge import hinge
+from mechsym.jobs.optimise import optimise
+from mechsym.jobs.run import run
+from mechsym.jobs.size import size
+from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, page, shows
+from mechsym.page.template import pretty
+from mechsym.quantities import record
+from mechsym.quantities.display import choose
+
+SPEEDS = np.array([400.0, 500.0])
+MADE = {
+    "cycle": lambda: cycle(cases.load("nunes-slider-crank"), SPEEDS),
+    "compare": lambda: compare(*(cycle(cases.load(f"nunes-{n}"), SPEEDS) for n in ("slider-crank", "hypocycloid"))),
+    "forces": lambda: forces(cases.load("nunes-hypocycloid")),
+    "gas": lambda: gas(cases.load("zotov-89")),
+    "run": lambda: run(cases.load("alpha-stirling", {"simulation.turns": "3"}), check="none"),
+    "size": lambda: size(cases.load("nunes-hypocycloid")),
+    "optimise": lambda: optimise(cases.load("nunes-hypocycloid")),
+    "hinge": lambda: hinge(cases.load("zotov-89")),
+}
+SLOW = ("forces", "hinge", "optimise", "run", "size")
+
+
+@record
+class Spot(Shown):
+    """A result of the test's own."""
+
+    force: float  #: [N]
+
+
+@shows(Spot)
+def spot_view(spot):
+    """What of a spot is worth seeing."""
+    from mechsym.style import panels
+
+    return View(
+        title="A <spot>", cards=(Card(name="force", value=f"{spot.force:g} N*m", mark="yes"),),
+        pictures=(Picture(name="nothing", see="Nothing.", draw=lambda: panels(3, 2)[0]),),
+        columns=lambda: {"phi": [0.0, np.pi], "torque_1": [1e3, spot.force], "speed_rpm": [1.0, 2.0]},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n in SLOW)) for n in MADE])
+def test_every_result_of_a_job_shows_itself(name):
+    found = MADE[name]()
+    assert len(repr(found)) < 500 and "\n" not in repr(found)
+    text = found._repr_html_()
+    assert found.view.cards and all(
+        card.value and pretty(card.name) in text for card in found.view.cards if "'" not in card.name
+    )
+    table = found.table()
+    assert len(table) and len(repr(table)) < 500 and "<table>" in table._repr_html_()
+    for picture in found.view.pictures:
+        assert found.plot(picture.name).axes and picture.see.endswith(".")
+
+
+def test_cards_are_escaped_and_units_set_as_in_books():
+    text = Spot(force=2.0)._repr_html_()
+    assert "A &lt;spot&gt;" in text and "2 N m" in text and 'class="yes"' in text
+
+
+def test_a_table_has_units_and_goes_to_xarray_and_pandas():
+    table = Spot(force=2.0).table()
+    assert list(table) == ["phi [rad]", "torque_1 [N*m]", "speed [rpm]"]
+    assert table["torque_1"][1] == 2.0 == table["torque_1 [N*m]"][1]
+    with pytest.raises(KeyError):
+        table["mass"]
+    assert pytest.importorskip("xarray") and table.to_xarray()["torque_1"].attrs == {"units": "N*m"}
+    if pytest.importorskip("pandas"):
+        assert list(table.to_pandas().columns) == list(table)
+
+
+def test_a_table_is_in_the_units_that_were_chosen():
+    try:
+        choose("kN*m, deg")
+        table = ResultTable({"phi": [np.pi], "torque": [1e3]})
+    finally:
+        choose(None)
+    assert (table["phi [deg]"], table["torque [kN*m]"]) == (180.0, 1.0)
+
+
+def test_a_picture_is_found_by_its_name():
+    assert Spot(force=1.0).plot().axes
+    with pytest.raises(BadInput, match="nothing"):
+        Spot(force=1.0).plot("nothin")
+
+
+def test_figures_by_name_are_a_dictionary_and_short():
+    found = ShownFigures(a=np.zeros(3), b=list(range(1000)), c=1.0)
+    assert found == {"a": found["a"], "b": found["b"], "c": 1.0}
+    assert repr(found) == "ShownFigures(a=array(3,), b=list of 1000, c=1.0)"
+
+
+def test_a_page_lacks_nothing_in_silence():
+    import jinja2
+
+    with pytest.raises(jinja2.UndefinedError):
+        page("cards.html", cards=())
+
+
+def test_a_view_is_a_record():
+    assert [f.name for f in dataclasses.fields(View)] == ["title", "cards", "pictures", "columns"]
