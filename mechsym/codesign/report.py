@@ -12,12 +12,8 @@ from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import Track
 from mechsym.codesign.verify import fine_path
 from mechsym.files import to_json, write_csv, write_text
-<<<<<<< HEAD
-from mechsym.style import page, svg
-=======
 from mechsym.page import page
 from mechsym.style import svg
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:

@@ -7,12 +7,8 @@ from mechsym.files import to_json, write_quantities, write_text
 from mechsym.forces.borne import borne
 from mechsym.forces.result import Forces
 from mechsym.mechanisms import plots as plots_mechanism
-<<<<<<< HEAD
-from mechsym.style import page, svg
-=======
 from mechsym.page import page
 from mechsym.style import svg
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 
 def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str) -> list[Path]:
@@ -40,10 +36,6 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str) -> l
 
 def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str], about: str) -> str:
     """The page as text."""
-<<<<<<< HEAD
-    shown = quantities(numbers)
-    return page("forces.html", numbers=numbers, figures=figures, about=about, source=source, shown=shown)
-=======
     rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(numbers)]
     largest = max(abs(value) for value in numbers["max"].values())
     return page(
@@ -55,7 +47,6 @@ def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str], about:
 
 def _see(found: Forces) -> dict[str, str]:
     return {picture.name: picture.see for picture in found.view.pictures}
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 
 def _figures(found: Forces) -> dict[str, str]:

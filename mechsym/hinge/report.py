@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from mechsym.files import to_json, write_quantities, write_text
-from mechsym.hinge import plots
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.setting import setting_text
@@ -17,12 +16,8 @@ from mechsym.hinge.shown import cards, pictures
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
-<<<<<<< HEAD
-from mechsym.style import axis_unit, page, svg
-=======
 from mechsym.page import page
 from mechsym.style import svg
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 
 _FRAMES = 180
 
@@ -51,10 +46,6 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
     """The report as text."""
     return page(
         "hinge.html",
-<<<<<<< HEAD
-        {"setting": partial(setting_text, design.guide.spring)},
-=======
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
         case=design.origin,
         design=design,
         numbers=numbers,

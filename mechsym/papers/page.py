@@ -10,7 +10,7 @@ from mechsym.files import write_bytes, write_csv, write_text
 from mechsym.page import page
 from mechsym.papers.rows import KEYS, VERDICTS
 from mechsym.papers.sources import Source
-from mechsym.style import page, svg
+from mechsym.style import svg
 
 _DPI = 110
 

@@ -6,12 +6,9 @@ import numpy as np
 
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
-<<<<<<< HEAD
+from mechsym.quantities.display import ratio_text
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import Periodic, Problem
-=======
-from mechsym.quantities.display import ratio_text
->>>>>>> 42f4cc5 (mechsym report: cases on one page, the answer first; results show themselves; one template for all pages)
 from mechsym.simulate.result import Energy
 
 # a run whose energy balances to this is integrated well; if it still differs from its check, the motion is to blame

@@ -3,7 +3,6 @@
 palette    colours on light and on dark paper, their contrast
 panels     figures with quiet panels, legends above them, axes in the units that were chosen
 labels     labels that keep clear of each other, curves that are equal named once
-page       pages of a template with the common styles
 picture    a figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it
 numbers    significant digits
 
@@ -12,7 +11,6 @@ matplotlib is imported inside functions, so that whoever only needs a colour or 
 
 from mechsym.style.labels import clear_places, distinct, envelope, events, spread
 from mechsym.style.numbers import significant
-from mechsym.style.page import page
 from mechsym.style.palette import (
     BLUE,
     DARK,
@@ -60,7 +58,6 @@ __all__ = [
     "heading",
     "legend",
     "over_angle",
-    "page",
     "panels",
     "significant",
     "spread",

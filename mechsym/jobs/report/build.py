@@ -83,21 +83,13 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
             figures = []
             for picture in found.view.pictures:
                 number += 1
-                figures.append({"number": number, "see": picture.see, "svg": _svg(picture.draw(), f"f{number}-")})
+                figures.append({"number": number, "see": picture.see, "svg": svg(picture.draw(), str(number))})
             parts.append({"part": found, "figures": figures, "id": f"{found.name}-{place}"})
         shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,
     )  # fmt: skip
-
-
-def _svg(figure: Any, prefix: str) -> str:
-    """A figure as SVG whose ids are its own on the page."""
-    text = svg(figure)
-    for old, new in (('id="', f'id="{prefix}'), ('"#', f'"#{prefix}'), ("url(#", f"url(#{prefix}")):
-        text = text.replace(old, new)
-    return text
 
 
 def _title(reports: Sequence[CaseReport]) -> str:
