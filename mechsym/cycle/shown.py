@@ -7,7 +7,7 @@ import numpy as np
 from mechsym.cycle.chamber import volume
 from mechsym.cycle.gas import Gas
 from mechsym.page import Card, Picture, View, shows
-from mechsym.quantities.display import quantity_text, shown_in
+from mechsym.quantities.display import quantity_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,15 +36,15 @@ def _columns(gas: Gas) -> dict[str, np.ndarray]:
 
 def indicator(gas: Gas) -> "Figure":
     """Pressure over the angle and over the volume, in the units that were chosen."""
-    from mechsym.style import BLUE, panels
+    from mechsym.style import BLUE, axis_unit, over_angle, panels
 
-    figure, (left, right) = panels(9, 3.2, 1, 2)
+    figure, (left, right) = panels(9, 3.2, 1, 2, "Pressure over angle and volume")
     columns = _columns(gas)
-    p, p_unit = shown_in(columns["pressure"], "Pa")
-    phi, phi_unit = shown_in(columns["phi"], "rad")
-    room, room_unit = shown_in(columns["volume [m^3]"], "m^3")
-    left.plot(phi, p, color=BLUE)
-    left.set(xlabel=f"angle from firing dead centre [{phi_unit}]", ylabel=f"absolute pressure [{p_unit}]")
-    right.plot(room, p, color=BLUE)
-    right.set(xlabel=f"volume [{room_unit}]", ylabel=f"absolute pressure [{p_unit}]")
+    p, room = columns["pressure"], columns["volume [m^3]"]
+    (factor, unit), (scale, room_unit) = axis_unit("Pa", p), axis_unit("m^3", room)
+    angle = over_angle(left, gas.pressure.period, "angle from firing dead centre")
+    left.plot(columns["phi"] * angle, p * factor, color=BLUE)
+    left.set_ylabel(f"absolute pressure [{unit}]")
+    right.plot(room * scale, p * factor, color=BLUE)
+    right.set(xlabel=f"volume [{room_unit}]", ylabel=f"absolute pressure [{unit}]")
     return figure

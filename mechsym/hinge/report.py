@@ -17,7 +17,7 @@ from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summ
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.record import curves, listing
 from mechsym.page import page
-from mechsym.style import svg
+from mechsym.style import axis_unit, svg
 
 _FRAMES = 180
 

@@ -11,7 +11,7 @@ from mechsym.jobs.optimise import Optimised
 from mechsym.jobs.run import FinishedRun
 from mechsym.jobs.size import Sizing
 from mechsym.page import Card, Picture, View, shows
-from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
+from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.sizing.rows import COLUMNS
 
 _CYCLE = (("power", "power_kw", 1e3, "W"), ("mean torque", "torque_avg", 1.0, "N*m"),
@@ -49,17 +49,15 @@ def _flat(found: Mapping[str, Any], size: int) -> dict[str, Any]:
 
 
 def _speeds(found: Mapping[str, Any]) -> Any:
-    from mechsym.style import BLUE, RED, panels
+    from mechsym.style import BLUE, axis_unit, panels
 
-    made, axes = panels(9, 3.2, 1, 2)
-    omega, unit = shown_in(np.asarray(found["speed_rpm"]) * np.pi / 30, "rad/s")
-    for axis, color, (name, values, kind) in zip(
-        axes, (BLUE, RED), (("mean torque", np.asarray(found["torque_avg"]), "N*m"),
-                            ("power", 1e3 * np.asarray(found["power_kw"]), "W")), strict=True
-    ):  # fmt: skip
-        shown, named = shown_in(values, kind)
-        axis.plot(omega, shown, color=color)
-        axis.set(xlabel=f"speed [{unit}]", ylabel=f"{name} [{named}]")
+    made, axes = panels(9, 3.2, 1, 2, "Torque and power over the speed")
+    omega = np.asarray(found["speed_rpm"]) * np.pi / 30
+    curves = (("mean torque", np.asarray(found["torque_avg"]), "N*m"), ("power", 1e3 * found["power_kw"], "W"))
+    for axis, (name, values, si) in zip(axes, curves, strict=True):
+        (across, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit(si, values)
+        axis.plot(omega * across, values * factor, color=BLUE)
+        axis.set(xlabel=f"speed [{rpm}]", ylabel=f"{name} [{unit}]")
     return made
 
 
