@@ -71,7 +71,7 @@ def _cycle(case: Case) -> ReportPart:
         verdict=f"The gas gives {verdict}.", facts=facts,
         grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
         silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),),
-        numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(acting)),
+        numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(case, acting)),
     )  # fmt: skip
 
 
@@ -100,7 +100,7 @@ def _hinge(case: Case) -> ReportPart:
         verdict=f"{told} It saves a flywheel of {saved}." if verdict.feasible else told,
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
                grid("Runs in time", runs, ["run", "ripple", "ends"])),
-        limits=tuple(limits), decide=tuple(decide), numbers=numbers, doubts=of_gas(gas_of(design.machine)),
+        limits=tuple(limits), decide=tuple(decide), numbers=numbers, doubts=of_gas(case, gas_of(design.machine)),
         silent=_HINGE,
     )  # fmt: skip
 
@@ -113,7 +113,7 @@ def _forces(case: Case) -> ReportPart:
     if is_own(case.mechanism):
         raise BadInput(f"{case.file}: forces of a mechanism from a file are not in the report; use 'mechsym forces'")
     found = forces(case)
-    return force_part(TITLES["forces"], case, found, of_forces(found))
+    return force_part(TITLES["forces"], case, found, of_forces(case, found))
 
 
 def _size(case: Case) -> ReportPart:
