@@ -63,6 +63,7 @@ ENTRIES: dict[str, Any] = {
         },
     ),
     "drive": "mechsym.simulate.settings:StepTorque",
+    "torque": "mechsym.machine.torque_curve:TorqueCurve",
     "simulation": "mechsym.simulate.settings:Simulation",
     "shaft": "mechsym.torsion.train:ShaftLimits",
     "startup": "mechsym.torsion.startup:StartUpClaim",

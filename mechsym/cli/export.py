@@ -40,11 +40,11 @@ def export(
 
 def _written(name: str, diagram: str | None, overrides: tuple[str, ...]) -> Any:
     from mechsym.jobs.export import ready
-    from mechsym.mechanisms import names
+    from mechsym.mechanisms import names, own
     from mechsym.out.laws import block_of
     from mechsym.out.text.programs import of_block, of_mechanism
 
-    if name in names() and name not in cases.names():
+    if own.is_file(name) or (name in names() and name not in cases.names()):
         return of_mechanism(name)
     case = cases.load(name, pairs(overrides))
     return of_block(block_of(case.name, case.about, ready(case, diagram)))

@@ -77,8 +77,7 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
     torque = [quantity_text(numbers[f"hinge_torque_{end}"], "N*m") for end in ("min", "max")]
     mean = numbers["hinge_torque_mean"] / max(abs(numbers["hinge_torque_max"]), abs(numbers["hinge_torque_min"]))
     lines = [
-        f"speed            {numbers['speed_rpm']:.6g} rpm, peak pressure "
-        f"{quantity_text(1e5 * numbers['p_max_bar'], 'Pa', 4)} absolute",
+        f"speed            {numbers['speed_rpm']:.6g} rpm{_peak(numbers['p_max_bar'])}",
         f"load torque      {quantity_text(numbers['load_torque'], 'N*m')}",
         f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
         f"guide            {'can' if guide['feasible'] else 'CANNOT'} be built: {guide['reason']}",
@@ -105,13 +104,16 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
 
 
+def _peak(p_max_bar: float | None) -> str:
+    return "" if p_max_bar is None else f", peak pressure {quantity_text(1e5 * p_max_bar, 'Pa', 4)} absolute"
+
+
 def _left_out(numbers: dict[str, Any]) -> list[str]:
     """What the ideal hinge does not say, beside the flywheel that it saves."""
     lost, share, run = numbers["losses"], numbers["misfire_speed_share"], numbers["check"]["losses"]
     if lost is None:
         return []
     after = "not known" if share is None else f"{share:.2g} of the speed" if share > 0 else "the shaft stops"
-    kinds = ", ".join(f"{kind} {100 * lost['shares'][kind]:.2g}" for kind in lost["shares"])
     ripple = "no steady motion" if lost["speed_ripple"] is None else f"ripple {lost['speed_ripple']:.2g}"
     label, counted = "not counted ", []
     if run is not None:
@@ -119,10 +121,18 @@ def _left_out(numbers: dict[str, Any]) -> list[str]:
         label, counted = "by the angle", [f"lost in the run  {each} over its last period"]
     return [
         *counted,
-        f"{label}     losses of {100 * lost['share']:.3g} % of the load torque ({kinds} %; assumed unless "
-        f"[losses] says otherwise); with them {ripple}",
+        f"{label}     losses of {_lost_shares(lost)}; assumed unless [losses] says otherwise); with them {ripple}",
         f"one misfire      with the flywheel that is kept: {after}",
     ]
+
+
+def _lost_shares(lost: dict[str, Any]) -> str:
+    """Losses by the load torque, or as torques where there is no load."""
+    if lost["share"] is None:
+        kinds = ", ".join(f"{kind} {quantity_text(lost[kind], 'N*m', 2)}" for kind in lost["shares"])
+        return f"{quantity_text(lost['total'], 'N*m', 3)} ({kinds}"
+    kinds = ", ".join(f"{kind} {100 * lost['shares'][kind]:.2g}" for kind in lost["shares"])
+    return f"{100 * lost['share']:.3g} % of the load torque ({kinds} %"
 
 
 def _stopped(rows: list[dict[str, Any]]) -> list[str]:

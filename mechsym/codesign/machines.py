@@ -16,7 +16,7 @@ from mechsym.hinge.guide import Spring
 from mechsym.hinge.limits import Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
-from mechsym.hinge.torque import engine_torques, torque
+from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
 from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import curves
 
@@ -33,11 +33,9 @@ def point(machine: Machine, load: float, law: str = "propeller", weight: float =
     weight : float
         Share of the time at this point [-]
     """
-    if gas_of(machine).on_shaft:
-        raise BadInput(
-            "co-design lets one piston misfire, with top dead centre at angle 0; others are designed by 'mechsym hinge'"
-        )
     torques, wanted = engine_torques(machine), torque(machine)
+    if gas_of(machine).on_shaft:  # of a torque alone no turn without combustion is known
+        return _point(wanted, torques, load, law, weight)
     without = unfired(gas_of(machine).force, torques.period)
     (q,) = machine.mechanism.coordinates
 
@@ -45,11 +43,18 @@ def point(machine: Machine, load: float, law: str = "propeller", weight: float =
         arm = curves(machine.mechanism, phi)[f"dx_d{q}"]
         return np.asarray(without(phi) * arm + torques.gravity_torque(phi))
 
-    return Point(
-        omega=wanted.omega, load=load, load_torque=wanted.load_torque, law=law, weight=weight,
-        period=wanted.period, work=wanted.work, inertia=wanted.inertia, misfire=misfire,
-        torque=lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi), kinks=tuple(torques.kinks),
+    return dataclasses.replace(
+        _point(wanted, torques, load, law, weight), misfire=misfire,
         misfire_kinks=unfired_kinks(torques.kinks, torques.period),
+    )  # fmt: skip
+
+
+def _point(wanted: Hinge, torques: EngineTorques, load: float, law: str, weight: float) -> Point:
+    return Point(
+        omega=wanted.omega, load=load, load_torque=wanted.load_torque, weight=weight,
+        law=law if wanted.load_torque > 0 else "constant",  # what takes work is driven by a steady torque
+        period=wanted.period, work=wanted.work, inertia=wanted.inertia, kinks=tuple(torques.kinks),
+        torque=lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi),
     )  # fmt: skip
 
 

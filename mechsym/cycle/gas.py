@@ -47,6 +47,11 @@ class Gas(Shown):
         return False
 
     @property
+    def has_pressure(self) -> bool:
+        """Whether a pressure is known that gives its force."""
+        return True
+
+    @property
     def p_back(self) -> float:
         """Absolute pressure on the other side of the piston [Pa]."""
         return self.chamber.back_pressure

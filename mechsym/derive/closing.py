@@ -74,7 +74,9 @@ def settle(m: Declaration, wanted: Link | None = None) -> None:
         if not hanging:
             link = wanted or free[0]
             refuse(f"link {link.name!r} hangs on nothing that is placed; join it by a pin or a slider", link.where)
-        _by_constraint(m, *hanging[0])
+        link, joint = hanging[0]
+        # a slider gives the angle, so that less is left to close
+        _by_constraint(m, link, next((j for j in _open(m, link) if j.kind == "slider"), joint))
         advance(m)
 
 

@@ -73,6 +73,9 @@ class Declaration(Letters, Linkage, Roles):
     def coordinates(self, names: str, unit: str = "rad") -> Any:
         """Declare generalised coordinates, names separated by spaces; one symbol, or a list in the order given."""
         symbols = self._symbols(names, unit)
+        for rate in (f"{s.name}{ending}" for s in symbols for ending in ("d", "dd")):
+            if rate in self.units:
+                refuse(f"{rate!r} is the name of a rate of the coordinate {rate.rstrip('d')!r}; rename one of them")
         self.q += symbols
         self.tape.variables += symbols
         return _one_or_all(symbols)
@@ -142,6 +145,7 @@ class Declaration(Letters, Linkage, Roles):
 
     def let(self, name: str, value: Any, unit: str = "") -> Symbol:
         """Name a physical intermediate; its unit is checked against the expression."""
+        self._usable(name)
         expression = self._checked(value, unit, name)
         symbol = self.tape.define(name, expression)
         if name in self.units:

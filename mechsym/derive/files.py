@@ -1,5 +1,6 @@
 """Mechanism files of the user's own: run the file, find what it declares, derive it, check it by differentiation."""
 
+import contextlib
 import importlib.util
 import inspect
 import sys
@@ -43,7 +44,8 @@ def run(path: Path) -> ModuleType:
     kept = list(sys.path)
     sys.path.insert(0, str(path.parent))  # helpers beside it
     try:
-        spec.loader.exec_module(module)
+        with contextlib.redirect_stdout(sys.stderr):  # what it prints is no result
+            spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise _refusal(path, error) from None
     finally:
@@ -85,8 +87,9 @@ def declared_in(path: Path) -> dict[str, Declaration]:
     for name, value in vars(module).items():
         if inspect.isfunction(value) and value.__module__ == module.__name__ and _bare(name, value):
             try:
-                made = value()
-            except Exception as error:
+                with contextlib.redirect_stdout(sys.stderr):
+                    made = value()
+            except (Exception, SystemExit) as error:
                 raise _refusal(path, error) from None
             found += [made] if isinstance(made, Declaration) else []
     by_name = {m.name: m for m in found}

@@ -1,8 +1,10 @@
 """Letters of a declaration with their units, and the check of every expression that is made of them."""
 
+import keyword
+import unicodedata
 from typing import Any
 
-from sympy import Expr, Symbol, sympify
+from sympy import Expr, Symbol, nan, oo, sympify, zoo
 
 from mechsym.derive.dimensions import PURE, Dimension, dimension_of, in_words, of_unit
 from mechsym.derive.refuse import place, refuse
@@ -34,10 +36,20 @@ class Letters:
         if name in self.units:
             first = f" (first at {self.where[name]})" if name in self.where else ""
             refuse(f"the letter {name!r} is declared twice in {self.name}{first}; give one of them another name")
-        if not name.isidentifier() or name.startswith("_"):
-            refuse(f"{name!r} is not a usable name; use letters, digits and inner underscores")
+        self._usable(name)
         self.units[name], self.where[name] = unit, place()
         self.dimensions[symbol] = self._unit(unit)
+
+    def _usable(self, name: str) -> None:
+        if not name.isidentifier() or name.startswith("_"):
+            refuse(f"{name!r} is not a usable name; use letters, digits and inner underscores")
+        if keyword.iskeyword(name) or name == "ca":  # as which the derived code knows CasADi
+            refuse(f"{name!r} has a meaning in the derived code; write {name}_")
+        if (plain := unicodedata.normalize("NFKC", name)) != name:
+            refuse(f"Python reads {name!r} as {plain!r}; write that")
+        for q in self.q:
+            if name in (f"{q.name}d", f"{q.name}dd"):
+                refuse(f"{name!r} is the name of a rate of the coordinate {q.name!r}; take another")
 
     def _unit(self, unit: str) -> Dimension:
         try:
@@ -74,6 +86,8 @@ class Letters:
             expression = sympify(value)
         except (TypeError, ValueError, AttributeError) as error:
             refuse(f"{what} = {value!r} is no expression ({error})")
+        if expression.has(nan, zoo, oo, -oo):
+            refuse(f"{what} = {value} is not finite; something is divided by zero")
         found = self.dimension(expression)
         if unit and found is not None and found != self._unit(unit):
             refuse(f"{what} = {value} is in {in_words(found)}, and must be in {unit}")

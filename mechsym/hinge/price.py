@@ -63,7 +63,8 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
     lost = LossTorques(**means, gas=heat)
     ideal = _with_mass(reduced(fitted(machine, wanted, guide)), guide, contact, rollers)
     fill, ripple = 1.0, None
-    if lost.total < wanted.load_torque:  # else the hinge takes more than the engine gives
+    # an engine may give less than the hinge takes; what is driven is driven harder
+    if lost.total < wanted.load_torque or wanted.load_torque <= 0:
         already = heat if isinstance(guide.spring, AirThermal) else 0.0  # its own load is lowered by it
         fill, ripple = _best_fill(ideal, guide, contact, taken, given, lost.total - already, machine.omega)
     return Price(

@@ -12,9 +12,10 @@ from mechsym.files import to_json, write_quantities, write_text
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.setting import setting_text
-from mechsym.hinge.shown import cards, pictures
+from mechsym.hinge.shown import cards, pictures, shapes_of
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
+from mechsym.mechanisms.plots import animation_of
 from mechsym.mechanisms.record import curves, listing
 from mechsym.page import page
 from mechsym.style import axis_unit, svg
@@ -30,11 +31,11 @@ def write(design: Design, folder: Path) -> list[Path]:
     folder : Path
         Where to write; made when missing
     """
-    numbers, drawn = summary(design), pictures(design)
-    figures = {picture.name: svg(picture.draw()) for picture in drawn}
-    # the page draws a slider crank; other mechanisms turn in the page of `mechsym forces`
-    turning = hasattr(design.origin.sections["parameters"], "r1")
-    files = [write_text(folder / "report.html", html(design, numbers, figures))] if turning else []
+    numbers = summary(design)
+    figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
+    files = [write_text(folder / "report.html", html(design, numbers, figures))]
+    if (shapes := shapes_of(design)) is not None:
+        files.append(write_text(folder / "mechanism.html", animation_of(shapes, design.origin.about)))
     files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
     files.append(write_quantities(folder / "hinge.csv", hinge_columns(design)))
     if design.guide.rho is not None:
@@ -55,9 +56,14 @@ def html(design: Design, numbers: dict[str, Any], figures: dict[str, str]) -> st
         setting=partial(setting_text, design.guide.spring),
         parameters=_parameters(design),
         equations=listing(design.machine.mechanism.name)["equations"],
-        motion=json.dumps(_motion(design)),
+        motion=json.dumps(_motion(design)) if _slider_crank(design) else None,
         degrees=180 / np.pi,
     )
+
+
+def _slider_crank(design: Design) -> bool:
+    """Whether the moving picture of the page, crank, rod and crosshead, is that of the mechanism."""
+    return hasattr(design.origin.sections["parameters"], "r1") and "drawing" not in design.machine.mechanism.functions
 
 
 def _parameters(design: Design) -> list[tuple[str, str, str, float]]:

@@ -73,7 +73,7 @@ def propeller_load_speed(
     omega : float
         Speed at which the load takes the load torque [rad/s]
     load_torque : float
-        M_r, positive [N*m]
+        M_r; where it is not positive a steady torque holds the machine in its place, see `settle` [N*m]
     period : float
         Period [rad]
 
@@ -82,6 +82,8 @@ def propeller_load_speed(
     phid : ndarray, shape (n,), or None
         Speed of the periodic motion, to which every run settles [rad/s]; None if the crank would stop
     """
+    if load_torque <= 0:
+        return constant_load_speed(missing, inertia, omega)
     rate = 2 * load_torque / (inertia * omega**2)
     step = period / missing.size * (rate + np.roll(rate, -1)) / 2
     decay = np.exp(-step)

@@ -1,5 +1,7 @@
 """What of a hinge design is worth seeing: its cards, its figures, its curves."""
 
+import math
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -9,6 +11,10 @@ from mechsym.hinge.setting import setting_of, setting_text
 from mechsym.hinge.springs import Coil
 from mechsym.hinge.summary import guide_turn, hinge_columns, summary
 from mechsym.machine.record import gas_of
+from mechsym.mechanisms.drawing import Shapes
+from mechsym.mechanisms.own_drawing import drawn
+from mechsym.mechanisms.plots import figure_of
+from mechsym.mechanisms.record import listing
 from mechsym.page import Card, Picture, View, shows
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text, ratio_text
@@ -39,14 +45,30 @@ def cards(design: Design, numbers: dict[str, Any]) -> tuple[Card, ...]:
     ]  # fmt: skip
     if lost is not None:
         share, ripple = numbers["misfire_speed_share"], lost["speed_ripple"]
+        of_load = "" if lost["share"] is None else "of the load torque, "
         with_them = "no steady motion" if ripple is None else f"ripple {figure(ripple, 2)}"
         found += [
-            Card(name="lost in the hinge", value=f"{figure(100 * lost['share'], 3)} %",
-                 about=f"of the load torque, with assumed friction and heat; with them {with_them}"),
-            Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
-                 about="with the flywheel that is kept", mark="" if share else "no"),
+            Card(name="lost in the hinge", value=_lost(lost),
+                 about=f"{of_load}with assumed friction and heat; with them {with_them}"),
         ]  # fmt: skip
+        if share is not None:  # of a torque alone it is not known
+            found += [
+                Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
+                     about="with the flywheel that is kept", mark="" if share else "no"),
+            ]  # fmt: skip
     return tuple(found)
+
+
+def _lost(lost: dict[str, Any]) -> str:
+    if lost["share"] is None:
+        return quantity_text(lost["total"], "N*m", 3)
+    return f"{figure(100 * lost['share'], 3)} %"
+
+
+def shapes_of(design: Design) -> Callable[[float], Shapes] | None:
+    """The mechanism as its declaration draws it, over the crank angle [rad]; None where it draws nothing."""
+    mechanism = design.machine.mechanism
+    return drawn(mechanism, listing(mechanism.name)) if "drawing" in mechanism.functions else None
 
 
 def _dimensions(design: Design, guide: dict[str, Any]) -> list[Card]:
@@ -79,9 +101,14 @@ def pictures(design: Design) -> tuple[Picture, ...]:
         Picture(name="speeds", draw=lambda: plots.speeds(design),
                 see="Crank speed over the design speed: flat with the hinge, a wave without."),
     ]  # fmt: skip
+    if not gas_of(design.machine).has_pressure:
+        del found[0]
+    if (shapes := shapes_of(design)) is not None:
+        found.insert(0, Picture(name="mechanism", draw=lambda: figure_of(shapes, math.pi / 3),
+                                see="The mechanism as its declaration draws it."))  # fmt: skip
     if design.guide.rho is not None:
-        radius = design.rollers.radius
-        found[2:2] = [
+        radius, at = design.rollers.radius, len(found) - 1
+        found[at:at] = [
             Picture(name="track", draw=lambda: plots.track(design, guide_turn(design), radius),
                     see="Guide to scale; the profile is the exact parallel curve at the roller radius."),
             Picture(name="contact", draw=lambda: plots.contact(guide_turn(design)),

@@ -79,13 +79,13 @@ def _losses(design: Design) -> dict[str, Any] | None:
         return None
     kinds = ("bearing", "seal", "guide", "rolling", "gas")
     torques = {kind: getattr(price.losses, kind) for kind in kinds}
-    load = abs(design.hinge.load_torque)
+    load = abs(design.hinge.load_torque) or None  # no share of a load where there is none
     assumed = {f.name: getattr(price.assumed, f.name) for f in dataclasses.fields(price.assumed)}
     return {
         **torques,
         "total": price.losses.total,
-        "shares": {kind: value / load for kind, value in torques.items()},
-        "share": price.losses.total / load,
+        "shares": {kind: value / load if load else None for kind, value in torques.items()},
+        "share": price.losses.total / load if load else None,
         "speed_ripple": price.speed_ripple,
         "fill": price.fill,
         "gas_index": price.gas_index,
@@ -155,10 +155,10 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
     hinge = design.hinge
     phi = np.linspace(0, hinge.period, points)
     gas = gas_of(design.machine)
+    pressed = {"pressure": gas.pressure.absolute(phi), "piston_force": gas.force(phi)} if gas.has_pressure else {}
     return {
         "phi": phi,
-        "pressure": gas.pressure.absolute(phi),
-        "piston_force": gas.force(phi),
+        **pressed,
         "hinge_torque": hinge.torque(phi),
         "inertia_part": hinge.inertia_part(phi),
         "gas_part": hinge.gas_part(phi),
@@ -189,8 +189,8 @@ def guide_columns(design: Design, contact: Contact) -> dict[str, np.ndarray]:
 
 _VALUES: dict[str, Callable[[Design], Any]] = {
     "speed_rpm": lambda d: d.machine.omega / RPM,
-    "p_max_bar": lambda d: gas_of(d.machine).pressure.p_max / 1e5,
-    "mep_bar": lambda d: gas_of(d.machine).pressure.mean_indicated / 1e5,
+    "p_max_bar": lambda d: gas_of(d.machine).pressure.p_max / 1e5 if gas_of(d.machine).has_pressure else None,
+    "mep_bar": lambda d: gas_of(d.machine).pressure.mean_indicated / 1e5 if gas_of(d.machine).has_pressure else None,
     "load_torque": lambda d: d.hinge.load_torque,
     "hinge_torque_max": lambda d: d.hinge.torque_max,
     "hinge_torque_min": lambda d: d.hinge.torque_min,

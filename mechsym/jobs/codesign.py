@@ -25,6 +25,7 @@ from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import verify
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.machine import machine
+from mechsym.machine.torque_curve import TorqueCurve
 
 _SHARES = (0.12, 1.1)  # loads of the map by the full load
 _LOADS = 12  # computed; those between are interpolated
@@ -132,11 +133,19 @@ def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
     law = "constant" if settings.curve == "constant_speed" else "propeller"
     found = []
     for place in family.places(settings):
-        cycle = family.cycle_at(case.need("cycle"), high, settings, place.mep)
         operation = dataclasses.replace(case.need("operation"), speed=place.omega)
-        at = dataclasses.replace(case, sections={**case.sections, "cycle": cycle, "operation": operation})
+        acting = _acting(case, high, settings, place.mep)
+        at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
         found.append(point(machine(at), place.mep, law, place.weight))
     return tuple(found)
+
+
+def _acting(case: Case, high: Any, settings: CoDesignSettings, mep: float) -> dict[str, Any]:
+    """Cycle at a mean indicated pressure [Pa], or torque curve at that share of its full load."""
+    if "torque" in case.sections:
+        curve: TorqueCurve = case.need("torque")
+        return {"torque": dataclasses.replace(curve, load=curve.load * mep / settings.full_load)}
+    return {"cycle": family.cycle_at(case.need("cycle"), high, settings, mep)}
 
 
 def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: float) -> RippleMap:

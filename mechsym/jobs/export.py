@@ -52,7 +52,7 @@ class Ready:
 
 def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
-    hinged = {"cycle", "spring", "guide"} <= set(case.sections)
+    hinged = {"spring", "guide"} <= set(case.sections)
     if is_own(case.mechanism) and not hinged or "drive" in case.sections or case.mechanism == "crank_train":
         return Ready(problem=problem_of(_running(case)))
     if is_own(case.mechanism) or case.mechanism == "crosshead" and not _by_spark(case):

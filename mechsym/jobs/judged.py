@@ -22,7 +22,7 @@ _COLD_AIR = 1.4  # no mixture of air, fuel and products has more
 
 def of_gas(case: Case, found: Gas | None) -> tuple[Doubt, ...]:
     """Peak pressure, mean pressure and temperature of the gas that drives a machine; none without gas."""
-    if found is None:
+    if found is None or not found.has_pressure:
         return ()
     pressure = found.pressure
     told = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}

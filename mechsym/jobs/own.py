@@ -4,6 +4,7 @@ Who acts is said by the roles of the declaration (`piston`, `rotor`) and by the 
 `[drive]`, `[load]`, constants in `[inputs]`; `[start]` has coordinates, velocities and guesses.
 """
 
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from functools import lru_cache
 from typing import Any
@@ -13,11 +14,12 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.jobs.own_gas import Piston, kinks_of, mean_torque, period_of, pistons
+from mechsym.jobs.own_gas import Piston, kinks_of, mean_torque, period_of, pistons, shaft_curve
 from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, listing
+from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.simulate.engine import load_value
 from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation, StepTorque
@@ -74,24 +76,39 @@ def problem(case: Case) -> Problem:
     """
     wanted = simulation_of(case)
     mechanism = mechanism_of(case)
+    if "flywheel" in case.sections:
+        mechanism = with_inertia(mechanism, case.need("flywheel").inertia)
     acting = pistons(case, one_coordinate(case)) if "cycle" in case.sections else []
-    mean = mean_torque(case, one_coordinate(case), acting) if acting else 0.0
+    curve, mean = _curve(case, mechanism) if "torque" in case.sections else (None, 0.0)
+    mean = mean_torque(case, one_coordinate(case), acting) if acting else mean
     values = {q: mechanism.dependents.get(q, wanted.phi_start) for q in mechanism.coordinates} | guesses(case)
-    speed = _speed(case, wanted, bool(acting))
+    engine = bool(acting) or curve is not None
+    speed = _speed(case, wanted, engine)
     rates = {f"{q}d": 0.0 if q in mechanism.dependents else speed for q in mechanism.coordinates} | guesses(case)
     u0 = tuple(rates[f"{q}d"] for q in mechanism.coordinates)
     t_end, output = _end(case, wanted, u0[0])
+    _require_closed(case, mechanism, values)
     return Problem(
         mechanism=mechanism,
-        parts=_parts(case, mechanism, acting, mean),
+        parts=(*_parts(case, mechanism, acting, mean, engine), *([curve] if curve else [])),
         q0=tuple(values[q] for q in mechanism.coordinates),
         u0=u0,
         t_end=t_end,
         turns=wanted.turns,
         kinks=_kinks(mechanism, acting),
-        stops=(Stop(name="stall", of=f"{mechanism.coordinates[0]}d", direction="falling"),) if acting else (),
+        stops=(Stop(name="stall", of=f"{mechanism.coordinates[0]}d", direction="falling"),) if engine else (),
         output=output,
     )
+
+
+def _require_closed(case: Case, mechanism: Mechanism, start: Mapping[str, float]) -> None:
+    dynamics = mechanism.functions["dynamics"]
+    values = [start.get(n, 0.0) for n in dynamics.name_in()]
+    if not np.isfinite(np.asarray(dynamics.call(values)[0])).all():
+        at = ", ".join(f"{q} = {start[q]:g}" for q in mechanism.coordinates)
+        raise BadInput(
+            f"{case.file}: the loop is open at the start ({at}): links too short there; give [start] another pose"
+        )
 
 
 def simulation_of(case: Case) -> Simulation:
@@ -115,7 +132,7 @@ def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float]:
     return 10 * wanted.turns * _TURN / speed, _TURN / speed / _TURN_POINTS
 
 
-def _parts(case: Case, mechanism: Mechanism, acting: list[Piston], mean: float) -> tuple[Part, ...]:
+def _parts(case: Case, mechanism: Mechanism, acting: list[Piston], mean: float, engine: bool) -> tuple[Part, ...]:
     q = mechanism.coordinates[0]
     found = [
         Part(name=f"gas_{p.name}", input=p.input, value=Periodic(
@@ -133,7 +150,33 @@ def _parts(case: Case, mechanism: Mechanism, acting: list[Piston], mean: float) 
     taken = {p.input for p in found}
     given = {n: v for n, v in constants(case).items() if v and n not in taken}
     found += [Part(name=f"input_{n}", input=n, value=Steps(values=(v,))) for n, v in given.items()]
-    return (*found, *_load(case, mean, bool(acting)))
+    return (*found, *_load(case, mean, engine))
+
+
+def _curve(case: Case, mechanism: Mechanism) -> tuple[Part, float]:
+    """The torque of `[torque]` at the speed of operation, on an input that turns the shaft, and its mean [N*m]."""
+    name, sign = shaft_input(case, mechanism)
+    curve, period = shaft_curve(case, one_coordinate(case), case.need("operation").speed)
+    even = np.arange(7200) * period / 7200
+    return Part(name="torque", input=name, value=Periodic(
+        coordinate=mechanism.coordinates[0], value=lambda phi: sign * curve(phi), period=period,
+    )), float(np.mean(curve(even)))  # fmt: skip
+
+
+def shaft_input(case: Case, mechanism: Mechanism) -> tuple[str, float]:
+    """An input that is a torque on the first coordinate, and its sign there."""
+    dynamics = mechanism.functions["dynamics"]
+    at = {n: 0.3 for n in dynamics.name_in()}
+    rotors = [r[key] for key in ("drive", "load") for r in roles(case, "rotor") if r[key]]
+    for name in dict.fromkeys([*rotors, *mechanism.inputs]):
+        one, other = (np.asarray(dynamics(**{**at, name: v})["generalized_force"]).ravel() for v in (0.0, 1.0))
+        change = np.round(other - one, 9)
+        if abs(change[0]) == 1 and not change[1:].any():
+            return name, float(change[0])
+    raise BadInput(
+        f"{case.file}: [torque] needs an input on the shaft; declare M = m.inputs('M', 'N*m') and "
+        f"m.torque(M, along={mechanism.coordinates[0]})"
+    )
 
 
 def _load(case: Case, mean: float, engine: bool) -> tuple[Part, ...]:

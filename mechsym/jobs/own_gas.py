@@ -25,6 +25,7 @@ from mechsym.cycle.motion import from_top, piston_roles, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import breathing_with, engine_with, of
 from mechsym.jobs.scavenge import scavenged, told
+from mechsym.machine.torque_curve import TorqueCurve, read_torque, torque_at
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import record
 
@@ -177,3 +178,34 @@ def kinks_of(acting: list[Piston]) -> tuple[float, ...]:
         for turn in range(2)
     )
     return tuple(sorted({round(a, 14) for a in found}))
+
+
+def shaft_curve(case: Case, mechanism: Mechanism, omega: float) -> tuple[Callable[[np.ndarray], np.ndarray], float]:
+    """The torque that `[torque]` puts on the shaft over the angle, 0 without it, and its period [rad].
+
+    Parameters
+    ----------
+    omega : float
+        Speed of operation [rad/s]
+
+    Returns
+    -------
+    curve, period : callable, float
+        Angle [rad] to torque, positive driving [N*m]; period [rad]
+    """
+    if "torque" not in case.sections:
+        return (lambda phi: np.zeros(np.shape(phi))), 2 * np.pi
+    asked: TorqueCurve = case.need("torque")
+    if "cycle" in case.sections:
+        raise BadInput(f"{case.file}: [torque] stands in place of [cycle]; leave one of them out")
+    (q,) = mechanism.coordinates
+    inertia, phi = mechanism.functions["dynamics"], ca.SX.sym(q)
+    slope = ca.jacobian(inertia(phi, *[0.0] * (inertia.n_in() - 1))[0], phi)
+    over = ca.Function("slope", [phi], [slope])
+    table = read_torque(asked.file)
+    curve = torque_at(table, omega, asked.load, lambda at: _shaped(over, at))
+    return curve, table.period
+
+
+def _shaped(function: ca.Function, at: np.ndarray) -> np.ndarray:
+    return np.asarray(function(np.reshape(at, (1, -1)))).reshape(np.shape(at))

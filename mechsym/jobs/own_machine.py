@@ -13,8 +13,10 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.cases import Case
+from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.dead_centres import motion_over
 from mechsym.cycle.gas import Gas
-from mechsym.errors import BadInput
+from mechsym.cycle.pressure import ATMOSPHERE, Pressure
 from mechsym.jobs import own, own_gas
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
@@ -30,6 +32,7 @@ class ShaftTorque(Gas):
     """A torque on the shaft in place of one piston's gas force."""
 
     curve: Callable[[np.ndarray], np.ndarray]  #: crank angle [rad] to torque [N*m]
+    told: bool = True  #: whether a pressure is known
 
     __hash__ = object.__hash__
 
@@ -37,6 +40,11 @@ class ShaftTorque(Gas):
     def on_shaft(self) -> bool:
         """It is a torque."""
         return True
+
+    @property
+    def has_pressure(self) -> bool:
+        """A torque from a table has none."""
+        return self.told
 
     def force(self, phi: np.ndarray) -> np.ndarray:
         """The torque over the crank angle [rad]: [N*m] for each metre of travel."""
@@ -49,17 +57,18 @@ def machine(case: Case) -> Machine:
     Parameters
     ----------
     case : Case
-        With `[parameters]`, `[operation]`, and `[cycle]` on the pistons
+        With `[parameters]` and `[operation]`; `[cycle]` on the pistons, or `[torque]` on the shaft, or neither, where
+        weights, springs, inertia and `[drive]` are all that acts
     """
     mechanism, omega = own.one_coordinate(case), case.need("operation").speed
     acting = own_gas.pistons(case, mechanism)
     flywheel = case.sections.get("flywheel")
-    if not acting:
-        raise BadInput(f"{case.file}: nothing turns the shaft; give [cycle], for the pistons of the declaration")
     if len(acting) == 1 and acting[0].start == 0.0:
         gas, travel = acting[0].gas, own.roles(case, "piston")[0]["travel"]
-    else:
+    elif acting:
         gas, travel = _on_shaft(case, mechanism, acting), ""
+    else:
+        gas, travel = _without_gas(case, mechanism, omega), ""
     shaft = _shaft(case, mechanism, omega, travel)
     if flywheel is not None:
         shaft = with_inertia(shaft, flywheel.inertia)
@@ -78,12 +87,32 @@ def _on_shaft(case: Case, mechanism: Mechanism, acting: list[own_gas.Piston]) ->
     return ShaftTorque(pressure=pressure, chamber=first.chamber, curve=own_gas.gas_torque(case, mechanism, acting))
 
 
+def _without_gas(case: Case, mechanism: Mechanism, omega: float) -> ShaftTorque:
+    """The torque of `[torque]` on the shaft, or none: no pressure is known of it."""
+    curve, period = own_gas.shaft_curve(case, mechanism, omega)
+    fact = "no gas acts" if "torque" not in case.sections else f"torque of {case.need('torque').file}"
+    phi = ca.SX.sym("phi")
+    nothing = Pressure(
+        kind="none", period=period, kinks=(), absolute=lambda at: np.full(np.shape(at), ATMOSPHERE), p_max=ATMOSPHERE,
+        phi_p_max=0.0, mean_indicated=0.0, facts=(fact,),
+    )  # fmt: skip
+    travel = ca.Function("travel", [phi], [1 - ca.cos(phi), ca.sin(phi)], ["phi"], ["x", "dx_dphi"])  # of nothing
+    room = Chamber(
+        motion=motion_over(travel), pistons=1, bore=0.0, area=0.0, stroke=0.0,
+        clearance=0.0, displacement=0.0, compression_ratio=1.0, back_pressure=ATMOSPHERE,
+    )  # fmt: skip
+    return ShaftTorque(pressure=nothing, chamber=room, curve=curve, told=False)
+
+
 def _shaft(case: Case, base: Mechanism, omega: float, travel: str) -> Mechanism:
     """The mechanism with the inputs F, M_r and M_h, and all else as a torque over the angle without a mean."""
     (q,) = base.coordinates
     phi, u = ca.SX.sym(q), ca.SX.sym(f"{q}d")
     F, M_r, M_h = (ca.SX.sym(n) for n in ("F", "M_r", "M_h"))
     constants = own.constants(case)
+    if "drive" in case.sections:
+        drive = case.need("drive")
+        constants = {**constants, drive.input or own.driving_input(case): drive.torque}
     inputs = [constants.get(n, 0.0) for n in base.inputs]
     mass, bias, _ = base.functions["dynamics"](phi, u, *inputs)
     at_speed = base.functions["dynamics"](phi, omega, *inputs)[2]
@@ -100,9 +129,11 @@ def _shaft(case: Case, base: Mechanism, omega: float, travel: str) -> Mechanism:
         "dynamics", [phi, u, F, M_r, M_h], [mass, bias, force], [q, f"{q}d", "F", "M_r", "M_h"],
         ["mass_matrix", "bias", "generalized_force"],
     )  # fmt: skip
-    kinematic = {k: v for k, v in found.items() if k not in motion} | motion
+    kinematic = {k: v for k, v in found.items() if k not in motion and k != q} | motion
     kinematics = ca.Function("kinematics", [phi], list(kinematic.values()), [q], list(kinematic))
-    functions = {"kinematics": kinematics, "dynamics": dynamics, "energy": _energy(base, at_speed - mean, phi, u)}
+    kept = {n: base.functions[n] for n in ("drawing",) if n in base.functions}
+    energy = _energy(base, at_speed - mean, phi, u)
+    functions = kept | {"kinematics": kinematics, "dynamics": dynamics, "energy": energy}
     return replace(base, inputs=("F", "M_r", "M_h"), functions=functions)
 
 

@@ -39,7 +39,8 @@ def turn(case: Case) -> OwnTurn:
     """One cycle of a case at its speed of operation."""
     mechanism, omega = own.one_coordinate(case), case.need("operation").speed
     acting = own_gas.pistons(case, mechanism)
-    period = own_gas.period_of(acting) * _turns(case)
+    curve, of_curve = own_gas.shaft_curve(case, mechanism, omega)
+    period = max(own_gas.period_of(acting), of_curve) * _turns(case)
     n = round(_STEPS_PER_TURN * period / (2 * np.pi))
     phi = np.arange(n) * period / n
     (q,) = mechanism.coordinates
@@ -47,6 +48,9 @@ def turn(case: Case) -> OwnTurn:
     letters |= {name: np.full(n, value) for name, value in own.constants(case).items()}
     for piston in acting:
         letters[piston.input] = letters.get(piston.input, np.zeros(n)) + piston.force(phi)
+    if "torque" in case.sections:
+        name, sign = own.shaft_input(case, mechanism)
+        letters[name] = letters.get(name, np.zeros(n)) + sign * curve(phi)
     given = {name: letters.get(name, np.zeros(n)) for name in mechanism.inputs}
     letters |= given
     _, bias, force = _over(mechanism, "dynamics", letters)

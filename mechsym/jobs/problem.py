@@ -67,7 +67,7 @@ def problem_of(case: Case) -> Problem:
     wanted, case = simulation_of(case), braked(case)
     if case.mechanism == "crank_train":
         return _train(case, wanted)
-    if "drive" in case.sections:
+    if "drive" in case.sections and not is_own(case.mechanism):
         return _driven(case, wanted)
     engine = engine_of(case)
     speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
@@ -89,7 +89,8 @@ def braked(case: Case) -> Case:
 
 def _hinged(case: Case) -> bool:
     """Whether a hinge is designed for the run."""
-    return {"cycle", "spring", "guide"} <= set(case.sections) and simulation_of(case).hinge == "designed"
+    acts = "cycle" in case.sections or is_own(case.mechanism)
+    return acts and {"spring", "guide"} <= set(case.sections) and simulation_of(case).hinge == "designed"
 
 
 def engine_of(case: Case) -> Machine:

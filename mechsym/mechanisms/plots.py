@@ -77,8 +77,8 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float) -> Figure:
     picture = Figure(figsize=(max(size * wide, 3.0), max(size * tall, 1.6) + 0.5), layout="constrained")
     axes = picture.add_subplot()
     _paint(axes, drawn, angle)
-    step = 10 ** math.floor(math.log10(wide / 3))
-    length = max(k * step for k in (1, 2, 5) if k * step <= wide / 3)
+    step = 10 ** math.floor(math.log10(max(wide, tall / 4) / 3))
+    length = max(k * step for k in (1, 2, 5) if k == 1 or k * step <= wide / 3)
     y = low - 0.02 * max(wide, tall)
     axes.plot([left, left + length], [y, y], color=INK, lw=1.5)
     axes.text(

@@ -12,6 +12,7 @@ from mechsym.simulate import constrained, native_backend
 from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
 from mechsym.simulate.backends import FALLBACK, NATIVE, backend
 from mechsym.simulate.equations import System, held, start_of, system
+from mechsym.simulate.opening import ended, posed
 from mechsym.simulate.phase import Phase, Raw, Surface
 from mechsym.simulate.problem import Problem, Steps
 from mechsym.simulate.result import Event, Result
@@ -190,7 +191,8 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
     wall_s : float
         Time it took [s]
     """
-    n = equations.size
+    n, whole = equations.size, ended(problem.mechanism, raw)
+    raw = posed(problem.mechanism, whole)
     columns = dict(zip(equations.columns, raw.y.T, strict=True))
     units = dict(zip(equations.columns, equations.units, strict=True))
     known = energies(problem.mechanism, raw.y[:, :n].T, raw.y[:, n : 2 * n].T)
@@ -202,7 +204,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
             units |= dict.fromkeys(beside, "J")
     heats = tuple(s.name for s in problem.states if s.role == "heat")
     met = raw.end in {constrained.LOCKED, *(s.name for s in problem.stops)}
-    state = dict(zip(equations.columns[: 2 * n], raw.y[-1].tolist(), strict=False))
+    state = dict(zip(equations.columns[: 2 * n], whole.y[-1].tolist(), strict=False))
     return Result(
         status="failed" if raw.failure else "unchecked",
         reason=raw.failure or "the tolerance was not checked",
@@ -210,7 +212,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
         columns=columns,
         units=units,
         end=raw.end,
-        event=Event(name=raw.end, t=float(raw.t[-1]), state=state) if met else None,
+        event=Event(name=raw.end, t=float(whole.t[-1]), state=state) if met else None,
         energy=energy_audit({p.name: p.role for p in problem.parts}, columns, heats),
         tolerance_difference=None,
         steps=raw.steps,

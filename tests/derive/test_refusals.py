@@ -34,6 +34,12 @@ CASES = {
     "missing mass": ('    m.body("b", at=(r * cos(phi), 0))\n', 7, "nothing that moves with phi has a mass"),
     "declared twice": ('    m.parameters("r", "m")\n', 10, "is declared twice"),
     "unknown unit": ('    m.parameters("k", "N/furlong")\n', 10, "is not known"),
+    "a word of Python": ('    m.parameters("lambda", "m")\n', 10, "write lambda_"),
+    "another letter to Python": ('    m.parameters("\u2113", "m")\n', 10, "Python reads"),
+    "name of a rate": ('    m.coordinates("phid")\n', 10, "is the name of a rate of the coordinate 'phi'"),
+    "name of a rate, later": ('    m.inputs("qd", "N"); m.coordinates("q")\n', 10, "is the name of a rate"),
+    "not finite": ('    m.body("b", mass=M, at=(r * cos(phi) / 0, 0))\n', 10, "is not finite"),
+    "leaves": ("    raise SystemExit(3)\n", 10, "SystemExit: 3"),
     "any error": ("    1 / 0\n", 10, "ZeroDivisionError"),
 }
 
@@ -54,3 +60,10 @@ def test_a_file_without_a_mechanism_is_refused(tmp_path):
     path.write_text("def nothing():\n    return None\n")
     with pytest.raises(BadInput, match="declares no mechanism"):
         chosen(path)
+
+
+def test_what_a_file_prints_is_no_result(tmp_path, capsys):
+    path = tmp_path / "loud.py"
+    path.write_text("print('read')\n" + HEAD + LINK + "    print('made')\n    return m\n")
+    chosen(path)
+    assert capsys.readouterr().out == ""

@@ -55,12 +55,12 @@ def read_diagram(path: str | Path, period: float, angle_column: str = "", pressu
     angle_column, pressure_column : str
         Header of the column to take when several carry such a unit
     """
-    comments, header, rows = _split(str(path), _text(path))
+    comments, header, rows = split_table(str(path), text_of(path))
     angle_at, angle_unit = _column(str(path), header, "rad", angle_column)
     pressure_at, pressure_unit = _column(str(path), header, "Pa", pressure_column)
     names, clock = header[1], _clock(header[1])
     lines = np.array([line for line, _ in rows])
-    values = _numbers(str(path), rows, names, (angle_at, pressure_at, *(at for at, _ in clock)))
+    values = numbers_of(str(path), rows, names, (angle_at, pressure_at, *(at for at, _ in clock)))
     pressure = values[:, 1] * parse(f"1 {pressure_unit}", "Pa")
     angle = _continuous(str(path), values[:, 0] * parse(f"1 {angle_unit}", "rad"), lines)
     _check_steps(str(path), angle, lines, names[angle_at])
@@ -93,7 +93,8 @@ def _rising(file: str, time: np.ndarray, lines: np.ndarray) -> np.ndarray:
     return time
 
 
-def _text(path: str | Path) -> str:
+def text_of(path: str | Path) -> str:
+    """Text of a table's file."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -102,7 +103,8 @@ def _text(path: str | Path) -> str:
         raise BadInput(f"{path}: cannot be read ({error.strerror}); give the path of a CSV file") from None
 
 
-def _split(file: str, text: str) -> tuple[list[str], tuple[int, list[str]], list[tuple[int, list[str]]]]:
+def split_table(file: str, text: str) -> tuple[list[str], tuple[int, list[str]], list[tuple[int, list[str]]]]:
+    """Comments, header and rows of a table, the last two with their lines in the file."""
     comments, table = [], []
     for line, content in enumerate(text.splitlines(), start=1):
         if content.lstrip().startswith("#"):
@@ -158,7 +160,8 @@ def _unit(name: str) -> str:
     return (match["plain"] or match["bracketed"] or "") if match else ""
 
 
-def _numbers(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, ...]) -> np.ndarray:
+def numbers_of(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, ...]) -> np.ndarray:
+    """Columns of a table as numbers, shape (rows, columns), in the units of its header [as headed]."""
     values = np.empty((len(rows), len(at)))
     for row, (line, cells) in enumerate(rows):
         if len(cells) != len(names):

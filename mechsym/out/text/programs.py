@@ -6,6 +6,7 @@ import casadi as ca
 
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import listing, names
+from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.record import bind, generated
 from mechsym.native.tape import Tape, read
 from mechsym.out.block import Block
@@ -37,13 +38,13 @@ def of_mechanism(name: str) -> Written:
     """
     if name == _ASSEMBLED:
         raise BadInput(f"{name} is put together from its data; export a case of it, for example alpha-stirling")
-    if name not in names():
+    if name not in names() and not is_file(name):
         raise BadInput(f"{name!r} is no mechanism; {suggest(name, names())}")
     mechanism = bind(name, {p: ca.SX.sym(p) for p in generated(name).PARAMETERS})
     units = {k: u for group in ("coordinates", "parameters", "inputs", "outputs") for k, u in _listed(name, group)}
     groups = {group: f for group, f in mechanism.functions.items() if f.numel_out()}
     return Written(
-        name=name, about=listing(name)["about"], tapes={g: read(f) for g, f in groups.items()},
+        name=listing(name)["name"], about=listing(name)["about"], tapes={g: read(f) for g, f in groups.items()},
         inputs={g: tuple(f.name_in()) for g, f in groups.items()},
         outputs={g: read(f).outputs for g, f in groups.items()}, units=units,
     )  # fmt: skip

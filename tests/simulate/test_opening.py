@@ -1,0 +1,81 @@
+"""A closed form that has no pose beyond an angle: the run ends there with the event `locked`, not as a failure."""
+
+import numpy as np
+import pytest
+
+from mechsym import cases
+from mechsym.errors import BadInput
+from mechsym.jobs.problem import problem_of, settings_of
+from mechsym.simulate import simulate
+
+FOURBAR = """from mechsym.derive import Mechanism
+
+
+def fourbar():
+    m = Mechanism("fourbar")
+    phi = m.coordinates("phi")
+    a, b, c, d = m.parameters("a b c d", "m", above=0)
+    J = m.parameters("J", "kg*m^2", above=0)
+    M = m.inputs("M", "N*m")
+    crank, rod, rocker = m.link("crank", turns=phi, inertia=J), m.link("rod", inertia=J), m.link("rocker", inertia=J)
+    m.pin("A", m.frame, crank)
+    m.pin("B", crank.at(a), rod)
+    m.pin("D", m.frame.at(d), rocker)
+    m.pin("C", rod.at(b), rocker.at(c), branch=1)
+    m.torque(M, along=phi)
+    return m
+"""
+CASE = """mechanism = "./fourbar.py"
+[parameters]
+a = 0.2
+b = 0.25
+c = 0.2
+d = 0.4
+J = 0.01
+[simulation]
+t_end = 5
+speed_start = {speed}
+phi_start = {start}
+[drive]
+torque = {torque}
+"""
+
+
+def case_of(folder, speed=0.0, start=0.0, torque=0.0, more=""):
+    (folder / "fourbar.py").write_text(FOURBAR)
+    (folder / "f.toml").write_text(CASE.format(speed=speed, start=start, torque=torque) + more)
+    return cases.load(str(folder / "f.toml"))
+
+
+# rod and rocker in line: a^2 + d^2 - 2 a d cos phi = (b + c)^2
+LOCKS = np.arccos((0.2**2 + 0.4**2 - 0.45**2) / (2 * 0.2 * 0.4))
+
+
+@pytest.mark.parametrize("backend", ["auto", "dop853"])
+@pytest.mark.parametrize(("speed", "torque", "sign"), [(3.0, 0.0, 1), (0.0, 0.5, 1), (-3.0, 0.0, -1)])
+def test_a_run_ends_where_the_loop_opens(tmp_path, speed, torque, sign, backend):
+    case = case_of(tmp_path, speed, 0.3 * sign, torque)
+    found = simulate(problem_of(case), settings_of(case))
+    assert found.event is not None and found.event.name == "locked" == found.end
+    assert found.event.state["phi"] == pytest.approx(sign * LOCKS, abs=1e-5)
+    assert 0 < found.t[-1] <= found.event.t < 5
+    assert found.status != "failed" and abs(found.energy.residual) < 1e-6
+
+
+def test_a_start_beyond_is_refused(tmp_path):
+    case = case_of(tmp_path, 1.0, 2.5)
+    with pytest.raises(BadInput, match=r"the loop is open at the start \(phi = 2.5\)"):
+        problem_of(case)
+
+
+@pytest.mark.slow
+def test_the_flywheel_of_a_case_is_on_the_shaft(tmp_path):
+    bare, heavy = (
+        case_of(tmp_path, 0.0, 0.3, 0.1, more) for more in ("", "[flywheel]\ninertia = 0.5\n")
+    )  # fmt: skip
+    found = [simulate(problem_of(case), settings_of(case)) for case in (bare, heavy)]
+    assert found[1].event.t > 3 * found[0].event.t
+    energy = found[1].energy
+    assert abs(energy.residual) < 1e-6
+    speed = found[1].columns["phid"]
+    assert found[1].columns["kinetic_energy"][5] > 0.5 * 0.5 * speed[5] ** 2
