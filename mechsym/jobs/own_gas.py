@@ -56,6 +56,8 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
     """
     if "cycle" not in case.sections:
         return []
+    if "torque" in case.sections:
+        raise BadInput(f"{case.file}: [torque] stands in place of [cycle]; leave one of them out")
     with of(case):
         roles = piston_roles(case.mechanism)
     if kind_of(case.sections["cycle"]).given == "train":
@@ -196,8 +198,6 @@ def shaft_curve(case: Case, mechanism: Mechanism, omega: float) -> tuple[Callabl
     if "torque" not in case.sections:
         return (lambda phi: np.zeros(np.shape(phi))), 2 * np.pi
     asked: TorqueCurve = case.need("torque")
-    if "cycle" in case.sections:
-        raise BadInput(f"{case.file}: [torque] stands in place of [cycle]; leave one of them out")
     (q,) = mechanism.coordinates
     inertia, phi = mechanism.functions["dynamics"], ca.SX.sym(q)
     slope = ca.jacobian(inertia(phi, *[0.0] * (inertia.n_in() - 1))[0], phi)

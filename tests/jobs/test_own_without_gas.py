@@ -1,5 +1,7 @@
 """Machines of the user's own that no gas turns: a torque curve, a drive, weights, springs, inertia alone."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,8 +16,8 @@ from mechsym.jobs.hinge import hinge
 from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.simulate import simulate
-from tests.mechanisms.test_own_examples import EXAMPLES
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 TEXT = (EXAMPLES / "compressor.toml").read_text().replace("./compressor.py", str(EXAMPLES / "compressor.py"))
 START, END = TEXT.index("[cycle]"), TEXT.index("[spring]")
 
@@ -46,6 +48,7 @@ def _curves(mechanism, phi):
     return function.name_out(), [np.asarray(v).ravel() for v in function(phi[None, :])]
 
 
+@pytest.mark.slow
 def test_a_torque_curve_stands_for_the_cycle(tmp_path, curve):
     case, phi = compressor(tmp_path, curve), np.linspace(0, 2 * np.pi, 500)
     wanted = torque(machine(cases.load(str(EXAMPLES / "compressor.toml"))))
@@ -56,14 +59,16 @@ def test_a_torque_curve_stands_for_the_cycle(tmp_path, curve):
     run = simulate(problem_of(case), settings_of(case))
     assert abs(run.energy.residual) < 1e-8
     turned = own_turn.turn(case)
-    assert turned.columns["driving_torque"].mean() == pytest.approx(-found.load_torque, rel=1e-6)
+    assert turned.columns["driving_torque"].mean() == pytest.approx(-found.load_torque, rel=1e-3)  # of 720 points
 
 
+@pytest.mark.slow
 def test_codesign_takes_the_curve_too(tmp_path, curve):
     found = point(machine(compressor(tmp_path, curve)), 1.0)
     assert found.law == "constant" and found.load_torque < 0 and found.misfire is None
 
 
+@pytest.mark.slow
 def test_a_hinge_without_gas_balances_inertia_alone(tmp_path):
     design = hinge(compressor(tmp_path))
     phi = np.linspace(0, 2 * np.pi, 100)

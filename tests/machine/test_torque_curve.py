@@ -14,7 +14,7 @@ def works(phi, load, omega):
 
 
 def dinertia(phi):
-    return 0.3 * np.sin(2 * np.asarray(phi))
+    return 0.003 * np.sin(2 * np.asarray(phi))
 
 
 def written(tmp_path, head, rows):
