@@ -172,7 +172,7 @@ def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) ->
     if bare.speed_ripple is not None and bare.speed_ripple <= target:
         return Flywheel(status="not needed", reason=bare.reason, inertia=0.0, speed_ripple=bare.speed_ripple)
     # the usual estimate: work that swings = ripple * inertia * speed^2
-    top = _swing(panels) / (target * speed**2)
+    top = max(_swing(panels) / (target * speed**2), 1e-3 * float(np.mean(panels.inertia)))
     for _ in range(40):
         if excess(top) <= 0:
             break
