@@ -7,16 +7,18 @@ import numpy as np
 
 from mechsym import cases
 from mechsym.errors import BadInput
+from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
 from mechsym.hinge.summary import guide_turn
 from mechsym.jobs.hinge import hinge
 from mechsym.mechanisms import plots
-from mechsym.mechanisms.drawing import Circle, Line, Shapes, extent_of, shapes
+from mechsym.mechanisms.drawing import Shapes, extent_of
+from mechsym.mechanisms.drawn_parts import turned
 from mechsym.plausible import sifted
 from mechsym.quantities import record
 
 _POINTS = 361  # of each curve
-_TRACK = 90  # corners of the drawn guide
 
 
 @record
@@ -125,29 +127,12 @@ def _short(values: np.ndarray) -> tuple[float, ...]:
 
 
 def _drawing(design: Design) -> Callable[[float], Shapes] | None:
-    mechanism, parameters = design.machine.mechanism.name, design.origin.sections["parameters"]
-
-    def machine(angle: float) -> Shapes:
-        return shapes(mechanism, parameters, angle)
-
-    try:
-        left, right, low, _ = extent_of(machine)
-    except BadInput:
-        return None
-    if design.guide.rho is None:
+    """Engine and hinge below it, both to one scale."""
+    machine = engine(design)
+    if machine is None or design.usable is None:
         return machine
-    theta, ratio = np.linspace(0, 2 * np.pi, _TRACK + 1), design.guide.parameters.shaft_ratio
-    rho = design.guide.rho(theta)
-    centre = ((left + right) / 2, low - 1.2 * (float(rho.max()) + design.rollers.radius))
-    return lambda angle: (*machine(angle), *_guide(design, rho, theta, ratio * angle, centre))
-
-
-def _guide(design: Design, rho: np.ndarray, theta: np.ndarray, turned: float, centre: tuple[float, float]) -> Shapes:
-    """The path of the roller centres, turned by an angle [rad], and its rollers, which stay on one line."""
-    x, y = centre
-    corners = zip((x + rho * np.cos(theta - turned)).tolist(), (y + rho * np.sin(theta - turned)).tolist(), strict=True)
-    r = float(np.interp(turned % (2 * np.pi), theta, rho))
-    sides = [(1, -1)[k] for k in range(design.guide.rollers)]
-    hub = Circle(role="joint", centre=centre, radius=0.1 * float(rho.min()))
-    rollers = (Circle(role="joint", centre=(x + side * r, y), radius=design.rollers.radius) for side in sides)
-    return (Line(role="rod", points=tuple(corners)), *rollers, hub)
+    left, right, low, _ = extent_of(machine)
+    hinge = elastic_hinge(design.usable, design.rollers)
+    *_, high = extent_of(hinge)
+    place = ((left + right) / 2, low - 1.1 * high)
+    return lambda angle: (*machine(angle), *turned(hinge(angle), 0.0, origin=place))

@@ -22,7 +22,7 @@ def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str) -> l
         What the page says of the machine
     """
     drive, figures = found.turn.drive, _figures(found)
-    turning = plots_mechanism.animation(drive.name, drive.parameters, about)
+    turning = plots_mechanism.animation(drive.name, drive.parameters, about, _bore(found))
     files = [
         write_text(folder / "report.html", html(found, numbers, figures, about)),
         write_quantities(folder / "forces.csv", found.columns),
@@ -49,10 +49,14 @@ def _see(found: Forces) -> dict[str, str]:
     return {picture.name: picture.see for picture in found.view.pictures}
 
 
+def _bore(found: Forces) -> float | None:
+    return None if found.turn.gas is None else float(found.turn.gas.chamber.bore)
+
+
 def _figures(found: Forces) -> dict[str, str]:
     drive = found.turn.drive
     drawn = {picture.name: picture.draw() for picture in found.view.pictures}
-    drawn["mechanism"] = plots_mechanism.figure(drive.name, drive.parameters, 0.8)
+    drawn["mechanism"] = plots_mechanism.figure(drive.name, drive.parameters, 0.8, _bore(found))
     return {name: svg(figure) for name, figure in drawn.items()}
 
 

@@ -8,10 +8,12 @@ from matplotlib.figure import Figure
 
 from mechsym.cycle.chamber import volume
 from mechsym.hinge.contact import Contact
+from mechsym.hinge.drawing import elastic_hinge, same_after_half_a_turn
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.trials import Trial
 from mechsym.machine.record import gas_of
+from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import velocities
 from mechsym.style import (
     BLUE,
@@ -109,7 +111,7 @@ def track(design: Design, turn: Contact, radius: float) -> Figure:
     ]
     if design.guide.rollers == 2:
         told = "second track, half a turn on"
-        if _same_turned(np.column_stack([x, y])):
+        if same_after_half_a_turn(np.column_stack([x, y])):
             curves[-1][3]["label"] = "cut profile, both tracks alike"
         else:
             curves.append((-x, -y, RED, {"linewidth": 0.9, "linestyle": ":", "label": told}))
@@ -123,12 +125,11 @@ def track(design: Design, turn: Contact, radius: float) -> Figure:
     return figure
 
 
-def _same_turned(points: np.ndarray) -> bool:
-    """Whether a closed curve comes back to itself after half a turn; points at even angles."""
-    half = len(points) // 2
-    return bool(len(points) % 2) and bool(
-        np.abs(points[half:] + points[: half + 1]).max() < 1e-6 * float(np.abs(points).max())
-    )
+def hinge(design: Design) -> Figure:
+    """Spring, pistons, rollers and tracks to scale, the crank a little after top dead centre."""
+    assert design.usable is not None
+    drawn = elastic_hinge(design.usable, design.rollers)
+    return figure_of(drawn, np.pi / 4, "The elastic hinge to scale: spring, pistons, rollers and tracks")
 
 
 def contact(turn: Contact) -> Figure:

@@ -109,6 +109,9 @@ def pictures(design: Design) -> tuple[Picture, ...]:
     if design.guide.rho is not None:
         radius, at = design.rollers.radius, len(found) - 1
         found[at:at] = [
+            Picture(name="elastic_hinge", draw=lambda: plots.hinge(design),
+                    see="The hinge to scale: the spring between its pistons turns with the guide's shaft, the rollers "
+                    "run on tracks that stand still."),
             Picture(name="track", draw=lambda: plots.track(design, guide_turn(design), radius),
                     see="Guide to scale; the profile is the exact parallel curve at the roller radius."),
             Picture(name="contact", draw=lambda: plots.contact(guide_turn(design)),

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -93,8 +94,10 @@ def test_pictures_and_pages_are_made(mechanism):
     assert right > left and high > low
     assert figure(mechanism, p, 0.8).axes
     page = animation(mechanism, p, "A <title>")
-    frames = json.loads(page.split("const frames = ")[1].split(", styles")[0])
-    assert len(frames) == 120 and "A &lt;title&gt;" in page
+    (drawn,) = json.loads(re.search(r"const scenes = (.*?), readouts", page)[1])
+    moving = [shape for shape in drawn["shapes"] if shape["moves"]]
+    assert {len(shape["moves"]) for shape in moving} == {120} and "A &lt;title&gt;" in page
+    assert {"crank", "piston"} <= {shape["role"] for shape in moving}
 
 
 def test_every_mechanism_has_a_drawing_and_others_are_refused():

@@ -1,0 +1,99 @@
+"""Lines and circles with a role, and the parts that drawings of mechanisms share."""
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from mechsym.quantities import record
+
+Point = tuple[float, float]
+
+
+@record
+class Line:
+    """A line through points, closed when it ends where it starts."""
+
+    role: str
+    points: tuple[Point, ...]  #: Corners [m]
+
+
+@record
+class Circle:
+    """A circle."""
+
+    role: str
+    centre: Point  #: Middle [m]
+    radius: float  #: Radius [m]
+
+
+Shapes = tuple[Line | Circle, ...]
+
+
+def extent_of(drawn: Callable[[float], Shapes]) -> tuple[float, float, float, float]:
+    """Box that holds a drawing at every crank angle [rad]: x_min, x_max, y_min, y_max [m]."""
+    corners: list[Point] = []
+    for angle in np.linspace(0, 2 * math.pi, 24, endpoint=False):
+        for shape in drawn(float(angle)):
+            if isinstance(shape, Line):
+                corners += shape.points
+            else:
+                (x, y), r = shape.centre, shape.radius
+                corners += [(x - r, y - r), (x + r, y + r)]
+    xs, ys = zip(*corners, strict=True)
+    return min(xs), max(xs), min(ys), max(ys)
+
+
+def width_of(bore: float | None, stroke: float) -> float:
+    """Width of a piston as it is drawn: the bore, or in proportion to the stroke where none is known [m]."""
+    return bore or 0.72 * stroke
+
+
+def piston(end: Point, stroke: float, bore: float | None) -> Iterable[Line | Circle]:
+    """A piston with its pin at a point [m]."""
+    width = width_of(bore, stroke)
+    yield box("piston", (end[0] - 0.12 * stroke, end[1] - width / 2), (0.36 * stroke, width))
+
+
+def cylinder(y: float, bottom: float, stroke: float, bore: float | None) -> Iterable[Line | Circle]:
+    """Walls and a head around the way of a piston, from its lowest pin on [m]."""
+    # walls and head around the piston's path; the gaps at head and walls are drawn, not to scale
+    left, right, half = bottom - 0.12 * stroke, bottom + 1.32 * stroke, 0.53 * width_of(bore, stroke)
+    yield Line(role="frame", points=((left, y - half), (right, y - half), (right, y + half), (left, y + half)))
+
+
+def box(role: str, corner: Point, size: Point) -> Line:
+    """A closed rectangle from its lower left corner [m]."""
+    (x, y), (a, b) = corner, size
+    return Line(role=role, points=((x, y), (x + a, y), (x + a, y + b), (x, y + b), (x, y)))
+
+
+def slider_crank(r: float, l: float, offset: float, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+    """Crank, rod, piston and cylinder along x; lengths and bore [m], its own crank angle [rad]."""
+    stroke = 2 * r
+    pin = (r * math.cos(angle), r * math.sin(angle))
+    end = (pin[0] + math.sqrt(l**2 - (pin[1] - offset) ** 2), offset)
+    yield Circle(role="crank", centre=(0.0, 0.0), radius=0.16 * r)
+    yield Line(role="crank", points=((0.0, 0.0), pin))
+    yield Line(role="rod", points=(pin, end))
+    yield Circle(role="joint", centre=pin, radius=0.09 * r)
+    yield from piston(end, stroke, bore)
+    yield from cylinder(offset, math.sqrt((r + l) ** 2 - offset**2) - stroke, stroke, bore)
+    yield Circle(role="joint", centre=end, radius=0.09 * r)
+
+
+def turned(
+    found: Iterable[Line | Circle], angle: float, sense: float = 1.0, origin: Point = (0.0, 0.0)
+) -> Iterable[Line | Circle]:
+    """Shapes turned about the shaft by an angle [rad], mirrored for sense -1, and moved to an origin [m]."""
+    c, s = math.cos(angle), math.sin(angle)
+
+    def place(point: Point) -> Point:
+        x, y = point[0], sense * point[1]
+        return origin[0] + c * x - s * y, origin[1] + s * x + c * y
+
+    for shape in found:
+        if isinstance(shape, Line):
+            yield Line(role=shape.role, points=tuple(place(point) for point in shape.points))
+        else:
+            yield Circle(role=shape.role, centre=place(shape.centre), radius=shape.radius)
