@@ -10,6 +10,7 @@ import pytest
 from mechsym import cases, mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.drawing import Circle, Line, extent, shapes
 from mechsym.mechanisms.plots import animation, figure
 from mechsym.mechanisms.record import curves
@@ -106,3 +107,49 @@ def test_every_mechanism_has_a_drawing_and_others_are_refused():
         assert shapes(name, parameters(known), 0.3)
     with pytest.raises(BadInput, match="no drawing"):
         shapes("clock", None, 0.0)
+
+
+def train(cylinders, bank=0.0, **more):
+    data = {"m_rod": 0.5, "m_piston": 0.5, "I_rod": 1e-3, "I0": 0.01, "I_f": 0.1, "k": 1e5}
+    phase = tuple(2 * math.pi * k / cylinders for k in range(cylinders))
+    throws = tuple(range(1, cylinders + 1))
+    return CrankTrainParameters(throw=throws, phase=phase, bank=bank, r=0.043, l1=0.05, l2=0.1, **data, **more)
+
+
+def overlapping(boxes):
+    edges = [np.array([box.min(axis=0), box.max(axis=0)]) for box in boxes]
+    return [(a, b) for i, a in enumerate(edges) for b in edges[:i] if np.all(a[0] < b[1]) and np.all(b[0] < a[1])]
+
+
+@pytest.mark.parametrize("bank", [0.0, (0.5, -0.5) * 3])
+@pytest.mark.parametrize("z", [0.0, tuple(0.12 * k for k in range(6))])
+def test_pistons_of_a_train_do_not_hide_each_other(bank, z):
+    for angle in ANGLES:
+        found = shapes("crank_train", train(6, bank, z=z), angle, 0.086)
+        boxes = [s for s in found if isinstance(s, Line) and s.role == "piston"]
+        upright = [np.array(s.points) for s in boxes if s.points[0][1] == s.points[1][1]]
+        assert len(boxes) == 6 + (1 if bank == 0.0 else 2) and not overlapping(upright)
+
+
+def test_pistons_along_the_shaft_stand_as_high_as_at_the_end():
+    p = train(6)
+    for angle in ANGLES:
+        boxes = piston_place(shapes("crank_train", p, angle, 0.086))
+        own = [angle + phase for phase in p.phase]
+        wanted = [0.043 * math.cos(a) + math.sqrt(0.15**2 - (0.043 * math.sin(a)) ** 2) for a in own]
+        assert np.array(boxes[1:])[:, 1] - 0.06 * 0.086 == pytest.approx(wanted, abs=1e-12)
+
+
+@pytest.mark.parametrize("mechanism", ["crosshead", "hypocycloid", "crank_throw", "crankshaft_flywheel"])
+def test_a_bore_is_to_scale(mechanism):
+    boxes = [s for s in shapes(mechanism, parameters(mechanism), 0.8, 0.123) if s.role == "piston"]
+    assert np.ptp(np.array(boxes[-1].points)[:, 1]) == pytest.approx(0.123)
+
+
+@pytest.mark.parametrize("case", ["moroianu", "zotov-89"])
+def test_the_crosshead_stays_out_of_the_cylinder(case):
+    for angle in np.linspace(0, 2 * math.pi, 25):
+        found = shapes("crosshead", cases.load(case).need("parameters"), angle, 0.5)
+        head, *_, top = (np.array(s.points) for s in found if s.role == "piston")
+        wall = next(np.array(s.points) for s in found if s.role == "frame" and len(s.points) == 4)
+        assert head[:, 0].max() < wall[:, 0].min() <= top[:, 0].min() < top[:, 0].max() < wall[:, 0].max()
