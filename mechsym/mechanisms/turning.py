@@ -34,12 +34,10 @@ def ordered(found: Iterable[Line | Circle]) -> list[Line | Circle]:
 
 
 def scene(drawn: Callable[[float], Shapes], name: str, turns: float = 1.0, frames: int = FRAMES) -> dict[str, Any]:
-    """A drawing over the crank angle as a page moves it.
+    """A drawing over the crank angle as a page moves it, with a name for what it shows.
 
     Parameters
     ----------
-    name : str
-        What it shows
     turns : float
         Of the crank, after which it begins again [-]
     """
