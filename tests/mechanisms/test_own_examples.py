@@ -4,6 +4,7 @@ here with complex numbers and differentiated by Fourier series, and against symp
 from dataclasses import asdict
 from pathlib import Path
 
+import casadi as ca
 import numpy as np
 import pytest
 import sympy as sp
@@ -13,7 +14,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.jobs import own, own_turn
 from mechsym.jobs.hinge import hinge
-from mechsym.jobs.own_machine import machine
+from mechsym.jobs.own_machine import _series, machine
 from mechsym.jobs.problem import problem_of, settings_of
 from mechsym.mechanisms import own_drawing
 from mechsym.mechanisms.record import listing
@@ -202,6 +203,13 @@ def test_weight_under_a_hinge_stays_a_short_series(tmp_path):
     np.testing.assert_allclose(-(around[0] - around[1]) / (2 * step), whole, atol=1e-6)
     result = simulate(problem_of(case), settings_of(case))
     assert abs(result.energy.residual) < 1e-8
+
+
+def test_a_series_is_the_sum_of_its_harmonics():
+    phi, terms = ca.SX.sym("phi"), {1: 2 - 1j, 3: 0.5j, 280: 1e-3 + 2e-3j}
+    at = np.linspace(-7, 20, 50)
+    found = np.asarray(ca.Function("f", [phi], [_series(terms, phi)])(at)).ravel()
+    np.testing.assert_allclose(found, sum((v * np.exp(1j * k * at)).real for k, v in terms.items()), atol=1e-13)
 
 
 def test_the_ram_returns_faster_than_it_goes():
