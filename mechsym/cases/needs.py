@@ -70,7 +70,7 @@ def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[st
     kind = str((tables.get("cycle") or {}).get("kind", "")) if isinstance(tables.get("cycle"), dict) else ""
     given = KINDS[kind].given if kind in KINDS else ""
     if own.is_file(mechanism):
-        return _of_own(command, missing)
+        return _of_own(command, missing, tables)
     missing += _of_mechanism(command, mechanism, tables)
     if given == "engine" and command in ("cycle", "compare", "flywheel", "forces", "optimise", "size"):
         missing += [f"[{section}]" for section in ("chamber", "heat_transfer") if section not in tables]
@@ -80,8 +80,10 @@ def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[st
     return list(dict.fromkeys(missing))
 
 
-def _of_own(command: str, missing: list[str]) -> list[str]:
+def _of_own(command: str, missing: list[str], tables: Mapping[str, Any]) -> list[str]:
     """A machine of the user's own may do without a cycle: a torque, a drive, weights and springs act on it too."""
+    if command == "simulate" and {"torque", "operation"} <= tables.keys():
+        return [section for section in missing if section != "[simulation]"]
     if command in ("guide", "hinge", "size"):
         return [section for section in missing if section != "[cycle]"]
     return ["[cycle] or [torque]" if command == "codesign" and s == "[cycle]" else s for s in missing]

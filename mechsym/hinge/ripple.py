@@ -51,7 +51,8 @@ def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) 
     swing, energy = float(np.ptp(missing)), float(inertia.max()) * omega**2 / 2
     if swing <= 1e-12 * energy:
         return np.full_like(missing, omega)
-    slowest = float(np.max(missing - inertia * omega**2 / 2)) + 1e-9 * swing
+    # above the rounding of the energy, so that no square is negative
+    slowest = float(np.max(missing - inertia * omega**2 / 2)) + max(1e-9 * swing, 1e-14 * energy)
     if excess(slowest) > 0:
         return None
     return phid(brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))

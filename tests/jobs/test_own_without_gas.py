@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.cases.check import check_file
 from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
-from mechsym.hinge.summary import hinge_columns, summary
+from mechsym.hinge.report import html
+from mechsym.hinge.shown import pictures
+from mechsym.hinge.summary import QUICK, hinge_columns, summary
 from mechsym.hinge.torque import torque
 from mechsym.jobs import own_turn
 from mechsym.jobs.flywheel import flywheel
@@ -81,6 +84,23 @@ def test_a_hinge_without_gas_balances_inertia_alone(tmp_path):
     assert told["p_max_bar"] is None and told["losses"]["share"] is None
     assert told["losses"]["speed_ripple"] is not None  # what is driven is driven harder
     assert "pressure" not in hinge_columns(design)
+
+
+@pytest.mark.slow
+def test_the_report_shows_what_there_is(tmp_path):
+    design = hinge(compressor(tmp_path))
+    assert [picture.name for picture in pictures(design)][:2] == ["mechanism", "torque"]
+    text = html(design, summary(design, QUICK + ("check", "losses", "misfire_speed_share", "offers", "runs", "retune",
+                                                 "sensitivity", "loads")), dict.fromkeys(
+        ("mechanism", "torque", "speeds", "track", "contact"), "<svg/>"))  # fmt: skip
+    assert "mechanism.html" in text and "Cylinder pressure" not in text and "<script>" not in text
+    assert "one misfire" not in text.lower() and "nan" not in text.lower().split()
+
+
+def test_check_knows_what_runs_without_gas(tmp_path):
+    compressor(tmp_path, '[torque]\nfile = "curve.csv"\n')
+    lacks = check_file(str(tmp_path / "machine.toml"), trust=True).commands
+    assert all(lacks[name] == [] for name in ("hinge", "flywheel", "forces", "simulate", "guide", "size"))
 
 
 def test_a_flywheel_without_gas(tmp_path):
