@@ -4,7 +4,8 @@ sliders     which values of a case can be moved, and how far
 answers     what is shown as a slider moves: the hinge with its limits, curves and moving picture
 commands    the slow part: a command of mechsym in a process of its own, its result as rows
 saving      the case with moved values as a text; report, drawing and FMU by their commands
-view        the page, markup its tables and charts; server shows it; needs the extra `app`
+uploads     a case from a stranger: what it may hold
+view        the page, panels its tabs, markup their tables and charts; server shows it; needs the extra `app`
 """
 
 from mechsym.app.answers import Answer, Plotted, hinge_answer

@@ -16,7 +16,7 @@ from mechsym.mechanisms import plots
 from mechsym.mechanisms.drawing import Shapes, extent_of
 from mechsym.mechanisms.drawn_parts import turned
 from mechsym.plausible import sifted
-from mechsym.quantities import record
+from mechsym.quantities import quantity, record
 
 _POINTS = 361  # of each curve
 
@@ -54,6 +54,8 @@ class Answer:
     curves: tuple[Plotted, ...] = ()
     doubts: tuple[str, ...] = ()
     drawn: Callable[[float], Shapes] | None = None  #: crank angle [rad] to a drawing of mechanism and guide
+    turns: int = 1  #: of the crank in a cycle
+    ratio: float = quantity("-", default=1.0, about="turns of the guide in a turn of the crank")
 
 
 def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
@@ -76,13 +78,14 @@ def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
     return Answer(
         good=verdict.feasible, words=verdict.reason, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
-        curves=_curves(design), drawn=_drawing(design),
+        curves=_curves(design), drawn=_drawing(design), turns=round(design.hinge.period / (2 * math.pi)),
+        ratio=design.guide.parameters.shaft_ratio,
     )  # fmt: skip
 
 
 def moving(answer: Answer, title: str) -> str | None:
     """A page in which the drawing of an answer turns; None without a drawing."""
-    return None if answer.drawn is None else plots.animation_of(answer.drawn, title)
+    return None if answer.drawn is None else plots.animation_of(answer.drawn, title, answer.turns)
 
 
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:

@@ -1,12 +1,18 @@
 """The slow part of the workbench: a command of mechsym in a process of its own; the next run ends the one before."""
 
 import asyncio
+import csv
 import json
+import re
 import sys
+import tempfile
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from mechsym.app.answers import Plotted
 from mechsym.cases import Case
+from mechsym.cases.needs import NEEDS, READS
 from mechsym.quantities import record
 
 #: command: sections that a case needs for it
@@ -19,6 +25,13 @@ _NEEDS = {
     "codesign": ("codesign",),
 }
 _MOST_ROWS = 60
+_MOST_CURVES = 6
+_MOST_POINTS = 600  # of a curve
+#: commands that run again as soon as the sliders rest; the others take long and wait for their button
+LIVE = ("simulate", "forces", "cycle")
+#: command: its table, the column along which it goes
+_TABLES = {"forces": ("forces.csv", "phi"), "simulate": ("series.csv", "t")}
+_HEAD = re.compile(r"^(.*?)(?: \[(.*)\])?$")
 
 
 @record
@@ -28,11 +41,17 @@ class Run:
     status: int  #: 0 done, 1 infeasible, 2 refused, others as documented
     words: str  #: its error or verdict, empty when there is nothing to say
     rows: tuple[tuple[str, str], ...] = ()  #: names and values of its JSON, the lists in short
+    curves: tuple[Plotted, ...] = ()  #: of its table, where it has one
 
 
 def tabs(case: Case) -> tuple[str, ...]:
     """Commands that the sections of a case allow."""
     return tuple(name for name, sections in _NEEDS.items() if all(s in case.sections for s in sections))
+
+
+def reads(command: str) -> frozenset[str]:
+    """The sections that a command reads: only their values can move what it says."""
+    return frozenset((*NEEDS.get(command, ()), *READS.get(command, ()), *_NEEDS.get(command, ())))
 
 
 def words(command: str, name: str, values: Mapping[str, float]) -> list[str]:
@@ -41,27 +60,79 @@ def words(command: str, name: str, values: Mapping[str, float]) -> list[str]:
 
 
 async def run(line: Sequence[str]) -> Run:
-    """Run a command line with --json; when it is cancelled its process ends too."""
-    process = await asyncio.create_subprocess_exec(
-        sys.executable, "-m", "mechsym", *line, "--json", stdin=asyncio.subprocess.DEVNULL,
-        stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
-    )  # fmt: skip
-    try:
-        out, said = await process.communicate()
-    except asyncio.CancelledError:
-        process.kill()
-        await process.wait()
-        raise
-    return _read(process.returncode or 0, out.decode(), said.decode())
+    """Run a command line with --json, and its table where it has one; when it is cancelled its process ends too."""
+    table = _TABLES.get(line[0])
+    with tempfile.TemporaryDirectory() as folder:
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-m", "mechsym", *line, "--json", *(("--out", folder) if table else ()),
+            stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
+        )  # fmt: skip
+        try:
+            out, said = await process.communicate()
+        except asyncio.CancelledError:
+            process.kill()
+            await process.wait()
+            raise
+        curves = _curves(Path(folder) / table[0], table[1]) if table else ()
+    return _read(process.returncode or 0, out.decode(), said.decode(), curves)
 
 
-def _read(status: int, out: str, said: str) -> Run:
+def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...]) -> Run:
     try:
         found = json.loads(out)
     except ValueError:
         return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
-    rows = tuple(_rows("", found))[:_MOST_ROWS]
-    return Run(status=status, words=said.strip(), rows=rows)
+    rows = _checks(found) if isinstance(found, list) else _rows("", found)
+    return Run(status=status, words=said.strip(), rows=tuple(rows)[:_MOST_ROWS], curves=curves)
+
+
+def _checks(found: Sequence[Any]) -> list[tuple[str, str]]:
+    """Rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first."""
+    if not all(isinstance(row, Mapping) and "component" in row for row in found):
+        return _rows("", list(found))
+    order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
+    return [(f"{r['component']}: {r['quantity']}", _beside(r)) for r in order]
+
+
+def _beside(row: Mapping[str, Any]) -> str:
+    unit = "" if row["unit"] in (None, "-") else f" {row['unit']}"
+    if row["limit"] is None:
+        return f"{_text(row['value'])}{unit}"
+    word = "" if row["holds"] else ", BELOW what is wanted"
+    return f"{_text(row['value'])}{unit}, limit {_text(row['limit'])}{unit}, factor {_text(row['safety_factor'])}{word}"
+
+
+def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
+    """The first columns of a table that move, each a chart of its own."""
+    if not file.exists():
+        return ()
+    with file.open(encoding="utf-8", newline="") as stream:
+        heads, *rows = csv.reader(stream)
+    named = [_head(head) for head in heads]
+    place = next((i for i, (name, _) in enumerate(named) if name == along), None)
+    every = max(1, len(rows) // _MOST_POINTS)
+    columns = [_numbers([row[i] for row in rows[::every]]) for i in range(len(heads))]
+    if place is None or not columns[place]:
+        return ()
+    moving = [i for i, c in enumerate(columns) if i != place and c and max(c) > min(c)]
+    return tuple(
+        Plotted(name=named[i][0], chart=named[i][0], x_name=f"{along} [{named[place][1]}]",
+                y_name=f"{named[i][0]} [{named[i][1]}]", x=columns[place], y=columns[i])
+        for i in moving[:_MOST_CURVES]
+    )  # fmt: skip
+
+
+def _head(head: str) -> tuple[str, str]:
+    found = _HEAD.match(head)
+    return (found[1], found[2] or "-") if found else (head, "-")
+
+
+def _numbers(texts: Sequence[str]) -> tuple[float, ...]:
+    """A column as numbers, or nothing where it has a gap."""
+    try:
+        return tuple(map(float, texts))
+    except ValueError:
+        return ()
 
 
 def _rows(prefix: str, found: Any) -> list[tuple[str, str]]:

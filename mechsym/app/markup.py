@@ -1,23 +1,40 @@
 """Tables, bars and charts of the workbench as text for the browser; everything from outside is escaped."""
 
 import html
+from collections.abc import Sequence
 from typing import Any
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
 
-_COLOURS = ("#1f5fa8", "#b5342b", "#2f7d4f")
+_COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
+_GREY = "#8a929c"  # to be read on white and on black
+# in the picture: it tells its angle, and stands where it is told to
+_LINK = """<script>
+const label = document.getElementById("label"), angle = document.getElementById("angle"), play = document.getElementById("play");
+let stopped = false;
+new MutationObserver(() => parent.postMessage({ crank: parseFloat(label.textContent) }, "*")).observe(label, { childList: true });
+addEventListener("message", e => {
+  if (e.source !== parent || !e.data) return;
+  if ("hold" in e.data) {
+    const count = +angle.max + 1, at = ((e.data.hold % DEGREES) + DEGREES) % DEGREES;
+    stopped = stopped || play.textContent === "Pause";
+    angle.value = Math.round(at / DEGREES * count) % count;
+    angle.dispatchEvent(new Event("input"));
+  } else if ("go" in e.data && stopped) { stopped = false; play.click(); }
+});
+</script></body>"""
 
 
-def table(answer: Answer, pinned: Answer | None) -> str:
-    """Figures of an answer, those of a pinned one beside them."""
-    other = dict(pinned.rows) if pinned else {}
-    rows = (
-        f"<tr><td>{html.escape(name)}</td><td style='padding-left:1em'>{html.escape(value)}</td>"
-        f"<td style='padding-left:1em;color:#5b6570'>{html.escape(other.get(name, ''))}</td></tr>"
-        for name, value in answer.rows
+def table(rows: Sequence[tuple[str, str]], pinned: Sequence[tuple[str, str]]) -> str:
+    """Names and values, those of a pinned answer beside them."""
+    other = dict(pinned)
+    cells = (
+        f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td><td>{html.escape(other.get(name, ''))}</td></tr>"
+        for name, value in rows
     )
-    return f"<table>{''.join(rows)}</table>"
+    head = "<tr><td></td><td></td><td>pinned</td></tr>" if pinned else ""
+    return f"<table class='mechsym-table'>{head}{''.join(cells)}</table>"
 
 
 def bars(answer: Answer) -> str:
@@ -25,21 +42,21 @@ def bars(answer: Answer) -> str:
     parts = []
     for bar in answer.bars:
         left = 1.0 if bar.margin is None else max(0.0, min(1.0, bar.margin))
-        colour = "#2f7d4f" if bar.kept else "#b5342b"
+        colour = _COLOURS[2] if bar.kept else _COLOURS[1]
         parts.append(
             f"<div style='font-size:.85rem;margin-bottom:.2rem'>{html.escape(bar.text)}"
-            f"<div style='background:#e3e6ea;height:.4rem'><div style='background:{colour};height:.4rem;"
+            f"<div class='mechsym-bar'><div style='background:{colour};height:.4rem;"
             f"width:{100 * (left if bar.kept else 1):.0f}%'></div></div></div>"
         )
     return "".join(parts)
 
 
-def run_table(found: Run) -> str:
+def run_table(found: Run, pinned: Run | None = None) -> str:
     """What a command said."""
-    rows = "".join(f"<tr><td>{html.escape(k)}</td><td style='padding-left:1em'>{html.escape(v)}</td></tr>"
-                   for k, v in found.rows)  # fmt: skip
+    state = {0: "done", 1: "done: infeasible, or a check failed", 2: "refused", 3: "done, with doubts"}
     words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
-    return f"<p>exit status {found.status}</p>{words}<table>{rows}</table>"
+    said = f"<p class='mechsym-note'>exit status {found.status}: {state.get(found.status, 'failed')}</p>"
+    return said + words + table(found.rows, pinned.rows if pinned else ())
 
 
 def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
@@ -51,18 +68,22 @@ def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
          "data": [list(p) for p in zip(c.x, c.y, strict=True)]}
         for i, (c, style) in enumerate(curves)
     ]  # fmt: skip
+    labels = {"axisLabel": {"color": _GREY}, "nameTextStyle": {"color": _GREY}}
+    lines = {"splitLine": {"lineStyle": {"color": _GREY, "opacity": 0.25}}}
     return {
         "animation": False, "tooltip": {"trigger": "axis"},
-        "title": {"text": first.y_name, "textStyle": {"fontSize": 12}},
-        "grid": {"left": 50, "right": 10, "top": 30, "bottom": 40},
-        "xAxis": {"type": "value", "name": first.x_name, "nameLocation": "middle", "nameGap": 25, "max": first.x[-1]},
-        "yAxis": {"type": "value", "scale": True}, "series": series,
+        "title": {"text": first.y_name, "textStyle": {"fontSize": 12, "color": _GREY}},
+        "grid": {"left": 55, "right": 15, "top": 30, "bottom": 40},
+        "xAxis": {"type": "value", "name": first.x_name, "nameLocation": "middle", "nameGap": 25, "min": first.x[0],
+                  "max": first.x[-1], **labels, **lines},
+        "yAxis": {"type": "value", "scale": True, **labels, **lines}, "series": series,
     }  # fmt: skip
 
 
-def frame(page: str, title: str) -> str:
-    """A whole page inside the page."""
+def frame(page: str, title: str, turns: int) -> str:
+    """A whole page inside the page, its angle linked with the charts; it shows so many turns."""
+    linked = page.replace("</body>", _LINK.replace("DEGREES", str(360 * turns)))
     return (
-        f'<iframe style="width:100%;height:40rem;border:0" title="{html.escape(title)} turning" '
-        f'srcdoc="{html.escape(page)}"></iframe>'
+        f'<iframe style="width:100%;height:min(40rem,90vw);border:0;border-radius:.4rem" '
+        f'title="{html.escape(title)} turning" srcdoc="{html.escape(linked)}"></iframe>'
     )

@@ -44,7 +44,7 @@ def case_text(name: str, values: Mapping[str, float]) -> str:
 
 
 async def file_of(kind: str, name: str, values: Mapping[str, float]) -> tuple[str, bytes]:
-    """A file of `FILES` for a case, made by its command: its name and what is in it."""
+    """A file of `FILES` for a case, made by its command: the end of its name and what is in it."""
     command, option, target = FILES[kind]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / target
@@ -57,7 +57,7 @@ async def file_of(kind: str, name: str, values: Mapping[str, float]) -> tuple[st
         if not file.exists():
             told = (said or out).decode().strip()
             raise BadInput(told.splitlines()[-1] if told else f"mechsym {command} wrote nothing")
-        return f"{name}-{target}", file.read_bytes()
+        return target, file.read_bytes()
 
 
 def _changed(text: str, section: str, field: str, value: float) -> str:

@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 
 from mechsym import cases
+from mechsym.app import uploads
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -50,7 +51,7 @@ def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     Parameters
     ----------
     name : str
-        Case that the address names: a built-in one, or `own`, that with which the workbench was started
+        Case that the address names: a built-in one, an upload of this browser, or `own`, with which it was started
     texts : mapping of str to str
         Keys and SI values as text
 
@@ -59,9 +60,10 @@ def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     values : dict of str to float
         Only numbers of keys that have a slider, so no file can be named [unit of the key]
     """
-    if name != own and name not in cases.names():
+    upload = uploads.kept(name)
+    if name != own and name not in cases.names() and upload is None:
         raise BadInput(f"case {name!r} is not built in; start the workbench with it: mechsym app {name}")
-    known = {s.key for s in sliders(cases.load(name))}
+    known = {s.key for s in sliders(cases.load(upload or name))}
     values = {}
     for key, text in texts.items():
         if key not in known:

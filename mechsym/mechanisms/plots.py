@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
-from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
+from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
 from mechsym.page import page
 from mechsym.style import INK, axis_unit
 
@@ -79,7 +79,7 @@ def animation(mechanism: str, parameters: Any, title: str, bore: float | None = 
     return animation_of(lambda at: shapes(mechanism, parameters, at, bore), title)
 
 
-def animation_of(drawn: Callable[[float], Shapes], title: str) -> str:
-    """A page in which a drawing over the crank angle [rad] turns; it needs nothing from outside."""
-    scenes = [scene(drawn, "the mechanism to scale")]
+def animation_of(drawn: Callable[[float], Shapes], title: str, turns: int = 1) -> str:
+    """A page in which a drawing over the crank angle [rad] turns so often; it needs nothing from outside."""
+    scenes = [scene(drawn, "the mechanism to scale", turns, FRAMES * turns)]
     return page("mechanism.html", title=title, scenes=scenes, readouts=[], rules=rules())

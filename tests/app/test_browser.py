@@ -11,6 +11,8 @@ from shutil import which
 import numpy as np
 import pytest
 
+from mechsym import cases
+
 pytest.importorskip("nicegui", reason="the extra app is not installed")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 CHROMIUM = which("chromium") or which("chromium-browser")
@@ -114,7 +116,84 @@ def test_what_an_address_may_not_say_is_refused_in_words(browser, address):
     page.close()
 
 
-def test_a_run_of_a_command_is_shown(page):
-    page.get_by_role("tab", name="cycle").click()
-    page.get_by_role("button", name="run mechsym cycle").click()
-    playwright.expect(page.get_by_text("exit status 0")).to_be_visible(timeout=60_000)
+def said(page, tab):
+    """What the command of a tab says, once it has said something."""
+    shown = page.locator(f'[data-run="{tab}"]')
+    playwright.expect(shown).to_contain_text("exit status", timeout=120_000)
+    return shown.inner_text()
+
+
+@pytest.mark.parametrize(
+    ("tab", "key"), [("cycle", "cycle.p_s"), ("forces", "parameters.m2"), ("simulate", "spring.p0")]
+)
+def test_a_tab_runs_its_command_and_again_when_a_slider_rests(page, tab, key):
+    page.get_by_role("tab", name=tab, exact=True).click()
+    first = said(page, tab)
+    assert "exit status 0" in first
+    section = page.locator(".q-expansion-item", has_text=key.partition(".")[0]).first
+    slider = page.locator(f'.q-slider[data-key="{key}"] [tabindex="0"]').first
+    if not slider.is_visible():
+        section.locator(".q-item").first.click()
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    shown = page.locator(f'[data-run="{tab}"]')
+    playwright.expect(shown).not_to_have_text(shown.inner_text(), timeout=120_000)
+    assert said(page, tab) != first and not page.errors
+    assert f"tab={tab}" in page.url
+
+
+def test_a_tab_shows_the_sliders_that_its_command_reads(page):
+    names = lambda: set(page.locator(".q-expansion-item:visible").all_inner_texts())  # noqa: E731
+    heads = lambda: {n.split("\n")[0] for n in names()}  # noqa: E731
+    assert {"spring", "guide", "rollers", "limits"} <= heads() and "friction" not in heads()
+    page.get_by_role("tab", name="forces", exact=True).click()
+    page.wait_for_timeout(500)
+    assert {"friction", "rings"} <= heads() and not {"spring", "limits"} & heads()
+
+
+def test_picture_and_curves_share_a_cursor(page):
+    """The turning picture draws a line in every chart; a pointer over a chart stops the picture at its angle."""
+    picture = page.frame_locator("iframe")
+    playwright.expect(picture.locator("#label")).to_be_visible(timeout=30_000)
+    lines = "[...mechsymCharts.values()].map(c => (c.chart.getOption().graphic || []).length)"
+    page.wait_for_function(f"({lines}).length === 3 && ({lines}).every(n => n > 0)", timeout=20_000)
+    chart = page.locator("canvas").first
+    chart.scroll_into_view_if_needed()
+    box = chart.bounding_box()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    page.wait_for_timeout(400)
+    held = picture.locator("#label").inner_text()
+    page.wait_for_timeout(400)
+    assert picture.locator("#label").inner_text() == held and 120 < float(held[:-1]) < 240
+    page.mouse.move(5, 5)
+    page.wait_for_timeout(600)
+    assert picture.locator("#label").inner_text() != held
+
+
+def test_an_upload_is_judged_and_shown(browser, address, page):
+    page.get_by_role("button", name="upload", exact=True).click()
+    text = cases.text("zotov-142")
+    page.set_input_files("input[type=file]", {"name": "a.toml", "mimeType": "text/plain", "buffer": text.encode()})
+    page.wait_for_url("**case=upload-*", timeout=20_000)
+    playwright.expect(page.locator("[data-verdict]")).to_contain_text("built", timeout=30_000)
+    page.get_by_role("button", name="upload", exact=True).click()
+    bad = text.replace('mechanism = "crosshead"', 'mechanism = "./own.py"')
+    page.set_input_files("input[type=file]", {"name": "b.toml", "mimeType": "text/plain", "buffer": bad.encode()})
+    playwright.expect(page.get_by_text("is not built in")).to_be_visible(timeout=20_000)
+    assert not page.errors
+
+
+@pytest.mark.parametrize("width", [375, 900, 1400])
+def test_no_width_scrolls_sideways(browser, address, width):
+    made = browser.new_page(viewport={"width": width, "height": 900})
+    made.goto(address)
+    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be built", timeout=30_000)
+    assert made.evaluate("document.documentElement.scrollWidth") <= width
+    made.close()
+
+
+def test_a_formula_gets_its_verdict(page):
+    page.get_by_role("tab", name="audit", exact=True).click()
+    page.get_by_label("formula").fill("(r1 + r2)*cos(phi) + sqrt((l1 + l2)**2 - (r1 + r2)**2*sin(phi)**2)")
+    page.get_by_role("button", name="run mechsym audit").click()
+    assert "verdict" in said(page, "audit")
