@@ -27,10 +27,12 @@ _NEEDS = {
 _MOST_ROWS = 60
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
+_ROUNDING = 1e-9  # of the largest value of a unit
+_SILENT = ("files", "written")  # of a folder that is gone
 #: commands that run again as soon as the sliders rest; the others take long and wait for their button
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
-_TABLES = {"forces": ("forces.csv", "phi"), "simulate": ("series.csv", "t")}
+_TABLES = {"forces": ("forces.csv", "phi_deg"), "simulate": ("series.csv", "t")}
 _HEAD = re.compile(r"^(.*?)(?: \[(.*)\])?$")
 
 
@@ -82,7 +84,7 @@ def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...]) -> Run:
         found = json.loads(out)
     except ValueError:
         return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
-    rows = _checks(found) if isinstance(found, list) else _rows("", found)
+    rows = _checks(found) if isinstance(found, list) else _told(found)
     return Run(status=status, words=said.strip(), rows=tuple(rows)[:_MOST_ROWS], curves=curves)
 
 
@@ -114,12 +116,19 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     columns = [_numbers([row[i] for row in rows[::every]]) for i in range(len(heads))]
     if place is None or not columns[place]:
         return ()
-    moving = [i for i, c in enumerate(columns) if i != place and c and max(c) > min(c)]
+    # what only rounds beside the others of its unit is no curve
+    sizes = {u: max((max(map(abs, c)) for c, (_, v) in zip(columns, named, strict=True) if c and u == v), default=0.0)
+             for _, u in named}  # fmt: skip
+    moving = [i for i, c in enumerate(columns) if i != place and c and max(c) - min(c) > _ROUNDING * sizes[named[i][1]]]
     return tuple(
-        Plotted(name=named[i][0], chart=named[i][0], x_name=f"{along} [{named[place][1]}]",
-                y_name=f"{named[i][0]} [{named[i][1]}]", x=columns[place], y=columns[i])
+        Plotted(name=named[i][0], chart=named[i][0], x_name=_axis(*named[place]), y_name=_axis(*named[i]),
+                x=columns[place], y=columns[i])
         for i in moving[:_MOST_CURVES]
     )  # fmt: skip
+
+
+def _axis(name: str, unit: str) -> str:
+    return name if unit == "-" else f"{name} [{unit}]"
 
 
 def _head(head: str) -> tuple[str, str]:
@@ -133,6 +142,23 @@ def _numbers(texts: Sequence[str]) -> tuple[float, ...]:
         return tuple(map(float, texts))
     except ValueError:
         return ()
+
+
+def _told(found: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Rows of a command: doubts as sentences first, least and largest of a quantity in one row."""
+    rows = [
+        (word, f"{d['quantity']} = {_text(d['value'])}, usual is {d['usual']}: {d['why']}")
+        for word, key in (("doubt", "doubts"), ("accepted", "accepted")) for d in found.get(key) or ()
+    ]  # fmt: skip
+    low, high = found.get("min"), found.get("max")
+    both = isinstance(low, Mapping) and isinstance(high, Mapping)
+    told = {"doubts", "accepted", *_SILENT, *(("min", "max") if both else ())}
+    rest = {k: v for k, v in found.items() if k not in told}
+    inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
+    rows += _rows("", {k: v for k, v in rest.items() if k not in inner})
+    if isinstance(low, Mapping) and isinstance(high, Mapping):
+        rows += [(k, f"{_text(low[k])} to {_text(high[k])}") for k in high if k in low]
+    return rows + _rows("", inner)
 
 
 def _rows(prefix: str, found: Any) -> list[tuple[str, str]]:

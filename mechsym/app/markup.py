@@ -73,7 +73,7 @@ def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
     return {
         "animation": False, "tooltip": {"trigger": "axis"},
         "title": {"text": first.y_name, "textStyle": {"fontSize": 12, "color": _GREY}},
-        "grid": {"left": 55, "right": 15, "top": 30, "bottom": 40},
+        "grid": {"left": 70, "right": 15, "top": 30, "bottom": 40},
         "xAxis": {"type": "value", "name": first.x_name, "nameLocation": "middle", "nameGap": 25, "min": first.x[0],
                   "max": first.x[-1], **labels, **lines},
         "yAxis": {"type": "value", "scale": True, **labels, **lines}, "series": series,

@@ -200,6 +200,7 @@ _STYLE = """<style>
 .nicegui-content { padding: .6rem; }
 .mechsym-note { opacity: .7; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
-.mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; overflow-wrap: anywhere; }
+.mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }
+.mechsym-table td + td { overflow-wrap: anywhere; }
 .mechsym-table td + td + td { opacity: .65; }
 </style>"""

@@ -49,8 +49,10 @@ def hinge(
         files: list[Path] = []
         if out is not None:
             from mechsym.hinge.report import write
+            from mechsym.out.web import add_live
 
             files = write(found, out)
+            add_live(out / "report.html", case, diagram)
             bar.update(1)
     numbers = summary(found)
     setting = partial(setting_text, case.need("spring"))

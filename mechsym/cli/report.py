@@ -23,7 +23,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     """Report of CASE, or of several side by side: the answer on the first page, then figures, tables, data with origin.
 
     Parts that the case has no sections for are named and left out; one that fails is named on the first page, and the
-    rest is there. [report] project, engine, author, date and units go into the title block. Exit status 1 when a design
+    rest is there. With the extra web the page simulates at its end; without it it says so. [report] project, engine, author, date and units go into the title block. Exit status 1 when a design
     is infeasible or a run did not converge, 2 when a part was refused; the report is written all the same.
 
     \b
@@ -35,6 +35,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.jobs.report import case_report, html
     from mechsym.jobs.report.build import PARTS
     from mechsym.out.pdf import chromium, to_pdf
+    from mechsym.out.web import with_live
 
     wanted = _wanted(parts, PARTS)
     if pdf:
@@ -44,7 +45,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
         found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
         path = out or Path("-".join([*(case.name for case in loaded), "report.html"]))
         text = html(found, date)
-        files = [write_text(path, text)]
+        files = [write_text(path, with_live(text, loaded))]
         if pdf:
             files.append(to_pdf(text, path.with_suffix(".pdf")))
         bar.update(1)

@@ -1,9 +1,10 @@
 """A page that simulates: the C of the FMU as WebAssembly inside one HTML file, without a server.
 
 build.py   C to WebAssembly, and the page        page.c     what the page calls
-page.html  sliders, curves, the turning guide
+page.html  sliders, curves, the turning guide    live.py    the page inside a report
 """
 
 from mechsym.out.web.build import page
+from mechsym.out.web.live import add_live, with_live
 
-__all__ = ["page"]
+__all__ = ["add_live", "page", "with_live"]
