@@ -23,8 +23,9 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     """Report of CASE, or of several side by side: the answer on the first page, then figures, tables, data with origin.
 
     Parts that the case has no sections for are named and left out; one that fails is named on the first page, and the
-    rest is there. With the extra web the page simulates at its end; without it it says so. [report] project, engine, author, date and units go into the title block. Exit status 1 when a design
-    is infeasible or a run did not converge, 2 when a part was refused; the report is written all the same.
+    rest is there. With the extra web the page simulates the engine at its end; without, it says so. [report] project,
+    engine, author, date and units go into the title block. Exit status 1 when a design is infeasible or a run did not
+    converge, 2 when a part was refused; the report is written all the same.
 
     \b
     Examples: mechsym report zotov-89

@@ -8,10 +8,13 @@ from shutil import which
 
 import numpy as np
 import pytest
+from built_in import needed
 from click.testing import CliRunner
 
+from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.out.web import page
+from mechsym.errors import BadInput
+from mechsym.out.web import page, with_live
 from mechsym.simulate import Settings, simulate
 
 pytest.importorskip("ziglang", reason="the extra web is not installed")
@@ -133,3 +136,43 @@ def test_the_command_says_what_it_wrote(tmp_path):
     done = CliRunner().invoke(mechsym, ["page", "zotov-89", "--out", str(path), "--json"])
     assert done.exit_code == 0, done.output
     assert json.loads(done.output)["written"] == [str(path)]
+
+
+@pytest.mark.slow
+def test_a_report_simulates_where_the_compiler_is(browser, tmp_path):
+    """The section of a report is the page itself, with the numbers of the page, and nothing else changes."""
+    report = tmp_path / "r.html"
+    report.write_text(with_live("<!doctype html><html><body><h1>before</h1></body></html>", [cases.load("zotov-89")]))
+    assert report.stat().st_size < 150_000
+    tab = browser.new_context(offline=True).new_page()
+    tab.goto(report.as_uri())
+    inner = tab.frame_locator("iframe")
+    inner.locator("#verdict").wait_for()
+    assert "ripple 0.000 %" in inner.locator("#verdict").inner_text()
+    assert tab.inner_text("h1") == "before" and "zotov-89 simulates here" in tab.inner_text("h2")
+    tab.context.close()
+
+
+def test_a_report_says_what_is_missing_for_the_page(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    text = with_live("<body>all of it</body></html>", [cases.load("zotov-89")])
+    assert text.startswith("<body>all of it<h2") and text.endswith("</body></html>")
+    assert "Not in this report: a page that simulates needs the extra web: pip install" in text
+    assert "iframe" not in text
+
+
+def test_what_cannot_be_exported_is_said_in_the_report(monkeypatch):
+    def refuse(*_):
+        raise BadInput("w.toml: <closed> by constraints")
+
+    monkeypatch.setattr("mechsym.out.web.live.ready", refuse)
+    text = with_live("<body></body>", [cases.load("zotov-89")])
+    assert "Not in this report: w.toml: &lt;closed&gt; by constraints" in text
+
+
+def test_the_guide_of_the_page_turns_with_its_own_shaft(exported):
+    from mechsym.out.web.build import _data
+
+    for name in ("zotov-89", "generator"):
+        wanted = cases.load(name, needed(name)).sections["guide"].shaft_ratio
+        assert _data(exported(name)[1])["ratio"] == wanted

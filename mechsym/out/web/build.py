@@ -83,6 +83,7 @@ def _data(block: Block) -> dict[str, Any]:
         "torques": [p.name for p in block.outputs if "_on_" in p.name],
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
         "period": turn,
+        "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         "t_end": _end(block, speed.start),
     }
 
