@@ -49,10 +49,12 @@ def hinge(
         files: list[Path] = []
         if out is not None:
             from mechsym.hinge.report import write
-            from mechsym.out.web import add_live
+            from mechsym.jobs.export import ready
+            from mechsym.out.web import LiveRun, add_live
 
             files = write(found, out)
-            add_live(out / "report.html", case, diagram)
+            live = LiveRun(name=case.name, about=case.about, ready=partial(ready, case, diagram))
+            add_live(out / "report.html", live)
             bar.update(1)
     numbers = summary(found)
     setting = partial(setting_text, case.need("spring"))

@@ -1,5 +1,6 @@
 """`mechsym report`: everything that is known of a case, or of several side by side, as one page."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,10 +34,11 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
               mechsym report mine.toml --pdf --date 2026-11-22 --units "bar, kN, mm"
     """
     from mechsym.files import write_text
+    from mechsym.jobs.export import ready
     from mechsym.jobs.report import case_report, html
     from mechsym.jobs.report.build import PARTS
     from mechsym.out.pdf import chromium, to_pdf
-    from mechsym.out.web import with_live
+    from mechsym.out.web import LiveRun, with_live
 
     wanted = _wanted(parts, PARTS)
     if pdf:
@@ -46,7 +48,8 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
         found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
         path = out or Path("-".join([*(case.name for case in loaded), "report.html"]))
         text = html(found, date)
-        files = [write_text(path, with_live(text, loaded))]
+        live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
+        files = [write_text(path, with_live(text, live))]
         if pdf:
             files.append(to_pdf(text, path.with_suffix(".pdf")))
         bar.update(1)

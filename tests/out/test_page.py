@@ -14,7 +14,8 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.out.web import page, with_live
+from mechsym.jobs.export import ready
+from mechsym.out.web import LiveRun, page, with_live
 from mechsym.simulate import Settings, simulate
 
 pytest.importorskip("ziglang", reason="the extra web is not installed")
@@ -138,11 +139,15 @@ def test_the_command_says_what_it_wrote(tmp_path):
     assert json.loads(done.output)["written"] == [str(path)]
 
 
+def live(name):
+    return LiveRun(name=name, about="", ready=lambda: ready(cases.load(name)))
+
+
 @pytest.mark.slow
 def test_a_report_simulates_where_the_compiler_is(browser, tmp_path):
     """The section of a report is the page itself, with the numbers of the page, and nothing else changes."""
     report = tmp_path / "r.html"
-    report.write_text(with_live("<!doctype html><html><body><h1>before</h1></body></html>", [cases.load("zotov-89")]))
+    report.write_text(with_live("<!doctype html><html><body><h1>before</h1></body></html>", [live("zotov-89")]))
     assert report.stat().st_size < 150_000
     tab = browser.new_context(offline=True).new_page()
     tab.goto(report.as_uri())
@@ -155,18 +160,17 @@ def test_a_report_simulates_where_the_compiler_is(browser, tmp_path):
 
 def test_a_report_says_what_is_missing_for_the_page(monkeypatch):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    text = with_live("<body>all of it</body></html>", [cases.load("zotov-89")])
+    text = with_live("<body>all of it</body></html>", [live("zotov-89")])
     assert text.startswith("<body>all of it<h2") and text.endswith("</body></html>")
     assert "Not in this report: a page that simulates needs the extra web: pip install" in text
     assert "iframe" not in text
 
 
-def test_what_cannot_be_exported_is_said_in_the_report(monkeypatch):
-    def refuse(*_):
+def test_what_cannot_be_exported_is_said_in_the_report():
+    def refuse():
         raise BadInput("w.toml: <closed> by constraints")
 
-    monkeypatch.setattr("mechsym.out.web.live.ready", refuse)
-    text = with_live("<body></body>", [cases.load("zotov-89")])
+    text = with_live("<body></body>", [LiveRun(name="w", about="", ready=refuse)])
     assert "Not in this report: w.toml: &lt;closed&gt; by constraints" in text
 
 
