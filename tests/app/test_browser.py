@@ -174,7 +174,7 @@ def test_an_upload_is_judged_and_shown(browser, address, page):
     page.get_by_role("button", name="upload", exact=True).click()
     text = cases.text("zotov-142")
     page.set_input_files("input[type=file]", {"name": "a.toml", "mimeType": "text/plain", "buffer": text.encode()})
-    page.wait_for_url("**case=upload-*", timeout=20_000)
+    page.wait_for_url("**case=upload-*", timeout=60_000)
     playwright.expect(page.locator("[data-verdict]")).to_contain_text("built", timeout=30_000)
     page.get_by_role("button", name="upload", exact=True).click()
     bad = text.replace('mechanism = "crosshead"', 'mechanism = "./own.py"')
