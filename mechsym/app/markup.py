@@ -11,9 +11,10 @@ _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
 _GREY = "#8a929c"  # to be read on white and on black
 # in the picture: it tells its angle, and stands where it is told to
 _LINK = """<script>
-const label = document.getElementById("label"), angle = document.getElementById("angle"), play = document.getElementById("play");
+const [label, angle, play] = ["label", "angle", "play"].map(id => document.getElementById(id));
 let stopped = false;
-new MutationObserver(() => parent.postMessage({ crank: parseFloat(label.textContent) }, "*")).observe(label, { childList: true });
+const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, "*");
+new MutationObserver(tell).observe(label, { childList: true });
 addEventListener("message", e => {
   if (e.source !== parent || !e.data) return;
   if ("hold" in e.data) {
