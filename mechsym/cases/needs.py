@@ -40,8 +40,8 @@ READS: Mapping[str, tuple[str, ...]] = {
     "hinge": ("torque", "drive", "inputs", "start", "flywheel", "load", "trials", "retune", "losses",
               "scavenging", "gas_limits"),
     "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure", "gas_limits"),
-    "simulate": ("torque", "drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation", "inputs",
-                 "start", *_GUIDE, "flywheel", "stirling", "scavenging", "gas_limits"),
+    "simulate": ("torque", "drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation",
+                 "inputs", "start", *_GUIDE, "flywheel", "stirling", "scavenging", "gas_limits"),
     "size": ("sizing", "part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_crosshead",
              "part_masses", "chamber", "gas", "heat_transfer", "speeds", "friction", "scavenging"),
 }  # fmt: skip
