@@ -5,35 +5,22 @@ import re
 from collections import Counter
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.text import Text
-
-import mechsym.style.picture as picture
 
 _NEAR = 0.5  # points that two boxes may share
 
 
 def drawn(monkeypatch):
-    """All figures that become SVG from here on, with their text."""
-    found, plain = [], picture.svg
+    """All figures that become SVG from here on."""
+    found, plain = [], FigureCanvasSVG.print_svg
 
-    def keep(figure, name=""):
-        found.append((figure, plain(figure, name)))
-        return found[-1][1]
+    def keep(canvas, *args, **options):
+        found.append(canvas.figure)
+        return plain(canvas, *args, **options)
 
-    monkeypatch.setattr(picture, "svg", keep)  # for write_picture
-    for module in _users():
-        monkeypatch.setattr(module, "svg", keep)
+    monkeypatch.setattr(FigureCanvasSVG, "print_svg", keep)
     return found
-
-
-def _users():
-    import importlib
-
-    import mechsym.style
-
-    names = ("codesign.report", "forces.report", "hinge.report", "jobs.own_turn", "papers.page", "sweep.plots")
-    modules = [importlib.import_module(f"mechsym.{name}") for name in names]
-    return [mechsym.style, *(m for m in modules if getattr(m, "svg", None) is mechsym.style.svg)]
 
 
 def boxes(figure):

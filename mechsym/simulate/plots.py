@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+_LEAST = 1e-3  # of the speed: less is not drawn larger
+
+
 def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Figure":
     """Speed of a coordinate that turns.
 
@@ -35,6 +38,9 @@ def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Fig
         label = f"mean over {'a turn' if turns == 1 else f'{turns} turns'}"
         whole.stairs(means, ends, baseline=None, color=RED, lw=1.4, label=label)
     whole.axhline(wanted * factor, color=INK, lw=0.9, ls="--", label="speed of operation")
+    low, high = whole.get_ylim()
+    if high - low < _LEAST * wanted * factor:  # round-off is no ripple
+        whole.set_ylim(np.array([-0.5, 0.5]) * _LEAST * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
     heading(whole, f"{coordinate}: ended by {result.end}")
     legend(whole, width=5.0)

@@ -52,6 +52,7 @@ def bare(axis: Any) -> None:
     """A quiet grid, small letters, no frame at the top and the right."""
     grid(axis)
     axis.tick_params(labelsize=SMALL)
+    axis.ticklabel_format(useOffset=False)
     axis.xaxis.label.set_size(SMALL + 1)
     axis.yaxis.label.set_size(SMALL + 1)
     axis.spines[["top", "right"]].set_visible(False)
@@ -59,7 +60,8 @@ def bare(axis: Any) -> None:
 
 def heading(axis: Any, text: str) -> None:
     """A small heading over a panel, at its left; a legend stands above it."""
-    axis.set_title(text, fontsize=SMALL + 1, loc="left", color=INK)
+    # where it stands is said, or matplotlib would lift it into the legend
+    axis.set_title(text, fontsize=SMALL + 1, loc="left", color=INK, y=1.0)
 
 
 def legend(axis: Any, width: float = 0.0) -> None:
