@@ -20,6 +20,7 @@ COMMANDS = (
     ("derive", "--check"),
     ("fmu", "zotov-89", "--out", "{home}/e.fmu", "--compare"),
     ("export", "crosshead", "--to", "c,julia", "--out", "{home}/text"),
+    ("eval", "swing", "--set", "l=2", "--set", "mass=3", "--json"),  # of the package in tests/plugin
 )
 
 
@@ -42,6 +43,8 @@ def tried(place, wheel, home):
     subprocess.run([place, "-m", "venv", home], check=True)
     python = home / "bin" / "python"
     subprocess.run([python, "-m", "pip", "install", "--quiet", f"{wheel}[fmu]"], check=True)
+    plugin = shutil.copytree(CLONE / "tests" / "plugin", home / "plugin")
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-deps", plugin], check=True)
     failed = []
     for folder in (home / "empty", CLONE.parent):
         folder.mkdir(exist_ok=True)
