@@ -34,7 +34,7 @@ from mechsym.audit.tree import (
     substitute,
     value_of,
 )
-from mechsym.audit.units_of import kind_of_letter
+from mechsym.audit.units_of import NUMBER, kind_of_letter
 from mechsym.quantities import record
 
 _MET = 1e-5
@@ -50,7 +50,16 @@ def listed_edits(question: Question, tree: Node) -> list[Edit]:
         Changes; some give the same function
     """
     siblings = cache(lambda letter: confusable(question, letter))
-    return [*single_edits(tree, siblings), *_lost_exponents(question, tree)]
+    return [*single_edits(tree, siblings), *_lost_exponents(question, tree), *_lost_ones(question, tree)]
+
+
+def _lost_ones(question: Question, tree: Node) -> Iterator[Edit]:
+    # r_c for r_c - 1: a pure number of the theory, one less or one more
+    for place in places(tree):
+        node = place.node
+        if isinstance(node, ast.Name) and node.id != "pi" and kind_of_letter(question, node.id) == NUMBER:
+            for operator in (ast.Sub, ast.Add):
+                yield Edit(kind="number", path=place.path, new=binary(operator, node, number(1)))
 
 
 def _lost_exponents(question: Question, tree: Node) -> Iterator[Edit]:

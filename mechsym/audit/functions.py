@@ -73,7 +73,8 @@ def meaning(function: str, arguments: Sequence[Node]) -> Node | None:
         return None
     count, make = MEANINGS[function]
     if len(arguments) != count:
-        raise BadInput(f"{function} takes {count} arguments, not {len(arguments)}")
+        shown = ", ".join("abc"[:count])
+        raise BadInput(f"{function} takes {count} arguments, not {len(arguments)}; write {function}({shown})")
     return make(*arguments)
 
 

@@ -183,19 +183,25 @@ def _read_python(text: str) -> Node:
             tree = ast.parse(source.strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
-        raise BadInput(
-            f"the formula {text.strip()[:60]!r} cannot be read: {reason}. {_hint(source)}".rstrip(" .")
-        ) from None
+        told = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"
+        raise BadInput(f"{told}; {_hint(source)}") from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
     limits.check_size(tree)
     return trees.substitute(tree, _tidy)
 
 
+def _near(source: str, error: Exception) -> str:
+    if not isinstance(error, SyntaxError) or error.offset is None or (error.lineno or 1) > 1:
+        return ""
+    at = min(max(error.offset - 1, 0), len(source))
+    return f" near {source[max(0, at - 8) : at + 8]!r}"
+
+
 def _hint(source: str) -> str:
     missing = _PRODUCT.search(source)
     if missing is None:
-        return ""
+        return "write letters, numbers, + - * / ^, functions, and brackets in pairs, as in r*sin(phi)"
     before, after = source[: missing.end() - 1].rstrip()[-12:], source[missing.end() - 1 :][:12]
     return f"a * is missing between {before!r} and {after!r}: write products with *, as in 2*r"
 
@@ -217,7 +223,7 @@ def _tidy(node: Node) -> Node | None:
 
 def _one(function: str, arguments: list[Node]) -> Node:
     if len(arguments) != 1:
-        raise BadInput(f"{function} takes one argument, not {len(arguments)}")
+        raise BadInput(f"{function} takes one argument, not {len(arguments)}; write {function}(a)")
     plain = _ALIASES.get(function, function)
     if plain not in limits.FUNCTIONS and plain.lower() in limits.FUNCTIONS:
         plain = plain.lower()

@@ -48,9 +48,9 @@ def node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterato
         yield from (("letter", name(other)) for other in siblings(node.id))
     if isinstance(node, ast.Constant) and not is_exponent(place) and isinstance(node.value, int):
         yield from (("number", number(n)) for n in (node.value - 1, node.value + 1) if n > 0)
-    if function_of(node) in ("sin", "cos"):
-        other = "cos" if function_of(node) == "sin" else "sin"
-        yield "sine and cosine", call(other, node.args[0])  # type: ignore[attr-defined]
+    if function_of(node) in (circular := ("sin", "cos", "tan")):
+        others = [f for f in circular if f != function_of(node)]
+        yield from (("sine and cosine", call(other, node.args[0])) for other in others)  # type: ignore[attr-defined]
     yield from _powers(place)
     yield from _brackets(node)
     yield from _squares(node)
@@ -111,6 +111,8 @@ def _powers(place: Spot) -> Iterator[tuple[str, Node]]:
         if exponent is not None:
             for new in dict.fromkeys((exponent - 1, exponent + 1, exponent / 2, exponent * 2, Fraction(1))):
                 yield "power", base if new == 1 else binary(ast.Pow, base, number(new)) if new else number(1)
+        elif isinstance(node.right, ast.Name):  # type: ignore[attr-defined]
+            yield "power", binary(ast.Pow, base, binary(ast.Div, number(1), node.right))  # type: ignore[attr-defined]
     elif _is_factor(place):
         yield from (("power", binary(ast.Pow, node, number(n))) for n in (2, 3, 4))
         yield "power", binary(ast.Pow, node, number(Fraction(3, 2), decimal=True))

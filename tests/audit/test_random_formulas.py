@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mechsym.audit import tree as trees
 from mechsym.audit.edits import apply, places
 from mechsym.audit.findings import formula_row
+from mechsym.audit.formula import check_formula
 from mechsym.audit.printer import to_latex, to_python
 from mechsym.audit.prover import is_exact
 from mechsym.audit.question import Question
@@ -101,3 +102,8 @@ def test_the_correction_is_printed_in_the_authors_form():
     assert row["correction"] == r"\frac{m r \omega^{2} \sin \varphi}{2}"
     asked = question("m*r*omega*sin(phi)/2", "m*r*omega**2*sin(phi)/2")
     assert formula_row(asked, decide(asked), "", "", "")["correction"] == "m*r*omega**2*sin(phi)/2"
+
+
+def test_a_condition_is_no_part_to_repair():
+    row = check_formula("piecewise(F < 1, F, F)", "scotch_yoke.torque")
+    assert row["verdict"] in ("wrong", "nearer")

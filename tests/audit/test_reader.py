@@ -159,3 +159,23 @@ def test_whatever_is_typed_is_read_or_refused_in_one_line(text):
         read(text, KNOWN)
     except BadInput as refused:
         assert "\n" not in str(refused)
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "way_out"),
+    [
+        ("r1*/2", "near 'r1*/2'", "brackets in pairs"),
+        ("r1*(2 + r2", "near 'r1*(2 + r", "brackets in pairs"),
+        ("r1 + r2 // 3", "'r2 // 3'", "operators are"),
+        ("r1 and r2", "'r1 and r2'", "use + - *"),
+        ("r1 < r2", "'r1 < r2'", "piecewise(a < b"),
+        ("pow(r1)", "pow takes 2", "write pow(a, b)"),
+        ("sin(r1, r2)", "sin takes one", "write sin(a)"),
+        ("r1 + ½", "'½'", "write letters"),
+    ],
+)
+def test_a_refusal_says_where_and_what_to_write(text, place, way_out):
+    with pytest.raises(BadInput) as refused:
+        read(text, ["r1", "r2"])
+    assert place in str(refused.value)
+    assert way_out in str(refused.value)

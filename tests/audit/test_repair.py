@@ -4,6 +4,7 @@ import pytest
 
 from mechsym.audit.bench import max_rel_error, turn
 from mechsym.audit.findings import formula_row
+from mechsym.audit.formula import check_formula
 from mechsym.audit.verdict import decide
 
 REPAIRED = [
@@ -93,3 +94,19 @@ def test_an_error_carried_through_is_found_once(ask):
     verdict = decide(ask(text, "dx_dphi"))
     assert verdict.verdict == "misprint" and verdict.repairs[0].exact
     assert verdict.repairs[0].edits[0].kind == "everywhere"
+
+
+@pytest.mark.parametrize(
+    ("text", "against", "letters"),
+    [
+        ("total_force*sin(beta)", "slider_crank.normal_force", ""),
+        ("pi*B**2/4*2*r/r_c", "cylinder_volume.V_c", ""),
+        ("p_0/(R*T_0)*x**gamma", "nozzle.density", ""),
+    ],
+)
+def test_slips_of_strangers(text, against, letters):
+    """A sine for a tangent, a ratio for one less, an exponent upside down."""
+    row = check_formula(text, against, letters=letters)
+    assert row["verdict"] == "misprint"
+    again = check_formula(row["correction"], against, letters=letters)
+    assert again["verdict"] in ("exact", "convention")
