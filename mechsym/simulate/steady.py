@@ -90,7 +90,7 @@ def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:
     gain, low = float(rest.energy_edges[-1]), lowest_energy(rest)
     swing = max(float(np.ptp(rest.energy)), float(np.ptp(rest.energy_edges)))
     # where nothing swings, the rounding of a torque is measured by the energy that turns
-    swing = max(swing, 1e-6 * 0.5 * (float(np.mean(panels.inertia)) + flywheel) * speed**2)
+    swing = max(swing, 1e-6 * 0.5 * float(np.mean(panels.inertia)) * speed**2)
     if abs(gain) > _BALANCE * swing:
         way = "gains speed for ever" if gain > 0 else "slows down until it stops"
         return _none(f"under constant load the energy changes by {gain:.6g} J in a period: the shaft {way}")
