@@ -43,7 +43,8 @@ def boxes(figure):
     for text in figure.findobj(Text):
         if id(text) not in ticks and id(text) not in hidden and text.get_visible():
             seen.append(text)
-    return [(t.get_text(), t.get_window_extent(renderer)) for t in seen if t.get_text().strip()]
+    # the words alone, without the line that leads from them
+    return [(t.get_text(), Text.get_window_extent(t, renderer)) for t in seen if t.get_text().strip()]
 
 
 def _of_axis(axis):

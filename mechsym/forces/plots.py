@@ -73,7 +73,7 @@ def polar_diagrams(found: Forces) -> Figure:
             axis.plot(_closed(across) * factor, _closed(up) * factor, color=color, lw=1.2, label=_short(name))
             _mark_angles(axis, found.turn.phi, across * factor, up * factor, color, named=len(chosen) == 1)
         turns = round(found.turn.period / (2 * np.pi))
-        told = f"; numbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}" if len(chosen) == 1 else ""
+        told = f"\nnumbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}" if len(chosen) == 1 else ""
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"{x} [{unit}]{told}", ylabel=f"{y} [{unit}]")
         axis.set_aspect("equal", adjustable="datalim")
