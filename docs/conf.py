@@ -12,7 +12,7 @@ author = "The mechsym team"
 extensions = ["myst_parser"]
 html_theme = "furo"
 html_title = "mechsym"
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "gallery"]
 myst_heading_anchors = 3
 myst_enable_extensions = ["colon_fence"]
 html_copy_source = False
@@ -26,9 +26,13 @@ def _read(app, name, source):
 
 
 def _make(app):
+    import findings
+    import gallery
     import pages
 
     pages.make(HERE / "made")
+    findings.make(HERE)
+    gallery.make(HERE / "made" / "gallery")
 
 
 def setup(app):

@@ -1,5 +1,6 @@
 """Pages of the docs site that follow from the program: commands with real output, keys of cases, mechanisms, rooms."""
 
+import hashlib
 import importlib
 import inspect
 import json
@@ -8,6 +9,7 @@ import tempfile
 from importlib import resources
 from pathlib import Path
 
+import gallery
 from click.testing import CliRunner
 
 from mechsym import mechanisms
@@ -28,7 +30,12 @@ EXAMPLES = {
     "mechanisms": "mechanisms",
     "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
     "optimise": "optimise nunes-hypocycloid",
+    "codesign": "codesign zotov-89 --ripple 2%",
+    "derive": "derive --check",
+    "export": "export zotov-89 --to c --out engine",
+    "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
+    "sweep": 'sweep zotov-89 --of hinge --over "spring.p0=4..6 MPa:3"',
     "simulate": "simulate alpha-stirling --set simulation.turns=3",
     "size": "size nunes-hypocycloid",
 }
@@ -39,23 +46,40 @@ ROOMS = (
 
 
 def make(folder: Path) -> None:
-    """Write all of them."""
+    """Write all of them; what a command printed is kept until the program changes."""
     folder.mkdir(exist_ok=True)
-    pages = {"commands": commands(), "sections": sections(), "mechanisms": equations(), "rooms": rooms()}
+    pages = {
+        "commands": commands(folder / "printed"),
+        "sections": sections(),
+        "mechanisms": equations(),
+        "rooms": rooms(),
+    }
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
-def commands() -> str:
+def commands(kept: Path) -> str:
     """Each command with its help, and what an example prints."""
+    kept.mkdir(exist_ok=True)
+    package = gallery.digest_of_package()
     parts = ["# Commands\n\nThe output stands as the program printed it when this page was made.\n"]
     for name in sorted(COMMANDS):
-        parts.append(f"## {name}\n\n{_block(_run(f'{name} --help'))}\n")
+        parts.append(f"## {name}\n\n{_block(_printed(kept, package, f'{name} --help'))}\n")
         if name in EXAMPLES:
-            parts.append(_block(f"$ mechsym {EXAMPLES[name]}\n{_run(EXAMPLES[name])}"))
+            parts.append(_block(f"$ mechsym {EXAMPLES[name]}\n{_printed(kept, package, EXAMPLES[name])}"))
     return "\n".join(parts) + "\n"
+
+
+def _printed(kept: Path, package: str, line: str) -> str:
+    """What a command prints, from the last time where neither it nor the program has changed."""
+    file = kept / f"{hashlib.sha256(line.encode()).hexdigest()[:16]}.txt"
+    if file.exists() and file.read_text(encoding="utf-8").startswith(f"{package}\n"):
+        return file.read_text(encoding="utf-8").partition("\n")[2]
+    text = _run(line)
+    file.write_text(f"{package}\n{text}", encoding="utf-8")
+    return text
 
 
 def _run(line: str) -> str:

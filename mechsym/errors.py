@@ -12,6 +12,10 @@ class BadInput(ValueError):
     """
 
 
+class MissingSection(BadInput):
+    """A case lacks a section that a command cannot do without."""
+
+
 class MissingExtra(BadInput):
     """A command needs an optional package; the message names the extra that brings it."""
 

@@ -1,6 +1,7 @@
 """The docs site: what it says to type runs, it builds without a warning, and nothing in it comes from elsewhere."""
 
 import importlib
+import json
 import re
 import shlex
 import subprocess
@@ -62,3 +63,55 @@ def test_the_site_builds_without_a_warning_and_is_all_local(tmp_path):
         assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=.https?://", text), page.name
         for link in re.findall(r'href="([^"#?:]+)["#?]', text):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
+
+
+SCRIPTS = sorted((DOCS / "gallery").glob("*.py"))
+
+
+def test_the_gallery_has_fifteen_scripts_that_are_told(pages):
+    gallery = importlib.import_module("gallery")
+    assert len(SCRIPTS) >= 15
+    for script in SCRIPTS:
+        title, about, command = gallery.told(script.read_text(encoding="utf-8"))
+        assert title and about.endswith(".") and shlex.split(command)[0] == "mechsym", script.name
+        assert shlex.split(command)[1] in COMMANDS
+
+
+def test_a_script_becomes_a_notebook(pages):
+    gallery = importlib.import_module("gallery")
+    text = SCRIPTS[0].read_text(encoding="utf-8")
+    made = json.loads(gallery.notebook(text))
+    (code,) = [cell for cell in made["cells"] if cell["cell_type"] == "code"]
+    assert made["nbformat"] == 4 and "".join(code["source"]) == gallery.code(text) + "\nfigure"
+    compile("".join(code["source"]), "notebook", "exec")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda p: p.stem)
+def test_every_script_of_the_gallery_runs(script, pages):
+    printed, figure = importlib.import_module("gallery").run(script)
+    assert figure.startswith("<svg") and "e-1" not in printed
+
+
+def test_the_errata_are_a_table(pages):
+    findings = importlib.import_module("findings")
+    text = (DOCS / "errata.md").read_text(encoding="utf-8")
+    rows = findings.entries(text)
+    assert len(rows) == len(re.findall(r"^### (?!Remarks)", text, re.M)) > 50
+    assert {row["source"] for row in rows} == {"zotov2024", "moroianu2017", "chmielewski2015", "prymak", "nunes2017"}
+    page = findings.page(text)
+    assert page.count("<tr>") == len(rows) + 1 and "<script>" in page and "http" not in page
+
+
+PYTHON_BLOCKS = [
+    pytest.param(path, block, id=f"{path.stem}-{k}")
+    for path in sorted(DOCS.glob("*.md"))
+    for k, block in enumerate(re.findall(r"```python\n(.*?)```", path.read_text(encoding="utf-8"), re.S))
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("path", "block"), PYTHON_BLOCKS)
+def test_every_block_of_python_runs(path, block, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(block, path.name, "exec"), {"__name__": "block"})

@@ -17,7 +17,7 @@ from typing import Any
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.values import Place, convert, override, place, without_unit
-from mechsym.errors import BadInput, shown, suggest
+from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
@@ -52,12 +52,20 @@ class Case:
             The case has no such section
         """
         if section not in self.sections:
-            raise BadInput(f"{self.file}: section [{section}] is missing; this command needs it (see 'mechsym cases')")
+            raise MissingSection(
+                f"{self.file}: section [{section}] is missing; this command needs it (see 'mechsym cases')"
+            )
         return self.sections[section]
 
 
 def names() -> list[str]:
-    """Names of the built-in cases."""
+    """Names of the built-in cases.
+
+    Examples
+    --------
+    >>> "zotov-89" in names()
+    True
+    """
     return list(_built_in())
 
 
@@ -79,6 +87,11 @@ def text(name: str) -> str:
     ------
     BadInput
         Neither a built-in name nor a readable file
+
+    Examples
+    --------
+    >>> text("zotov-89").splitlines()[0]
+    'mechanism = "crosshead"'
     """
     return _read(name)[1]
 
@@ -97,6 +110,12 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     ------
     BadInput
         Names file, key, value and what is allowed
+
+    Examples
+    --------
+    >>> case = load("zotov-89", {"spring.p0": "8 MPa"})
+    >>> case.mechanism, case.need("spring").p0
+    ('crosshead', 8000000.0)
     """
     file, head, sections = _raw(name, overrides)
     try:
@@ -154,6 +173,12 @@ def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, opti
     ------
     BadInput
         Unknown or ambiguous key
+
+    Examples
+    --------
+    >>> found = locate("zotov-89", "p0")
+    >>> found.section, found.field, found.unit
+    ('spring', 'p0', 'Pa')
     """
     file, head, sections = _raw(name, overrides)
     try:

@@ -115,7 +115,7 @@ def roller_inertia(rho: Any, drho: Any, mass: Any, inertia: float, radius: Any, 
 
     Examples
     --------
-    >>> roller_inertia(0.7, 0.0, 100.0, 0.0, 0.1, 2)
+    >>> round(roller_inertia(0.7, 0.0, 100.0, 0.0, 0.1, 2), 6)
     98.0
     """
     return count * (rho**2 + drho**2) * (mass + inertia / radius**2)

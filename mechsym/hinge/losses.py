@@ -80,7 +80,7 @@ def bearing_torque(N: Any, rho: Any, drho: Any, mu: float, bearing_radius: float
 
     Examples
     --------
-    >>> float(bearing_torque(1e5, 0.7, 0.0, 0.0018, 0.05, 0.1, 2))
+    >>> round(float(bearing_torque(1e5, 0.7, 0.0, 0.0018, 0.05, 0.1, 2)), 6)
     144.0
     """
     return count * mu * abs(N) * bearing_radius * (length(rho, drho) / radius + 1)

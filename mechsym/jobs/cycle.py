@@ -50,6 +50,13 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
     columns : CycleFigures
         Arrays under the names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the
         engine; `per_cylinder` of one cylinder
+
+    Examples
+    --------
+    >>> from mechsym import cases
+    >>> found = cycle(cases.load("zotov-89"))
+    >>> round(float(found["power_kw"][0]), 2), found.view.cards[1].value
+    (83.88, '83.88 kW')
     """
     speeds = np.array([case.need("operation").speed]) if omega is None else omega
     given = kind_of(case.need("cycle")).given

@@ -22,6 +22,13 @@ def forces(case: Case, comparison: bool = False) -> Forces:
         See `turn`; `[friction]`, `[rings]`, `[shaking]` and `[comparison]` are read where they stand
     comparison : bool
         Whether the mechanisms are put side by side as well
+
+    Examples
+    --------
+    >>> from mechsym import cases
+    >>> found = forces(cases.load("zotov-89"))
+    >>> round(float(found.columns["crank_pin_load"].max()) / 1e3, 1)
+    485.8
     """
     one, given = turn(case), case.sections
     friction, rings = given.get("friction"), given.get("rings", NoRings())

@@ -41,6 +41,12 @@ def gas(case: Case) -> Gas | None:
     -------
     gas : Gas or None
         None for a case without a cycle: only inertia and weight act
+
+    Examples
+    --------
+    >>> from mechsym import cases
+    >>> round(gas(cases.load("zotov-89")).pressure.mean_indicated)
+    800000
     """
     if "cycle" not in case.sections:
         return None

@@ -37,6 +37,12 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
     ------
     BadInput
         Another mechanism, or a cycle that cannot be made
+
+    Examples
+    --------
+    >>> from mechsym import cases
+    >>> round(machine(cases.load("zotov-89")).omega, 4)
+    9.3201
     """
     if is_own(case.mechanism):
         return own_machine.machine(case)

@@ -34,7 +34,13 @@ _ASSEMBLED = ("crank_train",)  # put together at run time from a derived part
 
 
 def names() -> list[str]:
-    """Names of the mechanisms."""
+    """Names of the mechanisms.
+
+    Examples
+    --------
+    >>> "crosshead" in names()
+    True
+    """
     return sorted([*_CLASSES, *own.brought()])
 
 
@@ -45,6 +51,11 @@ def parameters_class(name: str) -> Any:
     ------
     BadInput
         No such mechanism
+
+    Examples
+    --------
+    >>> parameters_class("hypocycloid").__name__
+    'HypocycloidParameters'
     """
     if own.is_file(name):
         return own.load(name).parameters

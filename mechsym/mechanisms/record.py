@@ -201,6 +201,13 @@ def evaluate(mechanism: Mechanism, group: str, **letters: Any) -> dict[str, np.n
     ------
     BadInput
         No such group, or a letter that it does not take
+
+    Examples
+    --------
+    >>> from mechsym import cases, mechanisms
+    >>> built = mechanisms.build("crosshead", cases.load("zotov-89").need("parameters"))
+    >>> evaluate(built, "kinematics", phi=3.141592653589793)["x"].round(6).tolist()  # 2 r
+    [1.0]
     """
     if group not in mechanism.functions:
         raise BadInput(f"{mechanism.name} has no {group!r}; it has {', '.join(mechanism.functions)}")

@@ -62,6 +62,11 @@ def allowed(metadata: Any) -> str:
     -------
     text : str
         For example ``> 0 and <= 1``
+
+    Examples
+    --------
+    >>> allowed({"above": 0, "high": 1})
+    '> 0 and <= 1'
     """
     words = [("above", ">"), ("low", ">="), ("below", "<"), ("high", "<=")]
     return " and ".join(f"{sign} {metadata[key]:g}" for key, sign in words if metadata.get(key) is not None)

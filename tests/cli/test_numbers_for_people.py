@@ -15,6 +15,9 @@ TEXTS = [
     *((command, name) for command in ("cycle", "forces") for name in ENGINES),
     ("hinge", "zotov-89"), ("hinge", "zotov-142"), ("size", "nunes-hypocycloid"),
     ("optimise", "nunes-hypocycloid"), ("flywheel", "zotov-89", "--ripple", "2%"), ("check", "zotov-89"),
+    ("compare", "nunes-slider-crank", "nunes-hypocycloid", "--speeds", "2000,6000"),
+    ("report", "zotov-89", "--parts", "cycle,hinge,forces"), ("report", "generator", "nunes-slider-crank"),
+    ("codesign", "zotov-89", "--ripple", "2%"), ("simulate", "chmielewski", "--no-check"),
     ("simulate", "alpha-stirling", "--set", "simulation.turns=3"), ("eval", "crosshead", "--case", "zotov-89"),
 ]  # fmt: skip
 TABLES = [("hinge", "zotov-89"), ("forces", "opposed-pistons"), ("forces", "balandin"), ("forces", "nunes-hypocycloid"),

@@ -180,7 +180,7 @@ def dew_point(p: float, ambient: tuple[float, float], humidity: float) -> float:
     Examples
     --------
     >>> round(dew_point(3.6e5, (1e5, 303.15), 0.6), 1)
-    317.4
+    317.3
     """
     warm = ambient[1] - 273.15
     saturated = 17.62 * warm / (243.12 + warm)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from mechsym.cases import Case, written
 from mechsym.cases.needs import lacking
 from mechsym.cycle.kinds import kind_of
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, MissingSection
 from mechsym.hinge.result import complete
 from mechsym.hinge.summary import summary as hinge_summary
 from mechsym.jobs.cycle import cycle
@@ -49,7 +49,8 @@ def part(name: str, case: Case) -> ReportPart:
     try:
         return _MADE[name](case)
     except BadInput as error:
-        return ReportPart(name=name, title=TITLES[name], state=REFUSED, reason=" ".join(str(error).split()))
+        state = LEFT_OUT if isinstance(error, MissingSection) else REFUSED
+        return ReportPart(name=name, title=TITLES[name], state=state, reason=" ".join(str(error).split()))
 
 
 def _cycle(case: Case) -> ReportPart:
@@ -151,12 +152,12 @@ def _simulate(case: Case) -> ReportPart:
     low, high = (quantity_text(told[k], "rad/s") for k in ("speed_min", "speed_max"))
     speed = f"the speed stays at {low}" if low == high else f"over the last period the speed is {low} to {high}"
     numbers = {k: v for k, v in told.items() if k != "wall_s"}  # another each time
-    end = _ENDS.get(told["end"], f"ended by {told['end']}")
+    end = f"{_ENDS.get(told['end'], 'ended by ' + told['end'])} in {figure(told['t_end'], 3)} s"
     stall = tuple(text for text in found.findings if text.startswith("the shaft stops"))
     return ReportPart(
         name="simulate", title=TITLES["simulate"], view=found.view, state=INFEASIBLE if bad else DONE,
         reason=told["reason"] if bad else "", facts=found.findings, decide=stall, numbers=numbers,
-        verdict=f"The run {end} in {figure(told['t_end'], 3)} s; {speed}.",
+        verdict=f"The run {end}" + (", the shaft stands." if stall else f"; {speed}."),
         silent=("the load of the run is the case's, or a propeller that takes the mean torque",), doubts=found.doubts,
     )  # fmt: skip
 

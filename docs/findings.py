@@ -1,0 +1,62 @@
+"""The errata as one table that a reader searches by typing; what it says is read from docs/errata.md."""
+
+import html
+import re
+from pathlib import Path
+
+_ENTRY = re.compile(r"^### (?P<verdict>[^:\n]+): (?P<rest>[^\n]+)\n(?P<body>.*?)(?=^##|\Z)", re.S | re.M)
+_SOURCE = re.compile(r"^## (?P<title>[^\n]+)\n+Source `[^`]+` \(`(?P<name>[^`]+)`\)", re.M)
+_ERROR = re.compile(r"Largest relative error ([\d.e+-]+)")
+_SCRIPT = """<p><input id="find" type="search" placeholder="source, equation, word"
+aria-label="search the errata" style="width:100%;font:inherit;padding:.4rem"> <span id="count"></span></p>
+<script>
+addEventListener("DOMContentLoaded", () => {
+  const field = document.getElementById("find"), rows = [...document.querySelectorAll("#findings tbody tr")];
+  const count = document.getElementById("count");
+  function seek() {
+    const words = field.value.toLowerCase().split(/\\s+/).filter(Boolean);
+    let shown = 0;
+    for (const row of rows) {
+      const fits = words.every(word => row.textContent.toLowerCase().includes(word));
+      row.hidden = !fits; shown += fits;
+    }
+    count.textContent = `${shown} of ${rows.length}`;
+  }
+  field.addEventListener("input", seek); seek();
+});
+</script>"""
+
+
+def entries(text: str) -> list[dict[str, str]]:
+    """One row a finding: source, where, what, verdict, error, and what was said of it."""
+    rows = []
+    heads = [*_SOURCE.finditer(text)]
+    for head, end in zip(heads, [*(h.start() for h in heads[1:]), len(text)], strict=True):
+        for found in _ENTRY.finditer(text[head.end() : end]):
+            where, _, what = found["rest"].partition(", ")
+            error, body = _ERROR.search(found["body"]), found["body"].strip()
+            rows.append({"source": head["name"], "where": where, "what": what, "verdict": found["verdict"].lower(),
+                         "error": error[1].rstrip(".") if error else "", "text": body})  # fmt: skip
+    return rows
+
+
+def page(text: str) -> str:
+    """The page with the table."""
+    rows = entries(text)
+    body = "".join(
+        f"<tr><td>{html.escape(r['source'])}</td><td>{html.escape(r['where'])}</td><td>{html.escape(r['verdict'])}</td>"
+        f"<td>{html.escape(r['error'])}</td><td>{html.escape(r['what'])}<details><summary>what was found</summary>"
+        f"<pre style='white-space:pre-wrap'>{html.escape(r['text'])}</pre></details></td></tr>\n"
+        for r in rows
+    )
+    names = "".join(f"<th>{name}</th>" for name in ("source", "equation", "verdict", "largest error", "what"))
+    table = f"<table id='findings'><thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
+    about = "Every finding of [the errata](../errata.md) in one table; the error is relative to the right value."
+    return f"# Errata, to search\n\n{about}\n\n```{{raw}} html\n{_SCRIPT}\n{table}\n```\n"
+
+
+def make(here: Path) -> None:
+    """Write the page into docs/made."""
+    text, path = page((here / "errata.md").read_text(encoding="utf-8")), here / "made" / "findings.md"
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
