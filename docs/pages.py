@@ -30,8 +30,6 @@ EXAMPLES = {
     "mechanisms": "mechanisms",
     "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
     "optimise": "optimise nunes-hypocycloid",
-    "codesign": "codesign zotov-89 --ripple 2%",
-    "derive": "derive --check",
     "export": "export zotov-89 --to c --out engine",
     "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
