@@ -11,7 +11,7 @@ import mechsym
 ROOT = Path(mechsym.__file__).parent
 TOLD = sorted(path for path in ROOT.rglob("*.py") if ">>> " in path.read_text(encoding="utf-8"))
 PUBLIC = {
-    "cases": {"load", "locate", "names", "text"},
+    "cases": {"load", "locate", "names"},
     "jobs": {"cycle", "forces", "gas", "machine"},
     "mechanisms": {"evaluate", "names", "parameters_class"},
     "page": {"grid", "page"},

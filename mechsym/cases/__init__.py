@@ -87,11 +87,6 @@ def text(name: str) -> str:
     ------
     BadInput
         Neither a built-in name nor a readable file
-
-    Examples
-    --------
-    >>> text("zotov-89").splitlines()[0]
-    'mechanism = "crosshead"'
     """
     return _read(name)[1]
 
