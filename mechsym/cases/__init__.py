@@ -52,9 +52,8 @@ class Case:
             The case has no such section
         """
         if section not in self.sections:
-            raise MissingSection(
-                f"{self.file}: section [{section}] is missing; this command needs it (see 'mechsym cases')"
-            )
+            why = f"section [{section}] is missing; this command needs it (see 'mechsym cases')"
+            raise MissingSection(f"{self.file}: {why}")
         return self.sections[section]
 
 
