@@ -52,7 +52,7 @@ def bare(axis: Any) -> None:
     """A quiet grid, small letters, no frame at the top and the right."""
     grid(axis)
     axis.tick_params(labelsize=SMALL)
-    axis.ticklabel_format(useOffset=False)
+    axis.ticklabel_format(style="plain", useOffset=False)  # no factor beside the axis, which says its unit
     axis.xaxis.label.set_size(SMALL + 1)
     axis.yaxis.label.set_size(SMALL + 1)
     axis.spines[["top", "right"]].set_visible(False)
