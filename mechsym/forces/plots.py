@@ -76,6 +76,7 @@ def polar_diagrams(found: Forces) -> Figure:
         told = f"\nnumbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}" if len(chosen) == 1 else ""
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"{x} [{unit}]{told}", ylabel=f"{y} [{unit}]")
+        axis.locator_params(axis="x", nbins=4)  # numbers of newtons are long
         axis.set_aspect("equal", adjustable="datalim")
         heading(axis, "crank pins, in the crank" if is_pin else "main bearings, in the frame")
         legend(axis)
