@@ -33,7 +33,8 @@ def run(*words):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", TEXTS, ids=" ".join)
-def test_no_digits_of_round_off(words):
+def test_no_digits_of_round_off(words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # report writes into the working folder
     text = run(*words).output
     tiny = [
         n for n in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?e-\d+", text) if 0 < abs(float(n)) < 1e-10
