@@ -29,6 +29,8 @@ from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_
 def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:
     """Design guide, pressures of the spring and a small flywheel together, for all speeds and loads of CASE.
 
+    A case without [codesign] is designed at its own speed and load; --speeds and --loads ask for more.
+
     Exit status 1 when there is no such design; the bound says what no guide with so many springs can do better than.
 
     \b
@@ -38,11 +40,11 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     from mechsym.codesign.realise import check_goal
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
-    from mechsym.jobs.codesign import STEPS, beside, for_report
+    from mechsym.jobs.codesign import STEPS, beside, for_report, settings_of
     from mechsym.jobs.codesign import codesign as design
 
     case = case_of(case_name, pairs(overrides))
-    settings, ripples = _settings(case.need("codesign"), options)
+    settings, ripples = _settings(settings_of(case), options)
     cylinders, goal = options["cylinders"] or 0, check_goal(options["realise"]) if options["realise"] else ""
     if out is not None:
         make_folder(out)

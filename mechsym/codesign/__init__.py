@@ -5,7 +5,8 @@
     programme   the design: task -> basis, unknowns, motion_block, contact_block, derivatives -> co-design
     front       the same for many ripples; a guide cut for one point
     verify      every number by two other ways: running (over the angle, in time)
-    loss, scenarios, control, realise, cylinders, schedule    what it costs, what kills it, how it is kept, sized, used
+    scenarios, changes, manoeuvres    what kills it
+    loss, control, realise, cylinders, schedule    what it costs, how it is kept, sized, used
 
 Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesign.md for the formulas.
 """

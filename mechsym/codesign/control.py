@@ -28,6 +28,7 @@ class Held:
     pressure_error: np.ndarray  #: shape (turns, springs), by the design's pressure, at the start of each turn [-]
     ripple: np.ndarray  #: shape (turns,) of each turn [-]
     gain: float = quantity("-", about="share of the error that is taken away in a turn")
+    run: TimeRun  #: all turns
 
 
 def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
@@ -69,10 +70,11 @@ def hold(
     point, rng = found.task.points[k], np.random.default_rng(9)
     design = running.running(point, found.tracks, k, found.flywheel)
     wanted = np.array(design.pressures)
-    p, speed, errors, ripples = wanted * (1 + off), point.omega, [], []
+    p, speed, errors, ripples, legs = wanted * (1 + off), point.omega, [], [], []
     for _ in range(turns):
         errors.append(p / wanted - 1)
         leg = running.run(dataclasses.replace(design, pressures=tuple(p)), speed, point.period / (2 * np.pi))
+        legs.append(leg)
         speed = float(leg.omega[-1])
         ripples.append(np.ptp(leg.omega) * np.ptp(leg.t) / np.ptp(leg.phi))
         if leg.stalled:
@@ -80,7 +82,7 @@ def hold(
         noisy = leg.omega * (1 + noise * rng.standard_normal(leg.omega.size))
         change = -gain * pressure_error(design, dataclasses.replace(leg, omega=noisy))
         p = p + np.clip(change, -rate * wanted, rate * wanted)
-    return Held(pressure_error=np.array(errors), ripple=np.array(ripples), gain=gain)
+    return Held(pressure_error=np.array(errors), ripple=np.array(ripples), gain=gain, run=running.joined(legs))
 
 
 def _by_pressure(machine: Running, s: int, phi: np.ndarray) -> np.ndarray:

@@ -69,7 +69,12 @@ def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: floa
         Cycle at the upper end; combustion is linear in mep between the two and constant outside
     """
     if not hasattr(cycle, "mean_indicated_pressure"):
-        raise BadInput("[cycle] has no mean_indicated_pressure that could be changed; it has one load")
+        if abs(mep - settings.full_load) > 1e-9 * settings.full_load:
+            raise BadInput(
+                "[cycle] has no mean_indicated_pressure that could be changed; it has one load: "
+                "take --curve constant_speed and --loads 1, at any speeds"
+            )
+        return cycle
     changed: dict[str, Any] = {"mean_indicated_pressure": mep}
     if hasattr(cycle, "p_s") and settings.scavenge:
         changed["p_s"] = scavenge_pressure(settings.scavenge, mep)

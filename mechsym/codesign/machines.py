@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from mechsym import periodic
 from mechsym.codesign.hardware import Bounds, Hardware
-from mechsym.codesign.points import Point
+from mechsym.codesign.points import Function, Point
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import ROLLERS, GuideParameters
@@ -19,6 +19,8 @@ from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
 from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import curves
+
+_KEPT = 6  # angles of a function that is remembered
 
 
 def point(machine: Machine, load: float, law: str = "propeller", weight: float = 1.0) -> Point:
@@ -34,8 +36,10 @@ def point(machine: Machine, load: float, law: str = "propeller", weight: float =
         Share of the time at this point [-]
     """
     torques, wanted = engine_torques(machine), torque(machine)
-    if gas_of(machine).on_shaft:  # of a torque alone no turn without combustion is known
-        return _point(wanted, torques, load, law, weight)
+    found = _point(wanted, torques, load, law, weight)
+    # of a torque alone no turn without combustion is known, and what takes work has none to lose
+    if gas_of(machine).on_shaft or wanted.load_torque <= 0:
+        return found
     without = unfired(gas_of(machine).force, torques.period)
     (q,) = machine.mechanism.coordinates
 
@@ -44,9 +48,24 @@ def point(machine: Machine, load: float, law: str = "propeller", weight: float =
         return np.asarray(without(phi) * arm + torques.gravity_torque(phi))
 
     return dataclasses.replace(
-        _point(wanted, torques, load, law, weight), misfire=misfire,
-        misfire_kinks=unfired_kinks(torques.kinks, torques.period),
-    )  # fmt: skip
+        found, misfire=_remembered(misfire), misfire_kinks=unfired_kinks(torques.kinks, torques.period)
+    )
+
+
+def _remembered(function: Function) -> Function:
+    """The function with its last values kept: the same angles are asked for again and again."""
+    kept: dict[bytes, np.ndarray] = {}
+
+    def remembered(phi: np.ndarray) -> np.ndarray:
+        angle = np.ascontiguousarray(phi, dtype=float)
+        key = angle.tobytes()
+        if key not in kept:
+            if len(kept) >= _KEPT:
+                kept.pop(next(iter(kept)))
+            kept[key] = np.asarray(function(angle))
+        return kept[key].copy()
+
+    return remembered
 
 
 def _point(wanted: Hinge, torques: EngineTorques, load: float, law: str, weight: float) -> Point:
@@ -54,7 +73,7 @@ def _point(wanted: Hinge, torques: EngineTorques, load: float, law: str, weight:
         omega=wanted.omega, load=load, load_torque=wanted.load_torque, weight=weight,
         law=law if wanted.load_torque > 0 else "constant",  # what takes work is driven by a steady torque
         period=wanted.period, work=wanted.work, inertia=wanted.inertia, kinks=tuple(torques.kinks),
-        torque=lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi),
+        torque=_remembered(lambda phi: torques.gas_torque(phi) + torques.gravity_torque(phi)),
     )  # fmt: skip
 
 

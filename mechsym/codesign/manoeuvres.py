@@ -41,6 +41,19 @@ def standstill(machine: Running) -> Standstill:
     )
 
 
+def rest_from(machine: Running, angle: float) -> float:
+    """Angle of rest [rad] that a shaft falls into which stands at an angle [rad], friction taking its swing away."""
+    phi, V = _energy(machine)
+    V, i = V[:-1], int(round(angle / phi[1])) % (len(phi) - 1)
+    for _ in range(V.size):
+        around = [(i + step) % V.size for step in (-1, 0, 1)]
+        lowest = around[int(np.argmin(V[around]))]
+        if lowest == i:
+            break
+        i = lowest
+    return float(phi[i])
+
+
 def start(machine: Running, share: float, turns: float = 2.0) -> TimeRun:
     """Run from the deepest rest under a constant torque and no load.
 

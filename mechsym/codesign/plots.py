@@ -7,7 +7,7 @@ from mechsym.codesign.cylinders import Count
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.verify import fine_path
 from mechsym.quantities import RPM
-from mechsym.style import BLUE, GREY, INK, ORANGE, PAPER, RED, SERIES, bare, legend, panels
+from mechsym.style import BLUE, GREY, INK, ORANGE, PAPER, RED, SERIES, bare, heading, legend, panels
 
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
@@ -103,20 +103,28 @@ def losses(result: CoDesignResult) -> Figure:
     return figure
 
 
-def misfires(result: CoDesignResult) -> Figure | None:
-    """Speed in the turn after a lost combustion; None where no point knows it."""
-    rows = [s for s in result.scenarios if s.name == "misfire" and s.run is not None]
-    if not rows:
+def scenarios(result: CoDesignResult) -> Figure | None:
+    """Speed over the turns of every scenario that was run, a panel each; None where there is none."""
+    rows = [s for s in result.scenarios if s.run is not None]
+    names = list(dict.fromkeys(s.name for s in rows))
+    if not names:
         return None
-    figure, (axis,) = _panels(1)
-    for s, color in zip(rows, SERIES, strict=False):
-        point = result.design.task.points[s.point]
-        assert s.run is not None
-        axis.plot(np.degrees(s.run.phi), s.run.omega / point.omega, color=color, label=f"{point.omega / RPM:.0f} rpm")
-    axis.axhline(1.0, color=GREY, linewidth=0.8)
-    axis.set(xlabel="crank angle [deg]", ylabel="speed by the mean before")
-    axis.set_ylim(bottom=0)
-    legend(axis)
+    down = -(-len(names) // 3)
+    figure, axes = panels(9, 2.3 * down, down, 3)
+    for axis, name in zip(axes, names, strict=False):
+        for s in (s for s in rows if s.name == name):
+            assert s.run is not None
+            point = result.design.task.points[s.point]
+            turns, color = (s.run.phi - s.run.phi[0]) / (2 * np.pi), BLUE if s.point == 0 else RED
+            axis.plot(
+                turns, s.run.omega / point.omega, color=color, linewidth=0.8, label=f"{point.omega / RPM:.0f} rpm"
+            )
+        axis.set(xlabel="turns", ylabel="speed by the mean")
+        heading(axis, name)
+        bare(axis)
+    legend(axes[0])
+    for axis in axes[len(names) :]:
+        axis.set_visible(False)
     return figure
 
 

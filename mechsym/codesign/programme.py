@@ -19,10 +19,11 @@ import numpy as np
 from mechsym.codesign import contact_block, motion_block
 from mechsym.codesign.basis import Basis, basis, curve
 from mechsym.codesign.derivatives import solver
-from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.hardware import Bounds, gas_energy, outside
 from mechsym.codesign.points import Samples, sample
 from mechsym.codesign.task import FREE, Active, CoDesign, CoDesignTask, Track
 from mechsym.codesign.unknowns import Gathered, GuideSymbols, guides
+from mechsym.codesign.verify import passed
 from mechsym.quantities import quantity, record
 
 _STATUS = {
@@ -39,6 +40,7 @@ _OPTIONS: dict[str, Any] = {
 _FLYWHEEL = 1000.0  # unit of the flywheel in the programme [kg*m^2]
 _SMOOTH = 1e-6  # weight of the mean of z''^2 and of free hardware: it decides where nothing else does
 _START = 3.0  # flywheel at the start, in units of `_FLYWHEEL`
+_ROUNDS, _LITTLE = 4, 2e-3  # of solving again where a limit is passed; share beyond that each is moved by [-]
 _ACTIVE = 1e-3  # a limit is met if moving it by itself would move the flywheel by this share
 _UNITS = {"spring_pressure": "Pa", "closing_share": "-", "pressure_angle": "rad", "profile_radius": "m",
           "roller_reaction": "N", "hertz_stress": "Pa"}  # fmt: skip
@@ -102,11 +104,36 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
     found : CoDesign
         With status and reason; where nothing is feasible, the last design that was tried
     """
-    made, begin = ready or programme(task), time.perf_counter()
+    made = ready or programme(task)
+    found = _solved(task, made, near, made.wall if ready is None else 0.0)
+    asked, wall = task.bounds, found.wall
+    for _ in range(_ROUNDS):
+        over = passed(found) if found.status == "optimal" else {}
+        if not over:
+            break
+        # between its angles, and beside the hardest point, the programme does not look
+        asked = _tighter(asked, over, found.tracks[0].hardware.radius)
+        again = _solved(dataclasses.replace(task, bounds=asked), made, found, 0.0)
+        wall += again.wall
+        if again.status != "optimal":
+            break
+        found = dataclasses.replace(again, task=task, wall=wall)
+    return found
+
+
+def _tighter(bounds: Bounds, over: dict[str, float], radius: float) -> Bounds:
+    """Limits moved by what they are passed [-], and a little; rollers have a radius [m]."""
+    changed = {key: getattr(bounds, key) / (1 + share + _LITTLE) for key, share in over.items()}
+    if "profile_radius" in over:
+        changed["profile_radius"] = (radius + bounds.profile_radius) * (1 + over["profile_radius"] + _LITTLE) - radius
+    return dataclasses.replace(bounds, **changed)
+
+
+def _solved(task: CoDesignTask, made: ReadyProgramme, near: CoDesign | None, building: float) -> CoDesign:
+    begin = time.perf_counter()
     start = {"x0": made.start} if near is None else dict(near.solution)
     found = made.solver(**start, p=_values(task), **made.bounds)
-    wall = time.perf_counter() - begin + (made.wall if ready is None else 0.0)
-    return _result(task, made, found, wall)
+    return _result(task, made, found, time.perf_counter() - begin + building)
 
 
 def _values(task: CoDesignTask) -> list[float]:

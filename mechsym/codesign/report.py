@@ -43,7 +43,7 @@ def figures(result: CoDesignResult) -> dict[str, str]:
         "works": plots.works(result),
         "guides": plots.guides(result),
         "losses": plots.losses(result),
-        "misfire": plots.misfires(result),
+        "scenarios": plots.scenarios(result),
         "spread": plots.spread(result),
         "map": plots.ripple_map(result),
     }

@@ -93,53 +93,53 @@ def _share(found: CoDesign, k: int, flywheel: float | None) -> float | None:
     return misfire(found, k, flywheel).speed_min or 0.0
 
 
-def _steady_speed(machine: Running) -> tuple[float, float] | None:
+def steady_speed(machine: Running) -> tuple[float, float] | None:
     """Speed at dead centre and mean speed of the steady motion [rad/s]; None where there is none."""
     motion = running.steady(machine)
     return None if motion.speed_mean is None else (float(motion.omega[0]), motion.speed_mean)
 
 
-def _row(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callable[[TimeRun], str]) -> Scenario:
+def told(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callable[[TimeRun], str]) -> Scenario:
     low, high = (None, None) if run.stalled else (float(run.omega.min()) / mean, float(run.omega.max()) / mean)
     angle = np.degrees(run.phi[-1] - run.phi[0])
     text = f"the shaft stops after {angle:.0f} deg" if run.stalled else words(run)
     return Scenario(name=name, about=about, point=k, speed_min=low, speed_max=high, outcome=text, run=run)
 
 
-def _nothing(name: str, about: str, k: int) -> Scenario:
+def not_running(name: str, about: str, k: int) -> Scenario:
     return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None,
                     outcome="there is no steady motion to start from")  # fmt: skip
 
 
 def _lost_combustion(machine: Running, point: Point, k: int) -> Scenario:
     name, about = "misfire", "one turn without combustion, propeller or constant load as before"
-    start = _steady_speed(machine)
+    start = steady_speed(machine)
     if start is None or point.misfire is None:
-        return _nothing(name, about, k)
+        return not_running(name, about, k)
     without = dataclasses.replace(machine, torque=point.misfire, kinks=point.misfire_kinks)
     run = running.run(without, start[0], point.period / (2 * np.pi))
-    return _row(name, about, k, start[1], run, lambda r: f"lowest speed {r.omega.min() / start[1]:.3f} of the mean")
+    return told(name, about, k, start[1], run, lambda r: f"lowest speed {r.omega.min() / start[1]:.3f} of the mean")
 
 
 def _load_step(machine: Running, k: int) -> Scenario:
     """The load jumps up by a tenth of its torque and stays; the combustion stays too: where does the speed settle?"""
     name, about = "load step", "load 10 % higher from dead centre on, fuel as before, no governor"
-    start = _steady_speed(machine)
+    start = steady_speed(machine)
     if start is None:
-        return _nothing(name, about, k)
+        return not_running(name, about, k)
     heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
     run = running.run(heavier, start[0], 10.0)
-    return _row(name, about, k, start[1], run, lambda r: f"speed {r.omega[-1] / start[1]:.3f} of before after 10 turns")
+    return told(name, about, k, start[1], run, lambda r: f"speed {r.omega[-1] / start[1]:.3f} of before after 10 turns")
 
 
 def _governed(machine: Running, k: int) -> Scenario:
     name, about = "load step, governed", "load 10 % higher from dead centre on, a governor sets the fuel of each turn"
-    start = _steady_speed(machine)
+    start = steady_speed(machine)
     if start is None:
-        return _nothing(name, about, k)
+        return not_running(name, about, k)
     heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
     run = manoeuvres.governed(heavier, start[0], 40)
-    return _row(
+    return told(
         name, about, k, start[1], run, lambda r: f"speed {_last_turn(r) / start[1]:.4f} of before after 40 turns"
     )
 
@@ -174,12 +174,12 @@ def _last_turn(found: TimeRun) -> float:
 def _scatter(machine: Running, k: int, share: float) -> Scenario:
     """Every turn another mean indicated pressure: 20 turns of one fixed sequence of normal numbers."""
     name, about = f"scatter {share:.0%}", f"gas torque of each turn scattered by {share:.0%} (one sigma), 20 turns"
-    start = _steady_speed(machine)
+    start = steady_speed(machine)
     if start is None:
-        return _nothing(name, about, k)
+        return not_running(name, about, k)
     factors = 1 + share * np.random.default_rng(20).standard_normal(20)
     run = _turn_by_turn(machine, start[0], factors)
-    return _row(
+    return told(
         name, about, k, start[1], run, lambda r: f"speed over all turns {np.ptp(r.omega) / start[1]:.4f} of mean"
     )
 
@@ -187,15 +187,15 @@ def _scatter(machine: Running, k: int, share: float) -> Scenario:
 def _vented(machine: Running, k: int) -> Scenario:
     """The springs lose their pressure at speed and the fuel is cut: does the shaft coast down, or stop at once?"""
     name, about = "burst", "springs without pressure and fuel cut from dead centre on"
-    start = _steady_speed(machine)
+    start = steady_speed(machine)
     if start is None or machine.point.misfire is None:
-        return _nothing(name, about, k)
+        return not_running(name, about, k)
     empty = dataclasses.replace(
         machine, torque=machine.point.misfire, kinks=machine.point.misfire_kinks,
         pressures=tuple(1e3 for _ in machine.pressures),
     )  # fmt: skip
     run = running.run(empty, start[0], _SETTLE)
-    return _row(name, about, k, start[1], run, lambda r: f"still {r.omega[-1] / start[1]:.2f} after {_SETTLE:g} turns")
+    return told(name, about, k, start[1], run, lambda r: f"still {r.omega[-1] / start[1]:.2f} after {_SETTLE:g} turns")
 
 
 def _heavier(load: ConstantLoad | PropellerLoad, factor: float) -> ConstantLoad | PropellerLoad:

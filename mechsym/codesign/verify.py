@@ -19,6 +19,7 @@ from mechsym.simulate.steady import Steady
 
 TURNS = 4.0  # of each run in time
 _FINE = 720  # angles of a turn for contact
+_STOPPED = 2.0  # ripple of a shaft that stops
 _SLACK = 5e-3  # a limit between the angles of the programme may be passed by this share
 
 
@@ -55,6 +56,7 @@ class Verified:
     def difference(self) -> float:
         """Largest difference of the three ripples, by the largest ripple [-]."""
         three = np.array([self.programme_ripple, self.steady_ripple, self.time_ripple])
+        three = np.nan_to_num(three, nan=_STOPPED)
         return float(np.max(np.ptp(three, axis=0)) / max(float(np.max(three)), 1e-12))
 
 
@@ -127,19 +129,36 @@ def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(N, 0.0) * modulus / (np.pi * hardware.width * relative))
 
 
-def _broken(c: GuideLoads, track: Track, found: CoDesign) -> list[str]:
+def passed(found: CoDesign) -> dict[str, float]:
+    """Limits that a design passes between the angles of its programme or at its easier points, by what share [-]."""
+    over: dict[str, float] = {}
+    for track in found.tracks:
+        c = contact(track, found.task.points)
+        for key, _, value, most, _ in _asked(c, track, found):
+            if key and value > (1 + _SLACK) * most:
+                over[key] = max(over.get(key, 0.0), value / most - 1)
+    return over
+
+
+def _asked(c: GuideLoads, track: Track, found: CoDesign) -> list[tuple[str, str, float, float, str]]:
+    """Key of a limit, words, value and limit in a unit."""
     b, h = found.task.bounds, track.hardware
-    rows = [
-        ("spring pressure", c.pressure_max.max() / 1e6, b.spring_pressure / 1e6, "MPa"),
-        ("closing z/H", c.z_max / h.H, b.closing_share, ""),
-        ("pressure angle", np.degrees(c.pressure_angle_max), np.degrees(b.pressure_angle), "deg"),
-        ("roller reaction", c.reaction_max.max() / 1e3, b.roller_reaction / 1e3, "kN"),
-        ("contact pressure", c.hertz_max.max() / 1e6, b.hertz_stress / 1e6, "MPa"),
-        ("roller radius in the smallest rho", h.radius, c.rho_min, "m"),
-        ("bend inwards", -c.curvature_min * (h.radius + b.profile_radius), 1.0, "of what the roller allows"),
-    ]
+    return [
+        ("spring_pressure", "spring pressure", c.pressure_max.max() / 1e6, b.spring_pressure / 1e6, "MPa"),
+        ("closing_share", "closing z/H", c.z_max / h.H, b.closing_share, ""),
+        ("pressure_angle", "pressure angle", np.degrees(c.pressure_angle_max), np.degrees(b.pressure_angle), "deg"),
+        ("roller_reaction", "roller reaction", c.reaction_max.max() / 1e3, b.roller_reaction / 1e3, "kN"),
+        ("hertz_stress", "contact pressure", c.hertz_max.max() / 1e6, b.hertz_stress / 1e6, "MPa"),
+        ("", "roller radius in the smallest rho", h.radius, c.rho_min, "m"),
+        ("profile_radius", "bend inwards", -c.curvature_min * (h.radius + b.profile_radius), 1.0,
+         "of what the roller allows"),
+    ]  # fmt: skip
+
+
+def _broken(c: GuideLoads, track: Track, found: CoDesign) -> list[str]:
+    h = track.hardware
     words = [f"{name} {value:.4g} of at most {most:.4g} {unit}".rstrip()
-             for name, value, most, unit in rows if value > (1 + _SLACK) * most]  # fmt: skip
+             for _, name, value, most, unit in _asked(c, track, found) if value > (1 + _SLACK) * most]  # fmt: skip
     if c.reaction_min.min() <= 0:
         words.append(f"a roller leaves its track (contact force {c.reaction_min.min() / 1e3:.4g} kN)")
     if c.z_min < h.z_margin - _SLACK * h.H:

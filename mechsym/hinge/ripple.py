@@ -103,14 +103,15 @@ def mean_speed(phid: np.ndarray) -> float:
     Parameters
     ----------
     phid : ndarray, shape (n,)
-        Speed, positive [rad/s]
+        Speed, not negative [rad/s]
 
     Returns
     -------
     mean : float
         Angle over time of a period [rad/s]
     """
-    return 1 / float(np.mean(1 / phid))
+    # a crank that stands at one angle takes for ever
+    return 1 / float(np.mean(1 / phid)) if phid.min() > 0 else 0.0
 
 
 def ripple(phid: np.ndarray | None) -> float | None:
@@ -128,4 +129,4 @@ def ripple(phid: np.ndarray | None) -> float | None:
     delta : float or None
         Ripple [-]
     """
-    return None if phid is None else float(np.ptp(phid)) / mean_speed(phid)
+    return None if phid is None or phid.min() <= 0 else float(np.ptp(phid)) / mean_speed(phid)

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
-from mechsym.codesign import family, loss, scenarios
+from mechsym.codesign import changes, family, loss, scenarios
 from mechsym.codesign.cylinders import counts
 from mechsym.codesign.front import cut_for_one, front
 from mechsym.codesign.hardware import rollers_at_rest
@@ -23,12 +23,16 @@ from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import verify
+from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.machine import machine
+from mechsym.machine.record import gas_of
 from mechsym.machine.torque_curve import TorqueCurve
+from mechsym.quantities import RPM
 
 _SHARES = (0.12, 1.1)  # loads of the map by the full load
 _LOADS = 12  # computed; those between are interpolated
+_SCAVENGE = 0.1  # of the scavenge pressure that is missing in a scenario
 _MAP = 50  # speeds and loads of the map
 STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple of a front
 
@@ -100,15 +104,40 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
     one = len(design.tracks) == 1 and settings.curve == "propeller"
     return dataclasses.replace(
         result,
-        scenarios=tuple(scenarios.table(design)),
+        scenarios=(*scenarios.table(design), *_changes(case, settings, design)),
         spread=spread(design),
         map=_map(case, settings, design, 1.05 * max(*settings.speeds, high)) if one else None,
     )
 
 
+def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[scenarios.Scenario]:
+    """What else happens at the first and the last point."""
+    found = []
+    for k in sorted({0, len(design.task.points) - 1}):
+        place = family.places(settings)[k]
+        cycle, lower = _acting(case, settings, place.mep).get("cycle"), None
+        if hasattr(cycle, "p_s"):
+            changed = dataclasses.replace(cycle, p_s=(1 - _SCAVENGE) * cycle.p_s)
+            lower = _point(case, settings, place, {"cycle": changed})
+        found += changes.rows(design, k, lower)
+    return found
+
+
+def settings_of(case: Case) -> CoDesignSettings:
+    """Section `[codesign]` of a case; without one its own speed and load, and the mass on its rollers."""
+    if "codesign" in case.sections:
+        return case.need("codesign")
+    engine, rollers = machine(case), case.need("rollers")
+    mean = abs(gas_of(engine).pressure.mean_indicated)
+    return CoDesignSettings(
+        speeds=(engine.omega,), curve="constant_speed", full_speed=engine.omega, full_load=mean, scavenge="",
+        moving_mass=rollers.moving_mass,
+    )  # fmt: skip
+
+
 def codesign_task(case: Case) -> CoDesignTask:
-    """Points, hardware and limits of a case, as its section `[codesign]` asks."""
-    return task_of(case, case.need("codesign"))
+    """Points, hardware and limits of a case, as its section `[codesign]` asks; without one at its own speed."""
+    return task_of(case, settings_of(case))
 
 
 def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
@@ -129,22 +158,33 @@ def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
 
 def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
     """The operating points of a case."""
-    high = cases.load(settings.high_case).need("cycle") if settings.high_case else None
+    places = family.places(settings)
+    return tuple(_point(case, settings, place, _acting(case, settings, place.mep)) for place in places)
+
+
+def _point(case: Case, settings: CoDesignSettings, place: family.SpeedAndLoad, acting: dict[str, Any]) -> Point:
+    operation = dataclasses.replace(case.need("operation"), speed=place.omega)
+    at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
+    engine = machine(at)
+    _check_speed(case, engine.omega, place.omega)
     law = "constant" if settings.curve == "constant_speed" else "propeller"
-    found = []
-    for place in family.places(settings):
-        operation = dataclasses.replace(case.need("operation"), speed=place.omega)
-        acting = _acting(case, high, settings, place.mep)
-        at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
-        found.append(point(machine(at), place.mep, law, place.weight))
-    return tuple(found)
+    return point(engine, place.mep, law, place.weight)
 
 
-def _acting(case: Case, high: Any, settings: CoDesignSettings, mep: float) -> dict[str, Any]:
+def _check_speed(case: Case, known: float, wanted: float) -> None:
+    if abs(known - wanted) > 1e-6 * wanted:
+        raise BadInput(
+            f"{case.file}: the diagram is of {known / RPM:.6g} rpm and not at {wanted / RPM:.6g} rpm; "
+            "leave --speeds away, or make a point of each diagram (examples/codesign_generator.py)"
+        )
+
+
+def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Any]:
     """Cycle at a mean indicated pressure [Pa], or torque curve at that share of its full load."""
     if "torque" in case.sections:
         curve: TorqueCurve = case.need("torque")
         return {"torque": dataclasses.replace(curve, load=curve.load * mep / settings.full_load)}
+    high = cases.load(settings.high_case).need("cycle") if settings.high_case else None
     return {"cycle": family.cycle_at(case.need("cycle"), high, settings, mep)}
 
 

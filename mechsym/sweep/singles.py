@@ -34,8 +34,9 @@ def codesign(case: Case) -> dict[str, Any]:
     """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
     from mechsym.codesign.summary import summary
     from mechsym.jobs.codesign import codesign as design
+    from mechsym.jobs.codesign import settings_of
 
-    return {key: _ends(value) for key, value in summary(design(case, case.need("codesign"))).items()}
+    return {key: _ends(value) for key, value in summary(design(case, settings_of(case))).items()}
 
 
 def _ends(value: Any) -> Any:

@@ -2,10 +2,13 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
 from mechsym.cli import main
+
+COMPRESSOR = str(Path(__file__).parents[2] / "examples" / "mechanisms" / "compressor.toml")
 
 KEYS = {
     "status", "flywheel_inertia", "flywheel_inertia_bare", "speed_rpm", "load", "speed_ripple", "p0", "bound", "active",
@@ -68,11 +71,23 @@ def test_report_says_what_kills_it(done):
     _, numbers, folder = done
     page = (folder / "report.html").read_text()
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", page, flags=re.S).lower()
-    for words in ("What to make", "What it holds", "What it costs", "What kills it", "How sure", "the shaft stops"):
+    for words in (
+        "What to make",
+        "What it holds",
+        "What it costs",
+        "What kills it",
+        "How sure",
+        "the shaft stops",
+        "scavenge step",
+        "controller:",
+        "leak:",
+        "start:",
+        "swings back and rests at",
+    ):
         assert words in page
     assert (folder / "guide.csv").read_text().splitlines()[0].startswith("theta [rad],rho [m]")
     names = {p.name for p in folder.iterdir()}
-    assert names >= {"summary.json", "points.csv", "front.svg", "works.svg", "map.svg", "spread.svg", "misfire.svg"}
+    assert names >= {"summary.json", "points.csv", "front.svg", "works.svg", "map.svg", "spread.svg", "scenarios.svg"}
 
 
 @pytest.mark.parametrize(
@@ -94,9 +109,28 @@ def test_bad_input_is_one_line(monkeypatch, capsys, words, message):
     assert message in line
 
 
-def test_other_cases_say_what_is_missing(monkeypatch, capsys):
-    assert run(monkeypatch, "moroianu") == 2
-    assert "[codesign]" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("case", "words", "message"),
+    [
+        ("moroianu", (), "section [rollers] is missing"),
+        ("generator", ("--speeds", "2000,3000"), "the diagram is of 3000.01 rpm and not at 2000 rpm"),
+        ("generator", ("--loads", "0.5,1"), "it has one load"),
+    ],
+)
+def test_other_cases_say_what_is_missing(monkeypatch, capsys, case, words, message):
+    assert run(monkeypatch, case, *words) == 2
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("case", "words"), [("generator", ()), (COMPRESSOR, ("--speeds", "600,900"))])
+def test_a_case_without_the_section_has_its_own_speed_and_load(monkeypatch, capsys, case, words):
+    assert run(monkeypatch, case, "--json", *words) == 0
+    numbers = json.loads(capsys.readouterr().out)
+    assert numbers["flywheel_inertia"] == pytest.approx(0, abs=1e-6) and numbers["flywheel_inertia_bare"] > 0.01
+    assert numbers["verified"]["steady_ripple"] == pytest.approx(numbers["verified"]["time_ripple"], rel=1e-3)
+    # what takes work has no combustion to lose
+    assert (numbers["misfire_speed_share"][0] is None) == (case == COMPRESSOR)
 
 
 @pytest.mark.slow
@@ -114,4 +148,6 @@ def test_hardly_possible_tasks_end_with_the_bound(monkeypatch, capsys, words):
     code = run(monkeypatch, "zotov-89", "--speeds", "60,142", "--json", *words)
     numbers = json.loads(capsys.readouterr().out)
     assert code == (0 if numbers["feasible"] else 1)
+    assert numbers["feasible"] == (words[-1] != "limits.roller_reaction=10 kN")
+    assert not (numbers["feasible"] and numbers["verified"]["broken"])
     assert numbers["bound"]["flywheel"][0] >= 0

@@ -1,12 +1,13 @@
 """Standing still, starting, turning the other way, and a governor."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
 from codesigns import design
 
-from mechsym.codesign import manoeuvres, running
+from mechsym.codesign import changes, manoeuvres, running
 
 
 def machine(k=2):
@@ -51,3 +52,23 @@ def test_a_governor_brings_the_speed_back_after_a_jump_of_the_load():
     assert speed[0] < 0.995 * made.point.omega
     assert speed[1] == pytest.approx(made.point.omega, rel=2e-3)
     assert abs(found.energy_residual) < 1e-5
+
+
+def test_a_stopped_shaft_rests_where_it_is_pushed_to():
+    made = machine()
+    angles = manoeuvres.standstill(made).angles
+    for angle in angles:
+        assert manoeuvres.rest_from(made, angle + 0.05) == pytest.approx(angle, abs=1e-9)
+        aside = manoeuvres.rest_from(made, angle - 0.3)
+        assert min(abs(aside - a) for a in angles) < 1e-9
+
+
+@pytest.mark.slow
+def test_what_else_happens_is_told():
+    found = {row.name: row for row in changes.rows(design(), 5)}
+    assert set(found) == {"leak", "controller", "start", "stop"}
+    assert "turns more, stands at" in found["stop"].outcome and found["stop"].run.stalled
+    assert found["start"].speed_max > 0 and not found["start"].run.stalled
+    first, *_, last = re.findall(r"\d+\.\d{4}", found["controller"].outcome)
+    assert float(first) > 1.5 * float(last) and float(last) == pytest.approx(0.02, abs=3e-3)
+    assert all(abs(row.run.energy_residual) < 1e-5 for row in found.values())

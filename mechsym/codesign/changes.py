@@ -1,0 +1,102 @@
+"""What else happens to a machine: another scavenge pressure, a leak, its controller, a start and a stop.
+
+Rows like those of `scenarios`, at one point each.
+"""
+
+import dataclasses
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from mechsym.codesign import manoeuvres, running
+from mechsym.codesign.control import hold
+from mechsym.codesign.points import Point
+from mechsym.codesign.running import Running
+from mechsym.codesign.scenarios import Scenario, not_running, steady_speed, told
+from mechsym.codesign.task import CoDesign
+
+_LEAK, _OFF = 0.10, 0.10  # share of the pressure that is lost, or off when a controller begins
+_TURNS = 10.0  # turns in which a leak is watched
+_PUSH = 1.2  # starting torque by the one that just turns the shaft
+_STOPPED = 2.0
+_COAST = 60.0  # most turns of a stop
+
+
+def rows(found: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenario]:
+    """Scenarios of a point.
+
+    Parameters
+    ----------
+    scavenged : Point, optional
+        The same point with a tenth less scavenge pressure and the load as it was
+    """
+    machine = running.running(found.task.points[k], found.tracks, k, found.flywheel)
+    made = [] if scavenged is None else [_scavenge_step(found, machine, scavenged, k)]
+    made += [_leak(machine, k), _controlled(found, k)]
+    return made + ([] if machine.point.misfire is None else [_start(machine, k), _stop(machine, k)])
+
+
+def _scavenge_step(found: CoDesign, machine: Running, scavenged: Point, k: int) -> Scenario:
+    """The load stays, the gas has another shape: how far from it is the guide, and does a pressure help?"""
+    name, about = "scavenge step", "scavenge pressure 10 % lower, mean pressure and spring as before"
+    start = steady_speed(machine)
+    if start is None:
+        return not_running(name, about, k)
+    other = running.running(scavenged, found.tracks, k, found.flywheel)
+    run = running.run(other, start[0], _TURNS)
+
+    def ripple(share: float) -> float:
+        motion = running.steady(
+            dataclasses.replace(other, pressures=tuple(share * p for p in other.pressures))
+        ).speed_ripple
+        return _STOPPED if motion is None else motion
+
+    best = minimize_scalar(ripple, bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-4})
+    words = f"ripple {ripple(1.0):.4f}, at {best.x:.3f} of the pressures {best.fun:.4f}"
+    return told(name, about, k, start[1], run, lambda r: words)
+
+
+def _leak(machine: Running, k: int) -> Scenario:
+    name, about = "leak", f"every spring {_LEAK:.0%} below its pressure from dead centre on, fuel as before"
+    start = steady_speed(machine)
+    if start is None:
+        return not_running(name, about, k)
+    low = dataclasses.replace(machine, pressures=tuple((1 - _LEAK) * p for p in machine.pressures))
+    run = running.run(low, start[0], _TURNS)
+    ripple = running.ripple_of_last_turn(run, machine.point.period) or _STOPPED
+    return told(name, about, k, start[1], run, lambda r: f"ripple {ripple:.4f} after {_TURNS:g} turns")
+
+
+def _controlled(found: CoDesign, k: int) -> Scenario:
+    """The controller of one turn, from pressures that are off."""
+    held, point = hold(found, k, _OFF, turns=4), found.task.points[k]
+    about = f"pressures {_OFF:.0%} off, set after each turn from the speed of that turn"
+    errors = ", ".join(f"{100 * e:.2f}" for e in np.abs(held.pressure_error).max(axis=1))
+    words = f"error {errors} % turn by turn, ripple {held.ripple[0]:.4f} to {held.ripple[-1]:.4f}"
+    return told("controller", about, k, point.omega, held.run, lambda r: words)
+
+
+def _start(machine: Running, k: int) -> Scenario:
+    """Starting air is taken as a constant torque: which cylinder gets it, and when, is not known here."""
+    torque = _PUSH * manoeuvres.standstill(machine).torque
+    run = manoeuvres.start(machine, _PUSH)
+    about = f"from rest under a constant {torque:.3g} N m, {_PUSH:g} of what just turns the shaft; no fuel, no load"
+    return told("start", about, k, machine.point.omega, run,
+                lambda r: f"{r.omega[-1] / machine.point.omega:.2f} of the speed after two turns")  # fmt: skip
+
+
+def _stop(machine: Running, k: int) -> Scenario:
+    name, about = "stop", "fuel cut at dead centre, springs under pressure, load brakes on"
+    start, point = steady_speed(machine), machine.point
+    if start is None or point.misfire is None:
+        return not_running(name, about, k)
+    coasting = dataclasses.replace(machine, torque=point.misfire, kinks=point.misfire_kinks)
+    run = running.run(coasting, start[0], _COAST)
+    if not run.stalled:
+        return told(name, about, k, start[1], run, lambda r: f"still turning after {_COAST:g} turns")
+    angle, turned = float(run.phi[-1] % point.period), float(run.phi[-1] - run.phi[0]) / (2 * np.pi)
+    rest = np.degrees(manoeuvres.rest_from(machine, angle))
+    words = (
+        f"turns {turned:.2f} turns more, stands at {np.degrees(angle):.0f} deg, swings back and rests at {rest:.0f} deg"
+    )
+    return dataclasses.replace(told(name, about, k, start[1], run, str), outcome=words)
