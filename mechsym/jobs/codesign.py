@@ -116,7 +116,7 @@ def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[s
     for k in sorted({0, len(design.task.points) - 1}):
         place = family.places(settings)[k]
         cycle, lower = _acting(case, settings, place.mep).get("cycle"), None
-        if hasattr(cycle, "p_s"):
+        if cycle is not None and hasattr(cycle, "p_s"):
             changed = dataclasses.replace(cycle, p_s=(1 - _SCAVENGE) * cycle.p_s)
             lower = _point(case, settings, place, {"cycle": changed})
         found += changes.rows(design, k, lower)
