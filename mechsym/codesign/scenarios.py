@@ -100,6 +100,7 @@ def steady_speed(machine: Running) -> tuple[float, float] | None:
 
 
 def told(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callable[[TimeRun], str]) -> Scenario:
+    """A run as a scenario, its speeds as shares of `mean` [rad/s]; `words` tell how it went unless it stopped."""
     low, high = (None, None) if run.stalled else (float(run.omega.min()) / mean, float(run.omega.max()) / mean)
     angle = np.degrees(run.phi[-1] - run.phi[0])
     text = f"the shaft stops after {angle:.0f} deg" if run.stalled else words(run)
@@ -107,6 +108,7 @@ def told(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callab
 
 
 def not_running(name: str, about: str, k: int) -> Scenario:
+    """A scenario of a machine without steady motion."""
     return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None,
                     outcome="there is no steady motion to start from")  # fmt: skip
 
