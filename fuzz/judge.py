@@ -25,7 +25,8 @@ POSSIBLE = {
     "twist_peak": (-1, 1),
 }  # fmt: skip
 # a design, a run or a claim may fail; everything else that goes wrong is bad input
-MAY_FAIL = ("hinge", "size", "forces", "simulate", "audit", "reproduce", "derive", "codesign", "check")
+MAY_FAIL = ("hinge", "size", "forces", "simulate", "audit", "reproduce", "derive", "codesign", "check", "sweep")
+ASKED = "failed"  # tells points of a sweep that gave no answer
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,8 @@ def impossible(found: Any, name: str = "") -> str | None:
         shares = found.get("fractions")
         if isinstance(shares, dict) and (off := _shares_off(shares)) is not None:
             return f"shares of the heat add up to {off:g}, and no doubt"
-        return next((fault for key, value in found.items() if (fault := impossible(value, key))), None)
+        told = ((key, value) for key, value in found.items() if key != ASKED)
+        return next((fault for key, value in told if (fault := impossible(value, key))), None)
     if isinstance(found, list):
         return next((fault for value in found if (fault := impossible(value, name))), None)
     if isinstance(found, bool) or not isinstance(found, int | float) or name not in POSSIBLE:

@@ -22,7 +22,7 @@ class FlywheelSettings:
 class TrialSettings:
     """How long the trials run."""
 
-    turns: float = quantity("-", default=20.0, low=4, high=10000, about="turns of the crank")
+    turns: float = quantity("-", default=20.0, low=4, high=1000, about="turns of the crank")
 
 
 @record

@@ -6,7 +6,9 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_option, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+
+_MOST = 100  # values of one option
 
 
 @click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
@@ -23,7 +25,7 @@ from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_
 @click.option("--pareto", metavar="D,D..", help="Ripples of a front: 1,2,5,8%.")
 @click.option("--cylinders", type=click.IntRange(1, 24), help="Also what 1 to N of these cylinders on a shaft need.")
 @click.option("--realise", metavar="GOAL", help="Hardware of least bearing_loss, roller_reaction, gas_volume, ..")
-@run_option
+@out_option
 @set_option
 @json_option
 def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:
@@ -70,9 +72,9 @@ def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]
 
     changed: dict[str, Any] = {}
     if options["speeds"] is not None:
-        changed["speeds"] = tuple(values(options["speeds"], "rad/s", "--speeds", "rpm"))
+        changed["speeds"] = tuple(values(options["speeds"], "rad/s", "--speeds", "rpm", most=_MOST))
     if options["loads"] is not None:
-        changed["loads"] = tuple(values(options["loads"], "-", "--loads"))
+        changed["loads"] = tuple(values(options["loads"], "-", "--loads", most=_MOST))
     for name in ("curve", "springs", "schedule"):
         if options[name] is not None:
             changed[name] = options[name]
@@ -86,7 +88,7 @@ def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]
         changed["robust"] = _one(value, "--robust")
     if options["free"] is not None:
         changed["free"] = tuple(name.strip() for name in options["free"].split(",") if name.strip())
-    ripples = values(options["pareto"], "-", "--pareto") if options["pareto"] is not None else []
+    ripples = values(options["pareto"], "-", "--pareto", most=_MOST) if options["pareto"] is not None else []
     if any(not 0 < r < 1 for r in ripples) or len(set(ripples)) < len(ripples):
         raise BadInput(f"--pareto {options['pareto']!r}: ripples between 0 and 1, each of them once, such as 1,2,5%")
     return dataclasses.replace(settings, **changed), ripples

@@ -1,7 +1,7 @@
 """Options and output that every command shares."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -39,14 +39,14 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print one JS
 out_option = click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
-    callback=tried,
-    help="Folder for files; made when missing.",
-)
-run_option = click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
     callback=tried_run,
     help="Folder for the files of the run and summary.json; made when missing.",
+)
+folder_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    callback=tried,
+    help="Folder for files; made when missing.",
 )
 set_option = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help='Override a value, e.g. --set spring.p0="9.5 MPa".'
@@ -90,7 +90,29 @@ def case_of(name: str, overrides: Mapping[str, Any]) -> Case:
     return case
 
 
-def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
+def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
+    """Put the doubts of a case at the smallest and largest of some values into what the command prints.
+
+    Parameters
+    ----------
+    key : str
+        `section.field`; a case without that section is not judged
+    values : sequence of float
+        What the command computes it for [SI]
+
+    Raises
+    ------
+    BadInput
+        A value that no such engine has
+    """
+    section, _, field = key.partition(".")
+    if section in case.sections:
+        others = {k: v for k, v in case.overrides.items() if k.rpartition(".")[2] not in (field, f"{field}_rpm")}
+        for value in {min(values), max(values)}:
+            case_of(case.path, {**others, key: value})
+
+
+def emit(value: Any, as_json: bool, text: Callable[[], str], leave_out: tuple[str, ...] = ()) -> None:
     """Print a result with its doubts, as JSON or as text for people.
 
     Parameters
@@ -100,6 +122,8 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
         standard error
     text : callable
         Makes the text for people; called only when needed
+    leave_out : tuple of str
+        Keys that `summary.json` does without, since the other files of the run have them
     """
     doubts, accepted = _doubts(value)
     told = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
@@ -108,7 +132,8 @@ def emit(value: Any, as_json: bool, text: Callable[[], str]) -> None:
         value = {**value, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
     folder = click.get_current_context().meta.get(_RUN)
     if folder is not None:
-        write_summary(folder, value)
+        of_all = value if carries else {"rows": value, "doubts": doubts, "accepted": accepted}
+        write_summary(folder, {key: numbers for key, numbers in of_all.items() if key not in leave_out})
     appear()  # files that the text names are in place before it is printed
     if told and not carries:
         click.echo("\n".join(told), err=True)

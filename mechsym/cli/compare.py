@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
 
 
@@ -32,6 +32,8 @@ def compare(
 
     cases = [case_of(name, pairs(overrides)) for name in (case_a, case_b)]
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
+    for case in cases:
+        judge_ends(case, "operation.speed", omega.tolist())
     found = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
     a, b = found.values() if len(found) == 2 else [*found.values()] * 2
     result = {"cases": [case.name for case in cases], **side_by_side(a, b)}

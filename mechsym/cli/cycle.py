@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli import cycle_breathing, cycle_stirling
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities.display import ratio_text
@@ -56,6 +56,7 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
         cycle_loop.show(loaded, loop, as_json, out)
     else:
         omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
+        judge_ends(loaded, "operation.speed", omega)
         _show_map(loaded, omega, over, (as_json, out))
 
 
@@ -77,7 +78,7 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
         return
     if given == "engine":
         machine = engine(one_cylinder(case))
-        found = _map(machine, omega, over)
+        found = _map(case, machine, omega, over)
     elif over:
         raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
     else:
@@ -93,7 +94,7 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     )
 
 
-def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
+def _map(case: Any, machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
     from mechsym.cycle.engine import columns, over_design
 
     design: dict[str, Any] = {"omega": _array(omega)}
@@ -101,6 +102,7 @@ def _map(machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
         if len(omega) > 1:
             raise BadInput("--over runs at one speed; give --speeds one value, or leave it out")
         name, values = parse_over(over, _units(machine))
+        judge_ends(case, name, values)
         design[name] = _array(values)
     points = max(v.size for v in design.values())
     with progress(points, "cycles") as bar:

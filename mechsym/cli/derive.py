@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, progress
+from mechsym.cli.common import emit, folder_option, json_option, progress
 
 
 @click.command()
@@ -14,7 +14,7 @@ from mechsym.cli.common import emit, json_option, out_option, progress
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
 @click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
 @click.option("--latex", is_flag=True, help="Print the equations as LaTeX and write nothing.")
-@out_option
+@folder_option
 @json_option
 def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Path | None, as_json: bool) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, in_rows, json_option, pairs, run_option, set_option, table
+from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
 from mechsym.files import SUMMARY
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
@@ -21,7 +21,7 @@ _SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal;
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")
 @click.option("--law", metavar="A:B:STEP", help="Fit the friction over these speeds (rpm) for [friction_pressure].")
 @set_option
-@run_option
+@out_option
 @json_option
 @click.pass_context
 def forces(

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, pairs, progress, run_option, set_option, table
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
@@ -18,7 +18,7 @@ _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 @click.argument("case_name", metavar="CASE")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
 @click.option("--loads", metavar="A,B..", help="Try the guide at other loads too, as shares of the case's: 0.5,0.75,1.")
-@run_option
+@out_option
 @set_option
 @json_option
 def hinge(

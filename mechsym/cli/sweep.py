@@ -1,12 +1,13 @@
 """`mechsym sweep`: a case at many points, side by side."""
 
+import contextlib
 from pathlib import Path
 from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
-from mechsym.errors import MissingExtra
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.errors import BadInput, MissingExtra
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
 _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
@@ -57,7 +58,12 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     plan = sweeps.Plan(
         case=case, over=over, overrides=pairs(overrides), analysis=analysis, samples=samples, seed=seed, show=show
     )
-    count = len(sweeps.layout(plan).points)
+    points = sweeps.layout(plan)
+    count = len(points.points)
+    case_of(case, pairs(overrides))
+    for ends in sweeps.ends(points):
+        with contextlib.suppress(BadInput):  # a point that is refused is a gap
+            case_of(case, {**pairs(overrides), **ends})
     if out is not None:
         make_folder(out)
     with progress(count, f"sweep of {case}") as bar:
@@ -65,7 +71,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
             plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
         )
     report = _report(found, [] if out is None else _write(found, out))
-    emit(report, as_json, lambda: _text(found, report))
+    emit(report, as_json, lambda: _text(found, report), leave_out=("data",))
     ctx.exit(_INTERRUPTED if found.interrupted else 1 if len(report["failed"]) == count else 0)
 
 

@@ -17,6 +17,8 @@ _COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
 _COLUMNS = {"speed": "rad/s", "load": "Pa", "weight": "-"}
 _FUNCTIONS: dict[str, Callable[..., float]] = {"max": max, "min": min}
 
+_MOST = 100  # points; each brings about 200 unknowns and 800 constraints
+
 
 @record
 class SpeedAndLoad:
@@ -29,6 +31,13 @@ class SpeedAndLoad:
 
 def places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
     """Speeds and loads of the curve `propeller` or `constant_speed`, or of a CSV file."""
+    found = _places(settings)
+    if not 0 < len(found) <= _MOST:
+        raise BadInput(f"{len(found)} points of speed and load; allowed are 1 to {_MOST} in one design")
+    return found
+
+
+def _places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
     if settings.curve.endswith(".csv"):
         return _from_file(settings.curve)
     if settings.curve == "propeller":

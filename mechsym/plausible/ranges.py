@@ -67,6 +67,8 @@ RESULTS = (
           why="the power of all forces must balance"),
     Usual(code="energy_balance", keys=("energy_residual",), unit="-", low=-1e-5, high=1e-5,
           why="energy in, out and kept must balance"),
+    Usual(code="mass_balance", keys=("mass_residual",), unit="-", low=-1e-5, high=1e-5,
+          why="what flows in and does not flow out must be kept"),
     Usual(code="efficiency", keys=("brake_efficiency", "indicated_efficiency"), unit="-", low=0, high=0.999,
           why="an engine gives less than it takes"),
     Usual(code="gas_temperature", keys=("t_max_k",), unit="K", low=200, high=3500,

@@ -24,7 +24,7 @@ plots.py     the picture
 from mechsym.sweep.axes import Axis
 from mechsym.sweep.data import columns, dataset, failures, main_results, write_netcdf, write_table
 from mechsym.sweep.outcomes import Gap
-from mechsym.sweep.run import Means, Plan, Sweep, layout, sweep
+from mechsym.sweep.run import Means, Plan, Sweep, ends, layout, sweep
 
 __all__ = [
     "Axis",
@@ -34,6 +34,7 @@ __all__ = [
     "Sweep",
     "columns",
     "dataset",
+    "ends",
     "failures",
     "layout",
     "main_results",

@@ -101,6 +101,15 @@ def layout(plan: Plan) -> Layout:
     return Layout(axes=tuple(axes), dims=dims, points=tuple(values))
 
 
+def ends(found: Layout) -> list[dict[str, str | float]]:
+    """Overrides that set one value to its smallest or largest, for doubts about the case there."""
+    columns = zip(*found.points, strict=True)
+    at = [
+        (axis, value) for axis, values in zip(found.axes, columns, strict=True) for value in (min(values), max(values))
+    ]
+    return [{axis.key: override(axis, value)} for axis, value in at]
+
+
 def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | None = None) -> Sweep:
     """Run a case at every point.
 
