@@ -50,7 +50,7 @@ def test_files_and_text(tmp_path):
     assert done.exit_code == 0, done.output
     assert "first law" in done.output
     assert {path.name for path in tmp_path.iterdir()} == {
-        "performance.csv", "performance.svg", "cycle.csv", "cycle.svg"
+        "performance.csv", "performance.svg", "cycle.csv", "cycle.svg", "summary.json"
     }  # fmt: skip
     curve = np.genfromtxt(tmp_path / "cycle.csv", delimiter=",", names=True, deletechars="")
     names = {name.split("_[")[0]: name for name in curve.dtype.names}

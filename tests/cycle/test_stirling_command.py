@@ -55,7 +55,7 @@ def test_files_and_text(tmp_path):
     assert found.exit_code == 0
     assert "first law closed" in found.output
     table = np.genfromtxt(tmp_path / "cycle.csv", delimiter=",", names=True, deletechars="")
-    assert {path.name for path in tmp_path.iterdir()} == {"performance.csv", "cycle.csv", "cycle.svg"}
+    assert {path.name for path in tmp_path.iterdir()} == {"performance.csv", "cycle.csv", "cycle.svg", "summary.json"}
     pressure = next(name for name in table.dtype.names if name.startswith("p_pa"))
     assert table[pressure].max() == pytest.approx(1.0374e6, rel=1e-3)
 

@@ -142,7 +142,7 @@ def test_command(tmp_path):
     found = json.loads(result.stdout)
     assert result.exit_code == 0 and found["status"] == "optimal" and len(found["pareto"]) == 3
     assert found.keys() >= {"variables", "objective", "active", "multipliers", "status"}
-    assert {p.name for p in tmp_path.iterdir()} == {"optimum.json", "pareto.csv", "pareto.svg"}
+    assert {p.name for p in tmp_path.iterdir()} == {"optimum.json", "pareto.csv", "pareto.svg", "summary.json"}
 
 
 @pytest.mark.slow

@@ -200,7 +200,7 @@ def test_command(tmp_path):
     text = run(*arguments, "--out", str(tmp_path / "out"))
     assert "simulate of chmielewski over 2 c1: 0 of 2 failed" in text.output
     written = {line.removeprefix("wrote ") for line in text.output.splitlines() if line.startswith("wrote ")}
-    assert written == {str(f) for f in (tmp_path / "out").iterdir()}
+    assert written == {str(f) for f in (tmp_path / "out").iterdir() if f.name != "summary.json"}
     assert {"sweep.csv", "sweep.svg"} <= {Path(f).name for f in written}
     assert text.output.count("speed_mean") == 1
     assert "steps" in run(*arguments, "--show", "steps").output
@@ -267,7 +267,7 @@ def test_without_netcdf(monkeypatch, tmp_path):
     monkeypatch.setattr("mechsym.sweep.data.dataset", missing)
     done = run("chmielewski", "--over", "c1=0,1", *SET, "--out", str(tmp_path), "--json")
     assert (done.exit_code, done.stderr) == (0, "no netCDF file: no xarray\n")
-    assert {f.name for f in tmp_path.iterdir()} == {"sweep.csv", "sweep.svg", "sweep.db"}
+    assert {f.name for f in tmp_path.iterdir()} == {"sweep.csv", "sweep.svg", "sweep.db", "summary.json"}
     assert len(json.loads(done.stdout)["files"]) == 3
 
 
