@@ -42,7 +42,8 @@ def test_cycle_command(case, method):
 def test_cycle_command_writes_its_files(tmp_path):
     result = CliRunner().invoke(cycle, ["nunes-hypocycloid", "--speeds", "1000,2000", "--out", str(tmp_path)])
     assert result.exit_code == 0 and "first law closed" in result.output
-    assert {p.name for p in tmp_path.iterdir()} == {"performance.csv", "cycle.csv", "cycle.svg", "performance.svg"}
+    files = {"performance.csv", "cycle.csv", "cycle.svg", "performance.svg", "summary.json"}
+    assert {p.name for p in tmp_path.iterdir()} == files
     assert "tooth_force" in (tmp_path / "performance.csv").read_text().splitlines()[0]
 
 
