@@ -25,7 +25,7 @@ _PARTS = {
         "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "judged", "speed_ripple",
         "ripple_wanted", "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
         "torque_ratio_min", "torque_ratio_peak", "share", "fill", "gas_index", "misfire_speed_share", "bearing_mu",
-        "seal_mu", "guide_mu", "gamma",
+        "seal_mu", "guide_mu", "gamma", "knock",
     ),
 }  # fmt: skip
 _GROUPS = {"losses.shares.": "-", "energy.work.": "J", "fractions.": "-", "loads.": "N", "margins.": "-"}

@@ -153,7 +153,7 @@ def test_what_cannot_be_run_over_is_refused(over, samples, words):
 
 
 @pytest.mark.parametrize(
-    "given, words", [({"analysis": "weigh"}, "simulate, hinge, cycle"), ({"seed": -1}, "seed = -1")]
+    "given, words", [({"analysis": "weigh"}, "simulate, hinge, guides, cycle"), ({"seed": -1}, "seed = -1")]
 )
 def test_plans_are_checked(given, words):
     with pytest.raises(BadInput, match=words):

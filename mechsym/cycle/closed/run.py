@@ -190,7 +190,8 @@ def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndar
     found = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
     scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
-    residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
+    with np.errstate(divide="ignore", invalid="ignore"):  # where nothing burns, `run` refuses
+        residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
     return ClosedRun(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
 
 
