@@ -30,6 +30,7 @@ _PATTERNS = [
         (r"inertia|flywheel", "kg*m^2"),
         (r"t|t_end|window", "s"),
         (r"(brake_)?efficiency|indicated_efficiency|fraction_\w+|energy_residual|speed_ripple|share|difference", "-"),
+        (r"knock", "-"),
     )
 ]
 
