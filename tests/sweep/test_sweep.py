@@ -242,7 +242,7 @@ def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
     [
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="hinge"), r"section \[spring\] is missing"),
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="cycle"), r"section \[cycle\] is missing"),
-        (Plan(case="moroianu", over=("bore=0.5,0.52",), analysis="codesign"), r"section \[codesign\] is missing"),
+        (Plan(case="moroianu", over=("bore=0.5,0.52",), analysis="codesign"), r"section \[rollers\] is missing"),
         (Plan(case="no-such-case", over=("c1=1,2",)), "no-such-case"),
     ],
 )
