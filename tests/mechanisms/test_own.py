@@ -35,7 +35,7 @@ def mechsym(*arguments, status=0):
     return json.loads(done.stdout) if status != 2 else done.stderr
 
 
-def test_a_scotch_yoke_goes_through_the_commands(folder):
+def test_a_scotch_yoke_is_derived_and_evaluated(folder):
     assert len(mechsym("derive", "./scotch_yoke.py", "--out", "derived")["written"]) == 2
     checked = mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check")
     assert (checked["written"], checked["differs"]) == ([], [])
@@ -43,24 +43,16 @@ def test_a_scotch_yoke_goes_through_the_commands(folder):
     assert mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check", status=1)["differs"]
 
     phi, r = 0.7, 0.5
-    state = mechsym(
-        "eval",
-        "./scotch_yoke.py",
-        "--case",
-        "scotch-yoke.toml",
-        "--set",
-        f"phi={phi}",
-        "--set",
-        "phid=9",
-        "--set",
-        "F=1e5",
-    )
+    given = (f"phi={phi}", "phid=9", "F=1e5")
+    state = mechsym("eval", "./scotch_yoke.py", "--case", "scotch-yoke.toml", *(w for v in given for w in ("--set", v)))
     inertia = 60 + 460 * (r * np.sin(phi)) ** 2
     assert state["mass_matrix"][0][0] == pytest.approx(inertia, rel=1e-12)
     assert state["kinetic_energy"] == pytest.approx(inertia * 81 / 2, rel=1e-12)
     assert state["generalized_force"][0] == pytest.approx(1e5 * r * np.sin(phi), rel=1e-12)
     assert state["outputs"]["x"] == pytest.approx(r * (1 - np.cos(phi)), rel=1e-12)
 
+
+def test_a_scotch_yoke_has_forces_a_run_and_a_hinge(folder):
     forces = mechsym("forces", "scotch-yoke.toml", "--out", "forces")
     assert forces["power_residual"] < 1e-12
     assert {"R_x_O", "R_y_O", "R_n_S", "R_n_G", "M_G", "driving_torque", "F", "x"} <= set(forces["max"])

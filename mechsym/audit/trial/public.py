@@ -19,8 +19,10 @@ LABELS = ("right", "rounded", "approximate", "impure", "wrong")
 ANSWERS = ("passed", "flagged", "left open", "unread")
 INTRODUCTION = (
     "The public bench: formulas as programs, pages and notes print them, wrong ones and right ones as they came, each",
-    "labelled by two truths that share no code with the auditor. The open half was looked at while the auditor was",
-    "improved, the closed half was not; a source belongs to one of them by the hash of its name.",
+    "labelled by two truths that share no code with the auditor. Some sources have no address (`unnamed`) and cannot",
+    "be looked up again. The open half was looked at while the auditor was improved; of the closed half these counts",
+    "and some refusals were seen, and one hand wrote both down: it is not blind. A source belongs to a half by the",
+    "hash of its name.",
 )
 _ANSWER = {
     **dict.fromkeys(("exact", "truncation", "convention"), "passed"),

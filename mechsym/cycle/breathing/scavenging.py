@@ -56,6 +56,7 @@ def flow_area(s: Scavenging, opened: tuple[float, float, float], room: Chamber) 
     ----------
     opened : tuple of float
         Exhaust opens and closes, ports open; from top dead centre, exhaust closing negative [rad]
+
     Returns
     -------
     area : float
