@@ -1,4 +1,4 @@
-# Every target sets up what it needs. CI calls lint, check-derive, docs, test and test-slow, in that order.
+# Every target sets up what it needs. CI calls lint, check-derive, test and test-slow, in that order; a slow test builds the site.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
@@ -51,7 +51,7 @@ test: | $(READY)
 test-slow: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "slow and not heavy"
 
-# what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids
+# what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids, 200 dead centres
 test-heavy: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m heavy
 

@@ -48,6 +48,7 @@ def by_motored(angle, mean, cylinder):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_interval_holds_the_truth_as_often_as_it_says():
     r = records(np.random.default_rng(11), 200, 6)
     off, half = errors(r, by_compression)
