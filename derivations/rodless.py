@@ -47,4 +47,5 @@ def rodless():
     m.torque(-M, along=alpha)
     output(m, x_a, order=2)
     output(m, x_b, order=2)
+    m.rotor("crank", angle=alpha, load=M, inertia=I1)
     return m

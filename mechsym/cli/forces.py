@@ -125,7 +125,7 @@ def _text(report: dict[str, Any]) -> str:
     for name, errors in (report["two_mass"] or {}).items():
         told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in errors.items() if v > SMALLEST)
         lines.append(f"rod as two masses ({name.replace('_', ' ')}), error of the peak: {told or 'none'}")
-    lines += _friction(report["friction"], report["friction_law"]) + _rodless(report["rodless"])
+    lines += _friction(report["friction"], report["friction_law"]) + _overconstrained(report.get(report["mechanism"]))
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
@@ -163,7 +163,7 @@ def _friction(found: dict[str, Any] | None, law: dict[str, Any] | None) -> list[
     return lines
 
 
-def _rodless(found: dict[str, Any] | None) -> list[str]:
+def _overconstrained(found: dict[str, Any] | None) -> list[str]:
     if found is None:
         return []
     return [

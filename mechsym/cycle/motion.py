@@ -20,11 +20,8 @@ from mechsym.cycle.chamber import Motion
 from mechsym.cycle.dead_centres import check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
-from mechsym.mechanisms.crank_throw import CrankThrowParameters
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.record import Mechanism, bind
-from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.mechanisms.traits import traits
 
 _TURN = 2 * math.pi
 
@@ -134,18 +131,8 @@ def one_cylinder(name: str, parameters: Any) -> tuple[str, Any]:
     name, parameters : str, record
         A mechanism that has one piston and its travel as `x`
     """
-    if isinstance(parameters, RodlessParameters):
-        p = parameters
-        return "hypocycloid", HypocycloidParameters(e=p.r, I1=p.I1, m2=0, I2=0, m3=p.m_a, alpha_n=0)
-    if isinstance(parameters, CrankTrainParameters):
-        letters = {n: each(parameters, n)[0] for n in ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")}
-        name, parameters = "crank_throw", CrankThrowParameters(**letters, I0=each(parameters, "I0")[0])
-    if isinstance(parameters, CrankThrowParameters) and parameters.offset != 0:
-        raise BadInput(
-            f"offset = {parameters.offset:g} m: the cycles know dead centres half a turn apart; "
-            "set offset = 0 or leave [cycle] out"
-        )
-    return name, parameters
+    known = traits(name)
+    return known.alone(parameters) if known is not None and known.alone is not None else (name, parameters)
 
 
 def piston_travel(

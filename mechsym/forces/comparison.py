@@ -7,7 +7,6 @@ there with one piston and with four (two on each axis), each under both closing 
 how the parts give way.
 """
 
-import dataclasses
 import math
 from typing import Any
 
@@ -21,15 +20,9 @@ from mechsym.forces.harmonics import whole
 from mechsym.forces.loads import loads, power_residual
 from mechsym.forces.rings import Rings
 from mechsym.forces.shaking import shaking
-from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive, faces_of
-from mechsym.mechanisms.crosshead import CrossheadParameters
-from mechsym.mechanisms.hypocycloid import HypocycloidParameters
-from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
-from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.forces.turn import CrankDrive, Turn, at, chain_named, chain_of, crank_drive, supported
+from mechsym.mechanisms.chain import Alike
 from mechsym.quantities import quantity, record
-
-_INERTIA = 1.0  # of a crank at constant speed: without effect
-_EQUAL = Stiffnesses(k_a=1.0, k_b=1.0, k_c=1.0)  # only their ratios matter
 
 
 @record
@@ -69,43 +62,16 @@ def reciprocating_mass(turn: Turn) -> float:
     mass : float
         Mass [kg]
     """
-    p = turn.drive.mechanism.parameters
-    if turn.drive.name == "crosshead":
-        return float(p["m3"] + p["m4"] + p["m5"])
-    if turn.drive.name == "hypocycloid":
-        return float(p["m3"])
-    if turn.drive.name == "rodless":
-        on_a = sum(side[0] == "a" for side in faces_of(turn.drive).sides)
-        return float(p["m_a"]) / max(on_a, 1)
-    mass = p["m_piston"]
-    return float(mass[0] if isinstance(mass, tuple) else mass)
+    return chain_of(turn.drive).mass(turn.drive)
 
 
 def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, CrankDrive]:
-    s, m = gas.chamber.stroke, reciprocating_mass(turn)
-    l = s / 2 / settings.lam
-    nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
-    crosshead = CrossheadParameters(**nothing, r2=s / 2, m5=m, I01=_INERTIA)
-    planet = HypocycloidParameters(e=s / 4, I1=_INERTIA, m2=0, I2=0, m3=m, alpha_n=settings.alpha_n)
-    one = RodlessParameters(r=s / 4, I1=_INERTIA, m_link=0, I_link=0, m_a=m, m_b=0)
-    four = dataclasses.replace(one, m_a=2 * m, m_b=2 * m)
-    single = RodlessFaces(sides=("a+",), areas=(gas.chamber.area,), firing=(0.0,))
-    machines = {"slider crank": crank_drive("crosshead", crosshead), "hypocycloid": crank_drive("hypocycloid", planet)}
-    for rule_name, rule in (("crank free radially", CrankFreeRadially()), ("equal stiffnesses", _EQUAL)):
-        for count, parameters, faces in (("one piston", one, single), ("four pistons", four, _four_faces(gas))):
-            machines[f"rodless, {count}, {rule_name}"] = crank_drive("rodless", parameters, faces, rule)
-    return machines
-
-
-def _four_faces(gas: Gas) -> RodlessFaces:
-    # a four-stroke star of four dead centres a quarter turn apart fires as evenly as it can: gaps 270, 180, 90, 180
-    late = (
-        {"a+": 0, "b-": 270, "b+": 450, "a-": 540}
-        if gas.pressure.period > 7
-        else {"a+": 0, "b+": 90, "a-": 180, "b-": 270}
-    )
-    firing = tuple(math.radians(d) for d in late.values())
-    return RodlessFaces(sides=tuple(late), areas=(gas.chamber.area,) * 4, firing=firing)
+    alike = Alike(
+        stroke=gas.chamber.stroke, mass=reciprocating_mass(turn), area=gas.chamber.area, period=gas.pressure.period,
+        lam=settings.lam, alpha_n=settings.alpha_n,
+    )  # fmt: skip
+    peers = [(name, peer) for name in supported() for peer in chain_named(name).peers(alike)]
+    return {peer.label: crank_drive(name, peer.parameters, peer.faces, peer.closing) for name, peer in peers}
 
 
 def _row(name: str, turn: Turn, drive: CrankDrive, friction: Friction | None, rings: Rings) -> dict[str, Any]:

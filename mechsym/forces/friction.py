@@ -6,14 +6,11 @@ The losses are taken as small: they change neither the reactions nor the speed. 
 without a rod or a side force; with the same coefficients everywhere that can be judged.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
-from mechsym.forces.loads import Loads
 from mechsym.forces.rings import Rings, ring_power
-from mechsym.forces.turn import Turn, faces_of
-from mechsym.mechanisms.crank_train.parameters import each
+from mechsym.forces.turn import Turn, chain_of
+from mechsym.mechanisms.chain import Loads, Rubbing
 from mechsym.quantities import quantity, record
 
 
@@ -54,7 +51,7 @@ def losses(turn: Turn, found: Loads, friction: Friction, rings: Rings) -> Losses
     losses : Losses
         By place, and what they cost
     """
-    curves = _PLACES[turn.drive.name](turn, found, friction)
+    curves = _rubbed(turn, found, friction)
     shaft = sum((np.hypot(x, y) for x, y in found.bearings.values()), np.zeros_like(turn.phi))
     curves["main_bearings"] = friction.mu_main * friction.radius_main * shaft * turn.omega
     if turn.gas is not None:
@@ -78,16 +75,7 @@ def pistons(turn: Turn) -> list[tuple[np.ndarray, np.ndarray]]:
     faces : list of (ndarray, ndarray)
         For each face the angle from its firing dead centre [rad] and the speed of its piston [m/s]
     """
-    q = turn.drive.mechanism.coordinates[0]
-    if turn.drive.name == "rodless":
-        faces = faces_of(turn.drive)
-        rows = zip(faces.sides, faces.firing, strict=True)
-        return [(turn.phi - fires, turn.kinematics[f"dx_{side[0]}_d{q}"] * turn.omega) for side, fires in rows]
-    if turn.drive.name == "crank_train":
-        p = turn.drive.parameters
-        firing = each(p, "firing") or (0.0,) * len(p.throw)
-        return [(turn.phi - f, turn.kinematics[f"dx_{i}_d{q}"] * turn.omega) for i, f in enumerate(firing, 1)]
-    return [(turn.phi, turn.kinematics[f"dx_d{q}"] * turn.omega)]
+    return chain_of(turn.drive).faces(turn)
 
 
 def swept_volume(turn: Turn) -> float:
@@ -99,8 +87,9 @@ def swept_volume(turn: Turn) -> float:
         Swept volume [m^3]
     """
     assert turn.gas is not None
-    if turn.drive.name == "rodless":
-        return sum(faces_of(turn.drive).areas) * turn.gas.chamber.stroke
+    areas = chain_of(turn.drive).areas
+    if areas is not None:
+        return sum(areas(turn.drive)) * turn.gas.chamber.stroke
     return turn.gas.chamber.area * turn.gas.chamber.stroke * len(pistons(turn))
 
 
@@ -110,31 +99,25 @@ def _rings(turn: Turn, law: Rings) -> np.ndarray:
     return sum((ring_power(law, turn.gas, phi, v, turn.omega) for phi, v in faces), np.zeros_like(turn.phi))
 
 
-def _slider_crank(turn: Turn, found: Loads, f: Friction) -> Powers:
-    R, w = turn.reactions, turn.omega
-    swing = turn.kinematics["dpsi_dphi"] * w
-    speed = turn.kinematics["dx_dphi"] * w
-    piston_pin = np.hypot(R["R_x_B"], R["R_y_B"]) * f.radius_piston_pin * np.abs(swing)
-    crank_pin = np.hypot(R["R_x_A"], R["R_y_A"]) * f.radius_crank_pin * np.abs(w + swing)
-    return {
-        "guides": f.mu_guide * np.abs(found.guides["side_force"] * speed),
-        "piston_pins": f.mu_pin * piston_pin,
-        "crank_pins": f.mu_pin * crank_pin,
-    }
+def _rubbed(turn: Turn, found: Loads, f: Friction) -> Powers:
+    """Power lost over the angle, by place [W]."""
+    powers: Powers = {}
+    for rubs in chain_of(turn.drive).rubbing(turn, found):
+        lost = _law(f, rubs)
+        powers[rubs.place] = powers[rubs.place] + lost if rubs.place in powers else lost
+    return powers
 
 
-def _hypocycloid(turn: Turn, found: Loads, f: Friction) -> Powers:
-    R, w, pin = turn.reactions, turn.omega, found.pins[0]
-    # the planet turns at -omega: against the rod at omega, in the crank at 2 omega, against the ring at omega
-    return {
-        "guides": np.zeros_like(turn.phi),
-        "piston_pins": f.mu_pin * f.radius_piston_pin * np.abs(R["pin_force"]) * w,
-        "crank_pins": f.mu_pin * f.radius_crank_pin * np.hypot(pin.x, pin.y) * 2 * w,
-        "teeth": mesh_power(f, R["tooth_force"], w),
-    }
+def _law(f: Friction, rubs: Rubbing) -> np.ndarray:
+    if rubs.place == "teeth":
+        return mesh_power(f, rubs.force, rubs.speed)
+    if rubs.place == "guides":
+        return f.mu_guide * np.abs(rubs.force * rubs.speed)
+    radius = {"piston_pins": f.radius_piston_pin, "crank_pins": f.radius_crank_pin}[rubs.place]
+    return f.mu_pin * (rubs.force * radius * np.abs(rubs.speed))
 
 
-def mesh_power(friction: Friction, tooth_force: np.ndarray, omega_rel: float) -> np.ndarray:
+def mesh_power(friction: Friction, tooth_force: np.ndarray, omega_rel: float | np.ndarray) -> np.ndarray:
     r"""Power lost between teeth.
 
     .. math:: P = \mu\,|W_t|\,\omega_{rel}\,\pi m\,\epsilon / 4
@@ -146,7 +129,7 @@ def mesh_power(friction: Friction, tooth_force: np.ndarray, omega_rel: float) ->
     ----------
     tooth_force : ndarray, shape (n,)
         Tangential force [N]
-    omega_rel : float
+    omega_rel : float or ndarray, shape (n,)
         Speed of one gear against the other [rad/s]
 
     Returns
@@ -160,38 +143,3 @@ def mesh_power(friction: Friction, tooth_force: np.ndarray, omega_rel: float) ->
     """
     slide = np.pi * friction.module * friction.contact_ratio / 4
     return friction.mu_mesh * np.abs(tooth_force) * omega_rel * slide
-
-
-def _rodless(turn: Turn, found: Loads, f: Friction) -> Powers:
-    R, w, pin = turn.reactions, turn.omega, found.pins[0]
-    # the link turns at -omega: against the sliders at omega, on the crank pin at 2 omega
-    guides, journals = np.zeros_like(turn.phi), np.zeros_like(turn.phi)
-    for axis in "ab":
-        guides = guides + np.abs(found.guides[f"side_force_{axis}"] * turn.kinematics[f"dx_{axis}_dalpha"] * w)
-        journals = journals + np.hypot(R[f"journal_force_{axis}_along"], R[f"journal_force_{axis}_across"])
-    return {
-        "guides": f.mu_guide * guides,
-        "piston_pins": f.mu_pin * f.radius_piston_pin * journals * w,
-        "crank_pins": f.mu_pin * f.radius_crank_pin * np.hypot(pin.x, pin.y) * 2 * w,
-    }
-
-
-def _crank_train(turn: Turn, found: Loads, f: Friction) -> Powers:
-    R, K, w = turn.reactions, turn.kinematics, turn.omega
-    powers = {name: np.zeros_like(turn.phi) for name in ("guides", "piston_pins", "crank_pins")}
-    for i, pin in enumerate(found.pins, 1):
-        swing = K[f"dpsi_{i}_dphi"] * w
-        piston_pin = np.hypot(R[f"piston_pin_force_along_{i}"], R[f"piston_pin_force_across_{i}"])
-        powers["guides"] += f.mu_guide * np.abs(found.guides[f"side_force_{i}"] * K[f"dx_{i}_dphi"] * w)
-        powers["piston_pins"] += f.mu_pin * f.radius_piston_pin * piston_pin * np.abs(swing)
-        powers["crank_pins"] += f.mu_pin * f.radius_crank_pin * np.hypot(pin.x, pin.y) * np.abs(w + swing)
-    return powers
-
-
-_PLACES: dict[str, Callable[[Turn, Loads, Friction], Powers]] = {
-    "crosshead": _slider_crank,
-    "crank_throw": _slider_crank,
-    "hypocycloid": _hypocycloid,
-    "rodless": _rodless,
-    "crank_train": _crank_train,
-}

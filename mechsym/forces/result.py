@@ -8,11 +8,12 @@ import numpy as np
 from mechsym.forces import textbook
 from mechsym.forces.friction import Friction, Losses, losses
 from mechsym.forces.harmonics import Harmonics, orders
-from mechsym.forces.loads import Loads, loads
+from mechsym.forces.loads import loads
 from mechsym.forces.rings import NoRings, Rings
 from mechsym.forces.shaking import BalanceWanted, Shaking, shaking, verdict
 from mechsym.forces.table import columns
-from mechsym.forces.turn import Turn
+from mechsym.forces.turn import Turn, chain_of
+from mechsym.mechanisms.chain import Loads
 from mechsym.page import Shown
 from mechsym.quantities import record
 
@@ -54,7 +55,7 @@ def forces(
 
 
 def _chains(one: Turn) -> dict[str, textbook.Chain]:
-    if one.drive.name not in ("crosshead", "crank_throw"):
+    if chain_of(one.drive).letters is None:
         return {}
     rod = textbook.slider_crank(one)
     ratios = {"two_mass": rod.L_m / rod.L, "terskih": textbook.terskih(one.omega)}

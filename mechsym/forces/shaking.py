@@ -17,9 +17,8 @@ import numpy as np
 
 from mechsym.forces.harmonics import Harmonics, orders, whole
 from mechsym.forces.loads import roll_sense
-from mechsym.forces.turn import Turn
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.rodless import RodlessParameters
+from mechsym.forces.turn import Turn, chain_of
+from mechsym.mechanisms.chain import stroke_force
 from mechsym.quantities import quantity, record
 
 _NAMES = {
@@ -95,12 +94,10 @@ def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
 
 
 def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...]:
-    train = turn.drive.parameters
-    if not isinstance(train, CrankTrainParameters) or set(each(train, "sense")) != {1.0}:
+    ends = chain_of(turn.drive).ends(turn.drive.parameters)
+    if ends is None:
         return ()
-    z = np.array([min(each(train, "z")), max(each(train, "z"))])
-    if z[0] == z[1]:
-        return ()
+    z = np.array(ends)
     force, couple = (curves[f"force_{n}"] for n in "xy"), (curves["rocking_y"], -curves["rocking_x"])
     turning = [np.mean((x + 1j * y) * np.exp(-1j * turn.phi)) for x, y in (tuple(force), couple)]
     found = np.linalg.solve(np.array([[1.0, 1.0], z]), -np.array(turning) / turn.omega**2)
@@ -127,50 +124,13 @@ def verdict(turn: Turn, found: Shaking, wanted: BalanceWanted) -> list[str]:
             if scale > 0 and left > wanted.limit * scale:
                 reasons.append(
                     f"order {order:g} of {name} is left with {left:.4g} {unit}, {100 * left / scale:.3g} % of one "
-                    f"cylinder's; {_advice(turn, name, int(order))}"
+                    f"cylinder's; {chain_of(turn.drive).advice(turn, name, int(order))}"
                 )
     return reasons
 
 
 def _scale(turn: Turn, name: str) -> float:
     """Force of one cylinder's reciprocating mass, for a couple times the length of the shaft."""
-    p, train = turn.drive.mechanism.parameters, turn.drive.parameters
-    if isinstance(train, CrankTrainParameters):
-        force = max(m * r for m, r in zip(each(train, "m_piston"), each(train, "r"), strict=True)) * turn.omega**2
-        return force * (np.ptp(each(train, "z")) if name.startswith("rocking") else 1.0)
-    masses = {
-        "crosshead": ("m3", "m4", "m5"),
-        "crank_throw": ("m_piston",),
-        "hypocycloid": ("m3",),
-        "rodless": ("m_a",),
-    }
-    stroke = np.ptp(turn.kinematics["x_a" if turn.drive.name == "rodless" else "x"])
-    return sum(p[m] for m in masses[turn.drive.name]) * stroke / 2 * turn.omega**2
-
-
-def _advice(turn: Turn, name: str, order: int) -> str:
-    parameters = turn.drive.parameters
-    if isinstance(parameters, RodlessParameters):
-        return _rodless_advice(parameters)
-    if not isinstance(parameters, CrankTrainParameters):
-        return "one cylinder cannot balance itself; a counterweight takes at most the part that turns with the crank"
-    names = ", ".join(f"{math.degrees(a) % 360:g}" for a in each(parameters, "phase"))
-    n = len(set(parameters.throw))
-    if name.startswith("rocking"):
-        return f"cranks at {names} deg are no mirror image about the middle of the shaft; order them symmetrically"
-    return (
-        f"cranks at {names} deg: the arrows exp(i {order} phase) do not add up to zero; {n} equal throws "
-        f"{360 / n:g} deg apart cancel every order that is no multiple of {n}"
-    )
-
-
-def _rodless_advice(p: RodlessParameters) -> str:
-    if p.m_a != p.m_b:
-        return (
-            f"m_a = {p.m_a:g} kg and m_b = {p.m_b:g} kg: a force (m_a - m_b) r omega^2 turns against the crank, and no "
-            "counterweight on it takes that; make the two axes equally heavy"
-        )
-    return (
-        f"the resultant turns with the crank: a counterweight of u1 = {-(2 * p.m_a + p.m_link) * p.r:.4g} kg m on the "
-        f"crank takes all of it, the case has {p.u1:.4g} kg m"
-    )
+    chain, mass = chain_of(turn.drive), chain_of(turn.drive).mass
+    force = chain.inertia(turn) if chain.inertia is not None else stroke_force(turn, mass(turn.drive))
+    return force * (chain.lever(turn.drive.parameters) if name.startswith("rocking") else 1.0)

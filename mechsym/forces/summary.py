@@ -4,9 +4,6 @@ import dataclasses
 import math
 from typing import Any
 
-import numpy as np
-
-from mechsym import mechanisms
 from mechsym.forces import claims, textbook
 from mechsym.forces.friction import Losses
 from mechsym.forces.harmonics import Harmonics
@@ -14,8 +11,7 @@ from mechsym.forces.loads import power_residual
 from mechsym.forces.result import Forces
 from mechsym.forces.shaking import Shaking
 from mechsym.forces.table import angle_of_largest, extremes
-from mechsym.forces.turn import Turn
-from mechsym.mechanisms import constraints
+from mechsym.forces.turn import Turn, chain_named, supported
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
 _RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
@@ -52,7 +48,7 @@ def summary(found: Forces, case: str, source: str = "") -> dict[str, Any]:
         "friction": None if found.losses is None else _friction(found.losses),
         "two_mass": _two_mass(found) or None,
         "weight": textbook.weight_shares(one) if found.chains else None,
-        "rodless": _rodless(one) if one.drive.name == "rodless" else None,
+        **_told(one),
         "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
         "comparison": found.comparison,
         "claims": [row for row in _claims(found) if row["source"] == source],
@@ -116,19 +112,7 @@ def _claims(found: Forces) -> list[dict[str, str]]:
     return judged
 
 
-def _rodless(one: Turn) -> dict[str, Any]:
-    p = one.drive.parameters
-    rigid = mechanisms.build("rodless_constraints", p)
-    solution = constraints.solve(rigid, constraints.close(rigid, {"alpha": 0.6, "alphad": one.omega}))
-    # of link, sliders and pistons; the crank's own unbalance is there to balance it
-    rate = one.momentum["momentum_rate_x"] + 1j * one.momentum["momentum_rate_y"]
-    in_crank = -rate * np.exp(-1j * one.phi) - p.u1 * one.omega**2
-    size, wandering = np.abs(in_crank), np.abs(np.angle(in_crank)).max()
-    return {
-        "constraint_rank": solution.rank,
-        "constraint_count": solution.count,
-        "closing_rule": type(one.drive.closing).__name__,
-        "inertia_resultant_max": float(size.max()),
-        "inertia_resultant_min": float(size.min()),
-        "resultant_off_crank_deg": math.degrees(float(wandering)),
-    }
+def _told(one: Turn) -> dict[str, Any]:
+    """What only some mechanisms have to tell, by their names; null where it is another that turns."""
+    known = {name: told for name in supported() if (told := chain_named(name).told) is not None}
+    return {name: told(one) if one.drive.name == name else None for name, told in known.items()}

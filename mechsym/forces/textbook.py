@@ -17,25 +17,11 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, radial, tangential
-from mechsym.forces.turn import Turn, at, crank_drive
+from mechsym.forces.turn import Turn, at, chain_of, crank_drive
+from mechsym.mechanisms.chain import SliderCrank
 from mechsym.quantities import record
 
 _FREE_FALL = 9.81  # [m/s^2]
-
-
-@record
-class SliderCrank:
-    """A slider crank in the letters of the sources."""
-
-    #: Crank radius and rod length [m]
-    R: float
-    L: float
-    L_m: float  #: Crank pin to the rod's centre of mass [m]
-    #: Mass of the rod [kg] and its inertia about the centre of mass [kg*m^2]
-    m_b: float
-    I_b: float
-    m_p: float  #: Mass that moves with the piston: piston, piston rod, crosshead [kg]
-    u_c: float  #: Unbalance of the crank on the pin's side [kg*m]
 
 
 @record
@@ -93,14 +79,10 @@ def slider_crank(turn: Turn) -> SliderCrank:
     slider_crank : SliderCrank
         With the true centre of mass of the rod
     """
-    p = turn.drive.mechanism.parameters
-    if turn.drive.name == "crosshead":
-        return SliderCrank(R=p["r1"] + p["r2"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m2"], I_b=p["IC2"],
-                           m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
-    if turn.drive.name == "crank_throw":
-        return SliderCrank(R=p["r"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m_rod"], I_b=p["I_rod"],
-                           m_p=p["m_piston"], u_c=p["u0"])  # fmt: skip
-    raise BadInput(f"the chain of Moroianu is that of a slider crank, not of {turn.drive.name}")
+    letters = chain_of(turn.drive).letters
+    if letters is None:
+        raise BadInput(f"the chain of Moroianu is that of a slider crank, not of {turn.drive.name}")
+    return letters(turn.drive.mechanism.parameters)
 
 
 def chain(turn: Turn, ratio: float) -> Chain:

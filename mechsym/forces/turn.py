@@ -17,16 +17,12 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
-from mechsym.mechanisms import crank_train, rodless
-from mechsym.mechanisms.crank_train.firing import gas_forces
+from mechsym.mechanisms.chain import CrankChain
 from mechsym.mechanisms.record import Mechanism, along
-from mechsym.mechanisms.rodless import ClosingRule
-from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces
+from mechsym.mechanisms.traits import packaged, traits
 from mechsym.quantities import record
 
 _STEPS_PER_TURN = 1440
-
-_SUPPORTED = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
 
 
 @record
@@ -36,9 +32,9 @@ class CrankDrive:
     name: str
     parameters: Any  #: The mechanism's record
     mechanism: Mechanism  #: With one coordinate and all reactions
-    #: Working faces of a rodless engine, and how its parts give way; None for the others
-    faces: RodlessFaces | None = None
-    closing: ClosingRule | None = None
+    #: Working faces, and how the parts of an overconstrained mechanism give way; None for the others
+    faces: Any = None
+    closing: Any = None
 
 
 @record
@@ -73,31 +69,45 @@ def turn(drive: CrankDrive, gas: Gas | None, omega: float) -> Turn:
     return at(drive, gas, omega, angles(gas))
 
 
-def crank_drive(
-    name: str, parameters: Any, faces: RodlessFaces | None = None, closing: ClosingRule | None = None
-) -> CrankDrive:
+def crank_drive(name: str, parameters: Any, faces: Any = None, closing: Any = None) -> CrankDrive:
     """A mechanism with one coordinate and every reaction determined.
 
     Parameters
     ----------
     parameters : record
         Of the mechanism of that name; a crank train stands on a rigid shaft
-    faces : RodlessFaces, optional
-        Where gas acts on a rodless engine
+    faces : record, optional
+        Where gas acts, for a mechanism that has a choice
     closing : closing rule, optional
-        What a rodless engine needs besides, for it is overconstrained
+        What an overconstrained mechanism needs besides
     """
-    if name not in _SUPPORTED:
-        raise BadInput(f"forces of {name} are not known; there are {', '.join(_SUPPORTED)}")
-    if name == "crank_train":
-        mechanism = crank_train.build_rigid(parameters)
-    elif name == "rodless":
-        if closing is None:
-            raise BadInput("a rodless engine is overconstrained: give the closing rule")
-        mechanism = rodless.closed(rodless.build(parameters), closing)
-    else:
-        mechanism = mechanisms.build(name, parameters)
+    rigid = chain_named(name).rigid
+    mechanism = mechanisms.build(name, parameters) if rigid is None else rigid(parameters, closing)
     return CrankDrive(name=name, parameters=parameters, mechanism=mechanism, faces=faces, closing=closing)
+
+
+def supported() -> tuple[str, ...]:
+    """Names of the mechanisms whose force chain is known."""
+    return tuple(n for n in packaged() if (known := traits(n)) is not None and known.chain is not None)
+
+
+def chain_of(drive: CrankDrive) -> CrankChain:
+    """What the module of a drive's mechanism says of its forces."""
+    return chain_named(drive.name)
+
+
+def chain_named(name: str) -> CrankChain:
+    """What the module of a mechanism says of its forces.
+
+    Raises
+    ------
+    BadInput
+        It has none, or says nothing of them
+    """
+    known = traits(name)
+    if known is None or known.chain is None:
+        raise BadInput(f"forces of {name} are not known; there are {', '.join(supported())}")
+    return known.chain
 
 
 def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Turn:
@@ -181,21 +191,9 @@ def pushes(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.
     def net(angle: np.ndarray) -> np.ndarray:
         return gas.pressure.absolute(angle) - gas.p_back
 
-    if drive.name == "rodless":
-        return dict(zip(("F_a", "F_b"), axis_forces(faces_of(drive), net, phi), strict=True))
     if gas.pistons:
         return {f"F{i + 1}": net(phi) * area for i, area in enumerate(gas.pistons)}
-    if drive.name == "crank_train":
-        forces = gas_forces(drive.parameters, net, gas.chamber.area, phi, gas.pressure.period)
-        return {f"F{i + 1}": force for i, force in enumerate(forces)}
-    return {"F": net(phi) * gas.chamber.area}
-
-
-def faces_of(drive: CrankDrive) -> RodlessFaces:
-    """Working faces of a rodless engine."""
-    if drive.faces is None:
-        raise BadInput("gas acts on the faces of a rodless engine; give them")
-    return drive.faces
+    return chain_of(drive).pushes(drive, net, gas.chamber.area, phi, gas.pressure.period)
 
 
 def _along(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

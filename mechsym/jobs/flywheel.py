@@ -13,7 +13,7 @@ from mechsym.cases.settings import FlywheelSettings
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.errors import BadInput
-from mechsym.forces.turn import CrankDrive, faces_of, pushes
+from mechsym.forces.turn import CrankDrive, chain_of, pushes
 from mechsym.hinge.trials import Trial, run
 from mechsym.jobs.gas import gas
 from mechsym.jobs.machine import heavier, kept_flywheel, load, machine
@@ -21,7 +21,6 @@ from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import drive_of
 from mechsym.machine import ConstantLoad, Machine, settle
 from mechsym.machine.record import AngleForce
-from mechsym.mechanisms.crank_train.parameters import each
 from mechsym.quantities import record
 from mechsym.simulate import Settings
 from mechsym.simulate.angle import Panels, tabulate
@@ -135,11 +134,7 @@ def _valves(case: Case) -> tuple[float, ...]:
 def _kinks(drive: CrankDrive, found: Gas | None, valves: tuple[float, ...]) -> tuple[float, ...]:
     if found is None:
         return ()
-    starts: tuple[float, ...] = (0.0,)
-    if drive.name == "rodless":
-        starts = faces_of(drive).firing
-    elif drive.name == "crank_train" and not found.pistons:
-        starts = each(drive.parameters, "firing")
+    starts = (0.0,) if found.pistons else chain_of(drive).fires(drive)
     return tuple(
         sorted({(k + start) % found.pressure.period for start in starts for k in (*found.pressure.kinks, *valves)})
     )

@@ -9,18 +9,14 @@ from mechsym.cases import Case
 from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
-from mechsym.jobs import own_machine
+from mechsym.forces.turn import supported
+from mechsym.jobs import own, own_machine
 from mechsym.jobs.gas import at_recorded_speed, gas
 from mechsym.jobs.own import is_own
 from mechsym.jobs.scavenge import scavenged, told
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
-from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.mechanisms.record import Mechanism
-
-# mechanism: the inertia of its shaft among the parameters, and the input that takes the load
-_SHAFTS = {"crosshead": ("I01", "M_r"), "crank_throw": ("I0", "M"), "crank_train": ("I_f", "M"),
-           "hypocycloid": ("I1", "M"), "rodless": ("I1", "M")}  # fmt: skip
 
 
 def machine(case: Case, diagram: str | None = None) -> Machine:
@@ -46,13 +42,15 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
     """
     if is_own(case.mechanism):
         return own_machine.machine(case)
-    if case.mechanism != "crosshead":
-        raise BadInput(f"{case.file}: a hinge is designed for the mechanism crosshead, not for {case.mechanism}")
+    if not takes_hinge(case.mechanism):
+        raise BadInput(
+            f"{case.file}: a hinge is designed for the mechanism {' or '.join(hinged())}, not for {case.mechanism}"
+        )
     cycle = case.need("cycle")
     if diagram is not None:
         cycle = with_diagram(cycle, diagram)
     case = at_recorded_speed(replace(case, sections={**case.sections, "cycle": cycle}))
-    parameters = with_flywheel(case.need("parameters"), kept_flywheel(case))
+    parameters = heavier(case)[0].need("parameters")
     if kind_of(cycle).given == "breathing":
         found = gas(case)
         assert found is not None
@@ -70,6 +68,16 @@ def _parts(name: str, parameters: Any, cycle: Any) -> tuple[Mechanism, Gas]:
     """What masses and cycle decide; sweeps over springs and loads ask for it again and again."""
     mechanism = mechanisms.build(name, parameters)
     return mechanism, gas_in_cylinder(cycle, mechanism.functions["kinematics"])
+
+
+def takes_hinge(name: str) -> bool:
+    """Whether a built-in mechanism has a place for a hinge on its crank: the input M_h."""
+    return name in hinged()
+
+
+def hinged() -> tuple[str, ...]:
+    """Names of the built-in mechanisms with a place for a hinge."""
+    return tuple(name for name in supported() if "M_h" in mechanisms.listing(name)["inputs"])
 
 
 def kept_flywheel(case: Case) -> float:
@@ -97,9 +105,10 @@ def heavier(case: Case, inertia: float = 0.0) -> tuple[Case, str]:
     BadInput
         A mechanism whose shaft is not known
     """
-    if case.mechanism not in _SHAFTS:
-        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(_SHAFTS)}")
-    name, load_input = _SHAFTS[case.mechanism]
+    rotor = next((r for r in own.roles(case, "rotor") if "inertia" in r), None)
+    if rotor is None or case.mechanism not in supported():
+        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(supported())}")
+    name, load_input = rotor["inertia"], rotor["load"] or rotor["drive"]
     parameters = case.need("parameters")
     heavy = replace(parameters, **{name: getattr(parameters, name) + inertia + kept_flywheel(case)})
     return replace(case, sections={**case.sections, "parameters": heavy}), load_input

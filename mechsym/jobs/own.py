@@ -53,7 +53,7 @@ def constants(case: Case) -> dict[str, float]:
 
 def roles(case: Case, kind: str) -> list[dict[str, Any]]:
     """Parts of a kind in the declaration: `piston`, `rotor`, `bearing`, .."""
-    return list(listing(case.mechanism).get("roles", {}).get(kind, []))
+    return list(mechanisms.listing(case.mechanism).get("roles", {}).get(kind, []))
 
 
 def driving_input(case: Case) -> str:

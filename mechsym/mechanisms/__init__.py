@@ -2,14 +2,13 @@
 
 record        Mechanism: named CasADi functions with the parameters bound; `evaluate` along angles
 state         everything at one state; constraints closes loops and finds joint forces
-crosshead, crank_throw, crank_train, crankshaft_flywheel, hypocycloid, rodless    parameters of the built-in ones
+own           the user's own; traits, chain  what the module of a built-in one says of it, found by its name
 shaft         matrices of an elastic shaft
 drawing, plots    to scale at any angle, moving in a page
 """
 
 import dataclasses
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any
 
 from mechsym.errors import BadInput, suggest
@@ -17,20 +16,8 @@ from mechsym.mechanisms import own
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
 from mechsym.mechanisms.state import state
-from mechsym.quantities import load, quantity
-
-_CLASSES = {
-    "crosshead": "crosshead:CrossheadParameters",
-    "crank_throw": "crank_throw:CrankThrowParameters",
-    "crank_train": "crank_train:CrankTrainParameters",
-    "hypocycloid": "hypocycloid:HypocycloidParameters",
-    "rodless": "rodless:RodlessParameters",
-    "rodless_constraints": "rodless:RodlessParameters",
-    "crankshaft_flywheel": "crankshaft_flywheel:CrankshaftFlywheelParameters",
-    "crankshaft_flywheel_printed": "crankshaft_flywheel:CrankshaftFlywheelParameters",
-}
-
-_ASSEMBLED = ("crank_train",)  # put together at run time from a derived part
+from mechsym.mechanisms.traits import packaged, traits
+from mechsym.quantities import quantity
 
 
 def names() -> list[str]:
@@ -41,7 +28,7 @@ def names() -> list[str]:
     >>> "crosshead" in names()
     True
     """
-    return sorted([*_CLASSES, *own.brought()])
+    return sorted({*packaged(), *own.brought()})
 
 
 def parameters_class(name: str) -> Any:
@@ -59,9 +46,10 @@ def parameters_class(name: str) -> Any:
     """
     if own.is_file(name):
         return own.load(name).parameters
-    if name not in _CLASSES:
+    if name not in packaged():
         raise BadInput(f"mechanism {name!r} is not known; {suggest(name, names())}")
-    return load(f"mechsym.mechanisms.{_CLASSES[name]}")
+    known = traits(name)
+    return known.parameters if known is not None else own.record_of(stored_listing(name))
 
 
 def inputs_class(name: str) -> Any:
@@ -77,12 +65,18 @@ def start_class(name: str) -> Any:
     return own.letters_class("Start", {n: quantity(unit, default=None) for n, unit in units.items()})
 
 
+def by_roles(name: str) -> bool:
+    """Whether the roles of its declaration are all that is known of a mechanism: it has no module of its own."""
+    return own.is_file(name) or traits(name) is None
+
+
 def build(name: str, parameters: Any) -> Mechanism:
     """The mechanism of that name with values for its parameters."""
     if not isinstance(parameters, parameters_class(name)):
         raise BadInput(f"{name} takes {parameters_class(name).__name__}, not {type(parameters).__name__}")
-    if name in _ASSEMBLED:
-        return import_module(f"mechsym.mechanisms.{name}").build(parameters)
+    known = traits(name)
+    if known is not None and known.assembled is not None:
+        return known.assembled.build(parameters)
     return bind(name, dataclasses.asdict(parameters))
 
 
@@ -99,8 +93,9 @@ def listing(name: str, mechanism: Mechanism | None = None) -> Mapping[str, Any]:
     listing : mapping
         Keys name, about, source, coordinates, parameters, inputs, outputs, equations
     """
-    if name in _ASSEMBLED:
-        return import_module(f"mechsym.mechanisms.{name}").listing(mechanism)
+    known = traits(name)
+    if known is not None and known.assembled is not None:
+        return known.assembled.listing(mechanism)
     return stored_listing(name)
 
 

@@ -1,8 +1,17 @@
 """One throw of a crank train: parameters and runtime mechanism. Drawing and letters: derivations/crank_throw.py."""
 
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.mechanisms.chain import CrankChain, Loads, SliderCrank, TurnSeen
+from mechsym.mechanisms.drawn_parts import Circle, Line, slider_crank
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.slider_crank import rubbing, single
+from mechsym.mechanisms.traits import Traits
 from mechsym.quantities import quantity, record
 
 
@@ -57,3 +66,37 @@ def build(parameters: CrankThrowParameters) -> Mechanism:
         Coordinate phi; inputs F, M (torque of the shaft on the throw)
     """
     return mechanisms.build("crank_throw", parameters)
+
+
+def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+    return slider_crank(p.r, p.l1 + p.l2, p.offset, angle, bore)
+
+
+def _loads(turn: TurnSeen) -> Loads:
+    p = turn.drive.mechanism.parameters
+    return single(turn, p["r"], -p["g"] * p["u0"] * np.cos(turn.phi + p["axis_tilt"]))
+
+
+def _letters(p: Mapping[str, float]) -> SliderCrank:
+    return SliderCrank(R=p["r"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m_rod"], I_b=p["I_rod"],
+                       m_p=p["m_piston"], u_c=p["u0"])  # fmt: skip
+
+
+def _alone(parameters: CrankThrowParameters) -> tuple[str, CrankThrowParameters]:
+    """The throw itself, where its dead centres stand half a turn apart."""
+    if parameters.offset != 0:
+        raise BadInput(
+            f"offset = {parameters.offset:g} m: the cycles know dead centres half a turn apart; "
+            "set offset = 0 or leave [cycle] out"
+        )
+    return "crank_throw", parameters
+
+
+TRAITS = Traits(
+    parameters=CrankThrowParameters,
+    drawing=_drawing,
+    chain=CrankChain(
+        loads=_loads, rubbing=rubbing, letters=_letters, mass=lambda drive: drive.mechanism.parameters["m_piston"]
+    ),
+    alone=_alone,
+)

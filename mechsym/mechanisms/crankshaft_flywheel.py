@@ -1,8 +1,13 @@
 """Crankshaft and flywheel on a torsional spring: parameters and runtime mechanisms (Chmielewski et al. 2015)."""
 
+from collections.abc import Iterable
+from typing import Any
+
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.mechanisms.drawn_parts import Circle, Line, slider_crank
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.traits import ElasticShaft, Traits
 from mechsym.quantities import quantity, record
 
 
@@ -45,3 +50,15 @@ def build_printed(parameters: CrankshaftFlywheelParameters) -> Mechanism:
         Coordinates phi0, phi2; input M; no energies
     """
     return mechanisms.build("crankshaft_flywheel_printed", parameters)
+
+
+def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+    yield Circle(role="flywheel", centre=(0.0, 0.0), radius=1.5 * p.r)
+    yield from slider_crank(p.r, p.l, 0.0, angle, bore)
+
+
+TRAITS = Traits(
+    parameters=CrankshaftFlywheelParameters,
+    drawing=_drawing,
+    shaft=ElasticShaft(discs=lambda p: (p.I0, p.I2), springs=lambda p: ((p.k1,), (p.c1,))),
+)

@@ -1,10 +1,19 @@
 """Crank, rod, crosshead and elastic hinge: parameters and runtime mechanism (Zotov et al. 2024, section 2)."""
 
 import dataclasses
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.mechanisms.chain import Alike, CrankChain, DriveSeen, Loads, Peer, SliderCrank, TurnSeen
+from mechsym.mechanisms.drawn_parts import Circle, Line, box, cylinder, piston
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.slider_crank import rubbing, single
+from mechsym.mechanisms.traits import Traits
 from mechsym.quantities import quantity, record
 
 
@@ -55,3 +64,54 @@ def with_flywheel(parameters: CrossheadParameters, inertia: float) -> CrossheadP
         Inertia of the flywheel about the shaft [kg*m^2]
     """
     return dataclasses.replace(parameters, I01=parameters.I01 + inertia)
+
+
+def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+    r, l = p.r1 + p.r2, p.l1 + p.l2
+    pin = (r * math.cos(angle), r * math.sin(angle))
+    end = (pin[0] + math.sqrt(l**2 - pin[1] ** 2), 0.0)
+    length, stroke = 1.5 * 2 * r, 2 * r  # of the piston rod: drawn, not a parameter
+    top = (end[0] + length, 0.0)
+    yield Circle(role="crank", centre=(0.0, 0.0), radius=0.16 * r)
+    yield Line(role="crank", points=((0.0, 0.0), pin))
+    yield Line(role="rod", points=(pin, end))
+    yield Line(role="frame", points=((l - r - 0.3 * r, -0.28 * r), (l + r + 0.3 * r, -0.28 * r)))
+    yield Line(role="frame", points=((l - r - 0.3 * r, 0.28 * r), (l + r + 0.3 * r, 0.28 * r)))
+    yield box("piston", (end[0] - 0.22 * r, -0.24 * r), (0.44 * r, 0.48 * r))
+    yield Line(role="piston", points=(end, top))
+    yield Circle(role="joint", centre=pin, radius=0.09 * r)
+    yield Circle(role="joint", centre=end, radius=0.09 * r)
+    yield from piston(top, stroke, bore)
+    yield from cylinder(0.0, l - r + length, stroke, bore)
+
+
+def _loads(turn: TurnSeen) -> Loads:
+    p = turn.drive.mechanism.parameters
+    weight = -p["g"] * p["m1"] * p["r1"] * np.cos(turn.phi + p["axis_tilt"])
+    return single(turn, p["r1"] + p["r2"], weight)
+
+
+def _mass(drive: DriveSeen) -> float:
+    p = drive.mechanism.parameters
+    return float(p["m3"] + p["m4"] + p["m5"])
+
+
+def _letters(p: Mapping[str, float]) -> SliderCrank:
+    return SliderCrank(R=p["r1"] + p["r2"], L=p["l1"] + p["l2"], L_m=p["l1"], m_b=p["m2"], I_b=p["IC2"],
+                       m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
+
+
+def _peers(alike: Alike) -> tuple[Peer, ...]:
+    """A slider crank without masses but the piston's."""
+    l = alike.stroke / 2 / alike.lam
+    nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
+    # at constant speed the crank's inertia is without effect
+    parameters = CrossheadParameters(**nothing, r2=alike.stroke / 2, m5=alike.mass, I01=1.0)
+    return (Peer(label="slider crank", parameters=parameters),)
+
+
+TRAITS = Traits(
+    parameters=CrossheadParameters,
+    drawing=_drawing,
+    chain=CrankChain(loads=_loads, rubbing=rubbing, mass=_mass, letters=_letters, peers=_peers),
+)

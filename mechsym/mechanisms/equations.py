@@ -3,9 +3,9 @@
 import re
 
 from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.traits import traits
 from mechsym.quantities import record
 
-_DERIVED = {"crank_train": "crank_throw"}  # one throw is derived and put together
 _WORD = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}")
 
 
@@ -44,7 +44,9 @@ def equations(name: str) -> MechanismEquations:
     >>> equations("crosshead").rows[0]["latex"]
     'l = l_{1} + l_{2}'
     """
-    found = listing(_DERIVED.get(name, name))["equations"]
+    known = traits(name)
+    derived = known.assembled.part if known is not None and known.assembled is not None else name
+    found = listing(derived)["equations"]
     rows = tuple({"title": row["title"], "latex": _upright(row["latex"])} for row in found)
     return MechanismEquations(name=name, rows=rows)
 

@@ -131,7 +131,7 @@ def _load(path: Path, which: str, key: str) -> Own:
         code=stored["code"],
         listing=listing,
         module=_module(path, stored["code"]),
-        parameters=_class(json.dumps(listing)),
+        parameters=record_of(listing),
     )
 
 
@@ -192,6 +192,11 @@ def _class(text: str) -> Any:
     ranges = listing.get("ranges", {})
     fields = {letter: quantity(unit, **ranges.get(letter, {})) for letter, unit in listing["parameters"].items()}
     return letters_class(f"{listing['name'].title().replace('_', '')}Parameters", fields)
+
+
+def record_of(listing: Mapping[str, Any]) -> Any:
+    """The record of a mechanism's parameters, by what is stored of its declaration."""
+    return _class(json.dumps(dict(listing)))
 
 
 def letters_class(name: str, fields: Mapping[str, Any]) -> Any:

@@ -71,3 +71,11 @@ def axis_forces(
         sign = -1.0 if side[1] == "+" else 1.0
         forces[side[0]] += sign * net_pressure(alpha - fires) * area
     return forces["a"], forces["b"]
+
+
+def four_faces(area: float, period: float) -> RodlessFaces:
+    """Two faces on each axis that fire as evenly as they can; area [m^2], period of the cycle [rad]."""
+    # a four-stroke star of four dead centres a quarter turn apart: gaps 270, 180, 90, 180
+    late = {"a+": 0, "b-": 270, "b+": 450, "a-": 540} if period > 7 else {"a+": 0, "b+": 90, "a-": 180, "b-": 270}
+    firing = tuple(math.radians(d) for d in late.values())
+    return RodlessFaces(sides=tuple(late), areas=(area,) * 4, firing=firing)

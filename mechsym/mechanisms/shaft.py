@@ -5,11 +5,10 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms.crank_train import build
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
-from mechsym.mechanisms.crankshaft_flywheel import build as build_two
+from mechsym import mechanisms
+from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.traits import ElasticShaft, name_of, traits
 from mechsym.quantities import record
 
 _POINTS = 720
@@ -28,28 +27,24 @@ class ShaftMatrices:
 
 def is_elastic(parameters: Any) -> bool:
     """Whether parameters are those of a shaft that twists."""
-    return isinstance(parameters, CrankTrainParameters | CrankshaftFlywheelParameters)
+    known = traits(name_of(type(parameters)))
+    return known is not None and known.shaft is not None
 
 
-def matrices(parameters: CrankTrainParameters | CrankshaftFlywheelParameters) -> ShaftMatrices:
-    """Matrices of a crank train or of the crankshaft with flywheel."""
-    k, c = springs(parameters)
-    if isinstance(parameters, CrankTrainParameters):
-        mechanism, discs = build(parameters), [*each(parameters, "I0"), parameters.I_f]
-    else:
-        mechanism, discs = build_two(parameters), [parameters.I0, parameters.I2]
+def matrices(parameters: Any) -> ShaftMatrices:
+    """Matrices of an elastic shaft, of the record of its mechanism."""
+    name = name_of(type(parameters))
+    (k, c), mechanism = springs(parameters), mechanisms.build(name, parameters)
     return ShaftMatrices(
         coordinates=mechanism.coordinates,
-        inertia=np.diag(discs),
+        inertia=np.diag(_elastic(parameters).discs(parameters)),
         inertia_mean=_mean_mass(mechanism),
         stiffness=chain(k),
         damping=chain(c),
     )
 
 
-def springs(
-    parameters: CrankTrainParameters | CrankshaftFlywheelParameters,
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def springs(parameters: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Stiffness and damping of each section of the shaft, from the free end to the flywheel.
 
     Returns
@@ -57,9 +52,14 @@ def springs(
     k, c : tuple of float
         One a section [N*m/rad, N*m*s/rad]
     """
-    if isinstance(parameters, CrankTrainParameters):
-        return each(parameters, "k"), each(parameters, "c")
-    return (parameters.k1,), (parameters.c1,)
+    return _elastic(parameters).springs(parameters)
+
+
+def _elastic(parameters: Any) -> ElasticShaft:
+    known = traits(name_of(type(parameters)))
+    if known is None or known.shaft is None:
+        raise BadInput(f"{type(parameters).__name__} has no elastic shaft")
+    return known.shaft
 
 
 def chain(values: tuple[float, ...]) -> np.ndarray:

@@ -175,6 +175,7 @@ def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
         "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
         "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
         "outputs": dict.fromkeys(outputs, ""),
+        "roles": {"rotor": [{"name": "flywheel", "angle": "phi_f", "load": "M", "drive": None, "inertia": "I_f"}]},
         "equations": [],
     }
 

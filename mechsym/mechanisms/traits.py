@@ -1,0 +1,79 @@
+"""What a mechanism of the package brings beside its declaration: its own module says it in one record, `TRAITS`.
+
+The registry is the list of what was generated, and of the packages of this room that put a mechanism together at run
+time. A generated mechanism without a module of its own has its record of parameters, gas, friction and drawing from the
+roles of its declaration, as a mechanism of a user's own has.
+"""
+
+import functools
+from collections.abc import Callable, Iterable, Mapping
+from importlib import import_module, resources
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from mechsym.mechanisms.chain import CrankChain
+from mechsym.mechanisms.drawn_parts import Circle, Line
+from mechsym.mechanisms.record import Mechanism
+from mechsym.quantities import record
+
+_ROOM = "mechsym.mechanisms"
+
+
+@record
+class Assembled:
+    """A mechanism that is put together at run time from a derived part."""
+
+    part: str  #: Name of the derived part
+    build: Callable[[Any], Mechanism]
+    build_driven: Callable[[Any], Mechanism]  #: With a torque at its free end
+    listing: Callable[[Mechanism | None], Mapping[str, Any]]
+
+
+@record
+class ElasticShaft:
+    """A shaft that twists, from the free end to the flywheel."""
+
+    #: Inertia of each disc alone [kg*m^2]
+    discs: Callable[[Any], tuple[float, ...]]
+    #: Stiffness [N*m/rad] and damping [N*m*s/rad] of each section
+    springs: Callable[[Any], tuple[tuple[float, ...], tuple[float, ...]]]
+
+
+@record
+class Traits:
+    """What the module of a mechanism says of it."""
+
+    parameters: Any  #: Class of its record
+    #: Shapes at a crank angle [rad], with a bore [m] or None
+    drawing: Callable[[Any, float, float | None], Iterable[Line | Circle]] | None = None
+    chain: CrankChain | None = None  #: Of a mechanism with a crank and pistons
+    assembled: Assembled | None = None
+    shaft: ElasticShaft | None = None
+    #: The mechanism as one cylinder of it sees itself: name and record of one that has a single piston
+    alone: Callable[[Any], tuple[str, Any]] | None = None
+
+
+def packaged() -> tuple[str, ...]:
+    """Names of the mechanisms that the package has, generated or assembled."""
+    generated = {p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _code(p.name)}
+    assembled = {p.parent.name for p in Path(__file__).parent.glob("*/__init__.py")}
+    return tuple(sorted(generated | assembled))
+
+
+def _code(name: str) -> bool:
+    return name.endswith(".py") and not name.startswith("_")
+
+
+@functools.lru_cache(maxsize=64)
+def traits(name: str) -> Traits | None:
+    """What the module of a mechanism says of it; None where there is no such module."""
+    if not name.isidentifier() or find_spec(f"{_ROOM}.{name}") is None:
+        return None
+    return getattr(import_module(f"{_ROOM}.{name}"), "TRAITS", None)
+
+
+def name_of(parameters: type) -> str:
+    """Name of the first mechanism whose record is of a class; empty where there is none."""
+    named = ((name, traits(name)) for name in packaged())
+    return next((name for name, t in named if t is not None and t.parameters is parameters), "")
