@@ -10,6 +10,7 @@ from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, pr
 from mechsym.errors import BadInput, MissingExtra
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
+_UNKEPT = 1800.0  # time of a processor from which a sweep without --out is refused: too much to lose [s]
 _INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
@@ -43,7 +44,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
     A point that cannot be computed is a gap with a reason: null, an empty cell, NaN; one that kills its process is
     tried once more. Exit status 1 when all are gaps. An interrupt (Ctrl-C, SIGTERM) keeps the points that are finished,
-    writes the files and ends with status 130.
+    writes the files and ends with status 130. What takes more than half an hour of a processor needs --out.
 
     \b
     Examples: mechsym sweep zotov-89 --over "spring.p0=3..8 MPa:11" --over speed_rpm=80,89,100 --out map
@@ -64,9 +65,16 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     for ends in sweeps.ends(points):
         with contextlib.suppress(BadInput):  # a point that is refused is a gap
             case_of(case, {**pairs(overrides), **ends})
+    seconds = sweeps.forecast(plan, count)
     if out is not None:
         make_folder(out)
-    with progress(count, f"sweep of {case}") as bar:
+    elif seconds > _UNKEPT and not scheduler:
+        raise BadInput(
+            f"the sweep has {count} points, about {seconds / 60:.0f} minutes of a processor ({seconds / count:g} s "
+            "each), and without --out nothing of it is kept; give --out DIR, where the same command goes on if it is "
+            "stopped, or fewer points"
+        )
+    with progress(count, f"sweep of {case}, about {max(seconds, 1):.0f} s of a processor") as bar:
         found = sweeps.sweep(
             plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
         )

@@ -14,8 +14,9 @@ from mechsym.jobs import own
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.gas import one_cylinder
 from mechsym.jobs.machine import heavier, kept_flywheel
-from mechsym.jobs.own import is_own, simulation_of
+from mechsym.jobs.own import is_own
 from mechsym.jobs.own_gas import travel_of
+from mechsym.jobs.span import count_loop, simulation_of
 from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
@@ -49,6 +50,7 @@ def run_in_loop(case: Case, settings: Settings) -> Result:
         raise BadInput(f"{case.file}: an engine needs simulation.speed_start above 0 rad/s; leave it away or raise it")
     t_end = math.inf if wanted.t_end is None else wanted.t_end
     turns = math.inf if wanted.turns is None else wanted.turns
+    count_loop(case, turns, t_end, speed)
     return simulate_loop(loop(case), speed, turns, settings, wanted.phi_start, t_end)
 
 

@@ -15,6 +15,7 @@ from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.own_gas import Piston, kinks_of, mean_torque, period_of, pistons, shaft_curve
+from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_of
 from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms import loops
@@ -25,7 +26,6 @@ from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation, StepTorque
 
 _TURN = 2 * np.pi
-_TURN_POINTS = 360  # results a turn
 
 
 def mechanism_of(case: Case) -> Mechanism:
@@ -111,13 +111,6 @@ def _require_closed(case: Case, mechanism: Mechanism, start: Mapping[str, float]
         )
 
 
-def simulation_of(case: Case) -> Simulation:
-    """Section `[simulation]`, or 20 turns from the speed of operation."""
-    if "simulation" in case.sections or "operation" not in case.sections:
-        return case.need("simulation")
-    return Simulation(turns=20.0)
-
-
 def _speed(case: Case, wanted: Simulation, engine: bool) -> float:
     if wanted.speed_start is not None:
         return wanted.speed_start
@@ -126,10 +119,12 @@ def _speed(case: Case, wanted: Simulation, engine: bool) -> float:
 
 def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float]:
     if wanted.t_end is not None:
+        count_times(case, wanted.t_end, wanted.output_step)
         return wanted.t_end, wanted.output_step
     if speed <= 0 or wanted.turns is None:
         raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
-    return 10 * wanted.turns * _TURN / speed, _TURN / speed / _TURN_POINTS
+    count_turns(case, wanted.turns)
+    return 10 * wanted.turns * _TURN / speed, _TURN / speed / TURN_POINTS
 
 
 def _parts(case: Case, mechanism: Mechanism, acting: list[Piston], mean: float, engine: bool) -> tuple[Part, ...]:

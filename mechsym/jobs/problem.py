@@ -21,19 +21,18 @@ from mechsym.hinge.torque import torque
 from mechsym.jobs import train as trains
 from mechsym.jobs.flywheel import shaft
 from mechsym.jobs.machine import machine
-from mechsym.jobs.own import is_own, simulation_of
+from mechsym.jobs.own import is_own
 from mechsym.jobs.own import problem as own_problem
+from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_of
 from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.mechanisms import crank_train
-from mechsym.quantities.ranges import MOST
 from mechsym.simulate import engine as engines
 from mechsym.simulate.problem import Part, Problem, Steps, Stop
 from mechsym.simulate.settings import Settings, Simulation, StepTorque
 
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
-_TURN_POINTS = 360  # results a turn of a run over turns
 
 
 def settings_of(case: Case) -> Settings:
@@ -73,7 +72,7 @@ def problem_of(case: Case) -> Problem:
     speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
     if wanted.turns is None or speed <= 0:
         raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
-    _count(case, "turns", wanted.turns * _TURN_POINTS, f"give at most {MOST // _TURN_POINTS} turns")
+    count_turns(case, wanted.turns)
     problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
     if wanted.t_end is None:
         return problem
@@ -192,18 +191,8 @@ def _train(case: Case, wanted: Simulation) -> Problem:
     )
 
 
-def _count(case: Case, key: str, points: float, way_out: str) -> None:
-    """Refuse a run whose results would not fit, before any is computed."""
-    if points > MOST:
-        asked = f"{getattr(simulation_of(case), key):g}{' s' if key == 'output_step' else ''}"
-        raise BadInput(
-            f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
-        )
-
-
 def _wanted_times(case: Case, t_end: float, wanted: Simulation) -> tuple[float, ...]:
-    least = t_end / MOST
-    _count(case, "output_step", t_end / wanted.output_step, f"give at least {least:.3g} s, or a shorter t_end")
+    count_times(case, t_end, wanted.output_step)
     return _times(t_end, wanted.output_step, wanted.window)
 
 
@@ -216,8 +205,8 @@ def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | t
     turn_time = 2 * math.pi / speed
     # a shaft that takes ten times as long has stopped for every purpose
     assert wanted.turns is not None  # the section has one of the two
-    _count(case, "turns", wanted.turns * _TURN_POINTS, f"give at most {MOST // _TURN_POINTS} turns")
-    return 10 * wanted.turns * turn_time, turn_time / _TURN_POINTS
+    count_turns(case, wanted.turns)
+    return 10 * wanted.turns * turn_time, turn_time / TURN_POINTS
 
 
 @functools.lru_cache(maxsize=8)

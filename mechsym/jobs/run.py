@@ -9,9 +9,9 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.judged import of_run
 from mechsym.jobs.loop import in_loop, run_in_loop
-from mechsym.jobs.own import simulation_of
 from mechsym.jobs.problem import problem_of, settings_of, window_of
 from mechsym.jobs.settling import settled
+from mechsym.jobs.span import simulation_of
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
 from mechsym.jobs.vibration import vibration

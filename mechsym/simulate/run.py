@@ -12,6 +12,7 @@ from mechsym.simulate import constrained, native_backend
 from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
 from mechsym.simulate.backends import FALLBACK, NATIVE, backend
 from mechsym.simulate.equations import System, held, start_of, system
+from mechsym.simulate.forecast import TRIAL, refuse_endless, shorter
 from mechsym.simulate.opening import ended, posed
 from mechsym.simulate.phase import Phase, Raw, Surface
 from mechsym.simulate.problem import Problem, Steps
@@ -38,10 +39,13 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
     Raises
     ------
     BadInput
-        The backend cannot take this problem
+        The backend cannot take this problem, or its first steps show that it would not end within those allowed
     """
     settings = settings or Settings()
-    result = _once(problem, settings)
+    result = _once(problem, shorter(settings))
+    if result.end == "failure" and settings.max_steps > TRIAL:
+        refuse_endless(problem, _once(problem, shorter(settings, TRIAL // 2)), result, settings)
+        result = _once(problem, settings)
     if result.status == "failed" or settings.check == "none":
         return result
     return checked(problem.mechanism, result, _once(problem, tighter(settings)), settings)

@@ -24,7 +24,7 @@ plots.py     the picture
 from mechsym.sweep.axes import Axis
 from mechsym.sweep.data import columns, dataset, failures, main_results, write_netcdf, write_table
 from mechsym.sweep.outcomes import Gap
-from mechsym.sweep.run import Means, Plan, Sweep, ends, layout, sweep
+from mechsym.sweep.run import Means, Plan, Sweep, ends, forecast, layout, sweep
 
 __all__ = [
     "Axis",
@@ -36,6 +36,7 @@ __all__ = [
     "dataset",
     "ends",
     "failures",
+    "forecast",
     "layout",
     "main_results",
     "sweep",

@@ -110,6 +110,27 @@ def ends(found: Layout) -> list[dict[str, str | float]]:
     return [{axis.key: override(axis, value)} for axis, value in at]
 
 
+def forecast(plan: Plan, count: int) -> float:
+    """How long a plan takes on one processor, by what a point of its analysis usually does.
+
+    Parameters
+    ----------
+    count : int
+        How many points `layout` found
+
+    Returns
+    -------
+    seconds : float
+        Rough, of a usual machine [s]
+
+    Examples
+    --------
+    >>> forecast(Plan(case="nunes-slider-crank", over=("speed_rpm=1000..8000:5",)), 5)
+    0.01
+    """
+    return count * route(cases.load(plan.case, plan.overrides), plan.analysis, plan.show).seconds
+
+
 def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | None = None) -> Sweep:
     """Run a case at every point.
 

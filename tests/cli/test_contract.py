@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 import pytest
 
-from mechsym import files
+from mechsym import cases, files
 from mechsym.cli import COMMANDS, main, mechsym
 from mechsym.errors import BadInput
 
@@ -196,6 +196,8 @@ TOO_MUCH = [
     (["simulate", "chmielewski", "--set", "output_step=1e-7"], ["output_step = 1e-07 s", "1e+09", "0.0001 s"]),
     (["simulate", "zotov-89", "--set", "simulation.turns=1e9"], ["turns = 1e+09", "3.6e+11", "2777 turns"]),
     (["simulate", "alpha-stirling", "--set", "simulation.turns=1e9"], ["turns = 1e+09", "3.6e+11", "2777 turns"]),
+    (["simulate", "nunes-slider-crank", "--set", "simulation.turns=1e9"], ["turns = 1e+09", "3.6e+11", "2777 turns"]),
+    (["simulate", "chmielewski", "--set", "t_end=1e9", "--set", "output_step=1e4"], ["t_end = 1e+09 s", "e+18 steps"]),
     (["cycle", "nunes-slider-crank", "--speeds", "1000:8000:0.01"], ["700001 values", "1 to 20000"]),
     (["hinge", "zotov-89", "--loads", "0.1..1:101"], ["101 values", "1 to 100"]),
     (["simulate", "chmielewski", "--dampings", "0.1..1:1001"], ["1001 values", "1 to 1000"]),
@@ -203,6 +205,7 @@ TOO_MUCH = [
     (["codesign", "zotov-89", "--speeds", "60..142:101"], ["101 values", "1 to 100"]),
     (["codesign", "zotov-89", "--speeds", "60..142:20", "--loads", "0.5..1:20"], ["400 points", "1 to 100"]),
     (["sweep", "zotov-89", "--over", "spring.p0=1e6..2e6:100000000"], ["100000000 values", "1000000"]),
+    (["sweep", "zotov-89", "--of", "size", "--over", "m3=1..2:1000"], ["1000 points, about 33 minutes", "give --out"]),
     (["sweep", "zotov-89", "--over", "m3=1..2:9999", "--over", "r1=1..2:9999"], ["99980001 points", "1000000"]),
 ]
 
@@ -212,6 +215,12 @@ def test_what_would_not_fit_is_refused_first(monkeypatch, capsys, argv, words):
     code, out, err = ended(monkeypatch, capsys, argv)
     assert (code, out) == (2, "")
     assert all(word in err for word in words), err
+
+
+def test_gas_in_the_loop_is_counted_by_time_too(monkeypatch, capsys, tmp_path):
+    (tmp_path / "long.toml").write_text(cases.text("nunes-slider-crank") + "\n[simulation]\nt_end = 1e6\n")
+    code, _, err = ended(monkeypatch, capsys, ["simulate", str(tmp_path / "long.toml")])
+    assert code == 2 and "simulation.t_end = 1e+06 s asks for" in err and "give at most 20.8 s" in err
 
 
 def test_memory_used_up(monkeypatch, capsys):

@@ -1,0 +1,61 @@
+"""How long a run in time is by its case; one that asks for too many results is refused before any is computed."""
+
+import math
+
+from mechsym.cases import Case
+from mechsym.errors import BadInput
+from mechsym.quantities.ranges import MOST
+from mechsym.simulate.settings import Simulation
+
+TURN_POINTS = 360  # results a turn of a run over turns
+
+
+def simulation_of(case: Case) -> Simulation:
+    """Section `[simulation]`, or 20 turns from the speed of operation."""
+    if "simulation" in case.sections or "operation" not in case.sections:
+        return case.need("simulation")
+    return Simulation(turns=20.0)
+
+
+def count_turns(case: Case, turns: float) -> None:
+    """Refuse more turns than results fit."""
+    _count(case, "turns", turns * TURN_POINTS, f"give at most {MOST // TURN_POINTS} turns")
+
+
+def count_times(case: Case, t_end: float, output_step: float) -> None:
+    """Refuse results closer than fit.
+
+    Parameters
+    ----------
+    t_end, output_step : float
+        Length of the run and spacing of its results [s]
+    """
+    way_out = f"give at least {t_end / MOST:.3g} s, or a shorter t_end"
+    _count(case, "output_step", t_end / output_step, way_out)
+
+
+def count_loop(case: Case, turns: float, t_end: float, speed: float) -> None:
+    """Refuse a run of gas in the loop, whose results lie at even times.
+
+    Parameters
+    ----------
+    turns : float
+        Infinite where only the time ends it [-]
+    t_end : float
+        Infinite where only the turns end it [s]
+    speed : float
+        At the start [rad/s]
+    """
+    in_time = t_end * speed / (2 * math.pi)
+    if turns <= in_time:
+        return count_turns(case, turns)
+    most = MOST / TURN_POINTS * 2 * math.pi / speed
+    return _count(case, "t_end", in_time * TURN_POINTS, f"give at most {most:.3g} s")
+
+
+def _count(case: Case, key: str, points: float, way_out: str) -> None:
+    if points > MOST:
+        asked = f"{getattr(simulation_of(case), key):g}{'' if key == 'turns' else ' s'}"
+        raise BadInput(
+            f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
+        )
