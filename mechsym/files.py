@@ -3,6 +3,7 @@
 import contextlib
 import csv
 import dataclasses
+import errno
 import hashlib
 import json
 import math
@@ -19,6 +20,8 @@ from mechsym.quantities.display import heading
 
 # what another place or name mends; any other failure (disk full, device broken) is the system's
 _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
+# a path that names no file; any other failure to read one is the system's
+_NO_FILE = (FileNotFoundError, IsADirectoryError, NotADirectoryError)
 SUMMARY = "summary.json"
 _folders: list[Path] = []  # folders whose files wait for each other
 _waiting: dict[Path, str] = {}  # file: its temporary name, complete and on the disk
@@ -87,6 +90,36 @@ def appear() -> None:
 def _drop() -> None:
     while _waiting:
         Path(_waiting.popitem()[1]).unlink(missing_ok=True)
+
+
+def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: str = "utf-8") -> str:
+    """Text of a file that the user names.
+
+    Parameters
+    ----------
+    option : str
+        What the path was given for, set before it in the message
+    way_out : str
+        What to give in its place
+
+    Raises
+    ------
+    BadInput
+        There is no such file, or no text in it
+    OSError
+        The system does not give it: no permission, device broken
+    """
+    said, more = f"{option} {path}".strip(), f"; {way_out}" if way_out else ""
+    try:
+        return Path(path).read_text(encoding=encoding)
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{said}: not UTF-8 text (byte {error.start}){more}") from None
+    except (*_NO_FILE, ValueError) as error:  # a path may hold a zero byte, which is a ValueError
+        raise BadInput(f"{said}: cannot be read ({getattr(error, 'strerror', None) or error}){more}") from None
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            raise BadInput(f"{said}: cannot be read ({error.strerror}){more}") from None
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 def write_text(path: Path, text: str) -> Path:

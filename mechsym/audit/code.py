@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import record
 
 LONGEST = 5000  # of a formula with everything put in
@@ -44,12 +45,7 @@ def read_code(place: str) -> list[Assigned]:
     if not mark or not file or not function:
         raise BadInput(f"--code {place!r} is not FILE::FUNCTION, as engine.c::piston_speed")
     path = Path(file)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(
-            f"--code {file}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})"
-        ) from None
+    text = read_text(path, "--code")
     if path.suffix == ".py":
         found = _python(text, function, file)
     elif path.suffix in _ENDS:

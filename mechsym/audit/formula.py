@@ -20,6 +20,7 @@ from mechsym.audit.theory.tape import TheoryTape
 from mechsym.audit.tree import letters as letters_of
 from mechsym.audit.verdict import PASSED, Decision, decide
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import record
 
 _TEXTS = ("text", "against", "case", "name", "claim", "convention", "theory")
@@ -227,9 +228,7 @@ def check_file(path: Path, theory: str = "") -> list[Row]:
 
 def _content(path: Path) -> dict[str, Any]:
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
+        content = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"{path}: not valid TOML: {error}") from None
     tables = content.get("formula")

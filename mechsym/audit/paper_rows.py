@@ -26,6 +26,7 @@ from mechsym.audit.theory.record import Theory, dependencies, known
 from mechsym.audit.theory.tape import TheoryTape
 from mechsym.audit.tree import Node, letters, substitute
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import record
 
 FINDINGS = ("misprint", "nearer", "wrong")
@@ -51,11 +52,7 @@ def check_paper(path: Path, asked: Asked) -> list[Row]:
         `theory`: name of a theory, or TOML file that declares one or says `base` and `[symbols]`; `letters`: further
         symbols; assumptions and conventions for all equations
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
-    equations = displayed(text)
+    equations = displayed(read_text(path))
     if not equations:
         raise BadInput(f"{path}: there is no display equation in it; equation, align, gather, \\[ \\] and $$ are read")
     theory, symbols = _said_of(asked)
@@ -86,9 +83,7 @@ def _said_of(asked: Asked) -> tuple[Theory, Symbols]:
 
 def _content(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"--theory {path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8'})") from None
+        return tomllib.loads(read_text(path, "--theory"))
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"--theory {path}: not valid TOML: {error}") from None
 

@@ -18,6 +18,7 @@ from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.values import Place, convert, override, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
+from mechsym.files import read_text
 from mechsym.mechanisms import own
 from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
@@ -206,13 +207,10 @@ def _built_in_text(name: str) -> str:
 def _read(name: str) -> tuple[str, str]:
     if name in names():
         return f"case {name}", _built_in_text(name)
-    path = Path(name)
     try:
-        return str(path), path.read_text(encoding="utf-8")
-    except (OSError, ValueError) as error:
-        # a path may hold a zero byte, which is a ValueError too
-        reason = "not UTF-8 text" if isinstance(error, UnicodeDecodeError) else getattr(error, "strerror", error)
-        why = f"case {shown(name, 300)} is neither built in nor a readable file ({reason})"
+        return str(Path(name)), read_text(name)
+    except BadInput as error:
+        why = f"case {shown(name, 300)} is neither built in nor a readable file ({str(error).rpartition(': ')[2]})"
         raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
 
 

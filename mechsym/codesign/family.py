@@ -3,6 +3,7 @@
 import ast
 import csv
 import dataclasses
+import io
 import math
 from collections.abc import Callable
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.errors import BadInput, shown
+from mechsym.files import read_text
 from mechsym.quantities import parse, quantity, record
 
 _COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
@@ -50,11 +52,7 @@ def _places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
 
 def _from_file(name: str) -> list[SpeedAndLoad]:
     """Points of a CSV file with the headings speed, load and perhaps weight, each with its unit: `speed [rpm]`."""
-    try:
-        with open(name, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"codesign.curve = {name!r} cannot be read ({error}); give a CSV file of points") from None
+    rows = list(csv.reader(io.StringIO(read_text(name, "codesign.curve =", "give a CSV file of points"), newline="")))
     heads = [head.strip().partition("[") for head in rows[0]] if rows else []
     columns = {head.strip(): (i, unit.rstrip("] ")) for i, (head, _, unit) in enumerate(heads)}
     if not {"speed", "load"} <= set(columns) <= set(_COLUMNS):

@@ -116,7 +116,7 @@ def forecast(plan: Plan, count: int) -> float:
     Parameters
     ----------
     count : int
-        How many points `layout` found
+        How many points `layout` found for the plan
 
     Returns
     -------

@@ -259,3 +259,46 @@ def test_usual_ranges_of_an_engine_raise_no_doubt(monkeypatch, capsys, command):
 def test_a_speed_beyond_all_engines_is_refused(monkeypatch, capsys):
     code, out, err = ended(monkeypatch, capsys, ["cycle", "nunes-slider-crank", "--speeds", "6000,142982"])
     assert (code, out) == (2, "") and "possible is at most 100 m/s" in err
+
+
+#: Commands that read a file which the user names, with FILE in its place
+READERS = {
+    "case": ["cycle", "FILE"], "check": ["check", "FILE"], "diagram": ["cycle", "generator", "--diagram", "FILE"],
+    "motored": ["cycle", "generator", "--motored", "FILE"], "formulas": ["audit", "--file", "FILE"],
+    "paper": ["audit", "FILE"], "theory": ["audit", "--formula", "r", "--against", "a.x", "--theory", "FILE"],
+    "points": ["codesign", "zotov-89", "--curve", "FILE"],
+    "materials": ["size", "nunes-hypocycloid", "--set", "sizing.materials_file=FILE"],
+    "bearings": ["size", "nunes-hypocycloid", "--set", "sizing.bearings_file=FILE"],
+    "code": ["audit", "--code", "FILE::f", "--against", "crosshead.x"],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("failure", [errno.EACCES, errno.EIO])
+def test_a_file_that_the_system_does_not_give(monkeypatch, capsys, tmp_path, reader, failure):
+    file = tmp_path / {"paper": "a.tex", "case": "a.toml", "theory": "a.toml"}.get(reader, "a.csv")
+    file.write_text("")
+    given = Path.read_text
+
+    def read_text(self, *args, **more):
+        if self == file:
+            raise OSError(failure, os.strerror(failure))
+        return given(self, *args, **more)
+
+    monkeypatch.setattr(Path, "read_text", read_text)
+    code, out, err = ended(monkeypatch, capsys, [word.replace("FILE", str(file)) for word in READERS[reader]])
+    assert (code, out) == (74, "")
+    assert err == f"mechsym: the system failed: [Errno {failure}] {os.strerror(failure)}: '{file}'\n"
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("made", ["folder", "binary", "nothing"])
+def test_a_path_that_names_no_text(monkeypatch, capsys, tmp_path, reader, made):
+    file = tmp_path / "a.tex"
+    if made == "folder":
+        file.mkdir()
+    elif made == "binary":
+        file.write_bytes(b"\xff\xfe\x00")
+    code, out, err = ended(monkeypatch, capsys, [word.replace("FILE", str(file)) for word in READERS[reader]])
+    assert (code, out) == (2, "")
+    assert str(file) in err

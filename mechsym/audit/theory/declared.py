@@ -25,6 +25,7 @@ from mechsym.audit.theory.language import define
 from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import dimension, parse
 
 _KEYS = ("name", "about", "source", "angle", "small", "rods", "letters", "define", "units", "conditions", "symbols")
@@ -34,11 +35,7 @@ _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*
 
 def read_theory(path: Path) -> Theory:
     """A theory from a TOML file; its name is the file's unless it says another."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"--theory {path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8'})") from None
-    return theory_of(text, path.stem, str(path))
+    return theory_of(read_text(path, "--theory"), path.stem, str(path))
 
 
 def theory_of(text: str, stem: str, where: str) -> Theory:

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import parse, record
 
 # Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
@@ -95,12 +96,7 @@ def _rising(file: str, time: np.ndarray, lines: np.ndarray) -> np.ndarray:
 
 def text_of(path: str | Path) -> str:
     """Text of a table's file."""
-    try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise BadInput(f"{path}: not UTF-8 text (byte {error.start}); export the diagram as a CSV text file") from None
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be read ({error.strerror}); give the path of a CSV file") from None
+    return read_text(path, way_out="give the path of a CSV text file", encoding="utf-8-sig")
 
 
 def split_table(file: str, text: str) -> tuple[list[str], tuple[int, list[str]], list[tuple[int, list[str]]]]:

@@ -10,6 +10,7 @@ from importlib import resources
 from pathlib import Path
 
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import RPM, choice, parse, quantity, record
 
 _UNITS = {"_mm": ("m", 1e-3), "_N": ("N", 1.0), "_rpm": ("rad/s", RPM), "_kg": ("kg", 1.0)}
@@ -64,10 +65,7 @@ def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     built_in = (resources.files("mechsym.sizing.rules") / "bearings.csv").read_text(encoding="utf-8")
     found = _read(built_in, "bearings.csv")
     if extra is not None:
-        try:
-            found |= _read(Path(extra).read_text(encoding="utf-8"), str(extra))
-        except OSError as error:
-            raise BadInput(f"{extra}: bearings cannot be read ({error.strerror}); name a CSV file") from None
+        found |= _read(read_text(extra, "bearings", "name a CSV file"), str(extra))
     return found
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.errors import BadInput
+from mechsym.files import read_text
 from mechsym.quantities import parse, quantity, record
 
 
@@ -57,12 +58,7 @@ def load(extra: str | Path | None = None) -> dict[str, Material]:
     text = (resources.files("mechsym.sizing.rules") / "materials.toml").read_text(encoding="utf-8")
     found = _tables(text, "materials.toml")
     if extra is not None:
-        try:
-            found |= _tables(Path(extra).read_text(encoding="utf-8"), str(extra))
-        except OSError as error:
-            raise BadInput(
-                f"{extra}: materials cannot be read ({error.strerror}); name an existing TOML file"
-            ) from None
+        found |= _tables(read_text(extra, "materials", "name an existing TOML file"), str(extra))
     return found
 
 
