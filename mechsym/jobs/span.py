@@ -18,7 +18,7 @@ def simulation_of(case: Case) -> Simulation:
 
 
 def count_turns(case: Case, turns: float) -> None:
-    """Refuse more turns than results fit."""
+    """Refuse more turns [-] than results fit."""
     _count(case, "turns", turns * TURN_POINTS, f"give at most {MOST // TURN_POINTS} turns")
 
 
