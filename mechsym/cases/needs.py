@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from mechsym.cycle.kinds import KINDS
-from mechsym.mechanisms import own
+from mechsym.mechanisms import by_roles
+from mechsym.mechanisms.traits import Traits, rules_of, with_chain, with_hinge, with_trait
 
 _GUIDE = ("spring", "guide", "rollers", "limits")
 _FLAT = tuple(name for name, kind in KINDS.items() if kind.given == "chamber")
-_PISTONS = ("crosshead", "crank_throw", "crank_train", "hypocycloid", "rodless")
 
 # command: sections that it cannot do without; `_extra` adds what mechanism and kind of cycle ask for
 NEEDS: Mapping[str, tuple[str, ...]] = {
@@ -71,7 +71,7 @@ def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[st
         missing = [section for section in missing if section != "[simulation]"]  # an engine runs without it
     kind = str((tables.get("cycle") or {}).get("kind", "")) if isinstance(tables.get("cycle"), dict) else ""
     given = KINDS[kind].given if kind in KINDS else ""
-    if own.is_file(mechanism):
+    if by_roles(mechanism):
         return _of_own(command, missing, tables)
     missing += _of_mechanism(command, mechanism, tables)
     if given == "engine" and command in ("cycle", "compare", "flywheel", "forces", "optimise", "size"):
@@ -92,24 +92,32 @@ def _of_own(command: str, missing: list[str], tables: Mapping[str, Any]) -> list
 
 
 def _of_mechanism(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
-    if command in ("hinge", "codesign", "guide") and mechanism != "crosshead":
-        return ['mechanism = "crosshead"']
+    if command in ("hinge", "codesign", "guide") and mechanism not in with_hinge():
+        return [f"mechanism = {_quoted(with_hinge())}"]
     if command == "size":
         return _of_size(mechanism, tables)
-    if command in ("cycle", "compare", "flywheel", "forces", "optimise") and mechanism not in _PISTONS:
-        return [f"a mechanism with a piston: {', '.join(_PISTONS)}"]
-    if mechanism == "rodless" and command in ("forces", "flywheel"):
+    if command in ("cycle", "compare", "flywheel", "forces", "optimise") and mechanism not in with_chain():
+        return [f"a mechanism with a piston: {', '.join(with_chain())}"]
+    if mechanism in with_trait(_undetermined) and command in ("forces", "flywheel"):
         with_gas = ["faces"] if "cycle" in tables else []
         return [f"[{section}]" for section in ("closing", *with_gas) if section not in tables]
-    if command == "simulate" and mechanism in ("crosshead", "crank_train", "crankshaft_flywheel"):
+    if command == "simulate" and mechanism in {*with_hinge(), *with_trait(lambda known: known.shaft)}:
         return [] if {"drive", "cycle"} & tables.keys() else ["[drive] or [cycle]"]
     return []
 
 
+def _undetermined(known: Traits) -> bool:
+    return known.chain is not None and known.chain.overconstrained
+
+
+def _quoted(names: tuple[str, ...]) -> str:
+    return " or ".join(f'"{name}"' for name in names)
+
+
 def _of_size(mechanism: str, tables: Mapping[str, Any]) -> list[str]:
-    if mechanism not in ("crosshead", "hypocycloid"):
-        return ['mechanism = "crosshead" or "hypocycloid"']
-    printed = mechanism == "crosshead" and "part_crosshead" in tables
+    if not rules_of(mechanism):
+        return [f"mechanism = {_quoted(with_trait(lambda known: known.rules))}"]
+    printed = rules_of(mechanism) == "slider crank" and "part_crosshead" in tables
     return [] if printed or "speeds" in tables else ["[speeds]"]
 
 

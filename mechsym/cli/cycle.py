@@ -48,9 +48,10 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle zotov-142 --set scavenging.source=turbocharger --set "scavenging.altitude=2000 m"
     """
     from mechsym.cli import cycle_loop, cycle_measured
+    from mechsym.cycle.kinds import kind_of
 
     loaded = case_of(case, pairs(overrides))
-    if diagram or motored or hasattr(loaded.need("cycle"), "alignment"):
+    if diagram or motored or kind_of(loaded.need("cycle")).measured:
         cycle_measured.show(loaded, (diagram, motored), as_json, out)
     elif loop:
         cycle_loop.show(loaded, loop, as_json, out)

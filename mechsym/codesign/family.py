@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.codesign.settings import CoDesignSettings
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput, shown
 from mechsym.files import read_text
 from mechsym.quantities import parse, quantity, record
@@ -75,18 +76,19 @@ def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: floa
     high : record, optional
         Cycle at the upper end; combustion is linear in mep between the two and constant outside
     """
-    if not hasattr(cycle, "mean_indicated_pressure"):
+    kind = kind_of(cycle)
+    if not kind.load:
         if abs(mep - settings.full_load) > 1e-9 * settings.full_load:
             raise BadInput(
                 "[cycle] has no mean_indicated_pressure that could be changed; it has one load: "
                 "take --curve constant_speed and --loads 1, at any speeds"
             )
         return cycle
-    changed: dict[str, Any] = {"mean_indicated_pressure": mep}
-    if hasattr(cycle, "p_s") and settings.scavenge:
-        changed["p_s"] = scavenge_pressure(settings.scavenge, mep)
+    changed: dict[str, Any] = {kind.load: mep}
+    if kind.scavenge and settings.scavenge:
+        changed[kind.scavenge] = scavenge_pressure(settings.scavenge, mep)
     if high is not None:
-        low_mep, high_mep = cycle.mean_indicated_pressure, high.mean_indicated_pressure
+        low_mep, high_mep = getattr(cycle, kind.load), getattr(high, kind.load)
         share = float(np.clip((mep - low_mep) / (high_mep - low_mep), 0, 1)) if high_mep != low_mep else 0.0
         for name in _COMBUSTION:
             changed[name] = (1 - share) * getattr(cycle, name) + share * getattr(high, name)

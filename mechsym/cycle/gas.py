@@ -21,6 +21,7 @@ from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train import build_rigid
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.traits import is_train, name_of, with_trait
 from mechsym.page import Shown
 from mechsym.quantities import record
 
@@ -146,8 +147,9 @@ def engine_of_train(
     omega : float
         Shaft speed, for a cycle that depends on it [rad/s]
     """
-    if not isinstance(train, CrankTrainParameters) or len(train.throw) != 2:
-        raise BadInput("[cycle] of a Stirling engine needs a crank_train with two cylinders, hot and cold")
+    if not is_train(name_of(type(train))) or len(train.throw) != 2:
+        trains = " or ".join(with_trait(lambda known: known.assembled))
+        raise BadInput(f"[cycle] of a Stirling engine needs a {trains} with two cylinders, hot and cold")
     kinematics = build_rigid(train).functions["kinematics"]
 
     def travel(name: str) -> Callable[[Any], Any]:

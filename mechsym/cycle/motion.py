@@ -21,7 +21,7 @@ from mechsym.cycle.dead_centres import check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, bind
-from mechsym.mechanisms.traits import traits
+from mechsym.mechanisms.traits import traits_of
 
 _TURN = 2 * math.pi
 
@@ -131,7 +131,7 @@ def one_cylinder(name: str, parameters: Any) -> tuple[str, Any]:
     name, parameters : str, record
         A mechanism that has one piston and its travel as `x`
     """
-    known = traits(name)
+    known = traits_of(name)
     return known.alone(parameters) if known is not None and known.alone is not None else (name, parameters)
 
 

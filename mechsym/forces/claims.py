@@ -6,8 +6,10 @@ A claim holds only as far as the coefficients of the case do; each verdict names
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mechsym.mechanisms import crosshead, hypocycloid
+
 _PRYMAK, _NUNES, _MOROIANU = "003_8746f5f4ad51b1d1", "004_e00ef50339108dab", "001_a140ef4f7e005dde"
-_ROD, _PLANET = "slider crank", "hypocycloid"
+_ROD, _PLANET = crosshead.LABEL, hypocycloid.LABEL
 _SMALL = 0.1  # "much smaller" is read as below a tenth
 
 Row = Mapping[str, Any]

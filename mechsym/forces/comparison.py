@@ -20,8 +20,9 @@ from mechsym.forces.harmonics import whole
 from mechsym.forces.loads import loads, power_residual
 from mechsym.forces.rings import Rings
 from mechsym.forces.shaking import shaking
-from mechsym.forces.turn import CrankDrive, Turn, at, chain_named, chain_of, crank_drive, supported
+from mechsym.forces.turn import CrankDrive, Turn, at, chain_named, chain_of, crank_drive
 from mechsym.mechanisms.chain import Alike
+from mechsym.mechanisms.traits import with_chain
 from mechsym.quantities import quantity, record
 
 
@@ -70,7 +71,7 @@ def _machines(turn: Turn, gas: Gas, settings: ComparisonSettings) -> dict[str, C
         stroke=gas.chamber.stroke, mass=reciprocating_mass(turn), area=gas.chamber.area, period=gas.pressure.period,
         lam=settings.lam, alpha_n=settings.alpha_n,
     )  # fmt: skip
-    peers = [(name, peer) for name in supported() for peer in chain_named(name).peers(alike)]
+    peers = [(name, peer) for name in with_chain() for peer in chain_named(name).peers(alike)]
     return {peer.label: crank_drive(name, peer.parameters, peer.faces, peer.closing) for name, peer in peers}
 
 

@@ -11,7 +11,8 @@ from mechsym.forces.loads import power_residual
 from mechsym.forces.result import Forces
 from mechsym.forces.shaking import Shaking
 from mechsym.forces.table import angle_of_largest, extremes
-from mechsym.forces.turn import Turn, chain_named, supported
+from mechsym.forces.turn import Turn, chain_named
+from mechsym.mechanisms.traits import with_chain
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
 _RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
@@ -114,5 +115,5 @@ def _claims(found: Forces) -> list[dict[str, str]]:
 
 def _told(one: Turn) -> dict[str, Any]:
     """What only some mechanisms have to tell, by their names; null where it is another that turns."""
-    known = {name: told for name in supported() if (told := chain_named(name).told) is not None}
+    known = {name: told for name in with_chain() if (told := chain_named(name).told) is not None}
     return {name: told(one) if one.drive.name == name else None for name, told in known.items()}

@@ -19,7 +19,7 @@ from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.mechanisms.chain import CrankChain
 from mechsym.mechanisms.record import Mechanism, along
-from mechsym.mechanisms.traits import packaged, traits
+from mechsym.mechanisms.traits import traits_of, with_chain
 from mechsym.quantities import record
 
 _STEPS_PER_TURN = 1440
@@ -86,11 +86,6 @@ def crank_drive(name: str, parameters: Any, faces: Any = None, closing: Any = No
     return CrankDrive(name=name, parameters=parameters, mechanism=mechanism, faces=faces, closing=closing)
 
 
-def supported() -> tuple[str, ...]:
-    """Names of the mechanisms whose force chain is known."""
-    return tuple(n for n in packaged() if (known := traits(n)) is not None and known.chain is not None)
-
-
 def chain_of(drive: CrankDrive) -> CrankChain:
     """What the module of a drive's mechanism says of its forces."""
     return chain_named(drive.name)
@@ -104,9 +99,9 @@ def chain_named(name: str) -> CrankChain:
     BadInput
         It has none, or says nothing of them
     """
-    known = traits(name)
+    known = traits_of(name)
     if known is None or known.chain is None:
-        raise BadInput(f"forces of {name} are not known; there are {', '.join(supported())}")
+        raise BadInput(f"forces of {name} are not known; there are {', '.join(with_chain())}")
     return known.chain
 
 

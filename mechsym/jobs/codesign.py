@@ -23,6 +23,7 @@ from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.uncertainty import spread
 from mechsym.codesign.verify import verify
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.machine import machine
@@ -116,8 +117,8 @@ def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[s
     for k in sorted({0, len(design.task.points) - 1}):
         place = family.places(settings)[k]
         cycle, lower = _acting(case, settings, place.mep).get("cycle"), None
-        if cycle is not None and hasattr(cycle, "p_s"):
-            changed = dataclasses.replace(cycle, p_s=(1 - _SCAVENGE) * cycle.p_s)
+        if cycle is not None and (key := kind_of(cycle).scavenge):
+            changed = dataclasses.replace(cycle, **{key: (1 - _SCAVENGE) * getattr(cycle, key)})
             lower = _point(case, settings, place, {"cycle": changed})
         found += changes.rows(design, k, lower)
     return found

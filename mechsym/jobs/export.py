@@ -27,6 +27,7 @@ from mechsym.jobs.problem import problem_of
 from mechsym.jobs.turn import turn
 from mechsym.machine.loads import Load, settle
 from mechsym.machine.record import Machine
+from mechsym.mechanisms.traits import is_train, with_hinge
 from mechsym.quantities import record
 from mechsym.simulate import Part, Problem
 from mechsym.simulate import engine as engines
@@ -53,9 +54,9 @@ class Ready:
 def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
     hinged = {"spring", "guide"} <= set(case.sections)
-    if is_own(case.mechanism) and not hinged or "drive" in case.sections or case.mechanism == "crank_train":
+    if is_own(case.mechanism) and not hinged or "drive" in case.sections or is_train(case.mechanism):
         return Ready(problem=problem_of(_running(case)))
-    if is_own(case.mechanism) or case.mechanism == "crosshead" and not _by_spark(case):
+    if is_own(case.mechanism) or case.mechanism in with_hinge() and not _by_spark(case):
         return _engine(case, diagram)
     if diagram is not None:
         raise BadInput(f"{case.file}: --diagram needs an engine with crosshead, a case of kind generator")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.settings import TrialSettings
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge import steady
 from mechsym.hinge.guide import Guide, refit
@@ -70,9 +71,9 @@ def design_load(case: Case) -> float:
         The cycle has no mean indicated pressure to change
     """
     cycle = case.need("cycle")
-    if not hasattr(cycle, "mean_indicated_pressure"):
+    if not kind_of(cycle).load:
         raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed; it has one load")
-    return float(cycle.mean_indicated_pressure)
+    return float(getattr(cycle, kind_of(cycle).load))
 
 
 def at_loads(case: Case, guide: Guide, loads: Sequence[float]) -> list[AtLoad]:

@@ -19,12 +19,9 @@ from mechsym.jobs.own_gas import travel_of
 from mechsym.jobs.span import count_loop, simulation_of
 from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
-from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.rodless import RodlessParameters
-from mechsym.mechanisms.rodless_faces import RodlessFaces
 from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.mechanisms.traits import traits_of
 from mechsym.simulate import Result, Settings
 from mechsym.simulate.loop.result import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
@@ -112,25 +109,13 @@ def _own(case: Case) -> tuple[Mechanism, tuple[LoopCylinder, ...], str]:
 
 
 def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
-    parameters = case.need("parameters")
-    if isinstance(parameters, RodlessParameters):
-        return _on_faces(case.need("faces"))
-    if not isinstance(parameters, CrankTrainParameters):
-        return (LoopCylinder(input="F", coordinate=mechanism.coordinates[0], firing=0.0),)
-    refuse_wrong_firing(parameters, 4 * math.pi)
-    firing = parameters.firing if isinstance(parameters.firing, tuple) else (parameters.firing,) * len(parameters.throw)
-    return tuple(
-        LoopCylinder(input=f"F{i}", coordinate=mechanism.coordinates[throw - 1], firing=float(angle) % (4 * math.pi))
-        for i, (throw, angle) in enumerate(zip(parameters.throw, firing, strict=True), 1)
-    )
-
-
-def _on_faces(faces: RodlessFaces) -> tuple[LoopCylinder, ...]:
-    """One cylinder a face; gas over a slider's outer face pushes against its outward travel."""
+    known = traits_of(case.mechanism)
+    assert known is not None and known.chain is not None  # it takes a load
+    faces = case.need("faces") if known.chain.areas is not None else None
     return tuple(
         LoopCylinder(
-            input=f"F_{side[0]}", coordinate="alpha", firing=firing % (4 * math.pi), area=area,
-            sense=-1.0 if side[1] == "+" else 1.0,
+            input=face.input, coordinate=mechanism.coordinates[face.throw], firing=face.fires % (4 * math.pi),
+            area=face.area, sense=face.sense,
         )
-        for side, area, firing in zip(faces.sides, faces.areas, faces.firing, strict=True)
+        for face in known.chain.cylinders(case.need("parameters"), faces)
     )  # fmt: skip

@@ -9,7 +9,6 @@ from mechsym.cases import Case
 from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
-from mechsym.forces.turn import supported
 from mechsym.jobs import own, own_machine
 from mechsym.jobs.gas import at_recorded_speed, gas
 from mechsym.jobs.own import is_own
@@ -17,6 +16,7 @@ from mechsym.jobs.scavenge import scavenged, told
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import Machine
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.traits import with_chain, with_hinge
 
 
 def machine(case: Case, diagram: str | None = None) -> Machine:
@@ -42,9 +42,9 @@ def machine(case: Case, diagram: str | None = None) -> Machine:
     """
     if is_own(case.mechanism):
         return own_machine.machine(case)
-    if not takes_hinge(case.mechanism):
+    if case.mechanism not in with_hinge():
         raise BadInput(
-            f"{case.file}: a hinge is designed for the mechanism {' or '.join(hinged())}, not for {case.mechanism}"
+            f"{case.file}: a hinge is designed for the mechanism {' or '.join(with_hinge())}, not for {case.mechanism}"
         )
     cycle = case.need("cycle")
     if diagram is not None:
@@ -68,16 +68,6 @@ def _parts(name: str, parameters: Any, cycle: Any) -> tuple[Mechanism, Gas]:
     """What masses and cycle decide; sweeps over springs and loads ask for it again and again."""
     mechanism = mechanisms.build(name, parameters)
     return mechanism, gas_in_cylinder(cycle, mechanism.functions["kinematics"])
-
-
-def takes_hinge(name: str) -> bool:
-    """Whether a built-in mechanism has a place for a hinge on its crank: the input M_h."""
-    return name in hinged()
-
-
-def hinged() -> tuple[str, ...]:
-    """Names of the built-in mechanisms with a place for a hinge."""
-    return tuple(name for name in supported() if "M_h" in mechanisms.listing(name)["inputs"])
 
 
 def kept_flywheel(case: Case) -> float:
@@ -106,8 +96,8 @@ def heavier(case: Case, inertia: float = 0.0) -> tuple[Case, str]:
         A mechanism whose shaft is not known
     """
     rotor = next((r for r in own.roles(case, "rotor") if "inertia" in r), None)
-    if rotor is None or case.mechanism not in supported():
-        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(supported())}")
+    if rotor is None or case.mechanism not in with_chain():
+        raise BadInput(f"{case.file}: a flywheel is sized for the mechanisms {', '.join(with_chain())}")
     name, load_input = rotor["inertia"], rotor["load"] or rotor["drive"]
     parameters = case.need("parameters")
     heavy = replace(parameters, **{name: getattr(parameters, name) + inertia + kept_flywheel(case)})

@@ -190,7 +190,5 @@ def _kinks(mechanism: Mechanism, acting: list[Piston]) -> tuple[Kinks, ...]:
 
 @lru_cache(maxsize=8)
 def is_own(name: str) -> bool:
-    """Whether a mechanism comes from a file or another package."""
-    from mechsym.mechanisms import own
-
-    return own.is_file(name)
+    """Whether the roles of its declaration are all that is known of a mechanism: of a file, or without a module."""
+    return mechanisms.by_roles(name)

@@ -26,7 +26,8 @@ from mechsym.jobs.own import problem as own_problem
 from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_of
 from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
-from mechsym.mechanisms import crank_train
+from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.traits import is_train, traits_of, with_hinge
 from mechsym.simulate import engine as engines
 from mechsym.simulate.problem import Part, Problem, Steps, Stop
 from mechsym.simulate.settings import Settings, Simulation, StepTorque
@@ -64,7 +65,7 @@ def problem_of(case: Case) -> Problem:
     if is_own(case.mechanism) and not _hinged(case):
         return own_problem(case)
     wanted, case = simulation_of(case), braked(case)
-    if case.mechanism == "crank_train":
+    if is_train(case.mechanism):
         return _train(case, wanted)
     if "drive" in case.sections and not is_own(case.mechanism):
         return _driven(case, wanted)
@@ -111,7 +112,7 @@ def engine_of(case: Case) -> Machine:
         The guide that the case asks for cannot be cut
     """
     breathes = "cycle" in case.sections and kind_of(case.sections["cycle"]).given == "breathing"
-    if not is_own(case.mechanism) and (case.mechanism != "crosshead" or breathes):
+    if not is_own(case.mechanism) and (case.mechanism not in with_hinge() or breathes):
         return shaft(case, 0.0)
     engine = machine(case)
     wanted = torque(engine)
@@ -174,7 +175,7 @@ def _train(case: Case, wanted: Simulation) -> Problem:
         raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
     usual = case.need("operation").speed if gas.parts and not driven else 0.0
     speed = usual if wanted.speed_start is None else wanted.speed_start
-    mechanism = crank_train.build_driven(case.need("parameters"))
+    mechanism = _elastic(case)
     mean = gas.torque + (case.need("drive").torque if driven else 0.0)
     t_end, output = _end(case, wanted, speed)
     return Problem(
@@ -189,6 +190,12 @@ def _train(case: Case, wanted: Simulation) -> Problem:
         stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
         output=output,
     )
+
+
+def _elastic(case: Case) -> Mechanism:
+    known = traits_of(case.mechanism)
+    assert known is not None and known.assembled is not None
+    return known.assembled.build_driven(case.need("parameters"))
 
 
 def _wanted_times(case: Case, t_end: float, wanted: Simulation) -> tuple[float, ...]:

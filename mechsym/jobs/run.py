@@ -15,6 +15,7 @@ from mechsym.jobs.span import simulation_of
 from mechsym.jobs.startup import startup, startup_map
 from mechsym.jobs.train import remarks
 from mechsym.jobs.vibration import vibration
+from mechsym.mechanisms.traits import is_train
 from mechsym.page import Shown
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
@@ -101,7 +102,7 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
 def _engine(case: Case, told: dict[str, Any], period: float) -> EngineSpeed | None:
     if "cycle" not in case.sections or "operation" not in case.sections:
         return None
-    shaft = list(told["speeds"])[-1 if case.mechanism == "crank_train" else 0]
+    shaft = list(told["speeds"])[-1 if is_train(case.mechanism) else 0]
     return EngineSpeed(coordinate=shaft, period=period, wanted=case.need("operation").speed)
 
 

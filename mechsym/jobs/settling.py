@@ -3,6 +3,7 @@
 from mechsym.cases import Case
 from mechsym.jobs.flywheel import shaft
 from mechsym.machine import ConstantLoad
+from mechsym.mechanisms.traits import is_train
 from mechsym.simulate import Result
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import reduced
@@ -19,7 +20,7 @@ def settled(case: Case, result: Result) -> Settling | None:
     A start has `simulation.speed_start`, a cycle, and a load that grows with speed.
     """
     wanted = case.sections.get("simulation")
-    has = case.mechanism == "crank_train" and "cycle" in case.sections and "load" in case.sections
+    has = is_train(case.mechanism) and "cycle" in case.sections and "load" in case.sections
     if not has or wanted is None or wanted.speed_start is None or isinstance(case.need("load"), ConstantLoad):
         return None
     rigid, turned = shaft(case, 0.0), float(result.columns["phi_f"][-1] - result.columns["phi_f"][0])

@@ -16,6 +16,7 @@ from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.own import is_own
 from mechsym.jobs.turn import turn
 from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.traits import rules_of, with_trait
 from mechsym.page import Shown
 from mechsym.quantities import RPM, record
 from mechsym.sizing.checks import Check, unsafe
@@ -69,11 +70,15 @@ def size(case: Case) -> Sizing:
     if is_own(case.mechanism):
         return _own_loads(case)
     one = task(case)
-    if case.mechanism == "hypocycloid":
-        return _hypocycloid(one)
-    if case.mechanism == "crosshead":
-        return _slider_crank(one)
-    raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
+    rules = {"planet": _hypocycloid, "slider crank": _slider_crank}
+    if rules_of(case.mechanism) not in rules:
+        raise _unsized(case)
+    return rules[rules_of(case.mechanism)](one)
+
+
+def _unsized(case: Case) -> BadInput:
+    sized = " and ".join(with_trait(lambda known: known.rules))
+    return BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; {sized} can")
 
 
 _SIZES = {"largest": lambda v: np.abs(v).max(), "root mean square": lambda v: np.sqrt(np.mean(v**2))}
@@ -99,12 +104,13 @@ def check_printed(case: Case) -> Sizing:
     BadInput
         The case prints no parts
     """
-    if case.mechanism == "crosshead" and "part_crosshead" in case.sections:
+    slider = rules_of(case.mechanism) == "slider crank"
+    if slider and "part_crosshead" in case.sections:
         return _crosshead(case)
     one = task(case)
-    if case.mechanism not in ("crosshead", "hypocycloid"):
-        raise BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; crosshead and hypocycloid can")
-    if case.mechanism == "crosshead":
+    if not rules_of(case.mechanism):
+        raise _unsized(case)
+    if slider:
         raise BadInput(f"{case.file}: the case prints no parts; leave out --as-printed")
     reference = printed_parts(one.case)
     # the printed engine takes its torque off at the output shaft set only

@@ -5,7 +5,7 @@ from dataclasses import replace
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.jobs.problem import problem_of, settings_of
-from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
+from mechsym.mechanisms.traits import with_trait
 from mechsym.simulate import Result, simulate, simulate_many
 from mechsym.torsion.startup import StartUp, StartUpClaim, start_up
 
@@ -26,9 +26,10 @@ def startup(case: Case, result: Result | None = None) -> StartUp:
         Critical speeds, which of them held the shaft, twist and torque
     """
     parameters = case.need("parameters")
-    if not isinstance(parameters, CrankshaftFlywheelParameters):
+    known = with_trait(lambda one: one.shaft and one.shaft.start_up)
+    if case.mechanism not in known:
         raise BadInput(
-            f"{case.file}: [startup] explains a crankshaft_flywheel, not a {case.mechanism}; leave the section out"
+            f"{case.file}: [startup] explains a {' or '.join(known)}, not a {case.mechanism}; leave the section out"
         )
     if result is None:
         result = simulate(problem_of(case), settings_of(case))

@@ -20,6 +20,7 @@ from mechsym.jobs.turn import turn
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.traits import is_train
 from mechsym.quantities import record
 from mechsym.simulate.engine import load_value
 from mechsym.simulate.problem import Kinks, Part, Periodic
@@ -131,6 +132,6 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
 
 def remarks(case: Case) -> tuple[str, ...]:
     """What a reader of a run should know about a crank train."""
-    if case.mechanism != "crank_train" or {"load", "cycle"} & set(case.sections):
+    if not is_train(case.mechanism) or {"load", "cycle"} & set(case.sections):
         return ()
     return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)

@@ -10,7 +10,7 @@ from mechsym.forces.rings import NoRings
 from mechsym.forces.turn import CrankDrive, Turn, crank_drive
 from mechsym.forces.turn import turn as turn_of
 from mechsym.jobs.gas import gas, of
-from mechsym.mechanisms.traits import traits
+from mechsym.mechanisms.traits import traits_of
 
 
 def turn(case: Case) -> Turn:
@@ -27,7 +27,7 @@ def turn(case: Case) -> Turn:
 
 def drive_of(case: Case) -> CrankDrive:
     """The mechanism of a case with every reaction determined."""
-    parameters, known = case.need("parameters"), traits(case.mechanism)
+    parameters, known = case.need("parameters"), traits_of(case.mechanism)
     undetermined = known is not None and known.chain is not None and known.chain.overconstrained
     closing = case.need("closing") if undetermined else None
     faces = case.need("faces") if closing and "cycle" in case.sections else case.sections.get("faces")

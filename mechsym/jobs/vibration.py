@@ -7,6 +7,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.forces.turn import Turn
 from mechsym.jobs.turn import turn
+from mechsym.mechanisms.traits import is_train
 from mechsym.torsion.train import ShaftLimits, TrainVibration, operating_range
 from mechsym.torsion.train import vibration as vibration_of
 
@@ -21,7 +22,7 @@ def vibration(case: Case, one: Turn | None = None) -> TrainVibration | None:
     one : Turn, optional
         A cycle of it at constant speed, when there is one already
     """
-    if case.mechanism != "crank_train" or "operation" not in case.sections:
+    if not is_train(case.mechanism) or "operation" not in case.sections:
         return None
     one, given, wanted = one or turn(case), case.sections.get("speeds"), case.sections.get("simulation")
     span = None if given is None else (given.lowest, given.highest)

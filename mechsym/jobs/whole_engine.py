@@ -22,6 +22,7 @@ from mechsym.jobs.own import is_own, one_coordinate
 from mechsym.jobs.turn import drive_of
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.traits import is_train, with_trait
 from mechsym.quantities import record
 
 _ADD = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw")
@@ -49,11 +50,11 @@ def cylinders(case: Case) -> CylinderCount:
     parameters = case.need("parameters")
     if is_own(case.mechanism):
         return _own(case)
-    if case.mechanism == "rodless" and "faces" in case.sections:
+    if "faces" in case.sections and case.mechanism in with_trait(lambda known: known.chain and known.chain.areas):
         areas = case.need("faces").areas
         bore = getattr(case.sections.get("chamber"), "bore", None) or case.need("cycle").bore
         return CylinderCount(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
-    if not isinstance(parameters, CrankTrainParameters):
+    if not is_train(case.mechanism):
         return CylinderCount(count=1, share=1.0)
     with of(case):
         _refuse_unlike(case, parameters)

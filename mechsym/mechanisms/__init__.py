@@ -16,7 +16,7 @@ from mechsym.mechanisms import own
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
 from mechsym.mechanisms.state import state
-from mechsym.mechanisms.traits import packaged, traits
+from mechsym.mechanisms.traits import packaged, traits_of
 from mechsym.quantities import quantity
 
 
@@ -48,7 +48,7 @@ def parameters_class(name: str) -> Any:
         return own.load(name).parameters
     if name not in packaged():
         raise BadInput(f"mechanism {name!r} is not known; {suggest(name, names())}")
-    known = traits(name)
+    known = traits_of(name)
     return known.parameters if known is not None else own.record_of(stored_listing(name))
 
 
@@ -67,14 +67,14 @@ def start_class(name: str) -> Any:
 
 def by_roles(name: str) -> bool:
     """Whether the roles of its declaration are all that is known of a mechanism: it has no module of its own."""
-    return own.is_file(name) or traits(name) is None
+    return own.is_file(name) or (name in packaged() and traits_of(name) is None)
 
 
 def build(name: str, parameters: Any) -> Mechanism:
     """The mechanism of that name with values for its parameters."""
     if not isinstance(parameters, parameters_class(name)):
         raise BadInput(f"{name} takes {parameters_class(name).__name__}, not {type(parameters).__name__}")
-    known = traits(name)
+    known = traits_of(name)
     if known is not None and known.assembled is not None:
         return known.assembled.build(parameters)
     return bind(name, dataclasses.asdict(parameters))
@@ -93,7 +93,7 @@ def listing(name: str, mechanism: Mechanism | None = None) -> Mapping[str, Any]:
     listing : mapping
         Keys name, about, source, coordinates, parameters, inputs, outputs, equations
     """
-    known = traits(name)
+    known = traits_of(name)
     if known is not None and known.assembled is not None:
         return known.assembled.listing(mechanism)
     return stored_listing(name)

@@ -123,6 +123,17 @@ class Peer:
 
 
 @record
+class GasFace:
+    """A working face whose gas is followed in time."""
+
+    input: str  #: Takes its force
+    fires: float  #: Shaft angle at which it fires, within a four-stroke cycle [rad]
+    throw: int = 0  #: Which coordinate turns it
+    area: float | None = None  #: Where it is not that of the bore [m^2]
+    sense: float = 1.0  #: 1 where it pushes along its travel, else -1 [-]
+
+
+@record
 class Alike:
     """What the mechanisms of a comparison have in common."""
 
@@ -165,11 +176,14 @@ class CrankChain:
     #: The mechanism with one coordinate and every reaction, from its record and a closing rule; None: as it is built
     rigid: Callable[[Any, Any], Mechanism] | None = None
     overconstrained: bool = False  #: Whether reactions need a closing rule
+    hinged: bool = False  #: Whether its crank takes a hinge, with the input M_h
     letters: Callable[[Mapping[str, float]], SliderCrank] | None = None  #: Of a slider crank
     #: Gas forces by input [N]
     pushes: Callable[[DriveSeen, Pressures, float, np.ndarray, float], dict[str, np.ndarray]] = one_push
     #: Of each working face the angle from its firing dead centre [rad] and the speed of its piston [m/s]
     faces: Callable[[TurnSeen], list[tuple[np.ndarray, np.ndarray]]] = one_face
+    #: Which input each cylinder's gas drives, of its record and its faces
+    cylinders: Callable[[Any, Any], tuple[GasFace, ...]] = lambda parameters, faces: (GasFace(input="F", fires=0.0),)
     #: Areas of the working faces, where they are not those of the gas [m^2]
     areas: Callable[[DriveSeen], Sequence[float]] | None = None
     #: Crank angles at which the faces fire [rad]

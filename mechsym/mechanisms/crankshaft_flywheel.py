@@ -60,5 +60,5 @@ def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle
 TRAITS = Traits(
     parameters=CrankshaftFlywheelParameters,
     drawing=_drawing,
-    shaft=ElasticShaft(discs=lambda p: (p.I0, p.I2), springs=lambda p: ((p.k1,), (p.c1,))),
+    shaft=ElasticShaft(discs=lambda p: (p.I0, p.I2), springs=lambda p: ((p.k1,), (p.c1,)), start_up=True),
 )

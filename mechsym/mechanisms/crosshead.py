@@ -16,6 +16,8 @@ from mechsym.mechanisms.slider_crank import rubbing, single
 from mechsym.mechanisms.traits import Traits
 from mechsym.quantities import quantity, record
 
+LABEL = "slider crank"  # in a comparison
+
 
 @record
 class CrossheadParameters:
@@ -107,11 +109,12 @@ def _peers(alike: Alike) -> tuple[Peer, ...]:
     nothing = {"r1": 0.0, "l1": l / 2, "l2": l / 2, "m1": 0.0, "m2": 0.0, "m3": 0.0, "m4": 0.0, "IC2": 0.0, "g": 0.0}
     # at constant speed the crank's inertia is without effect
     parameters = CrossheadParameters(**nothing, r2=alike.stroke / 2, m5=alike.mass, I01=1.0)
-    return (Peer(label="slider crank", parameters=parameters),)
+    return (Peer(label=LABEL, parameters=parameters),)
 
 
 TRAITS = Traits(
     parameters=CrossheadParameters,
     drawing=_drawing,
-    chain=CrankChain(loads=_loads, rubbing=rubbing, mass=_mass, letters=_letters, peers=_peers),
+    rules="slider crank",
+    chain=CrankChain(loads=_loads, rubbing=rubbing, mass=_mass, letters=_letters, peers=_peers, hinged=True),
 )

@@ -9,7 +9,7 @@ from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of
-from mechsym.mechanisms.traits import packaged, traits
+from mechsym.mechanisms.traits import packaged, traits_of
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "extent", "extent_of", "shapes"]
 
@@ -24,9 +24,9 @@ def shapes(mechanism: str, parameters: Any, angle: float, bore: float | None = N
     bore : float, optional
         Diameter of the cylinders; else they are drawn in proportion to the stroke [m]
     """
-    known = traits(mechanism)
+    known = traits_of(mechanism)
     if known is None or known.drawing is None:
-        drawn = (n for n in packaged() if (t := traits(n)) is not None and t.drawing is not None)
+        drawn = (n for n in packaged() if (t := traits_of(n)) is not None and t.drawing is not None)
         raise BadInput(f"mechanism {mechanism!r} has no drawing; there are {', '.join(drawn)}")
     return tuple(known.drawing(parameters, angle, bore))
 

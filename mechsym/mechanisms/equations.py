@@ -3,7 +3,7 @@
 import re
 
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.traits import traits
+from mechsym.mechanisms.traits import traits_of
 from mechsym.quantities import record
 
 _WORD = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}")
@@ -44,7 +44,7 @@ def equations(name: str) -> MechanismEquations:
     >>> equations("crosshead").rows[0]["latex"]
     'l = l_{1} + l_{2}'
     """
-    known = traits(name)
+    known = traits_of(name)
     derived = known.assembled.part if known is not None and known.assembled is not None else name
     found = listing(derived)["equations"]
     rows = tuple({"title": row["title"], "latex": _upright(row["latex"])} for row in found)

@@ -17,6 +17,8 @@ from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.traits import Traits
 from mechsym.quantities import quantity, record
 
+LABEL = "hypocycloid"  # in a comparison
+
 
 @record
 class HypocycloidParameters:
@@ -77,12 +79,13 @@ def _rubbing(turn: TurnSeen, found: Loads) -> tuple[Rubbing, ...]:
 def _peers(alike: Alike) -> tuple[Peer, ...]:
     """A planet without mass; at constant speed the crank's inertia is without effect."""
     parameters = HypocycloidParameters(e=alike.stroke / 4, I1=1.0, m2=0, I2=0, m3=alike.mass, alpha_n=alike.alpha_n)
-    return (Peer(label="hypocycloid", parameters=parameters),)
+    return (Peer(label=LABEL, parameters=parameters),)
 
 
 TRAITS = Traits(
     parameters=HypocycloidParameters,
     drawing=_drawing,
+    rules="planet",
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, peers=_peers, mass=lambda drive: float(drive.mechanism.parameters["m3"])
     ),

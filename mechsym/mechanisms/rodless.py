@@ -16,7 +16,18 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints
-from mechsym.mechanisms.chain import Alike, CrankChain, DriveSeen, Loads, Peer, Pin, Pressures, Rubbing, TurnSeen
+from mechsym.mechanisms.chain import (
+    Alike,
+    CrankChain,
+    DriveSeen,
+    GasFace,
+    Loads,
+    Peer,
+    Pin,
+    Pressures,
+    Rubbing,
+    TurnSeen,
+)
 from mechsym.mechanisms.drawn_parts import Circle, Line, cylinder, piston, turned
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.record import Mechanism
@@ -178,6 +189,14 @@ def _faces(turn: TurnSeen) -> list[tuple[np.ndarray, np.ndarray]]:
     return [(turn.phi - fires, turn.kinematics[f"dx_{side[0]}_dalpha"] * turn.omega) for side, fires in rows]
 
 
+def _cylinders(parameters: RodlessParameters, faces: RodlessFaces) -> tuple[GasFace, ...]:
+    """One cylinder a face; gas over a slider's outer face pushes against its outward travel."""
+    return tuple(
+        GasFace(input=f"F_{side[0]}", fires=fires, area=area, sense=-1.0 if side[1] == "+" else 1.0)
+        for side, area, fires in zip(faces.sides, faces.areas, faces.firing, strict=True)
+    )
+
+
 def _mass(drive: DriveSeen) -> float:
     on_a = sum(side[0] == "a" for side in _faces_of(drive).sides)
     return float(drive.mechanism.parameters["m_a"]) / max(on_a, 1)
@@ -267,8 +286,8 @@ TRAITS = Traits(
     drawing=drawing,
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, mass=_mass, rigid=_rigid, overconstrained=True, pushes=_pushes, faces=_faces,
-        areas=lambda drive: _faces_of(drive).areas, fires=lambda drive: _faces_of(drive).firing, inertia=_inertia,
-        advice=_advice, peers=_peers, told=_told,
+        cylinders=_cylinders, areas=lambda drive: _faces_of(drive).areas, inertia=_inertia, advice=_advice,
+        fires=lambda drive: _faces_of(drive).firing, peers=_peers, told=_told,
     ),
     alone=_alone,
 )  # fmt: skip

@@ -8,7 +8,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.traits import ElasticShaft, name_of, traits
+from mechsym.mechanisms.traits import ElasticShaft, name_of, traits_of
 from mechsym.quantities import record
 
 _POINTS = 720
@@ -27,7 +27,7 @@ class ShaftMatrices:
 
 def is_elastic(parameters: Any) -> bool:
     """Whether parameters are those of a shaft that twists."""
-    known = traits(name_of(type(parameters)))
+    known = traits_of(name_of(type(parameters)))
     return known is not None and known.shaft is not None
 
 
@@ -56,7 +56,7 @@ def springs(parameters: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 
 def _elastic(parameters: Any) -> ElasticShaft:
-    known = traits(name_of(type(parameters)))
+    known = traits_of(name_of(type(parameters)))
     if known is None or known.shaft is None:
         raise BadInput(f"{type(parameters).__name__} has no elastic shaft")
     return known.shaft

@@ -38,6 +38,7 @@ class ElasticShaft:
     discs: Callable[[Any], tuple[float, ...]]
     #: Stiffness [N*m/rad] and damping [N*m*s/rad] of each section
     springs: Callable[[Any], tuple[tuple[float, ...], tuple[float, ...]]]
+    start_up: bool = False  #: Whether `[startup]` explains how it runs up
 
 
 @record
@@ -50,6 +51,7 @@ class Traits:
     chain: CrankChain | None = None  #: Of a mechanism with a crank and pistons
     assembled: Assembled | None = None
     shaft: ElasticShaft | None = None
+    rules: str = ""  #: By which its parts are sized: `slider crank`, `planet`
     #: The mechanism as one cylinder of it sees itself: name and record of one that has a single piston
     alone: Callable[[Any], tuple[str, Any]] | None = None
 
@@ -66,14 +68,41 @@ def _code(name: str) -> bool:
 
 
 @functools.lru_cache(maxsize=64)
-def traits(name: str) -> Traits | None:
+def traits_of(name: str) -> Traits | None:
     """What the module of a mechanism says of it; None where there is no such module."""
     if not name.isidentifier() or find_spec(f"{_ROOM}.{name}") is None:
         return None
     return getattr(import_module(f"{_ROOM}.{name}"), "TRAITS", None)
 
 
+def with_trait(wanted: Callable[[Traits], Any]) -> tuple[str, ...]:
+    """Names of the mechanisms of the package whose module says what is wanted."""
+    named = ((name, traits_of(name)) for name in packaged())
+    return tuple(name for name, known in named if known is not None and wanted(known))
+
+
+def with_chain() -> tuple[str, ...]:
+    """Names of the mechanisms whose force chain is known."""
+    return with_trait(lambda known: known.chain)
+
+
+def with_hinge() -> tuple[str, ...]:
+    """Names of the mechanisms with a place for a hinge on the crank."""
+    return with_trait(lambda known: known.chain and known.chain.hinged)
+
+
+def is_train(name: str) -> bool:
+    """Whether a mechanism is put together at run time: throws on an elastic shaft, with one coordinate each."""
+    known = traits_of(name)
+    return known is not None and known.assembled is not None
+
+
+def rules_of(name: str) -> str:
+    """The rules by which the parts of a mechanism are sized, empty where there are none."""
+    known = traits_of(name)
+    return known.rules if known is not None else ""
+
+
 def name_of(parameters: type) -> str:
     """Name of the first mechanism whose record is of a class; empty where there is none."""
-    named = ((name, traits(name)) for name in packaged())
-    return next((name for name, t in named if t is not None and t.parameters is parameters), "")
+    return next(iter(with_trait(lambda known: known.parameters is parameters)), "")

@@ -7,6 +7,7 @@ from typing import Any
 from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms.own import is_file
+from mechsym.mechanisms.traits import is_train
 from mechsym.quantities import record
 from mechsym.sweep import cycles, guides, singles
 from mechsym.sweep.outcomes import Gap, Outcome, known
@@ -69,7 +70,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
 
 def _meant(case: Case) -> str:
     # a crank train that says how long to run is an elastic shaft, whatever turns it
-    if "drive" in case.sections or ("simulation" in case.sections and case.mechanism == "crank_train"):
+    if "drive" in case.sections or ("simulation" in case.sections and is_train(case.mechanism)):
         return "simulate"
     if {"spring", "guide"} <= set(case.sections):
         return "hinge"

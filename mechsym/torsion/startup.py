@@ -12,15 +12,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechsym import mechanisms
-from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
+from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build
 from mechsym.quantities import quantity, record
 from mechsym.simulate import Result
 from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
 
-_MECHANISM = "crankshaft_flywheel"
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
 AVERAGE = 1.0  # the mean speed is taken over this time [s]
@@ -81,7 +79,7 @@ def start_up(
     linear = _linear(parameters)
     modes = torsion.modes(linear.mass, linear.stiffness)
     bare = _linear(replace(parameters, m0=0.0))
-    excitation = torsion.orders(mechanisms.build(_MECHANISM, parameters))
+    excitation = torsion.orders(build(parameters))
     criticals = torsion.critical_speeds(modes, excitation, linear.damping)
     unit = float(modes.shapes[:, -1] @ _linear(replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1])
     rate = drive.torque / float(linear.mass.sum())
@@ -109,7 +107,7 @@ def start_up(
 
 
 def _linear(parameters: CrankshaftFlywheelParameters) -> torsion.Matrices:
-    return torsion.matrices(mechanisms.build(_MECHANISM, parameters))
+    return torsion.matrices(build(parameters))
 
 
 def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

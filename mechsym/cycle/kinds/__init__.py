@@ -31,6 +31,8 @@ class Kind:
     back: str = ""  #: cycle -> absolute pressure behind the piston [Pa], of the same kinds; empty: its field p_back
     figures: str = ""  #: (cycle, chamber, omega) -> Pressure and figures of the fuel; empty: no figures over the speed
     as_diagram: str = ""  #: cycle -> fields of a `Diagram` in its place; empty: a diagram needs more than the cycle
+    load: str = ""  #: Field of its mean indicated pressure, which a load changes; empty: it has one load
+    scavenge: str = ""  #: Field of its scavenge pressure; empty: none
     measured: bool = False  #: Whether it is read from a file, which may have changed since
 
 
@@ -41,12 +43,16 @@ KINDS: Mapping[str, Kind] = {
         back="mechsym.cycle.kinds.two_stroke:back_pressure",
         figures="mechsym.cycle.kinds.two_stroke_solve:at_speed",
         as_diagram="mechsym.cycle.kinds.two_stroke:as_diagram",
+        load="mean_indicated_pressure",
+        scavenge="p_s",
     ),
     "two-stroke-zone": Kind(
         cycle="mechsym.cycle.kinds.two_stroke_zone:TwoStrokeZone",
         pressure="mechsym.cycle.kinds.two_stroke_zone:two_stroke_zone_pressure",
         figures="mechsym.cycle.kinds.two_stroke_zone:at_speed",
         as_diagram="mechsym.cycle.kinds.two_stroke_zone:as_diagram",
+        load="mean_indicated_pressure",
+        scavenge="p_s",
     ),
     "compressor": Kind(
         cycle="mechsym.cycle.kinds.compressor:CompressorCycle",

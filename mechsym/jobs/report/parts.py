@@ -21,6 +21,7 @@ from mechsym.jobs.run import run
 from mechsym.jobs.shown import tightest
 from mechsym.jobs.size import check_printed, size
 from mechsym.machine.record import gas_of
+from mechsym.mechanisms.traits import rules_of
 from mechsym.page import grid
 from mechsym.plausible import results
 from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
@@ -118,7 +119,7 @@ def _forces(case: Case) -> ReportPart:
 
 
 def _size(case: Case) -> ReportPart:
-    printed = case.mechanism == "crosshead" and "part_crosshead" in case.sections
+    printed = rules_of(case.mechanism) == "slider crank" and "part_crosshead" in case.sections
     found = check_printed(case) if printed else size(case)
     sizes = [_sized(row) for row in found.rows if row["limit"] is None]
     checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in found.rows if row["limit"] is not None]

@@ -1,14 +1,15 @@
 """What a crank train says of its forces: a pin and a guide a cylinder, a main bearing a throw."""
 
 import math
+from typing import Any
 
 import numpy as np
 
-from mechsym.mechanisms.chain import CrankChain, DriveSeen, Loads, Pin, Pressures, Rubbing, TurnSeen
+from mechsym.mechanisms.chain import CrankChain, DriveSeen, GasFace, Loads, Pin, Pressures, Rubbing, TurnSeen
 from mechsym.mechanisms.crank_throw import TRAITS as THROW
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.assembly import build, build_driven, build_rigid, listing
-from mechsym.mechanisms.crank_train.firing import gas_forces
+from mechsym.mechanisms.crank_train.firing import gas_forces, refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.train_drawing import crank_train
 from mechsym.mechanisms.traits import Assembled, ElasticShaft, Traits
@@ -71,6 +72,13 @@ def _faces(turn: TurnSeen) -> list[tuple[np.ndarray, np.ndarray]]:
     return [(turn.phi - f, turn.kinematics[f"dx_{i}_dphi"] * w) for i, f in enumerate(firing, 1)]
 
 
+def _cylinders(p: CrankTrainParameters, faces: Any) -> tuple[GasFace, ...]:
+    refuse_wrong_firing(p, 4 * math.pi)
+    firing = p.firing if isinstance(p.firing, tuple) else (p.firing,) * len(p.throw)
+    rows = enumerate(zip(p.throw, firing, strict=True), 1)
+    return tuple(GasFace(input=f"F{i}", throw=throw - 1, fires=float(angle)) for i, (throw, angle) in rows)
+
+
 def _ends(p: CrankTrainParameters) -> tuple[float, float] | None:
     first, last = min(each(p, "z")), max(each(p, "z"))
     return None if first == last or set(each(p, "sense")) != {1.0} else (first, last)
@@ -105,7 +113,7 @@ TRAITS = Traits(
     drawing=crank_train,
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, mass=lambda drive: float(each(drive.parameters, "m_piston")[0]),
-        rigid=lambda parameters, closing: build_rigid(parameters), pushes=_pushes, faces=_faces,
+        rigid=lambda parameters, closing: build_rigid(parameters), pushes=_pushes, faces=_faces, cylinders=_cylinders,
         fires=lambda drive: each(drive.parameters, "firing"), sense=lambda p: each(p, "sense")[-1], ends=_ends,
         inertia=_inertia, lever=lambda p: float(np.ptp(each(p, "z"))), advice=_advice,
     ),

@@ -8,11 +8,10 @@ from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import listing, names
 from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.record import bind, generated
+from mechsym.mechanisms.traits import is_train
 from mechsym.native.tape import Tape, read
 from mechsym.out.block import Block
 from mechsym.quantities import record
-
-_ASSEMBLED = "crank_train"
 
 
 @record
@@ -36,7 +35,7 @@ def of_mechanism(name: str) -> Written:
     BadInput
         No such mechanism, or one that is put together from data
     """
-    if name == _ASSEMBLED:
+    if is_train(name):
         raise BadInput(f"{name} is put together from its data; export a case of it, for example alpha-stirling")
     if name not in names() and not is_file(name):
         raise BadInput(f"{name!r} is no mechanism; {suggest(name, names())}")

@@ -1,17 +1,16 @@
 """Forces of the derived crank mechanism over the speeds, for a given reciprocating mass."""
 
-import dataclasses
 from collections.abc import Callable
 
-from mechsym.mechanisms.crosshead import CrossheadParameters
-from mechsym.mechanisms.record import bind, curves
+from mechsym.mechanisms.crosshead import CrossheadParameters, build
+from mechsym.mechanisms.record import curves
 from mechsym.sizing.pressures import Pressures
 from mechsym.sizing.slider_crank.parts import SliderForces
 
 
 def slider_crank_forces(gas: Pressures, parameters: CrossheadParameters) -> Callable[[float], SliderForces]:
     """Reciprocating mass [kg] -> forces over the speeds."""
-    moved = curves(bind("crosshead", dataclasses.asdict(parameters)), gas.theta)
+    moved = curves(build(parameters), gas.theta)
 
     def forces_of(mass: float) -> SliderForces:
         force = gas.net - mass * moved["d2x_dphi2"] * gas.omega[:, None] ** 2
