@@ -29,6 +29,7 @@ COMMANDS = {
     "forces": "mechsym.cli.forces:forces",
     "guide": "mechsym.cli.guide:guide",
     "hinge": "mechsym.cli.hinge:hinge",
+    "identify": "mechsym.cli.identify:identify",
     "mechanisms": "mechsym.cli.catalogue:mechanisms",
     "native": "mechsym.cli.native:native",
     "new": "mechsym.cli.new:new",

@@ -9,6 +9,7 @@ cycle       figures of the engine cycle; gas is its pressure on the pistons, loo
 forces      the force chain over one turn
 size        every part with load, limit and factor
 optimise    the design that `[optimise]` declares
+identify    parameters out of a measured run
 compare     two engines side by side
 report      all of these on one page; shown says what of a result is worth seeing
 """

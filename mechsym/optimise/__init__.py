@@ -1,6 +1,7 @@
 """Design of an engine by optimisation.
 
 problem   what may change and what must hold, as numbers      solver   solved with IPOPT, its limits explained
+trace     a measured run      identify   parameters out of it      collocation   a run as one sparse system
 """
 
 from mechsym.optimise.problem import Limit, Optimise, Programme, problem

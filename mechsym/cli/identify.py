@@ -1,0 +1,69 @@
+"""`mechsym identify`: parameters of a machine out of a measured run."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
+from mechsym.errors import BadInput
+from mechsym.quantities.display import figure
+
+
+@click.command(short_help="Parameters of a machine out of measured speeds.")
+@click.argument("case")
+@click.option("--trace", required=True, type=click.Path(dir_okay=False), help="CSV: t [s], a speed, measured torques.")
+@click.option("--free", required=True, metavar="NAMES", help="Parameters to find, divided by commas.")
+@json_option
+@out_option
+@set_option
+def identify(case: str, trace: str, free: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+    """Find inertia, stiffness, damping or friction of CASE in a measured run, each with its 95 % interval.
+
+    The equations of motion hold exactly, the noise sits on the speeds. What is not named by --free is taken from the
+    case; friction.constant and friction.viscous act on the first coordinate, against its motion. Columns are named by
+    the mechanism: speeds such as phi0d [rad/s] or speed [rpm], inputs such as M [N*m]; without one [drive] acts.
+
+    \b
+    Examples: mechsym simulate chmielewski --set "simulation.t_end=3 s" --set "simulation.window=1 s" --out run
+              mechsym identify chmielewski --trace run/series.csv --free I2,k1
+    Exit status 1: the search did not converge.
+    """
+    from mechsym.jobs.identify import identify as find
+
+    names = [name.strip() for name in free.split(",") if name.strip()]
+    if not names:
+        raise BadInput("--free names nothing; give for example --free I2,k1,friction.constant")
+    found = find(case_of(case, pairs(overrides)), trace, names)
+    files = _write(out, found) if out else []
+    emit(_summary(found), as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    if found.status != "found":
+        raise click.exceptions.Exit(1)
+
+
+def _summary(found: Any) -> dict[str, Any]:
+    estimates = {e.name: {"value": e.value, "error": e.error, "low": e.low, "high": e.high, "unit": e.unit}
+                 for e in found.estimates}  # fmt: skip
+    return {
+        "status": found.status, "reason": found.reason, "parameters": estimates,
+        "correlation": found.correlation.tolist(), "noise": found.noise, "durbin_watson": found.durbin_watson,
+        "samples": found.samples, "intervals": found.intervals, "doubts": found.doubts,
+    }  # fmt: skip
+
+
+def _text(found: Any) -> str:
+    lines = [f"{found.status} ({found.reason}): {found.samples} samples over {found.intervals} intervals"]
+    for e in found.estimates:
+        unit = "" if e.unit == "-" else f" {e.unit}"
+        lines.append(f"{e.name} = {figure(e.value)}{unit}, 95 % of {figure(e.low)} to {figure(e.high)}")
+    return "\n".join([*lines, f"left over: {figure(found.noise)} rad/s, Durbin-Watson {found.durbin_watson:.2f}"])
+
+
+def _write(out: Path, found: Any) -> list[Path]:
+    from mechsym.files import write_quantities
+    from mechsym.optimise.plots import trace_picture
+
+    columns = {"t": found.t}
+    for name, values in found.measured.items():
+        columns |= {f"{name}_measured [rad/s]": values, f"{name}_fitted [rad/s]": found.fitted[name]}
+    return [write_quantities(out / "trace.csv", columns), trace_picture(out / "trace.svg", found)]

@@ -1,0 +1,20 @@
+"""Picture of an identification: the trace with the model through it, and what is left over."""
+
+from pathlib import Path
+
+from mechsym.optimise.identify import Identified
+from mechsym.style import BLUE, INK, RED, legend, panels, write_picture
+
+
+def trace_picture(path: Path, found: Identified) -> Path:
+    """Speeds measured and fitted, and their difference, over time."""
+    figure, axes = panels(9, 3.6, 1, 2, "Measured speeds and the model through them, and what is left over")
+    for (name, measured), color in zip(found.measured.items(), (BLUE, RED, INK), strict=False):
+        axes[0].plot(found.t, measured, ".", ms=2, color=color, alpha=0.4, label=f"{name} measured")
+        axes[0].plot(found.t, found.fitted[name], color=color, lw=0.8, label=f"{name} fitted")
+        axes[1].plot(found.t, measured - found.fitted[name], ".", ms=2, color=color, label=name)
+    axes[0].set(xlabel="time [s]", ylabel="speed [rad/s]")
+    axes[1].set(xlabel="time [s]", ylabel="measured less fitted [rad/s]")
+    for axis in axes:
+        legend(axis)
+    return write_picture(path, figure)
