@@ -17,7 +17,7 @@ from scipy.interpolate import BarycentricInterpolator
 DEGREE = 5
 
 
-class Grid(NamedTuple):
+class Intervals(NamedTuple):
     """Intervals, and the linear maps from the states to what is asked of them."""
 
     edges: np.ndarray  # shape (N + 1,) [s]
@@ -29,7 +29,7 @@ class Grid(NamedTuple):
     lengths: np.ndarray  # of the interval of each node, shape (N d,) [s]
 
 
-def grid(t: np.ndarray, breaks: tuple[float, ...], longest: float) -> Grid:
+def grid(t: np.ndarray, breaks: tuple[float, ...], longest: float) -> Intervals:
     """Intervals over samples.
 
     Parameters
@@ -53,7 +53,7 @@ def grid(t: np.ndarray, breaks: tuple[float, ...], longest: float) -> Grid:
     start = np.eye(DEGREE + 1)[:, :1]
     ends = sp.kron(each, d.reshape(-1, 1), "csc")
     starts = sp.kron(each, start, "csc")
-    return Grid(
+    return Intervals(
         edges=edges, nodes=(edges[:-1, None] + h[:, None] * tau[1:]).ravel(), slopes=sp.kron(each, c, "csc"),
         inner=sp.kron(each, inner, "csc"), gaps=sp.csc_matrix(ends[:, :-1] - starts[:, 1:]),
         samples=_samples(t, edges, tau), lengths=np.repeat(h, DEGREE),

@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 from scipy.stats import t as student
 
 from mechsym.errors import BadInput
-from mechsym.optimise.collocation import Grid, grid
+from mechsym.optimise.collocation import Intervals, grid
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
@@ -119,7 +119,7 @@ def _longest(model: TracedMotion, trace: Trace) -> float:
     return _LONGEST / max(float(np.abs(rates).max()), turning, 1e-9)
 
 
-def _guess(model: TracedMotion, trace: Trace, points: Grid, angle: float) -> np.ndarray:
+def _guess(model: TracedMotion, trace: Trace, points: Intervals, angle: float) -> np.ndarray:
     """States at all points of the intervals: measured speeds, the others like the first, and their integrals."""
     h = np.diff(points.edges)
     times = np.sort(np.append(points.nodes, points.edges[:-1]))
@@ -140,7 +140,7 @@ class _Linear(NamedTuple):
     follow: np.ndarray  # of all states over parameters, by their sizes, and start
 
 
-def _linear(model: TracedMotion, trace: Trace, points: Grid, states: np.ndarray, theta: np.ndarray) -> _Linear:
+def _linear(model: TracedMotion, trace: Trace, points: Intervals, states: np.ndarray, theta: np.ndarray) -> _Linear:
     n, k = states.shape[0], len(model.names)
     rates, by_state, by_theta = _slopes(model, points, states, theta)
     h = points.lengths
@@ -166,7 +166,7 @@ def _linear(model: TracedMotion, trace: Trace, points: Grid, states: np.ndarray,
     return _Linear(misses, seen[:, 0], seen[:, 1:], all_states[:, 0], all_states[:, 1:])
 
 
-def _slopes(model: TracedMotion, points: Grid, states: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
+def _slopes(model: TracedMotion, points: Intervals, states: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
     """Rates at the nodes (n, N), and their slopes over states (N, n, n) and parameters (N, n, k)."""
     n, count, k = states.shape[0], len(points.nodes), len(model.names)
     x, w, z = ca.SX.sym("x", n), ca.SX.sym("w", len(model.inputs)), ca.SX.sym("z", k)
@@ -181,13 +181,13 @@ def _slopes(model: TracedMotion, points: Grid, states: np.ndarray, theta: np.nda
     )
 
 
-def _rest(model: TracedMotion, trace: Trace, points: Grid, states: np.ndarray) -> np.ndarray:
+def _rest(model: TracedMotion, trace: Trace, points: Intervals, states: np.ndarray) -> np.ndarray:
     """Measured speeds less those of the states, shape (speeds, samples)."""
     rows = [len(model.velocities) + model.velocities.index(name) for name in trace.speeds]
     return np.asarray(np.array(list(trace.speeds.values())) - states[rows] @ points.samples)
 
 
-def _solve(model: TracedMotion, trace: Trace, points: Grid, angle: float) -> _Fit:
+def _solve(model: TracedMotion, trace: Trace, points: Intervals, angle: float) -> _Fit:
     """Gauss and Newton's steps with the equations linearised, which hold only at the end."""
     states, theta = _guess(model, trace, points, angle), model.start.copy()
     k, status = len(theta), f"no steady values after {_STEPS} steps"
@@ -249,7 +249,7 @@ def _white(rest: np.ndarray, trace: Trace) -> bool:
     return float(np.std(rest)) < _EXACT * scale or abs(_durbin_watson(rest) - 2) < band
 
 
-def _result(model: TracedMotion, trace: Trace, points: Grid, fit: _Fit) -> Identified:
+def _result(model: TracedMotion, trace: Trace, points: Intervals, fit: _Fit) -> Identified:
     slopes = _linear(model, trace, points, fit.states, fit.theta).slopes
     dof = fit.rest.size - slopes.shape[1]
     noise = math.sqrt(float(np.sum(fit.rest**2)) / dof)
