@@ -18,16 +18,13 @@ from scipy.stats import t as student
 
 from mechsym.errors import BadInput
 from mechsym.optimise.collocation import Intervals, grid
+from mechsym.optimise.residuals import Estimate, doubts, durbin_watson, white_noise
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 
 _RANK = 1e-7  # singular value by the largest, below which a direction is not determined
 _LONGEST = 0.5  # of an interval: radians of the fastest motion
-_DURBIN = 3.0  # standard errors by which the statistic of white noise may miss 2
-_EXACT = 1e-6  # of the speed, below which what is left over is rounding
-_OUTLIER = 6.0  # standard deviations
-_LOOSE = 0.5  # standard error by the value, beyond which a parameter is hardly known
 _STEPS, _SETTLING = 60, 3  # steps at most, and those before the parameters may move
 _STRIDE, _STILL = 0.5, 1e-8  # largest change of a parameter in one step, and that of the last one, by its size
 
@@ -48,19 +45,6 @@ class TracedMotion:
     known: Callable[[np.ndarray], np.ndarray]  #: Times (n,) [s] to inputs (m, n) [SI]
     breaks: tuple[float, ...] = ()  #: Times at which they jump [s]
     angle: float = 0.0  #: Of all coordinates at the first sample [rad]
-
-
-@record
-class Estimate:
-    """One parameter."""
-
-    name: str
-    unit: str
-    value: float  #: [SI]
-    error: float  #: Standard error [SI]
-    #: 95 % interval [SI]
-    low: float
-    high: float
 
 
 @record
@@ -103,7 +87,7 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
         raise BadInput(f"{trace.file}: {count} samples for {unknown} unknowns; give ten times as many, or free fewer")
     points = grid(trace.t, model.breaks, _longest(model, trace))
     fits = [_solve(model, trace, points, model.angle)]
-    if not _white(fits[0].rest, trace):  # the dead centre may lie elsewhere
+    if not white_noise(fits[0].rest, trace):  # the dead centre may lie elsewhere
         fits += [_solve(model, trace, points, model.angle + k * math.pi / 2) for k in (1, 2, 3)]
     best = min(fits, key=lambda fit: float(np.sum(fit.rest**2)))
     return _result(model, trace, points, best)
@@ -238,17 +222,6 @@ def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.nda
     return (inverse @ inverse.T / np.outer(columns, columns))[:k, :k]
 
 
-def _durbin_watson(rest: np.ndarray) -> float:
-    return float(np.sum(np.diff(rest, axis=1) ** 2) / max(np.sum(rest**2), 1e-300))
-
-
-def _white(rest: np.ndarray, trace: Trace) -> bool:
-    """Whether what is left over may be white noise; its Durbin-Watson statistic is 2 with the error 2/sqrt(n)."""
-    scale = max(float(np.abs(v).max()) for v in trace.speeds.values())
-    band = _DURBIN * 2 / math.sqrt(rest.size)
-    return float(np.std(rest)) < _EXACT * scale or abs(_durbin_watson(rest) - 2) < band
-
-
 def _result(model: TracedMotion, trace: Trace, points: Intervals, fit: _Fit) -> Identified:
     slopes = _linear(model, trace, points, fit.states, fit.theta).slopes
     dof = fit.rest.size - slopes.shape[1]
@@ -264,43 +237,8 @@ def _result(model: TracedMotion, trace: Trace, points: Intervals, fit: _Fit) -> 
     measured = {name: np.asarray(v) for name, v in trace.speeds.items()}
     return Identified(
         status="found" if fit.status == "converged" else "not converged", reason=fit.status, estimates=estimates,
-        correlation=covariance / np.outer(errors, errors), noise=noise, durbin_watson=_durbin_watson(fit.rest),
+        correlation=covariance / np.outer(errors, errors), noise=noise, durbin_watson=durbin_watson(fit.rest),
         samples=fit.rest.size, intervals=len(points.edges) - 1, t=trace.t, measured=measured,
         fitted={name: measured[name] - rest for name, rest in zip(measured, fit.rest, strict=True)},
-        doubts=_doubts(fit, trace, estimates, model),
+        doubts=doubts(fit.rest, trace, estimates, model.low),
     )  # fmt: skip
-
-
-def _doubts(fit: _Fit, trace: Trace, estimates: tuple[Estimate, ...], model: TracedMotion) -> tuple[Doubt, ...]:
-    found, white, worst = [], _durbin_watson(fit.rest), float(np.abs(fit.rest).max())
-    noise, band = float(np.std(fit.rest)), _DURBIN * 2 / math.sqrt(fit.rest.size)
-    if not _white(fit.rest, trace):
-        why = "what is left over is no noise: the model misses something, and the intervals are too narrow"
-        found.append(
-            Doubt(
-                code="residuals",
-                quantity="durbin_watson",
-                value=white,
-                usual=f"{2 - band:.2f} to {2 + band:.2f}",
-                why=why,
-            )
-        )
-    if worst > _OUTLIER * noise:
-        why = "samples lie far off; look for bad readings, they pull the parameters"
-        found.append(
-            Doubt(code="outlier", quantity="residual / noise", value=worst / noise, usual="at most 6", why=why)
-        )
-    for estimate, low in zip(estimates, model.low.tolist(), strict=True):
-        if estimate.error > _LOOSE * abs(estimate.value):
-            why = f"{estimate.name} is hardly determined by this trace"
-            ratio = estimate.error / max(abs(estimate.value), 1e-300)
-            found.append(Doubt(code="loose", quantity=estimate.name, value=ratio, usual="error at most half", why=why))
-        elif estimate.name.startswith("friction") and estimate.high < 0:
-            why = f"{estimate.name} would drive the shaft: a torque is missing among what is known"
-            found.append(Doubt(code="drives", quantity=estimate.name, value=estimate.value, usual="above 0", why=why))
-        elif estimate.value <= low + 1e-6 * estimate.error:
-            why = f"{estimate.name} ends at its least value: the model asks for an impossible one"
-            found.append(
-                Doubt(code="bound", quantity=estimate.name, value=estimate.value, usual=f"above {low:g}", why=why)
-            )
-    return tuple(found)
