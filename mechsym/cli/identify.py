@@ -1,5 +1,6 @@
 """`mechsym identify`: parameters of a machine out of a measured run."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +43,7 @@ def identify(case: str, trace: str, free: str, as_json: bool, out: Path | None, 
 
 
 def _summary(found: Any) -> dict[str, Any]:
-    estimates = {e.name: {"value": e.value, "error": e.error, "low": e.low, "high": e.high, "unit": e.unit}
+    estimates = {e.name: {"value": e.value, "error": e.error, "low": _end(e.low), "high": _end(e.high), "unit": e.unit}
                  for e in found.estimates}  # fmt: skip
     return {
         "status": found.status, "reason": found.reason, "parameters": estimates,
@@ -51,11 +52,19 @@ def _summary(found: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _end(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _shown(value: float) -> str:
+    return figure(value) if math.isfinite(value) else "no end"
+
+
 def _text(found: Any) -> str:
     lines = [f"{found.status} ({found.reason}): {found.samples} samples over {found.intervals} intervals"]
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
-        lines.append(f"{e.name} = {figure(e.value)}{unit}, 95 % of {figure(e.low)} to {figure(e.high)}")
+        lines.append(f"{e.name} = {figure(e.value)}{unit}, 95 %: {_shown(e.low)} to {_shown(e.high)}")
     return "\n".join([*lines, f"left over: {figure(found.noise)} rad/s, Durbin-Watson {found.durbin_watson:.2f}"])
 
 

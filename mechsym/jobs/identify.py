@@ -11,7 +11,8 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import parameters_class
 from mechsym.mechanisms.record import Mechanism, bind, generated, velocities
-from mechsym.optimise.identify import Identified, TracedMotion
+from mechsym.optimise.fit import TracedMotion
+from mechsym.optimise.identify import Identified
 from mechsym.optimise.identify import identify as solve
 from mechsym.optimise.trace import Trace, read_trace
 from mechsym.simulate.settings import StepTorque

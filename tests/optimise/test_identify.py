@@ -46,7 +46,7 @@ def found_in(file, free=tuple(TRUTH), **changes):
 
 
 def test_without_noise_the_truth_comes_back(tmp_path, speeds):
-    found = found_in(written(tmp_path, speeds, noise=0.0))
+    found = found_in(written(tmp_path, speeds[:, :101], noise=0.0, t=T[:101]))
     assert found.status == "found"
     for estimate in found.estimates:
         assert estimate.value == pytest.approx(TRUTH[estimate.name], rel=1e-4)
@@ -64,14 +64,33 @@ def test_one_speed_in_rpm_will_do(tmp_path, speeds):
 
 @pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say(tmp_path, speeds):
-    records, held, noise = 100, 0, []
+    records, held, noise = 60, 0, []
     for seed in range(records):
         found = found_in(written(tmp_path, speeds, seed))
         assert found.status == "found"
         held += sum(e.low <= TRUTH[e.name] <= e.high for e in found.estimates)
         noise.append(found.noise)
-    assert 0.90 <= held / (4 * records) <= 0.98
+    assert 0.91 <= held / (4 * records) <= 0.99
     assert np.mean(noise) == pytest.approx(0.02, rel=0.01)
+
+
+@pytest.mark.parametrize(("noise", "doubt"), [(0.3, ("ambiguous", "motions")), (1.5, ("open", "m0"))])
+def test_a_piston_that_noise_hides_is_doubted(tmp_path, speeds, noise, doubt):
+    # a piston of 1.1 kg on 0.06 m beside 0.84 kg m^2: half a turn more explains the trace too, or any mass does
+    file = written(tmp_path, speeds[:, :61], noise=noise, t=T[:61])
+    found = found_in(file, ("m0",), I2=0.58, k1=400.0, c1=2.0, **{"drive.torque": 5.6})
+    (mass,) = found.estimates
+    assert doubt in {(one.code, one.quantity) for one in found.doubts} and mass.low <= 1.1 <= mass.high
+
+
+def test_an_interval_ends_where_the_best_motion_gets_worse_by_what_it_says(tmp_path, speeds):
+    file = written(tmp_path, speeds[:, :101], noise=0.2, t=T[:101])
+    free = ("I2", "c1")
+    found = found_in(file, free, k1=400.0, **{"drive.torque": 5.6})
+    low = found.estimates[0].low
+    held = found_in(file, ("c1",), k1=400.0, I2=low, **{"drive.torque": 5.6})
+    # 95 % of Student's t with 195 degrees of freedom, squared
+    assert (held.noise / found.noise) ** 2 * 197 / 196 - 1 == pytest.approx(1.972**2 / 196, rel=0.05)
 
 
 @pytest.mark.slow
@@ -97,7 +116,7 @@ def test_what_a_model_misses_is_doubted(tmp_path, speeds):
 
 def test_what_a_trace_does_not_tell_is_refused(tmp_path, speeds):
     # without a torque that is known every torque may be larger with every inertia
-    file = written(tmp_path, speeds, noise=0.0)
+    file = written(tmp_path, speeds[:, :121], noise=0.0, t=T[:121])
     with pytest.raises(BadInput, match="does not determine"):
         found_in(file, ("friction.constant", "friction.viscous", "I0", "I2", "m0", "k1", "c1"), **{"drive.torque": 0.0})
 
