@@ -46,7 +46,7 @@ class TracedMotion:
     angle: float = 0.0  #: Of all coordinates at the first sample [rad]
 
 
-class Fit(NamedTuple):
+class ClosestMotion(NamedTuple):
     """A motion: states at all points, parameters, what is left over, and how that follows them and the start."""
 
     states: np.ndarray
@@ -71,7 +71,7 @@ class _Linear(NamedTuple):
     slopes: np.ndarray
 
 
-class Task:
+class TraceTask:
     """A trace, the equations for it, and their sparse parts that stay."""
 
     def __init__(self, model: TracedMotion, trace: Trace, points: Intervals) -> None:
@@ -125,7 +125,7 @@ class Task:
         return np.vstack([np.tile(angle + along, (len(names), 1)), speeds])
 
 
-def approach(task: Task, angle: float) -> tuple[np.ndarray, np.ndarray]:
+def approach(task: TraceTask, angle: float) -> tuple[np.ndarray, np.ndarray]:
     """States and parameters near a motion: Gauss and Newton's steps whose equations hold only at the end.
 
     Parameters
@@ -156,7 +156,7 @@ def approach(task: Task, angle: float) -> tuple[np.ndarray, np.ndarray]:
     return states, theta
 
 
-def closest(task: Task, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> Fit:
+def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion:
     """The motion that comes closest to the trace, from one nearby.
 
     Parameters
@@ -168,7 +168,9 @@ def closest(task: Task, states: np.ndarray, theta: np.ndarray, held: int | None 
     """
     here, damping = _motion(task, states, theta), _DAMPING
     if here is None:
-        return Fit(states, theta, task.rest(states), np.zeros((0, 0)), np.zeros((0, 0)), "no motion follows the trace")
+        return ClosestMotion(
+            states, theta, task.rest(states), np.zeros((0, 0)), np.zeros((0, 0)), "no motion follows the trace"
+        )
     for _ in range(_STEPS):
         free = _free(task.model, here, held)
         columns = here.slopes[:, free]
@@ -195,7 +197,7 @@ def _gain(columns: np.ndarray, rest: np.ndarray) -> tuple[float, np.ndarray]:
     return float(along @ along), right[keep].T @ (along / singular[keep])
 
 
-def _free(model: TracedMotion, here: Fit, held: int | None) -> np.ndarray:
+def _free(model: TracedMotion, here: ClosestMotion, held: int | None) -> np.ndarray:
     """Numbers of the values that may move: not the held one, none that its least value holds."""
     k = len(model.start)
     downhill = here.slopes.T @ here.rest.ravel()
@@ -203,7 +205,9 @@ def _free(model: TracedMotion, here: Fit, held: int | None) -> np.ndarray:
     return np.setdiff1d(np.arange(here.slopes.shape[1]), stays)
 
 
-def _step(task: Task, here: Fit, free: np.ndarray, width: np.ndarray, damping: float) -> Fit | None:
+def _step(
+    task: TraceTask, here: ClosestMotion, free: np.ndarray, width: np.ndarray, damping: float
+) -> ClosestMotion | None:
     model, k = task.model, len(task.model.start)
     rows = np.vstack([here.slopes[:, free] / width, math.sqrt(damping) * np.eye(len(free))])
     target = np.append(here.rest.ravel(), np.zeros(len(free)))
@@ -215,7 +219,7 @@ def _step(task: Task, here: Fit, free: np.ndarray, width: np.ndarray, damping: f
     return _motion(task, states, theta)
 
 
-def _motion(task: Task, states: np.ndarray, theta: np.ndarray) -> Fit | None:
+def _motion(task: TraceTask, states: np.ndarray, theta: np.ndarray) -> ClosestMotion | None:
     """The motion from the first of the states; None where Newton's steps do not find it."""
     for _ in range(_CORRECTIONS):
         with np.errstate(all="ignore"):
@@ -223,6 +227,6 @@ def _motion(task: Task, states: np.ndarray, theta: np.ndarray) -> Fit | None:
         if here is None or not np.isfinite(here.follow).all():
             return None
         if float(np.abs(here.move).max()) < _SOLVED * task.scale:
-            return Fit(states, theta, task.rest(states), here.slopes, here.follow)
+            return ClosestMotion(states, theta, task.rest(states), here.slopes, here.follow)
         states = states + here.move.reshape(states.shape, order="F")
     return None

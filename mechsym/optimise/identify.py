@@ -16,7 +16,7 @@ from scipy.special import stdtrit
 
 from mechsym.errors import BadInput
 from mechsym.optimise.collocation import grid
-from mechsym.optimise.fit import RANK, Fit, Task, TracedMotion, approach, closest
+from mechsym.optimise.fit import RANK, ClosestMotion, TraceTask, TracedMotion, approach, closest
 from mechsym.optimise.profile import profile
 from mechsym.optimise.residuals import Estimate, doubts, durbin_watson, rounding
 from mechsym.optimise.trace import Trace
@@ -56,7 +56,7 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     count, unknown = sum(map(len, trace.speeds.values())), len(model.names) + 2 * len(model.velocities)
     if count < 10 * unknown:
         raise BadInput(f"{trace.file}: {count} samples for {unknown} unknowns; give ten times as many, or free fewer")
-    task = Task(model, trace, grid(trace.t, model.breaks, _longest(model, trace)))
+    task = TraceTask(model, trace, grid(trace.t, model.breaks, _longest(model, trace)))
     # speeds do not tell where the dead centre lies: a search from each quarter
     starts = [model.angle + k * 2 * math.pi / _STARTS for k in range(_STARTS)]
     fits = sorted((closest(task, *approach(task, angle)) for angle in starts), key=lambda fit: fit.left)
@@ -91,7 +91,7 @@ def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.nda
     return (inverse @ inverse.T / np.outer(columns, columns))[:k, :k]
 
 
-def _result(task: Task, fits: list[Fit]) -> Identified:
+def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
     model, trace, best = task.model, task.trace, fits[0]
     if best.status.startswith("no motion"):
         raise BadInput(f"{trace.file}: {best.status}: see whether [drive], units and the values of the case fit it")
@@ -118,7 +118,7 @@ def _result(task: Task, fits: list[Fit]) -> Identified:
     )  # fmt: skip
 
 
-def _alike(fits: list[Fit], reach: float, errors: np.ndarray) -> list[Fit]:
+def _alike(fits: list[ClosestMotion], reach: float, errors: np.ndarray) -> list[ClosestMotion]:
     """The best fit and those that the trace does not tell from it, each once."""
     found = fits[:1]
     for fit in fits[1:]:

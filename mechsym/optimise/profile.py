@@ -11,17 +11,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechsym.optimise.fit import Fit, Task, closest
+from mechsym.optimise.fit import ClosestMotion, TraceTask, closest
 
 _TRIALS, _CLOSE, _LEAP = 10, 0.02, 3.0  # trials at an end, how close they come, largest leap by the last distance
 
 
-def profile(task: Task, fits: Sequence[Fit], number: int, far: float, reach: float) -> tuple[float, float]:
+def profile(
+    task: TraceTask, fits: Sequence[ClosestMotion], number: int, far: float, reach: float
+) -> tuple[float, float]:
     """Ends of the interval of a parameter.
 
     Parameters
     ----------
-    fits : sequence of Fit
+    fits : sequence of ClosestMotion
         The best motion first, then others that the trace does not tell from it
     number : int
         Of the parameter
@@ -40,7 +42,7 @@ def profile(task: Task, fits: Sequence[Fit], number: int, far: float, reach: flo
     return float(low), float(max(fit.theta[number] + _distance(task, fit, number, far, least, reach) for fit in fits))
 
 
-def _distance(task: Task, fit: Fit, number: int, far: float, least: float, reach: float) -> float:
+def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, least: float, reach: float) -> float:
     """How far the parameter may go to one side, by the secant's rule: the root of the growth is nearly straight."""
     wide = math.sqrt(reach)
     room = math.inf if far > 0 else float(fit.theta[number] - task.model.low[number])
@@ -64,7 +66,7 @@ def _distance(task: Task, fit: Fit, number: int, far: float, least: float, reach
     return outer[0]
 
 
-def _held(task: Task, here: Fit, number: int, value: float) -> Fit | None:
+def _held(task: TraceTask, here: ClosestMotion, number: int, value: float) -> ClosestMotion | None:
     """The closest motion with one parameter held, from one nearby."""
     model, theta = task.model, here.theta.copy()
     move = (value - theta[number]) / model.size[number]
