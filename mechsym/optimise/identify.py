@@ -16,7 +16,7 @@ from scipy.special import stdtrit
 
 from mechsym.errors import BadInput
 from mechsym.optimise.collocation import grid
-from mechsym.optimise.fit import RANK, ClosestMotion, TraceTask, TracedMotion, approach, closest
+from mechsym.optimise.fit import RANK, ClosestMotion, TracedMotion, TraceTask, approach, closest
 from mechsym.optimise.profile import profile
 from mechsym.optimise.residuals import Estimate, doubts, durbin_watson, rounding
 from mechsym.optimise.trace import Trace
