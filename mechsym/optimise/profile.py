@@ -19,14 +19,12 @@ _TRIALS, _CLOSE, _LEAP = 10, 0.02, 3.0  # trials at an end, how close they come,
 def profile(
     task: TraceTask, fits: Sequence[ClosestMotion], number: int, far: float, reach: float
 ) -> tuple[float, float]:
-    """Ends of the interval of a parameter.
+    """Ends of the interval of the parameter of a number.
 
     Parameters
     ----------
     fits : sequence of ClosestMotion
         The best motion first, then others that the trace does not tell from it
-    number : int
-        Of the parameter
     far : float
         Where the ends would be if the model were straight, from the best value [SI]
     reach : float
