@@ -61,7 +61,7 @@ def doubts(
     least : ndarray, shape (k,)
         Least values of the parameters [SI]
     ways : int
-        Motions that explain the trace
+        How many motions explain the trace, each with its own place of the dead centre
     """
     white, worst = durbin_watson(rest), float(np.abs(rest).max()) / max(float(np.std(rest)), 1e-300)
     band, found = _DURBIN * 2 / math.sqrt(rest.size), []
