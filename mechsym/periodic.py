@@ -17,8 +17,8 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable
 
 import numpy as np
+import scipy
 from numpy.polynomial import chebyshev
-from scipy.interpolate import PPoly
 
 from mechsym.errors import BadInput
 
@@ -47,7 +47,7 @@ def even_angles(period: float, count: int = 4096) -> np.ndarray:
 
 def fit(
     function: Callable[[np.ndarray], np.ndarray], breaks: Iterable[float], period: float, tol: float = 1e-12
-) -> PPoly:
+) -> "scipy.interpolate.PPoly":
     """Periodic piecewise polynomial that follows a function within a tolerance.
 
     Parameters
@@ -98,7 +98,7 @@ def fit(
     raise BadInput(f"the function jumps near {left[0]:.9g} rad: list that angle among the kinks, or smooth it")
 
 
-def mean(poly: PPoly) -> float:
+def mean(poly: "scipy.interpolate.PPoly") -> float:
     """Mean over a period.
 
     Returns
@@ -109,7 +109,7 @@ def mean(poly: PPoly) -> float:
     return float(_integral(poly)(poly.x[-1]) / (poly.x[-1] - poly.x[0]))
 
 
-def antiderivative(poly: PPoly) -> PPoly:
+def antiderivative(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     """Exact integral from the first break, without the drift that a mean would bring.
 
     Returns
@@ -117,13 +117,13 @@ def antiderivative(poly: PPoly) -> PPoly:
     integral : scipy.interpolate.PPoly
         Periodic: integral of f - mean(f), 0 at the first break
     """
-    level = PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
+    level = scipy.interpolate.PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
     level.c[-1] -= mean(poly)
     integral = _integral(level)
-    return PPoly(integral.c, integral.x, extrapolate="periodic")
+    return scipy.interpolate.PPoly(integral.c, integral.x, extrapolate="periodic")
 
 
-def scalar(poly: PPoly) -> Callable[[float], tuple[float, float]]:
+def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, float]]:
     """Fast evaluation for one float at a time: the value and its derivative.
 
     Parameters
@@ -157,7 +157,7 @@ def scalar(poly: PPoly) -> Callable[[float], tuple[float, float]]:
     return value_and_slope
 
 
-def extremes(poly: PPoly) -> tuple[float, float, float, float]:
+def extremes(poly: "scipy.interpolate.PPoly") -> tuple[float, float, float, float]:
     """Smallest and largest value over a period and where they are.
 
     Parameters
@@ -175,7 +175,7 @@ def extremes(poly: PPoly) -> tuple[float, float, float, float]:
     return low, phi_low, -high, phi_high
 
 
-def piece_points(poly: PPoly, count: int = 17) -> np.ndarray:
+def piece_points(poly: "scipy.interpolate.PPoly", count: int = 17) -> np.ndarray:
     """Angles on every piece, both of its ends included, denser towards the ends.
 
     Returns
@@ -187,7 +187,7 @@ def piece_points(poly: PPoly, count: int = 17) -> np.ndarray:
     return poly.x[:-1, None] + np.diff(poly.x)[:, None] * u
 
 
-def piece_values(poly: PPoly, phi: np.ndarray) -> np.ndarray:
+def piece_values(poly: "scipy.interpolate.PPoly", phi: np.ndarray) -> np.ndarray:
     """Values that take each break from the piece the point belongs to, so that both sides of a jump are seen.
 
     Parameters
@@ -255,25 +255,25 @@ def _sampled(function: Callable[[np.ndarray], np.ndarray], left: np.ndarray, wid
     return np.moveaxis(values.reshape(*values.shape[:-1], *phi.shape), (-2, -1), (0, 1))
 
 
-def _assembled(done: list[tuple[np.ndarray, np.ndarray, np.ndarray]], period: float) -> PPoly:
+def _assembled(done: list[tuple[np.ndarray, np.ndarray, np.ndarray]], period: float) -> "scipy.interpolate.PPoly":
     left, width = (np.concatenate([d[i] for d in done]) for i in (0, 1))
     rows = np.concatenate([d[2] for d in done], axis=1)
     # PPoly counts from the left break in radians, not in shares of the piece
     scale = width ** np.arange(_DEGREE, -1, -1)[:, None]
     rows = rows / scale.reshape(scale.shape + (1,) * (rows.ndim - 2))
     order = np.argsort(left)
-    return PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
+    return scipy.interpolate.PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
 
 
-def _integral(poly: PPoly) -> PPoly:
-    return PPoly(poly.c, poly.x, extrapolate=False).antiderivative()
+def _integral(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+    return scipy.interpolate.PPoly(poly.c, poly.x, extrapolate=False).antiderivative()
 
 
 def _smallest(rows: np.ndarray, x: np.ndarray) -> tuple[float, float]:
     width, powers = np.diff(x), np.arange(len(rows) - 1, -1, -1)[:, None]
     scaled = rows * width**powers
-    phi = piece_points(PPoly(rows, x))
-    lowest = piece_values(PPoly(rows, x), phi).min(axis=1)
+    phi = piece_points(scipy.interpolate.PPoly(rows, x))
+    lowest = piece_values(scipy.interpolate.PPoly(rows, x), phi).min(axis=1)
     # between two of its points a piece dips by less than gap**2 / 8 of its largest second derivative
     dip = (math.pi / 2 / (phi.shape[1] - 1)) ** 2 / 8 * (powers * (powers - 1) * np.abs(scaled)).sum(axis=0)
     pieces = np.flatnonzero(lowest - dip <= lowest.min())

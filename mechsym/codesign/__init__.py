@@ -11,20 +11,28 @@
 Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesign.md for the formulas.
 """
 
-from mechsym.codesign.front import front
-from mechsym.codesign.hardware import Bounds, Hardware
-from mechsym.codesign.machines import bounds, from_curve, hardware, point
-from mechsym.codesign.points import Point, bare_flywheel
-from mechsym.codesign.programme import solve
-from mechsym.codesign.rank import rank
-from mechsym.codesign.scenarios import misfire
-from mechsym.codesign.task import CoDesign, CoDesignTask
-from mechsym.codesign.verify import fine_path, verify
+from mechsym.quantities import lazily
 
-__all__ = [
-    "Bounds", "CoDesign", "CoDesignTask", "Hardware", "Point", "bare_flywheel", "bounds", "fine_path", "from_curve",
-    "front", "hardware", "misfire", "point", "rank", "solve", "verify",
-]  # fmt: skip
+_NAMES = {
+    "bare_flywheel": "mechsym.codesign.points:bare_flywheel",
+    "Bounds": "mechsym.codesign.hardware:Bounds",
+    "bounds": "mechsym.codesign.machines:bounds",
+    "CoDesign": "mechsym.codesign.task:CoDesign",
+    "CoDesignTask": "mechsym.codesign.task:CoDesignTask",
+    "fine_path": "mechsym.codesign.verify:fine_path",
+    "from_curve": "mechsym.codesign.machines:from_curve",
+    "front": "mechsym.codesign.front:front",
+    "Hardware": "mechsym.codesign.hardware:Hardware",
+    "hardware": "mechsym.codesign.machines:hardware",
+    "misfire": "mechsym.codesign.scenarios:misfire",
+    "Point": "mechsym.codesign.points:Point",
+    "point": "mechsym.codesign.machines:point",
+    "rank": "mechsym.codesign.rank:rank",
+    "solve": "mechsym.codesign.programme:solve",
+    "verify": "mechsym.codesign.verify:verify",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
-from scipy.interpolate import BSpline, PPoly
+import scipy
 
 from mechsym.quantities import quantity, record
 
@@ -48,15 +48,15 @@ def matrices(basis: Basis, phi: np.ndarray) -> tuple[ca.DM, ca.DM, ca.DM]:
     return found[0], found[1], found[2]
 
 
-def curve(basis: Basis, coefficients: np.ndarray) -> PPoly:
+def curve(basis: Basis, coefficients: np.ndarray) -> "scipy.interpolate.PPoly":
     """The periodic piecewise polynomial of some coefficients, over [0, period) [rad]."""
     t, wrapped = _extended(basis), np.append(coefficients, coefficients[:_DEGREE])
-    whole = PPoly.from_spline(BSpline(t, wrapped, _DEGREE))
+    whole = scipy.interpolate.PPoly.from_spline(scipy.interpolate.BSpline(t, wrapped, _DEGREE))
     inside = [i for i in range(whole.x.size - 1) if whole.x[i + 1] > whole.x[i]]
     first = basis.knots[0]
     inside = [i for i in inside if first - 1e-12 <= whole.x[i] < first + basis.period - 1e-12]
     breaks = np.append(whole.x[inside], first + basis.period)
-    return PPoly(whole.c[:, inside], breaks, extrapolate="periodic")
+    return scipy.interpolate.PPoly(whole.c[:, inside], breaks, extrapolate="periodic")
 
 
 def fitted(basis: Basis, values: np.ndarray, phi: np.ndarray) -> np.ndarray:
@@ -70,5 +70,5 @@ def _extended(basis: Basis) -> np.ndarray:
     return np.concatenate([before, basis.knots, after])
 
 
-def _elements(basis: Basis) -> BSpline:
-    return BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE)
+def _elements(basis: Basis) -> "scipy.interpolate.BSpline":
+    return scipy.interpolate.BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE)

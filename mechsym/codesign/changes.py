@@ -6,7 +6,7 @@ Rows like those of `scenarios`, at one point each.
 import dataclasses
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.control import hold
@@ -51,7 +51,7 @@ def _scavenge_step(found: CoDesign, machine: Running, scavenged: Point, k: int) 
         ).speed_ripple
         return _STOPPED if motion is None else motion
 
-    best = minimize_scalar(ripple, bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-4})
+    best = scipy.optimize.minimize_scalar(ripple, bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-4})
     words = f"ripple {ripple(1.0):.4f}, at {best.x:.3f} of the pressures {best.fun:.4f}"
     return told(name, about, k, start[1], run, lambda r: words)
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Point
@@ -83,8 +83,8 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
             missing = work[k] + fixed + p0 * by_p0
             return _ripple(points[k], missing - missing.mean(), own + flywheel)
 
-        found = minimize_scalar(at_pressure, bounds=(_FAR[0] * guess[k], _FAR[1] * guess[k]), method="bounded",
-                                options={"xatol": 1e-5 * guess[k]})  # fmt: skip
+        bounds, options = (_FAR[0] * guess[k], _FAR[1] * guess[k]), {"xatol": 1e-5 * guess[k]}
+        found = scipy.optimize.minimize_scalar(at_pressure, bounds=bounds, method="bounded", options=options)
         return float(found.x), float(found.fun)
 
     def excess(flywheel: float) -> float:
@@ -93,7 +93,9 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
     high = 1e3
     while excess(high) > 0 and high < 1e7:
         high *= 3
-    flywheel = 0.0 if excess(0.0) <= 0 else float(brentq(excess, 0.0, high, xtol=1e-3)) if high < 1e7 else None
+    flywheel = (
+        0.0 if excess(0.0) <= 0 else float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-3)) if high < 1e7 else None
+    )
     rows = [best(k, flywheel or high) for k in range(len(points))]
     return CutForOne(at=at, flywheel=flywheel, p0=np.array([r[0] for r in rows]),
                      ripple=np.array([r[1] for r in rows]))  # fmt: skip

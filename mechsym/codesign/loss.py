@@ -3,7 +3,7 @@
 import dataclasses
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.codesign import running
 from mechsym.codesign.contact_block import contact_force
@@ -88,7 +88,7 @@ def with_losses(found: CoDesign, k: int, given: HingeLosses) -> Lossy:
         motion = running.steady(dataclasses.replace(_real(machine, found, k, given, fill), load=load))
         return _STOPPED if motion.speed_ripple is None else motion.speed_ripple
 
-    best = minimize_scalar(ripple, bounds=_RESET, method="bounded", options={"xatol": 1e-4})
+    best = scipy.optimize.minimize_scalar(ripple, bounds=_RESET, method="bounded", options={"xatol": 1e-4})
     return Lossy(ripple=None if best.fun >= _STOPPED else float(best.fun), fill=float(best.x))
 
 

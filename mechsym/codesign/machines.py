@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PPoly
+import scipy
 
 from mechsym import periodic
 from mechsym.codesign.hardware import Bounds, Hardware
@@ -101,12 +101,14 @@ def from_curve(
         raise BadInput("a torque curve needs ascending angles, at least eight, and as many torques")
     if angle[-1] - angle[0] >= period:
         raise BadInput(f"the angles span {np.degrees(angle[-1] - angle[0]):g} deg; leave the end of the period out")
-    spline = CubicSpline(np.append(angle, angle[0] + period), np.append(value, value[0]), bc_type="periodic")
+    spline = scipy.interpolate.CubicSpline(
+        np.append(angle, angle[0] + period), np.append(value, value[0]), bc_type="periodic"
+    )
     driving = periodic.fit(lambda x: spline((x - angle[0]) % period + angle[0]), angle, period, 1e-10)
     mean = periodic.mean(driving)
-    wanted = PPoly(-driving.c, driving.x, extrapolate="periodic")
+    wanted = scipy.interpolate.PPoly(-driving.c, driving.x, extrapolate="periodic")
     wanted.c[-1] += mean
-    constant = PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
+    constant = scipy.interpolate.PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
     return Point(omega=omega, load_torque=mean, law="constant", period=period, work=periodic.antiderivative(wanted),
                  inertia=constant, torque=driving, kinks=())  # fmt: skip
 

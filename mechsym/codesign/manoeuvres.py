@@ -11,7 +11,7 @@ good when it is larger than M_0. Friction is not in it.
 import dataclasses
 
 import numpy as np
-from scipy.interpolate import BPoly, PPoly
+import scipy
 
 from mechsym.codesign import running
 from mechsym.codesign.running import Running, TimeRun
@@ -81,9 +81,9 @@ def astern(machine: Running) -> Running:
 def mirrored(track: Track, period: float) -> Track:
     """A guide as a shaft meets it that turns the other way; `period` in [rad]."""
     z = track.z
-    back = BPoly.from_power_basis(PPoly(z.c, z.x)).c[::-1, ::-1]
-    turned = PPoly.from_bernstein_basis(BPoly(back, period - z.x[::-1]))
-    return dataclasses.replace(track, z=PPoly(turned.c, turned.x, extrapolate="periodic"))
+    back = scipy.interpolate.BPoly.from_power_basis(scipy.interpolate.PPoly(z.c, z.x)).c[::-1, ::-1]
+    turned = scipy.interpolate.PPoly.from_bernstein_basis(scipy.interpolate.BPoly(back, period - z.x[::-1]))
+    return dataclasses.replace(track, z=scipy.interpolate.PPoly(turned.c, turned.x, extrapolate="periodic"))
 
 
 def governed(machine: Running, speed: float, turns: int) -> TimeRun:

@@ -9,8 +9,7 @@ phi = 0 at top dead centre, positive in the sense of rotation; pressures of spri
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PPoly
-from scipy.optimize import brentq
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
@@ -32,8 +31,8 @@ class Point:
     law: str = choice("propeller", "constant", default="propeller", about="how the load follows the speed")
     weight: float = quantity("-", default=1.0, low=0, about="share of the time at this point")
     period: float = quantity("rad", above=0, about="period of the torque")
-    work: PPoly  #: work W wanted from the hinge, from phi = 0 [J]
-    inertia: PPoly  #: inertia I of the engine [kg*m^2]
+    work: "scipy.interpolate.PPoly"  #: work W wanted from the hinge, from phi = 0 [J]
+    inertia: "scipy.interpolate.PPoly"  #: inertia I of the engine [kg*m^2]
     torque: Function  #: gas and gravity over the angle [rad], as computed, not fitted [N*m]
     misfire: Function | None = None  #: the same for a turn without combustion [N*m]
     kinks: tuple[float, ...] = ()  #: angles where the torque is not smooth [rad]
@@ -131,4 +130,4 @@ def bare_flywheel(points: Sequence[Point], wanted: float) -> float:
     high = 2 * swing / wanted
     while excess(high) > 0:
         high *= 2
-    return float(brentq(excess, 0.0, high, xtol=1e-6 * high, rtol=1e-10))
+    return float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-6 * high, rtol=1e-10))

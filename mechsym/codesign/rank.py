@@ -13,7 +13,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from scipy.linalg import qr
+import scipy
 
 from mechsym.codesign.points import Point, Samples, sample
 from mechsym.quantities import quantity, record
@@ -133,7 +133,7 @@ def _best(wanted: np.ndarray, r: int) -> Shapes:
     left0 = w - shares0 @ shapes0
     x0 = np.concatenate([shapes0.T.ravel(), shares0.T.ravel(), left0.min(1), [np.ptp(left0, axis=1).max()]])
     held = np.full(x0.size, False)
-    angles = qr(shapes0, pivoting=True)[2][:r]
+    angles = scipy.linalg.qr(shapes0, pivoting=True)[2][:r]
     held[[i + r * j for j in angles for i in range(r)]] = True
     problem = {"x": x, "f": D, "g": ca.veccat(left, left - D)}
     zero, far = np.zeros(k * n), np.full(k * n, np.inf)

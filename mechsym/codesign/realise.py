@@ -10,8 +10,7 @@ import dataclasses
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PPoly
-from scipy.optimize import minimize
+import scipy
 
 from mechsym.codesign.contact_block import Path, contact_force, curvature, path_of
 from mechsym.codesign.hardware import Hardware, gas_energy, gas_pressure, outside
@@ -90,7 +89,7 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
     start = np.zeros(len(CHOSEN) + 1)
     before = GOALS[goal](*at(start))
     bounds = [(-np.log(_RANGE), np.log(_RANGE))] * len(CHOSEN) + [(0.0, np.log(30.0))]
-    best = minimize(lambda x: GOALS[goal](*at(x)) / before, start, method="SLSQP", bounds=bounds,
+    best = scipy.optimize.minimize(lambda x: GOALS[goal](*at(x)) / before, start, method="SLSQP", bounds=bounds,
                     constraints={"type": "ineq", "fun": margins}, options={"maxiter": 200, "ftol": 1e-8})  # fmt: skip
     good = margins(best.x).min() > -2 * _MARGIN
     new, path, *_ = at(best.x)
@@ -155,8 +154,8 @@ def _margins(found: CoDesign, h: Hardware, path: Path, pressure: np.ndarray, N: 
 
 def _track(old: Track, h: Hardware, z: np.ndarray, phi: np.ndarray, period: float) -> Track:
     """The new guide, with the pressures whose works are nearest to those of the old one."""
-    spline = CubicSpline(np.append(phi, period), np.append(z, z[0]), bc_type="periodic")
-    curve = PPoly(spline.c, spline.x, extrapolate="periodic")
+    spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(z, z[0]), bc_type="periodic")
+    curve = scipy.interpolate.PPoly(spline.c, spline.x, extrapolate="periodic")
     pa, p0 = outside(h), []
     fixed = h.A * gas_energy(z, 0.0, h.H, h.n, pa)
     by_p0 = h.A * gas_energy(z, 1e6, h.H, h.n, pa) / 1e6 - fixed / 1e6

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from mechsym import periodic
 from mechsym.codesign.contact_block import path_of
@@ -135,7 +135,7 @@ def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0, st
     rates = _rates(machine)
     turned = _event(lambda y: y[0] - phi_start - 2 * np.pi * turns, 1.0)
     stalled = _event(lambda y: y[1] - stall * machine.point.omega, -1.0)
-    found = solve_ivp(
+    found = scipy.integrate.solve_ivp(
         lambda t, y: rates(y), (0.0, 20 * turns * 2 * np.pi / speed), [phi_start, speed, 0.0, 0.0], method="DOP853",
         rtol=_TOLERANCE, atol=_TOLERANCE, events=[turned, stalled], dense_output=True,
         max_step=2 * np.pi / machine.point.omega / 90,

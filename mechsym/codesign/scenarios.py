@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.points import Function, Point
@@ -71,7 +71,7 @@ def misfire_flywheel(found: CoDesign, share: float) -> float | None:
     high = max(2 * found.flywheel, 100.0)
     while short(high) < 0:
         high *= 2
-    return float(brentq(short, found.flywheel, high, xtol=1.0))
+    return float(scipy.optimize.brentq(short, found.flywheel, high, xtol=1.0))
 
 
 def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:

@@ -8,7 +8,7 @@ The wanted work is affine in omega^2 at a given load: a few loads are enough for
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Point
@@ -52,9 +52,9 @@ def ripple_map(found: CoDesign, loads: Sequence[Point], omega: np.ndarray, load:
     (track,), period = found.tracks, loads[0].period
     phi = np.arange(_ANGLES) * period / _ANGLES
     inertia = loads[0].inertia(phi)
-    gas = PchipInterpolator([p.load for p in loads],
+    gas = scipy.interpolate.PchipInterpolator([p.load for p in loads],
                             [p.work(phi) - p.omega**2 / 2 * p.inertia(phi) for p in loads])(load)  # fmt: skip
-    torque = PchipInterpolator([p.load for p in loads], [p.load_torque for p in loads])(load)
+    torque = scipy.interpolate.PchipInterpolator([p.load for p in loads], [p.load_torque for p in loads])(load)
     rollers, h = added_inertia(track, phi), track.hardware
     total = inertia + rollers + found.flywheel
     square = omega[:, None, None] ** 2
@@ -103,11 +103,11 @@ def gas_to_move(volume: float, low: float, high: float, temperature: float = 320
     return volume * (high - low) / (R_NITROGEN * temperature)
 
 
-def pressure_law(found: CoDesign, s: int = 0) -> PchipInterpolator:
+def pressure_law(found: CoDesign, s: int = 0) -> "scipy.interpolate.PchipInterpolator":
     """Pressure of a spring by the square of the speed [Pa s^2] over the speed [rad/s], through its points."""
     order = np.argsort([p.omega for p in found.task.points])
     omega = np.array([found.task.points[i].omega for i in order])
-    return PchipInterpolator(omega, found.tracks[s].p0[order] / omega**2)
+    return scipy.interpolate.PchipInterpolator(omega, found.tracks[s].p0[order] / omega**2)
 
 
 def _ripples(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.points import Point
@@ -46,7 +46,7 @@ class Track:
     """One guide of a co-design with its spring."""
 
     hardware: Hardware  #: with the values that were chosen; p0 is the largest of the schedule [Pa]
-    z: PPoly  #: closing of the spring over the crank angle [m]
+    z: "scipy.interpolate.PPoly"  #: closing of the spring over the crank angle [m]
     p0: np.ndarray  #: shape (k,), excess pressure at free height for each point [Pa]
 
 

@@ -12,9 +12,7 @@ engine, figures    figures over the speeds, of an engine and of a single cylinde
 Names are imported on first use, so that a case file is read without any of the physics.
 """
 
-from typing import Any
-
-from mechsym.quantities import load
+from mechsym.quantities import lazily
 
 _NAMES = {
     "ChamberParameters": "mechsym.cycle.chamber:ChamberParameters",
@@ -31,12 +29,7 @@ _NAMES = {
     "piston_travel": "mechsym.cycle.motion:piston_travel",
 }
 __all__ = sorted(_NAMES)
-
-
-def __getattr__(name: str) -> Any:
-    if name in _NAMES:
-        return load(_NAMES[name])
-    raise AttributeError(f"module 'mechsym.cycle' has no attribute {name!r}")
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

@@ -4,7 +4,7 @@ import dataclasses
 
 import casadi as ca
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from mechsym.cycle.chamber import Chamber, Motion, piston_area, travel
 from mechsym.errors import BadInput
@@ -76,7 +76,7 @@ def with_bottom(motion: Motion) -> Motion:
     best = int(np.argmax(x))
     low, high = phi[best - 1], phi[best + 1]
     return dataclasses.replace(
-        motion, bottom=float(brentq(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
+        motion, bottom=float(scipy.optimize.brentq(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
     )
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Motion
@@ -112,9 +112,11 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
         return sign * float(travel(angle)[1])
 
     if slope(low) < 0 < slope(high):
-        best = float(brentq(slope, low, high, xtol=1e-15))
+        best = float(scipy.optimize.brentq(slope, low, high, xtol=1e-15))
     else:
-        best = float(minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x)
+        best = float(
+            scipy.optimize.minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x
+        )
     return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
 
 

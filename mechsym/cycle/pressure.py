@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.cycle.chamber import Chamber, travel
 from mechsym.quantities import record
@@ -183,7 +183,7 @@ def peak(absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...]
     phi = np.union1d(np.linspace(-period / 2, period / 2, 2881)[1:], _centred(np.asarray(kinks), period))
     at = phi[int(np.argmax(absolute(phi)))]
     step = period / 2880
-    refined = minimize_scalar(
+    refined = scipy.optimize.minimize_scalar(
         lambda angle: -float(absolute(angle)), bounds=(at - step, at + step), method="bounded", options={"xatol": 1e-9}
     )
     best = max((float(at), float(refined.x)), key=lambda angle: float(absolute(angle)))

@@ -14,18 +14,24 @@ result.py       all of it in one record
 summary.py      the record in numbers
 """
 
-from mechsym.forces.comparison import compare
-from mechsym.forces.friction import Friction, losses
-from mechsym.forces.friction_law import fit
-from mechsym.forces.loads import loads
-from mechsym.forces.result import Forces, forces
-from mechsym.forces.shaking import BalanceWanted
-from mechsym.forces.turn import CrankDrive, Turn, crank_drive, turn
+from mechsym.quantities import lazily
 
-__all__ = [
-    "BalanceWanted", "CrankDrive", "Forces", "Friction", "Turn", "compare", "crank_drive", "fit", "forces", "loads",
-    "losses", "turn",
-]  # fmt: skip
+_NAMES = {
+    "BalanceWanted": "mechsym.forces.shaking:BalanceWanted",
+    "compare": "mechsym.forces.comparison:compare",
+    "crank_drive": "mechsym.forces.turn:crank_drive",
+    "CrankDrive": "mechsym.forces.turn:CrankDrive",
+    "fit": "mechsym.forces.friction_law:fit",
+    "Forces": "mechsym.forces.result:Forces",
+    "forces": "mechsym.forces.result:forces",
+    "Friction": "mechsym.forces.friction:Friction",
+    "loads": "mechsym.forces.loads:loads",
+    "losses": "mechsym.forces.friction:losses",
+    "Turn": "mechsym.forces.turn:Turn",
+    "turn": "mechsym.forces.turn:turn",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import nnls
+import scipy
 
 from mechsym.cycle.friction import ChenFlynn, friction_pressure
 from mechsym.errors import BadInput
@@ -54,7 +54,7 @@ def fit(turns: Sequence[Turn], friction: Friction, rings: Rings) -> FittedLaw:
     columns = np.array([np.ones_like(p_max), p_max, piston_speed, piston_speed**2])
     columns = columns if len(turns) > 1 else columns * [[1], [0], [0], [0]]
     scale = np.maximum(columns.max(axis=1), 1e-300)
-    found = nnls((columns / scale[:, None]).T, computed)[0] / scale
+    found = scipy.optimize.nnls((columns / scale[:, None]).T, computed)[0] / scale
     names = ("constant", "per_peak_pressure", "per_speed", "per_speed_squared")
     law = ChenFlynn(**dict(zip(names, found.tolist(), strict=True)))
     fitted = friction_pressure(law, p_max, piston_speed, omega)

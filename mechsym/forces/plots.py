@@ -1,10 +1,9 @@
 """Pictures of forces: chain over the turn, polar diagrams, orders, friction, comparison. All return a figure."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from mechsym.forces.loads import polar, radial, tangential
 from mechsym.forces.result import Forces
@@ -22,10 +21,13 @@ from mechsym.style import (
     unit_words,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _MOST_CURVES = 6
 
 
-def chain(found: Forces) -> Figure:
+def chain(found: Forces) -> "Figure":
     """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact forces.
 
     Returns
@@ -53,7 +55,7 @@ def chain(found: Forces) -> Figure:
     return figure
 
 
-def polar_diagrams(found: Forces) -> Figure:
+def polar_diagrams(found: Forces) -> "Figure":
     """Load on each crank pin as its crank sees it, and on each main bearing as the frame sees it.
 
     Returns
@@ -104,7 +106,7 @@ def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color
         axis.annotate(text, (x[i], y[i]), (3, 3), textcoords="offset points", fontsize=7, color=INK)
 
 
-def orders(found: Forces) -> Figure:
+def orders(found: Forces) -> "Figure":
     """Orders of the torque, and of the shaking force and moments."""
     figure, (left, middle, right) = panels(9, 3.8, 1, 3, "Orders of the torque, the shaking force and moment")
     torque = found.torque_orders
@@ -134,7 +136,7 @@ def _order_bars(axis: Any, orders: dict[str, Any], si: str, name: str) -> None:
     legend(axis)
 
 
-def friction(found: Forces) -> Figure:
+def friction(found: Forces) -> "Figure":
     """Friction power over the cycle by place."""
     assert found.losses is not None
     figure, (axis,) = panels(9, 4, title="Friction power over the crank angle by place")
@@ -150,7 +152,7 @@ def friction(found: Forces) -> Figure:
     return figure
 
 
-def comparison(rows: Sequence[dict[str, Any]]) -> Figure:
+def comparison(rows: Sequence[dict[str, Any]]) -> "Figure":
     """Loads and friction of the compared mechanisms."""
     height = 0.55 * len(rows) + 2.4
     figure, (left, right) = panels(9, height, 1, 2, "Loads and friction of the compared mechanisms", sharey=True)

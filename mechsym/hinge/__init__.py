@@ -8,19 +8,24 @@ fitted      the machine with its hinge                                ripple, st
 result      a finished design                                         summary, plots, report
 """
 
-from mechsym.hinge.contact import at_angles
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import crank_torque, cut, refit
-from mechsym.hinge.limits import judge
-from mechsym.hinge.retune import retune
-from mechsym.hinge.rollers import parallel
-from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil
-from mechsym.hinge.torque import torque
+from mechsym.quantities import lazily
 
-__all__ = [
-    "AirAbsolute", "AirGauge", "Coil", "at_angles", "crank_torque", "cut", "fitted", "judge", "parallel", "refit",
-    "retune", "torque",
-]  # fmt: skip
+_NAMES = {
+    "AirAbsolute": "mechsym.hinge.springs:AirAbsolute",
+    "AirGauge": "mechsym.hinge.springs:AirGauge",
+    "at_angles": "mechsym.hinge.contact:at_angles",
+    "Coil": "mechsym.hinge.springs:Coil",
+    "crank_torque": "mechsym.hinge.guide:crank_torque",
+    "cut": "mechsym.hinge.guide:cut",
+    "fitted": "mechsym.hinge.fitted:fitted",
+    "judge": "mechsym.hinge.limits:judge",
+    "parallel": "mechsym.hinge.rollers:parallel",
+    "refit": "mechsym.hinge.guide:refit",
+    "retune": "mechsym.hinge.retune:retune",
+    "torque": "mechsym.hinge.torque:torque",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

@@ -21,7 +21,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -53,7 +53,8 @@ class Guide:
     #: Stored energy that the turn asks for [J]
     energy_min: float
     energy_max: float
-    rho: PPoly | None  #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
+    #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
+    rho: "scipy.interpolate.PPoly | None"
     closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
@@ -124,7 +125,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
     return replace(guide, spring=spring)
 
 
-def path(guide: Guide) -> PPoly:
+def path(guide: Guide) -> "scipy.interpolate.PPoly":
     """The path of the roller centres.
 
     Returns
@@ -183,7 +184,7 @@ def gas_turn(guide: Guide, spring: AirThermal) -> GasTurn:
     return gas_on(spring, path(guide), partial(closing, guide), guide.omega * guide.parameters.shaft_ratio)
 
 
-def warmth(guide: Guide, spring: AirThermal) -> PPoly:
+def warmth(guide: Guide, spring: AirThermal) -> "scipy.interpolate.PPoly":
     """Temperature of that gas by the wall's [-] over the angle of the guide's shaft."""
     return warmth_of(spring, gas_turn(guide, spring), path(guide))
 

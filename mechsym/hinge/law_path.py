@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym import periodic
 from mechsym.hinge.balance import Balance
@@ -75,7 +75,7 @@ def status(
 
 def law_path(
     wanted: Hinge | Balance, spring: LawSpring, parameters: GuideParameters, at_start: float
-) -> tuple[PPoly, float]:
+) -> "tuple[scipy.interpolate.PPoly, float]":
     """Path over the guide's angle [m] and the gap that its slope would leave after a period [m].
 
     Parameters

@@ -1,10 +1,9 @@
 """Figures of a hinge design. matplotlib is imported in plot modules only; a figure is never shown."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from mechsym.cycle.chamber import volume
 from mechsym.hinge.contact import Contact
@@ -32,6 +31,9 @@ from mechsym.style import (
     panels,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _COLORS = {
     "without": GREY,
     "flywheel": VIOLET,
@@ -42,7 +44,7 @@ _COLORS = {
 }
 
 
-def pressure(design: Design) -> Figure:
+def pressure(design: Design) -> "Figure":
     """Cylinder pressure over the crank angle with the angles of its events, and over the volume."""
     room = gas_of(design.machine)
     gas = room.pressure
@@ -60,7 +62,7 @@ def pressure(design: Design) -> Figure:
     return figure
 
 
-def torque(design: Design) -> Figure:
+def torque(design: Design) -> "Figure":
     """The hinge torque with its parts, and its work.
 
     Returns
@@ -89,7 +91,7 @@ def torque(design: Design) -> Figure:
     return figure
 
 
-def track(design: Design, turn: Contact, radius: float) -> Figure:
+def track(design: Design, turn: Contact, radius: float) -> "Figure":
     """The path of the roller centres and the cut profile, to scale.
 
     Parameters
@@ -125,14 +127,14 @@ def track(design: Design, turn: Contact, radius: float) -> Figure:
     return figure
 
 
-def hinge(design: Design) -> Figure:
+def hinge(design: Design) -> "Figure":
     """Spring, pistons, rollers and tracks to scale, the crank a little after top dead centre."""
     assert design.usable is not None
     drawn = elastic_hinge(design.usable, design.rollers)
     return figure_of(drawn, np.pi / 4, "The elastic hinge to scale: spring, pistons, rollers and tracks")
 
 
-def contact(turn: Contact) -> Figure:
+def contact(turn: Contact) -> "Figure":
     """Roller reactions, pressure angle, spring pressure and curvature around the turn.
 
     Parameters
@@ -163,7 +165,7 @@ def contact(turn: Contact) -> Figure:
     return figure
 
 
-def speeds(design: Design) -> Figure:
+def speeds(design: Design) -> "Figure":
     """Crank speed of the trials side by side.
 
     Returns
@@ -200,7 +202,7 @@ def _runs(design: Design, trials: Sequence[Trial]) -> list[tuple[str, str, np.nd
     return found
 
 
-def retuning(design: Design) -> Figure:
+def retuning(design: Design) -> "Figure":
     """Torque that the other speed needs, and what the same guide gives there with the best pressure."""
     from mechsym.hinge.guide import crank_torque, refit
 

@@ -1,15 +1,17 @@
 """Picture of a hinge at other loads."""
 
 from collections.abc import Sequence
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from mechsym.hinge.result import AtLoad
 from mechsym.simulate.steady import Steady
 from mechsym.style import BLUE, GREY, RED, legend, panels
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def loads(rows: Sequence[AtLoad]) -> Figure:
+
+def loads(rows: Sequence[AtLoad]) -> "Figure":
     """Ripple of a guide over the load, with the spring as designed and set anew, and that setting.
 
     Returns

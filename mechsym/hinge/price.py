@@ -11,7 +11,7 @@ and the load is lowered by the mean of what is lost. The fill of the spring is s
 import dataclasses
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.hinge import losses as law
@@ -199,7 +199,7 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best = minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
+    best = scipy.optimize.minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
                            options={"xatol": 1e-4})  # fmt: skip
     return float(best.x), motion(float(best.x)).speed_ripple
 

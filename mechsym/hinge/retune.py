@@ -15,7 +15,7 @@ Source: Zotov et al. (2024), eqs. (12) to (14) and fig. 6, who raise p0 by 1.9 a
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import Guide, Spring
@@ -122,7 +122,9 @@ def _least_squares_work(parts: Affine) -> float:
 
 
 def _minimum(cost: Callable[[float], float], near: float) -> float:
-    found = minimize_scalar(cost, bounds=(near / 2, near * 2), method="bounded", options={"xatol": 1e-9 * near})
+    found = scipy.optimize.minimize_scalar(
+        cost, bounds=(near / 2, near * 2), method="bounded", options={"xatol": 1e-9 * near}
+    )
     return float(found.x)
 
 

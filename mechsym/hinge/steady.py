@@ -7,7 +7,7 @@ torque comes from the geometry of the guide and the law of the spring.
 import dataclasses
 import functools
 
-from scipy.optimize import minimize_scalar
+import scipy
 
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide, Spring, refit
@@ -141,7 +141,9 @@ def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Re
         return 2.0 if found is None else found
 
     bounds = (0.8 * near, 1.25 * near)
-    best = float(minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x)
+    best = float(
+        scipy.optimize.minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x
+    )
     spring = with_setting(guide.spring, best)
     steady = with_guide(other, wanted, refit(guide, spring))
     trial = None

@@ -13,8 +13,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
-from scipy.optimize import root
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
@@ -38,7 +37,8 @@ _CLOSED = 1e-9  # largest gap of state and volume after a period
 class ThermalPath:
     """Path of the roller centres for a gas that exchanges heat."""
 
-    rho: PPoly | None  #: Over the angle of the guide's shaft [m]; None where the spring cannot hold the work
+    #: Over the angle of the guide's shaft [m]; None where the spring cannot hold the work
+    rho: "scipy.interpolate.PPoly | None"
     status: str  #: As in `Guide`
     reason: str
     kept: float  #: Mean torque that the gas keeps, on the guide's shaft [N*m]
@@ -101,12 +101,14 @@ def thermal_path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideP
     rho[-1] = rho[0]
     slope = (task.at - kept) / (count * force)
     slope[-1] = slope[0]
-    curve = CubicHermiteSpline(theta, rho, slope)
-    path = PPoly(curve.c, curve.x, extrapolate="periodic")
+    curve = scipy.interpolate.CubicHermiteSpline(theta, rho, slope)
+    path = scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
     return ThermalPath(rho=path, status="cut", reason="", kept=kept, closure=gap)
 
 
-def gas_on(spring: AirThermal, rho: PPoly, closing: Callable[[np.ndarray], np.ndarray], omega: float) -> GasTurn:
+def gas_on(
+    spring: AirThermal, rho: "scipy.interpolate.PPoly", closing: Callable[[np.ndarray], np.ndarray], omega: float
+) -> GasTurn:
     """Steady turn of the gas on a path, at even angles of a period.
 
     Parameters
@@ -121,11 +123,11 @@ def gas_on(spring: AirThermal, rho: PPoly, closing: Callable[[np.ndarray], np.nd
     return turn(spring, closing(rho(theta)), np.full(_POINTS, period / _POINTS), omega)
 
 
-def warmth_of(spring: AirThermal, found: GasTurn, rho: PPoly) -> PPoly:
+def warmth_of(spring: AirThermal, found: GasTurn, rho: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     """Temperature of the gas by the wall's [-] over the angle of the guide's shaft."""
     values = np.append(found.temperature, found.temperature[0]) / spring.wall_temperature
-    curve = CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
-    return PPoly(curve.c, curve.x, extrapolate="periodic")
+    curve = scipy.interpolate.CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
+    return scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
 
 
 def _nodes(breaks: np.ndarray, step: float) -> np.ndarray:
@@ -148,7 +150,7 @@ def _periodic(task: _Task) -> tuple[float, _March]:
         return np.array([warmer, closing, np.log(level / task.top)])
 
     for share in _SCALES:
-        unknown = root(gaps, unknown, args=(share,), tol=1e-13).x
+        unknown = scipy.optimize.root(gaps, unknown, args=(share,), tol=1e-13).x
     wall = task.spring.wall_temperature
     start = task.top * math.exp(min(max(unknown[1], -_WIDEST), _WIDEST))
     return float(unknown[2] * size), _march(task, unknown[0] * wall, start, unknown[2] * size)

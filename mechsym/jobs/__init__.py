@@ -14,23 +14,25 @@ compare     two engines side by side
 report      all of these on one page; shown says what of a result is worth seeing
 """
 
-from mechsym.jobs.codesign import codesign, codesign_task
-from mechsym.jobs.compare import compare
-from mechsym.jobs.cycle import cycle
-from mechsym.jobs.forces import forces
-from mechsym.jobs.gas import gas
-from mechsym.jobs.hinge import hinge
-from mechsym.jobs.loop import loop
-from mechsym.jobs.machine import machine
-from mechsym.jobs.optimise import optimise
-from mechsym.jobs.run import run
-from mechsym.jobs.size import size
-from mechsym.jobs.startup import startup
+from mechsym.quantities import lazily
 
-__all__ = [
-    "codesign", "codesign_task", "compare", "cycle", "forces", "gas", "hinge", "loop", "machine", "optimise", "run",
-    "size", "startup",
-]  # fmt: skip
+_NAMES = {
+    "codesign": "mechsym.jobs.codesign:codesign",
+    "codesign_task": "mechsym.jobs.codesign:codesign_task",
+    "compare": "mechsym.jobs.compare:compare",
+    "cycle": "mechsym.jobs.cycle:cycle",
+    "forces": "mechsym.jobs.forces:forces",
+    "gas": "mechsym.jobs.gas:gas",
+    "hinge": "mechsym.jobs.hinge:hinge",
+    "loop": "mechsym.jobs.loop:loop",
+    "machine": "mechsym.jobs.machine:machine",
+    "optimise": "mechsym.jobs.optimise:optimise",
+    "run": "mechsym.jobs.run:run",
+    "size": "mechsym.jobs.size:size",
+    "startup": "mechsym.jobs.startup:startup",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

@@ -16,7 +16,7 @@ from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_columns
-from mechsym.forces import turn
+from mechsym.forces.turn import turn
 from mechsym.jobs import own, own_gas, own_turn
 from mechsym.jobs.gas import breathing_with, engine_with, of, one_cylinder
 from mechsym.jobs.own import is_own

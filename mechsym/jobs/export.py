@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly, make_lsq_spline
+import scipy
 
 from mechsym import cases, periodic
 from mechsym.cases import Case
@@ -48,7 +48,9 @@ class Ready:
     problem: Problem
     guide: Guide | None = None  #: of the part `hinge`
     load: Load | None = None  #: settled law of the part `load`, over the speed of the first coordinate
-    tables: Mapping[str, PPoly] = dataclasses.field(default_factory=dict)  #: parts that are curves, over its angle
+    tables: "Mapping[str, scipy.interpolate.PPoly]" = dataclasses.field(
+        default_factory=dict
+    )  #: parts that are curves, over its angle
 
 
 def ready(case: Case, diagram: str | None = None) -> Ready:
@@ -131,16 +133,16 @@ def _at_speed(case: Case) -> Ready:
     return Ready(problem=problem, load=law, tables=tables)
 
 
-def _table(once: Turn, name: str, kinks: tuple[float, ...]) -> PPoly:
+def _table(once: Turn, name: str, kinks: tuple[float, ...]) -> "scipy.interpolate.PPoly":
     """A gas force as splines between its kinks: the cycle behind it is a table too."""
     edges = np.unique([0.0, *kinks, once.period])
     pieces = [_spline(once, name, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
     rows = np.concatenate([p.c for p in pieces], axis=1)
     breaks = np.concatenate([*(p.x[:-1] for p in pieces), [once.period]])
-    return PPoly(rows, breaks, extrapolate="periodic")
+    return scipy.interpolate.PPoly(rows, breaks, extrapolate="periodic")
 
 
-def _spline(once: Turn, name: str, first: float, last: float) -> PPoly:
+def _spline(once: Turn, name: str, first: float, last: float) -> "scipy.interpolate.PPoly":
     """A smooth curve through a piece of the table: of degree 7, so that an integrator of order 8 keeps its order."""
     pieces = max(round((last - first) / _PIECE), 1)
     phi = np.linspace(first, last, _SAMPLES * pieces + 1)
@@ -148,8 +150,8 @@ def _spline(once: Turn, name: str, first: float, last: float) -> PPoly:
     asked[[0, -1]] += np.array([_INSIDE, -_INSIDE])  # the force may jump at an edge
     force = at(once.drive, once.gas, once.omega, asked).inputs[name]
     knots = np.concatenate([[first] * 7, np.linspace(first, last, pieces + 1), [last] * 7])
-    poly = PPoly.from_spline(make_lsq_spline(phi, force, knots, k=7))
-    return PPoly(poly.c[:, 7:-7], poly.x[7:-7])
+    poly = scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_lsq_spline(phi, force, knots, k=7))
+    return scipy.interpolate.PPoly(poly.c[:, 7:-7], poly.x[7:-7])
 
 
 def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
@@ -162,6 +164,6 @@ def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
     return tuple(sorted({float(a + f) % once.period for a in angles for f in firing}))
 
 
-def _callable(poly: PPoly) -> Any:
+def _callable(poly: "scipy.interpolate.PPoly") -> Any:
     point = periodic.scalar(poly)
     return lambda t, q, u: point(q[0])[0]

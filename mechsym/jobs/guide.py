@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
@@ -68,7 +68,7 @@ def _shifted(guide: Guide, distance: float) -> Guide:
     rho = path(guide)
     rows = rho.c.copy()
     rows[-1] += distance
-    return replace(guide, rho=PPoly(rows, rho.x, extrapolate="periodic"))
+    return replace(guide, rho=scipy.interpolate.PPoly(rows, rho.x, extrapolate="periodic"))
 
 
 def _around(guide: Guide, angles: tuple[float, ...]) -> tuple[float, ...]:

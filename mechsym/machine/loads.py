@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -52,9 +53,7 @@ class TableLoad:
 
 @lru_cache(maxsize=16)
 def _curve(speeds: tuple[float, ...], torques: tuple[float, ...]) -> Any:
-    from scipy.interpolate import PchipInterpolator
-
-    return PchipInterpolator(speeds, torques)
+    return scipy.interpolate.PchipInterpolator(speeds, torques)
 
 
 Load = ConstantLoad | PropellerLoad | TableLoad

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from mechsym.cycle.measured.file import numbers_of, split_table, text_of
 from mechsym.errors import BadInput, suggest
@@ -128,7 +128,9 @@ def _spline(path: str, phi: np.ndarray, torque: np.ndarray, period: float) -> Fu
         if abs(torque[-1] - torque[0]) > 1e-6 * float(np.abs(torque).max()):
             raise BadInput(f"{path}: the torque does not repeat: {torque[0]:g} N*m, a period later {torque[-1]:g} N*m")
         phi, torque = phi[:-1], torque[:-1]
-    found = CubicSpline(np.append(phi, phi[0] + period), np.append(torque, torque[0]), bc_type="periodic")
+    found = scipy.interpolate.CubicSpline(
+        np.append(phi, phi[0] + period), np.append(torque, torque[0]), bc_type="periodic"
+    )
     return lambda at: np.asarray(found(phi[0] + np.remainder(np.asarray(at, dtype=float) - phi[0], period)))
 
 

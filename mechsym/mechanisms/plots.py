@@ -2,14 +2,15 @@
 
 import math
 from collections.abc import Callable
-from typing import Any
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
 from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
 from mechsym.page import page
 from mechsym.style import INK, axis_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def paint(axes: Any, mechanism: str, parameters: Any, angle: float) -> None:
@@ -40,7 +41,7 @@ def _paint(axes: Any, drawn: Callable[[float], Shapes], angle: float) -> None:
     axes.set_axis_off()
 
 
-def figure(mechanism: str, parameters: Any, angle: float, bore: float | None = None) -> Figure:
+def figure(mechanism: str, parameters: Any, angle: float, bore: float | None = None) -> "Figure":
     """One drawing with a scale.
 
     Parameters
@@ -53,8 +54,10 @@ def figure(mechanism: str, parameters: Any, angle: float, bore: float | None = N
     return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle)
 
 
-def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -> Figure:
+def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -> "Figure":
     """One drawing with a scale, at a crank angle [rad]."""
+    from matplotlib.figure import Figure
+
     left, right, low, high = extent_of(drawn)
     wide, tall = right - left, high - low
     size = min(8.0 / wide, 6.0 / tall)

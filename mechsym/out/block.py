@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import casadi as ca
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import listing
@@ -41,7 +41,7 @@ class Curve:
     name: str
     state: int  #: index in x
     ratio: float = 1.0  #: argument per unit of the state [-]
-    poly: PPoly
+    poly: "scipy.interpolate.PPoly"
     periodic: bool = True
 
 

@@ -3,7 +3,7 @@
 import dataclasses
 from typing import Any
 
-from scipy.interpolate import PchipInterpolator, PPoly
+import scipy
 
 from mechsym.hinge.guide import Guide, Spring, path, warmth
 from mechsym.hinge.springs import AirGauge, Coil, absolute_pressure, coil_force, gauge_pressure
@@ -103,6 +103,6 @@ def _speed(q: Any, u: Any, index: int) -> Any:
     return (*q, *u)[index]
 
 
-def _table(load: TableLoad) -> PPoly:
-    curve = PchipInterpolator(load.speeds, load.torques)
-    return PPoly(curve.c, curve.x)
+def _table(load: TableLoad) -> "scipy.interpolate.PPoly":
+    curve = scipy.interpolate.PchipInterpolator(load.speeds, load.torques)
+    return scipy.interpolate.PPoly(curve.c, curve.x)

@@ -3,7 +3,7 @@
 units.py     "142 rpm" or "5 MPa" to SI; a wrong dimension is refused
 records.py   frozen records whose fields carry unit and range
 ranges.py    lists and ranges as options take them: `3..8 MPa:11`, `80,85 rpm`
-by_name.py   `load("module:name")`, imported when it is wanted
+by_name.py   `load("module:name")` when it is wanted; `lazily` for the names of a room
 
     @record
     class Spring:
@@ -12,11 +12,11 @@ by_name.py   `load("module:name")`, imported when it is wanted
         area: float  #: of the piston [m^2]; a result needs no range, only its unit
 """
 
-from mechsym.quantities.by_name import load
+from mechsym.quantities.by_name import lazily, load
 from mechsym.quantities.records import allowed, check, choice, quantity, record
 from mechsym.quantities.units import RPM, dimension, parse, units
 
-__all__ = ["RPM", "allowed", "check", "choice", "dimension", "load", "parse", "quantity", "record", "units"]
+__all__ = ["RPM", "allowed", "check", "choice", "dimension", "lazily", "load", "parse", "quantity", "record", "units"]
 
 
 def __dir__() -> list[str]:

@@ -10,18 +10,25 @@ angle, angle_turn, steady    one turn over the angle, the periodic motion, flywh
 loop         the engine cycle integrated together with the motion
 """
 
-from mechsym.simulate.engine import problem, reduced
-from mechsym.simulate.many import simulate_many
-from mechsym.simulate.problem import Part, Periodic, Problem, Steps
-from mechsym.simulate.result import Result, write_netcdf, write_series
-from mechsym.simulate.run import simulate
-from mechsym.simulate.settings import Settings
-from mechsym.simulate.steady import steady_state
+from mechsym.quantities import lazily
 
-__all__ = [
-    "Part", "Periodic", "Problem", "Result", "Settings", "Steps", "problem", "reduced", "simulate", "simulate_many",
-    "steady_state", "write_netcdf", "write_series",
-]  # fmt: skip
+_NAMES = {
+    "Part": "mechsym.simulate.problem:Part",
+    "Periodic": "mechsym.simulate.problem:Periodic",
+    "Problem": "mechsym.simulate.problem:Problem",
+    "problem": "mechsym.simulate.engine:problem",
+    "reduced": "mechsym.simulate.engine:reduced",
+    "Result": "mechsym.simulate.result:Result",
+    "Settings": "mechsym.simulate.settings:Settings",
+    "simulate": "mechsym.simulate.run:simulate",
+    "simulate_many": "mechsym.simulate.many:simulate_many",
+    "steady_state": "mechsym.simulate.steady:steady_state",
+    "Steps": "mechsym.simulate.problem:Steps",
+    "write_netcdf": "mechsym.simulate.result:write_netcdf",
+    "write_series": "mechsym.simulate.result:write_series",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

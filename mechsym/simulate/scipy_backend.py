@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.simulate.equations import right_side
 from mechsym.simulate.phase import Leg, Phase, Span, Surface
@@ -51,8 +52,6 @@ def advance(phase: Phase, method: str) -> Leg:
 def _solver(
     phase: Phase, method: str, f: Callable[..., Any], start: tuple[float, Any], t_end: float, step: float | None
 ) -> Any:
-    import scipy.integrate
-
     first = None if step is None else min(step, t_end - start[0])
     cls = getattr(scipy.integrate, method)
     return cls(f, *start, t_end, rtol=phase.tolerance, atol=phase.tolerance, first_step=first)
@@ -96,11 +95,9 @@ def _crosses(surface: Surface, before: float, after: float) -> bool:
 
 
 def _time(dense: Any, surface: Surface, t_old: float, t: float) -> float:
-    from scipy.optimize import brentq
-
     def distance(t: float) -> float:
         return float(dense(t)[surface.state]) - surface.level
 
     if distance(t_old) * distance(t) >= 0:
         return t
-    return max(float(brentq(distance, t_old, t, xtol=1e-300, rtol=1e-15)), float(np.nextafter(t_old, t)))
+    return max(float(scipy.optimize.brentq(distance, t_old, t, xtol=1e-300, rtol=1e-15)), float(np.nextafter(t_old, t)))

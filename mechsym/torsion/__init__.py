@@ -7,11 +7,18 @@ startup    a start-up by a weak drive: which critical speeds held it; findings s
 plots      Campbell diagram, start-up, twist
 """
 
-from mechsym.torsion.modes import critical_speeds, matrices, orders
-from mechsym.torsion.startup import start_up
-from mechsym.torsion.twist import natural_frequencies, sections
+from mechsym.quantities import lazily
 
-__all__ = ["critical_speeds", "matrices", "natural_frequencies", "orders", "sections", "start_up"]
+_NAMES = {
+    "critical_speeds": "mechsym.torsion.modes:critical_speeds",
+    "matrices": "mechsym.torsion.modes:matrices",
+    "natural_frequencies": "mechsym.torsion.twist:natural_frequencies",
+    "orders": "mechsym.torsion.modes:orders",
+    "sections": "mechsym.torsion.twist:sections",
+    "start_up": "mechsym.torsion.startup:start_up",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

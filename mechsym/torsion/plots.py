@@ -2,20 +2,22 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import cycle
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from mechsym.simulate import Result
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import StartUp
 from mechsym.torsion.twist import pairs
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _MOST_ORDERS = 4
 
 
-def campbell(found: StartUp) -> Figure:
+def campbell(found: StartUp) -> "Figure":
     """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft."""
     figure, (axes,) = panels(7.5, 4.8, title="Orders of excitation and natural frequency over the crank speed")
     factor, unit = axis_unit("rad/s", found.natural)
@@ -43,7 +45,7 @@ def campbell(found: StartUp) -> Figure:
     return figure
 
 
-def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> Figure:
+def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> "Figure":
     """Mean speed and twist of start-ups with several dampers, beside the rigid shaft.
 
     Parameters
@@ -81,7 +83,7 @@ def _levels(axis: Any, marks: Mapping[str, float]) -> None:
         axis.text(1.01, place, name, transform=axis.transAxes, va="center", color=INK, fontsize=8)
 
 
-def twist(result: Result, shafts: int) -> Figure:
+def twist(result: Result, shafts: int) -> "Figure":
     """Speed of the ends of a shaft and twist of its sections over time, and the last two turns of the crank.
 
     Parameters

@@ -8,6 +8,8 @@ import pytest
 
 from mechsym.cases import load
 from mechsym.jobs.size import check_printed, gas_of, printed_parts, size, task
+from mechsym.mechanisms import hypocycloid
+from mechsym.mechanisms.record import evaluate
 from mechsym.sizing.checks import unsafe
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import design as hypocycloid_design
@@ -64,6 +66,20 @@ def test_consequences_of_the_moving_mass(job, printed):
     assert light.net.max() == pytest.approx(16337, rel=2e-3) and heavy.net.max() == pytest.approx(11856, rel=2e-3)
     assert light.net.min() == pytest.approx(-4275, abs=1) and heavy.net.min() == pytest.approx(-10279, abs=1)
     assert -heavy.tooth.min() > 2 * -light.tooth.min()
+
+
+def test_forces_are_those_of_the_mechanism_at_every_speed_and_angle(job, forces_of):
+    """Point by point, from the derived reactions, with the masses where `forces_of` has to put them."""
+    moving = hypocycloid_masses.Moving(rod=0.3, axis=0.579, planet=0.2, unbalance=2e-3)
+    found, parameters = forces_of(moving), job.case.need("parameters")
+    masses = dataclasses.replace(parameters, m2=0.2, m3=0.579, u1=-0.2 * parameters.e)
+    for k in (0, found.omega.size // 2, found.omega.size - 1):
+        speed = np.full(found.theta.size, found.omega[k])
+        push = gas_of(job).net[k]
+        each = evaluate(hypocycloid.build(masses), "reactions", theta=found.theta, thetad=speed, F=push)
+        for name, values in {"pin_force": found.net, "tooth_force": found.tooth, "tooth_force_radial": found.radial,
+                             "piston_torque": found.torque}.items():  # fmt: skip
+            assert np.allclose(values[k], each[name], rtol=1e-13, atol=1e-13 * np.abs(each[name]).max()), name
 
 
 def test_masses_of_the_loads_are_those_of_the_parts(job, design, printed):

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.interpolate import LinearNDInterpolator
+import scipy
 
 from mechsym.errors import BadInput
 
@@ -63,7 +63,7 @@ def map_efficiency(points: Sequence[Sequence[float]], flow: np.ndarray, ratio: f
     """
     flows, ratios, values = (np.asarray(p, float) for p in points)
     scale = np.array([flows.max(), ratios.max()])
-    surface = LinearNDInterpolator(np.column_stack([flows, ratios]) / scale, values)
+    surface = scipy.interpolate.LinearNDInterpolator(np.column_stack([flows, ratios]) / scale, values)
     found = np.asarray(surface(np.column_stack([flow, np.full(len(flow), ratio)]) / scale))
     if np.isnan(found).any():
         out = float(flow[int(np.argmax(np.isnan(found)))])

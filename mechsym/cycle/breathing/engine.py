@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, HeatSink, Surroundings
@@ -123,7 +123,11 @@ def pressure(found: BreathingRun) -> Pressure:
 def _curve(breath: Breath) -> Callable[[Any], Any]:
     """Pressure in the cylinder at any angle; the cycle repeats but for `closure`, which the last node gives up."""
     p = breath.pressures["cylinder"]
-    return periodic(CubicSpline(breath.phi, np.append(p[:-1], p[0]), bc_type="periodic"), PERIOD, float(breath.phi[0]))
+    return periodic(
+        scipy.interpolate.CubicSpline(breath.phi, np.append(p[:-1], p[0]), bc_type="periodic"),
+        PERIOD,
+        float(breath.phi[0]),
+    )
 
 
 def figures(found: BreathingRun) -> dict[str, Any]:
@@ -179,7 +183,7 @@ def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
 
 def _knock(found: BreathingRun, breath: Breath) -> float:
     c, closes = found.engine.cycle, found.engine.breathing.inlet_closes
-    temperature = CubicSpline(breath.phi, breath.temperature)
+    temperature = scipy.interpolate.CubicSpline(breath.phi, breath.temperature)
     angles = (closes, PERIOD + c.ignition, PERIOD + c.ignition + c.duration)
     return knock_along((_curve(breath), temperature), angles, breath.omega, (c.gamma - 1) / c.gamma, c.octane)
 

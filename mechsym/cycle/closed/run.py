@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.phases import NODES, Map, closed_function, closed_map
@@ -176,13 +177,11 @@ def at_angles(result: ClosedRun, step: float) -> tuple[np.ndarray, np.ndarray, n
     t : ndarray, shape (k,)
         Temperature [K]
     """
-    from scipy.interpolate import CubicHermiteSpline
-
     once = np.append(np.diff(result.phi[0]) > _SAME, True)
     nodes = result.phi[0, once]
     phi = np.linspace(nodes[0], nodes[-1], round((nodes[-1] - nodes[0]) / step) + 1)
     curves = ((result.p, result.dp_dphi), (result.t, result.dt_dphi))
-    p, t = (CubicHermiteSpline(nodes, y[0, once], slope[0, once])(phi) for y, slope in curves)
+    p, t = (scipy.interpolate.CubicHermiteSpline(nodes, y[0, once], slope[0, once])(phi) for y, slope in curves)
     return phi, p, t
 
 

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import scipy
 
 from mechsym.cycle.kinds.schmidt import Schmidt, schmidt_turn
 from mechsym.cycle.kinds.stirling_second_order import SecondOrder, StirlingLosses, second_order
@@ -71,7 +71,7 @@ def stirling_pressure(engine: StirlingEngine) -> Pressure:
     """Pressure over the shaft angle, by cubics with the exact slopes."""
     found = engine.turn
     once = np.append(True, np.diff(found.phi) > 0)  # a cut stands twice among the nodes
-    curve = CubicHermiteSpline(found.phi[once], found.p[once], found.dp_dphi[once])
+    curve = scipy.interpolate.CubicHermiteSpline(found.phi[once], found.p[once], found.dp_dphi[once])
     best = int(np.argmax(found.p))
     return Pressure(
         kind=engine.kind,

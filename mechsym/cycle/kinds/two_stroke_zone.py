@@ -16,8 +16,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
-from scipy.optimize import brentq
+import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
@@ -184,13 +183,13 @@ def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float
             f"mean_indicated_pressure = {wanted / 1e5:g} bar cannot be had: without fuel there are {low / 1e5:.3g} "
             f"bar, with all the air burnt {high / 1e5:.3g} bar; change it or the scavenge pressure p_s"
         )
-    return float(brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
+    return float(scipy.optimize.brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
 
 
 def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Any], Any]:
     once = np.append(np.diff(result.phi[0]) > 1e-12, True)
     nodes, p = result.phi[0, once], result.p[0, once]
-    closed = CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
+    closed = scipy.interpolate.CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
     p_evo, p_evc = float(p[-1]), scavenging_pressure(cycle.p_s)
 
     def one_turn(phi: Any) -> Any:

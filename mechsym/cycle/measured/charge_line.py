@@ -11,7 +11,7 @@ A constant exponent would put its own error into the dead centre: 0.05 in n are 
 import math
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from mechsym.cycle.chamber import Chamber, dvolume_dphi, volume
 from mechsym.quantities import record
@@ -58,7 +58,7 @@ def log_pressure(cylinder: Chamber, phi: np.ndarray, shape: ChargeShape) -> tupl
     level = np.log(v / v_ref)
     share = v_c / volume(cylinder, _GRID)
     density = share**shape.sharpness
-    total = CubicSpline(_GRID, np.stack([density, density * np.log(share)], axis=-1)).antiderivative()
+    total = scipy.interpolate.CubicSpline(_GRID, np.stack([density, density * np.log(share)], axis=-1)).antiderivative()
     lost, by_sharpness = (total(phi) - total(REFERENCE)).T
     at = (v_c / v) ** shape.sharpness
     by_angle = -(shape.n0 + shape.n1 * level) * dvolume_dphi(cylinder, phi) / v - shape.loss * at

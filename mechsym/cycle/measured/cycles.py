@@ -10,7 +10,7 @@ behind the pressure peak.
 import math
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from mechsym.cycle.measured.file import Recording
 
@@ -70,4 +70,4 @@ def _cut(angle: np.ndarray, pressure: np.ndarray, start: float, period: float) -
         # the last cycle closes on the pressure it began with
         pressure = np.append(pressure, np.interp(at[-1, 0], angle, pressure))
         angle = np.append(angle, at[-1, 0] + period)
-    return grid, PchipInterpolator(angle, pressure)(at)
+    return grid, scipy.interpolate.PchipInterpolator(angle, pressure)(at)

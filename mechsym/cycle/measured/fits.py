@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from mechsym.cycle.wiebe import wiebe
 from mechsym.quantities import record
@@ -53,7 +53,9 @@ def least_squares_fit(
     fit : Fit
         Values with confidence; a parameter that the data do not determine has infinite confidence
     """
-    found = least_squares(residuals, start, jacobian, bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    found = scipy.optimize.least_squares(
+        residuals, start, jacobian, bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12
+    )
     left, freedom = found.fun, max(found.fun.size - found.x.size, 1)
     centred = left - left.mean()
     power = float(centred @ centred)

@@ -7,7 +7,7 @@ differences are blind to anything smooth.
 import math
 
 import numpy as np
-from scipy.interpolate import BSpline, CubicSpline, splrep
+import scipy
 
 # Standard deviation of a fourth difference of white noise of deviation 1, and a median turned into a deviation
 _FOURTH = math.sqrt(70.0)
@@ -31,7 +31,9 @@ def noise(values: np.ndarray) -> float:
     return float(np.median(np.abs(np.diff(around, 4))) / _MEDIAN / _FOURTH)
 
 
-def smooth(phi: np.ndarray, values: np.ndarray, period: float, method: str) -> BSpline | CubicSpline:
+def smooth(
+    phi: np.ndarray, values: np.ndarray, period: float, method: str
+) -> "scipy.interpolate.BSpline | scipy.interpolate.CubicSpline":
     """A periodic cubic spline through, or near, evenly spaced samples.
 
     Parameters
@@ -53,5 +55,7 @@ def smooth(phi: np.ndarray, values: np.ndarray, period: float, method: str) -> B
     closed_phi, closed = np.append(phi, phi[0] + period), np.append(values, values[0])
     sigma = noise(values)
     if method == "interpolate" or sigma < 1e-9 * float(np.ptp(values)):
-        return CubicSpline(closed_phi, closed, bc_type="periodic")
-    return BSpline(*splrep(closed_phi, closed, s=values.size * sigma**2, per=True), extrapolate="periodic")
+        return scipy.interpolate.CubicSpline(closed_phi, closed, bc_type="periodic")
+    return scipy.interpolate.BSpline(
+        *scipy.interpolate.splrep(closed_phi, closed, s=values.size * sigma**2, per=True), extrapolate="periodic"
+    )

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.jobs.export import guide_named
@@ -34,7 +34,7 @@ class DrawnCurve:
     area_error: float  #: as a share of the true area [-]
 
 
-def measured(path: Path, rho: PPoly, radius: float) -> tuple[list[DrawnCurve], int]:
+def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple[list[DrawnCurve], int]:
     """Each spline of a file against the path and the roller radius [m]; and how many errors ezdxf's audit finds."""
     ezdxf = _ezdxf()
     document = ezdxf.readfile(path)
@@ -44,7 +44,7 @@ def measured(path: Path, rho: PPoly, radius: float) -> tuple[list[DrawnCurve], i
     return rows, len(document.audit().errors)
 
 
-def _curve(entity: Any, rho: PPoly, radius: float) -> DrawnCurve:
+def _curve(entity: Any, rho: "scipy.interpolate.PPoly", radius: float) -> DrawnCurve:
     layer = entity.dxf.layer
     side, turned = _LAYERS[layer.removesuffix("_2")], math.pi if layer.endswith("_2") else 0.0
     tool = entity.construction_tool()
@@ -70,7 +70,7 @@ def _nodes(knots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return (knots[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
 
 
-def distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
+def distance(z: np.ndarray, rho: "scipy.interpolate.PPoly") -> np.ndarray:
     """Signed distance of points to the path, positive outside [m]."""
     first, second = rho.derivative(), rho.derivative(2)
     theta = np.angle(z)
@@ -85,7 +85,7 @@ def distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
     return np.real(np.conj(outward) * (z - r * turn)) / np.abs(outward)
 
 
-def true_size(rho: PPoly, distance: float) -> tuple[float, float]:
+def true_size(rho: "scipy.interpolate.PPoly", distance: float) -> tuple[float, float]:
     """Length [m] and area [m^2] of the parallel curve at a distance [m], by Gauss points in the pieces of the path."""
     turns = round(2 * math.pi / float(rho.x[-1]))
     edges = np.concatenate([rho.x[:-1] + k * rho.x[-1] for k in range(turns)] + [[2 * math.pi]])

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import path as centre_path
@@ -82,7 +82,7 @@ def _measured(name: str, shape: Any) -> StepBody:
     )  # fmt: skip
 
 
-def disc_volume(disc: Disc, rho: PPoly) -> float:
+def disc_volume(disc: Disc, rho: "scipy.interpolate.PPoly") -> float:
     r"""Volume of the disc from the path alone [m^3].
 
     .. math:: V = \pi (R^2 - r_b^2) T - n \, 2 r L w, \quad L = \oint |P'|\, d\theta
@@ -94,7 +94,9 @@ def disc_volume(disc: Disc, rho: PPoly) -> float:
     return float(around - len(disc.track.turned) * groove)
 
 
-def wall_deviation(body: StepBody, rho: PPoly, radius: float, turned: tuple[float, ...]) -> tuple[int, float]:
+def wall_deviation(
+    body: StepBody, rho: "scipy.interpolate.PPoly", radius: float, turned: tuple[float, ...]
+) -> tuple[int, float]:
     """How many walls of grooves the disc has, and their largest distance from the true ones [m].
 
     Parameters

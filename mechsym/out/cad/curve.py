@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -90,7 +90,7 @@ def tracks_of(guide: Guide) -> tuple[float, ...]:
     return (0.0, math.pi) if guide.parameters.arrangement == "two_tracks" else (0.0,)
 
 
-def offset(rho: PPoly, distance: float) -> Point:
+def offset(rho: "scipy.interpolate.PPoly", distance: float) -> Point:
     """The parallel curve at a distance [m]: points and tangents, shape (n, 2) each, by the angle [rad]."""
     first, second = rho.derivative(), rho.derivative(2)
 
@@ -152,7 +152,7 @@ def nurbs(path: CubicPath) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
-def _refuse_crossing(rho: PPoly, radius: float) -> None:
+def _refuse_crossing(rho: "scipy.interpolate.PPoly", radius: float) -> None:
     """The wall that the roller rests on must not cross itself: 1 + r kappa > 0 outside, 1 - r kappa > 0 inside."""
     theta = periodic.piece_points(rho, 65)
     values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]

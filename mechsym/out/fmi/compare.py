@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from mechsym.jobs.export import named
 from mechsym.out.fmi.drive import Driven, driven
@@ -84,8 +84,10 @@ def _exact(unit: Driven, now: float, x: np.ndarray, until: float) -> np.ndarray:
 
 
 def _solved(unit: Driven, now: float, x: np.ndarray, until: float, events: Sequence[Any] = ()) -> Any:
-    return solve_ivp(unit.rates, (now, until), x, method="DOP853", events=events or None, rtol=TOLERANCE,
-                     atol=TOLERANCE, first_step=_FIRST * (until - now))  # fmt: skip
+    return scipy.integrate.solve_ivp(
+        unit.rates, (now, until), x, method="DOP853", events=events or None, rtol=TOLERANCE, atol=TOLERANCE,
+        first_step=_FIRST * (until - now),
+    )  # fmt: skip
 
 
 def _indicator(

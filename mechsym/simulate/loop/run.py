@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from mechsym.quantities import record
 from mechsym.simulate.audit import energies
@@ -116,7 +116,7 @@ def _advance(loop: Loop, function: Any, held: np.ndarray, now: Any, limits: Any)
     for event in events:
         event.terminal, event.direction = True, 1.0
     size = np.array([*[1.0] * n, *[omega] * n, *[300.0, 100.0, 100.0] * len(gases), *[100.0] * len(WORKS)])
-    return solve_ivp(
+    return scipy.integrate.solve_ivp(
         _fast(function, held), (t, min(t + 3 * CYCLE / omega, asked.t_end)), y, method="DOP853", events=events,
         rtol=asked.tolerance, atol=1e-3 * asked.tolerance * size, dense_output=True,
     )  # fmt: skip

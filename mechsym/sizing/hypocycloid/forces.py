@@ -1,12 +1,13 @@
 """Forces of the derived hypocycloid mechanism over the speeds, for given moving masses."""
 
 import dataclasses
+import math
 from collections.abc import Callable
 
-import casadi as ca
 import numpy as np
 
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters, build
+from mechsym.mechanisms.record import evaluate
 from mechsym.sizing.hypocycloid.masses import Moving
 from mechsym.sizing.hypocycloid.parts import PartForces
 from mechsym.sizing.pressures import Pressures
@@ -31,12 +32,15 @@ def hypocycloid_forces(gas: Pressures, parameters: HypocycloidParameters) -> Cal
 
 
 def _reactions(parameters: HypocycloidParameters, gas: Pressures) -> dict[str, np.ndarray]:
-    function, shape = build(parameters).functions["reactions"], gas.net.shape
-    rows = {
-        "theta": np.broadcast_to(gas.theta, shape),
-        "thetad": np.broadcast_to(gas.omega[:, None], shape),
-        "F": gas.net,
+    # at constant speed each is a part that follows the net force and one that follows the speed squared, so one turn of
+    # each says all of every speed; only the radial force has a sign of its own: the teeth push apart on both flanks
+    one, mechanism = np.ones(gas.theta.size), build(parameters)
+    pushed, turning = (
+        evaluate(mechanism, "reactions", theta=gas.theta, thetad=speed * one, F=force * one)
+        for speed, force in ((0.0, 1.0), (1.0, 0.0))
+    )
+    square = gas.omega[:, None] ** 2
+    found = {
+        name: pushed[name] * gas.net + turning[name] * square for name in ("pin_force", "tooth_force", "piston_torque")
     }
-    inputs = [ca.DM(np.reshape(rows.get(name, np.zeros(shape)), (1, -1))) for name in function.name_in()]
-    values = function.call(inputs)
-    return {name: np.asarray(v).reshape(shape) for name, v in zip(function.name_out(), values, strict=True)}
+    return found | {"tooth_force_radial": np.abs(found["tooth_force"]) * math.tan(parameters.alpha_n)}

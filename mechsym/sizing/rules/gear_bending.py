@@ -13,7 +13,7 @@ last printed digit and the rest to 0.7 (tests/sizing/test_agma908.py).
 """
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.sizing.checks import require
@@ -133,7 +133,9 @@ def critical_section(pair: Pair, member: int) -> tuple[float, float]:
         raise BadInput(
             f"teeth = {teeth}, shift = {pair.shift:g}: no critical section; the tooth is undercut or pointed"
         )
-    xi, eta = fillet(pair, member, brentq(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12))
+    xi, eta = fillet(
+        pair, member, scipy.optimize.brentq(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12)
+    )
     return float(r_L - eta), float(2 * xi)
 
 

@@ -4,6 +4,8 @@ Source: AGMA 2001-D04 as printed in Budynas and Nisbett, Shigley's Mechanical En
 Nunes (2017), ch. 4.4.2, who takes 1 for all of them (1e7 cycles, 99 %, below 120 degC, one-sided load).
 """
 
+import functools
+
 import numpy as np
 
 from mechsym.errors import BadInput
@@ -16,6 +18,8 @@ _Y_N = {
 }  # fmt: skip
 
 
+# a face width is searched for at the same few hundred speeds
+@functools.lru_cache(maxsize=4096)
 def life_factor_bending(N: float, surface: str = "nitrided") -> float:
     r"""Stress cycle factor for bending.
 
@@ -50,6 +54,7 @@ def life_factor_bending(N: float, surface: str = "nitrided") -> float:
     return float(upper if N > 3e6 else max(a * N**-e, upper))
 
 
+@functools.lru_cache(maxsize=4096)
 def life_factor_contact(N: float, surface: str = "nitrided") -> float:
     r"""Stress cycle factor for pitting.
 
