@@ -91,11 +91,11 @@ def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
 
 
 def results(report: Any) -> tuple[Doubt, ...]:
-    """Numbers of a report, wherever they stand in it, against the usual ranges of results."""
+    """Numbers of a report, wherever they stand in it, against the usual ranges of results; `a.b` is a b."""
     worst: dict[tuple[str, str], Doubt] = {}
     for name, value in _numbers(report):
         for kind in RESULTS:
-            if name in kind.keys and not kind.low <= value <= kind.high:
+            if name.rpartition(".")[2] in kind.keys and not kind.low <= value <= kind.high:
                 known = worst.get((kind.code, name))
                 if known is None or abs(value) > abs(known.value):
                     worst[kind.code, name] = _doubt(name, value, kind)

@@ -63,7 +63,7 @@ RESULTS = (
     Usual(code="mean_pressure", keys=("mep_kpa",), unit="kPa", high=4000, why="mean effective pressure of engines"),
     Usual(code="efficiency", keys=("efficiency", "mechanical_efficiency"), unit="-", low=0, high=0.999,
           why="an engine gives less than it takes"),
-    Usual(code="power_balance", keys=("power_residual",), unit="-", low=-1e-3, high=1e-3,
+    Usual(code="power_balance", keys=("power_residual",), unit="-", low=-1e-6, high=1e-6,
           why="the power of all forces must balance"),
     Usual(code="energy_balance", keys=("energy_residual",), unit="-", low=-1e-5, high=1e-5,
           why="energy in, out and kept must balance"),

@@ -2,7 +2,10 @@
 
 import contextlib
 import dataclasses
+import inspect
 import json
+import re
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -110,6 +113,26 @@ def test_results_are_found_wherever_they_stand():
     report = {"p_max_bar": 400.0, "check": {"energy_residual": 1e-3}, "twist": [{"twist_peak": 0.5}], "mep_kpa": [1.0]}
     assert {d.code for d in results(report)} == {"peak_pressure", "energy_balance", "twist"}
     assert results({"efficiency": [0.3, None], "p_max_bar": float("nan")}) == ()
+
+
+def test_every_residual_that_a_report_has_is_judged():
+    package = Path(inspect.getfile(cases)).parents[1]
+    rooms = [file for file in package.rglob("*.py") if file.relative_to(package).parts[0] != "papers"]  # no reports
+    found = {name for file in rooms for name in re.findall(r'"(\w*_residual)":', file.read_text())}
+    assert found == {"power_residual", "energy_residual", "mass_residual"}
+    for name in found:
+        for report in ({name: 0.049}, {"runs": {"a": {name: [0.0, -0.049]}}}, {"data": {f"check.{name}": [0.049]}}):
+            assert len(results(report)) == 1, (name, report)
+        assert results({name: [1e-9, None, 0.0]}) == ()
+
+
+@pytest.mark.parametrize("residual", [0.049, -2e-6, 5e-7])
+def test_power_that_does_not_balance_is_a_doubt_and_strict_says_so(monkeypatch, residual):
+    monkeypatch.setattr("mechsym.forces.summary.power_residual", lambda *_: residual)
+    status, done = run("forces", "moroianu", "--json", "--strict")
+    doubted = abs(residual) > 1e-6
+    assert status == (3 if doubted else 0)
+    assert [d["code"] for d in json.loads(done.stdout)["doubts"]] == ["power_balance"] * doubted
 
 
 def test_ends_of_the_ranges():
