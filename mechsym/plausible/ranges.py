@@ -103,7 +103,7 @@ PROPORTIONS = (
           why="the spring of a hinge works against the gas: its piston is about as large as the engine's"),
     Usual(code="force_ratio", keys=(), unit="-", high=100,
           why="bearing forces are of the order of the gas force; check masses, speed and units"),
-    Usual(code="efficiency_bound", keys=(), unit="-", high=1,
+    Usual(code="efficiency_bound", keys=(), unit="-", high=1 + 1e-9,
           why="no cycle beats that of its compression ratio (Otto) or of its temperatures (Carnot)"),
     Usual(code="critical", keys=(), unit="-", high=5,
           why="the engine runs at a critical speed with little damping: move speed, inertias or stiffness, or damp it"),

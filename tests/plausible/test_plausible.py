@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, inputs, proportions, results, sifted
+from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, inputs, proportion, proportions, results, sifted
 
 
 def run(*words):
@@ -133,6 +133,11 @@ def test_power_that_does_not_balance_is_a_doubt_and_strict_says_so(monkeypatch, 
     doubted = abs(residual) > 1e-6
     assert status == (3 if doubted else 0)
     assert [d["code"] for d in json.loads(done.stdout)["doubts"]] == ["power_balance"] * doubted
+
+
+def test_an_ideal_cycle_reaches_its_bound_but_for_rounding():
+    assert proportion("efficiency_bound", "efficiency / its bound", 1 + 4e-16) == ()
+    assert [d.code for d in proportion("efficiency_bound", "efficiency / its bound", 1 + 1e-6)] == ["efficiency_bound"]
 
 
 def test_ends_of_the_ranges():
