@@ -50,9 +50,12 @@ def evaluate(
     """
     memo = {} if memo is None else memo
     said = digest(tree)
-    if said not in memo:
-        memo[said] = _value(tree, names, algebra, memo)
-    return memo[said]
+    if said in memo:
+        return memo[said]
+    found = _value(tree, names, algebra, memo)
+    home = memo if isinstance(memo, dict) else memo.home(tree)
+    home[said] = found
+    return found
 
 
 def _value(tree: Node, names: Mapping[str, Any], algebra: Algebra, memo: MutableMapping[bytes, Any]) -> Any:

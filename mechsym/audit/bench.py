@@ -1,7 +1,7 @@
 """States with the values of everything that formulas need there."""
 
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from dataclasses import field
 from typing import Any
@@ -27,11 +27,22 @@ class Bench:
     own: dict[str, Any]
     expected: Any  #: shape (n,): The derived quantity
     digits: int = 0
-    memo: dict[bytes, Any] = field(default_factory=dict)  #: Values of expressions that were needed before
+    memo: MutableMapping[bytes, Any] = field(default_factory=dict)  #: Values of expressions that were needed before
 
 
-def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digits: int = 0) -> Bench:
+def bench(
+    question: Question,
+    values: Mapping[str, Any],
+    algebra: Algebra,
+    digits: int = 0,
+    memo: MutableMapping[bytes, Any] | None = None,
+) -> Bench:
     """Everything that formulas need at given states.
+
+    Parameters
+    ----------
+    memo : mutable mapping of bytes to value, optional
+        Takes the values of expressions; an own dictionary when left out
 
     Returns
     -------
@@ -48,7 +59,8 @@ def bench(question: Question, values: Mapping[str, Any], algebra: Algebra, digit
         # a quantity that is the same at all states
         like = np.asarray(next(iter(values.values())))
         expected = np.full(like.shape, expected, dtype=like.dtype)
-    return Bench(theory=theory, algebra=algebra, base=names, own=own, expected=expected, digits=digits)
+    kept = {} if memo is None else memo
+    return Bench(theory=theory, algebra=algebra, base=names, own=own, expected=expected, digits=digits, memo=kept)
 
 
 def used_names(formula: Formula) -> list[str]:

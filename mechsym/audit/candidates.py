@@ -146,8 +146,23 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
             edits += _numbers(asked, tree, wishes, memo)
         known = names(asked, {n for edit in edits for n in letters(edit.new)})
         goals = {path: _goal(asked, wish, memo[nodes[path]]) for path, wish in wishes.items()}
+        first = _first_state(asked, known)
         with scratch(asked):
-            return [e for e in edits if _meets(asked, nodes, goals, known, e)]
+            return [e for e in edits if _meets(asked, nodes, goals, known, first, e)]
+
+
+@record
+class _First:
+    """The first state alone: with many digits it refutes most edits at a fraction of the cost."""
+
+    names: Mapping[str, Any]
+    memo: dict[bytes, Any]
+
+
+def _first_state(asked: Bench, known: Mapping[str, Any]) -> _First | None:
+    if not asked.digits:
+        return None
+    return _First(names={k: v[..., :1] if np.ndim(v) else v for k, v in known.items()}, memo={})
 
 
 @record
@@ -170,7 +185,12 @@ def _goal(asked: Bench, wish: Any, old: Any) -> _Goal | None:
 
 
 def _meets(
-    asked: Bench, nodes: dict[Path, Node], goals: Mapping[Path, _Goal | None], known: Mapping[str, Any], edit: Edit
+    asked: Bench,
+    nodes: dict[Path, Node],
+    goals: Mapping[Path, _Goal | None],
+    known: Mapping[str, Any],
+    first: _First | None,
+    edit: Edit,
 ) -> bool:
     path = edit.path
     while path not in goals:
@@ -179,6 +199,10 @@ def _meets(
     if goal is None:
         return False
     new = replace(nodes[path], edit.path[len(path) :], edit.new)
+    if first is not None and goal.valid[0]:
+        found = evaluate(new, first.names, asked.algebra, first.memo)
+        if np.ndim(found) <= 1 and not np.all(_away(found, goal.wish[..., :1]) <= goal.within[0]):
+            return False
     found = shaped(asked, evaluate(new, known, asked.algebra, asked.memo))
     return bool(np.all(_away(found, goal.wish)[goal.valid] <= goal.within))
 

@@ -4,7 +4,7 @@ A truncation is pure when each coefficient of lambda^j is the derived one or 0, 
 wrong and its error there is at most the derived term: never worse than leaving that power out.
 """
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import field
 from fractions import Fraction
 from functools import cache, cached_property
@@ -13,17 +13,16 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.algebra import DIGITS
-from mechsym.audit.bench import Bench, bench, value
-from mechsym.audit.orders import ORDER_DIGITS
-from mechsym.audit.question import Question, digit_values, small_rods
+from mechsym.audit.bench import Bench, value
+from mechsym.audit.long_rods import ORDER_DIGITS, LongRods
+from mechsym.audit.question import Question
 from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node, digest
 from mechsym.quantities import record
 
 _SLACK = 1.8  # a sign slip has twice the derived term, products of truncations have little more than it
 _ANGLES = 8
-_STATES = 2
+_STATES = 1
 _NODES = 12
 _NODE = Fraction(1, 10**6)
 _TRUSTED = 10  # coefficients that the nodes give to eight digits
@@ -48,27 +47,14 @@ def _weights() -> Any:
 class Expansion:
     """States at a few tiny lambdas, from which the coefficients of powers follow."""
 
-    question: Question
     load: str  #: The mass, inertia or force that is not zero, `all` for every one
-    loads: tuple[str, ...]
+    states: Sequence[LongRods]  #: One for each lambda
     known: dict[bytes, Any] = field(default_factory=dict)  #: Coefficients of formulas that were asked before
 
     @cached_property
     def benches(self) -> list[Bench]:
         """A few angles of a turn at two states, for each lambda."""
-        return [_deep(self.question, self._values, eps) for eps in _STEPS]
-
-    @cached_property
-    def _values(self) -> dict[str, list[Fraction]]:
-        question, count = self.question, _ANGLES * _STATES
-        few = drawn(question, _STATES, seed=4)
-        values = {k: [v[i // _ANGLES] for i in range(count)] for k, v in few.items()}
-        if self.load != "all":
-            values |= {other: [Fraction(0)] * count for other in self.loads if other != self.load}
-        angle = question.theory.angle
-        if angle and angle not in question.hold and not question.theory.letters[angle].domain:
-            values[angle] = [Fraction(2 * (i % _ANGLES) + 1, _ANGLES) * Fraction(355, 113) for i in range(count)]
-        return values
+        return [states.bench(self.load) for states in self.states]
 
     @cached_property
     def derived(self) -> Any:
@@ -86,6 +72,23 @@ class Expansion:
         with mpmath.workdps(ORDER_DIGITS):
             scale = [step**_SHIFT for step in _steps()]
             return _weights() @ np.array([v * e for v, e in zip(values, scale, strict=True)])
+
+
+def expansions(question: Question, loads: Sequence[str]) -> dict[str, Expansion]:
+    """One expansion for each load, at the same states."""
+    values, zeros = _values(question), tuple(k for k in loads if k != "all")
+    states = [LongRods(question=question, values=values, eps=eps, loads=zeros) for eps in _STEPS]
+    return {k: Expansion(load=k, states=states) for k in loads}
+
+
+def _values(question: Question) -> dict[str, list[Fraction]]:
+    count = _ANGLES * _STATES
+    few = drawn(question, _STATES, seed=4)
+    values = {k: [v[i // _ANGLES] for i in range(count)] for k, v in few.items()}
+    angle = question.theory.angle
+    if angle and angle not in question.hold and not question.theory.letters[angle].domain:
+        values[angle] = [Fraction(2 * (i % _ANGLES) + 1, _ANGLES) * Fraction(355, 113) for i in range(count)]
+    return values
 
 
 @record
@@ -138,8 +141,3 @@ def changed_powers(expansion: Expansion, one: Node, other: Node) -> set[int]:
         gaps = [max(abs(a - b) for a, b in zip(first[k], second[k], strict=True)) for k in range(_TRUSTED)]
     return {k - leading for k, gap in enumerate(gaps) if not gap <= small}
 
-
-def _deep(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
-    with mpmath.workdps(ORDER_DIGITS):
-        states = digit_values(small_rods(question.theory, values, eps))
-    return bench(question, states, DIGITS, ORDER_DIGITS)

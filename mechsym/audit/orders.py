@@ -11,15 +11,14 @@ from typing import Any
 
 import mpmath
 
-from mechsym.audit.algebra import DIGITS
-from mechsym.audit.bench import Bench, bench, value
-from mechsym.audit.question import Question, digit_values, small_rods
+from mechsym.audit.bench import Bench, value
+from mechsym.audit.long_rods import ORDER_DIGITS, LongRods
+from mechsym.audit.question import Question
 from mechsym.audit.states import drawn
 from mechsym.audit.tree import Node
 from mechsym.quantities import dimension, record
 
 EXACT = math.inf
-ORDER_DIGITS = 110
 COARSE, FINE = Fraction(1, 10**6), Fraction(1, 10**8)
 _POINTS = 7
 _ZERO_DIGITS = 90
@@ -45,9 +44,10 @@ def groups(question: Question) -> list[LetterGroup]:
     if not (question.theory.rods or question.theory.small):
         return []
     loads, values = _loads(question), drawn(question, _POINTS, seed=3)
-    found = [_group(question, values, load, loads) for load in loads]
+    states = [LongRods(question=question, values=values, eps=eps, loads=tuple(loads)) for eps in (COARSE, FINE)]
+    found = [_group(load, *states) for load in loads]
     used = [g for g in found if _size(g.fine) > 0]
-    whole = _group(question, values, "all", [])
+    whole = _group("all", *states)
     return used if len(used) > 1 and _adds_up(used, whole) else [whole]
 
 
@@ -56,17 +56,8 @@ def _loads(question: Question) -> list[str]:
     return [k for k, r in letters.items() if dimension(r.unit)[0] == 1 and k not in question.hold]
 
 
-def _group(question: Question, values: Mapping[str, list[Fraction]], name: str, loads: list[str]) -> LetterGroup:
-    values = {**values} | {other: [Fraction(0)] * _POINTS for other in loads if other != name}
-    coarse, fine = (at_small_rods(question, values, eps) for eps in (COARSE, FINE))
-    return LetterGroup(name=name, coarse=coarse, fine=fine)
-
-
-def at_small_rods(question: Question, values: Mapping[str, list[Fraction]], eps: Fraction) -> Bench:
-    """States with long rods and many digits."""
-    with mpmath.workdps(ORDER_DIGITS):
-        digits = digit_values(small_rods(question.theory, values, eps))
-    return bench(question, digits, DIGITS, ORDER_DIGITS)
+def _group(name: str, coarse: LongRods, fine: LongRods) -> LetterGroup:
+    return LetterGroup(name=name, coarse=coarse.bench(name), fine=fine.bench(name))
 
 
 def _size(asked: Bench) -> Any:

@@ -27,6 +27,10 @@ class Question:
     #: Letters that change over a turn in the source's data, as functions of the angle array
     turn: Mapping[str, Callable[[np.ndarray], np.ndarray]] = field(default_factory=dict)
     where: tuple[ast.Compare, ...] = ()  #: Relations that every state keeps
+    #: States that were drawn before, by their number and seed
+    states: dict[tuple[int, int], Mapping[str, list[Fraction]]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
 
 @record

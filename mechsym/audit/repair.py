@@ -14,7 +14,7 @@ from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
 from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
 from mechsym.audit.dimensions import Rescaled, rescaled
 from mechsym.audit.edits import RANKS, Edit, apply
-from mechsym.audit.expansion import Expansion
+from mechsym.audit.expansion import Expansion, expansions
 from mechsym.audit.orders import EXACT, FINE, LetterGroup, groups, orders, residual
 from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
@@ -51,8 +51,7 @@ class Examination:
     @cached_property
     def expansions(self) -> dict[str, Expansion]:
         """Powers of lambda for each load, made when needed."""
-        loads = tuple(g.name for g in self.groups)
-        return {k: Expansion(question=self.question, load=k, loads=loads) for k in loads}
+        return expansions(self.question, [g.name for g in self.groups])
 
 
 @record

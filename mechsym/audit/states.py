@@ -14,6 +14,12 @@ _MORE = 6  # draws for each state that is wanted
 
 def drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
     """Random exact states; those without a value of the quantity or outside the assumptions come last."""
+    if (count, seed) not in question.states:
+        question.states[count, seed] = _drawn(question, count, seed)
+    return dict(question.states[count, seed])
+
+
+def _drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
     found = draws(question, _MORE * count, seed)
     asked = bench(question, found.floats(), FLOATS)
     good = np.isfinite(np.broadcast_to(asked.expected, (_MORE * count,))) & kept(question, asked)
