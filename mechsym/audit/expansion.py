@@ -140,4 +140,3 @@ def changed_powers(expansion: Expansion, one: Node, other: Node) -> set[int]:
         leading = next(k for k, size in enumerate(sizes) if size > small)
         gaps = [max(abs(a - b) for a, b in zip(first[k], second[k], strict=True)) for k in range(_TRUSTED)]
     return {k - leading for k, gap in enumerate(gaps) if not gap <= small}
-
