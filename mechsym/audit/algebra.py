@@ -6,7 +6,7 @@ bounds) is nan in the first two systems, so that hostile input costs nothing and
 
 import ast
 import operator
-from collections.abc import Callable, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from fractions import Fraction
 from typing import Any
 
@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from mechsym.audit.tree import Node, children, digest, function_of
+from mechsym.audit.tree import Node, children, digest, function_of, letters
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -31,6 +31,37 @@ class Algebra:
     functions: Mapping[str, Callable]
     pi: Callable[[], Any]
     choose: Callable[[Any, Any, Any], Any] = np.where  #: The second where the first holds, else the third
+
+
+class Layered(MutableMapping[bytes, Any]):
+    """Values of expressions of one load; those that no load changes lie in a dictionary that all loads share."""
+
+    def __init__(self, common: dict[bytes, Any], changes: Mapping[str, bool]) -> None:
+        self.own: dict[bytes, Any] = {}
+        self.common, self.changes = common, changes
+
+    def home(self, tree: Node) -> dict[bytes, Any]:
+        """Where the value of an expression belongs."""
+        return self.own if any(map(self.changes.__getitem__, letters(tree))) else self.common
+
+    def __getitem__(self, said: bytes) -> Any:
+        return self.own[said] if said in self.own else self.common[said]
+
+    def __setitem__(self, said: bytes, found: Any) -> None:
+        self.own[said] = found
+
+    def __delitem__(self, said: bytes) -> None:
+        del self.own[said]
+
+    def __iter__(self) -> Iterator[bytes]:
+        return iter(self.own)
+
+    def __len__(self) -> int:
+        return len(self.own)
+
+    def popitem(self) -> tuple[bytes, Any]:
+        """The value of this load that came last."""
+        return self.own.popitem()
 
 
 def evaluate(
@@ -53,7 +84,7 @@ def evaluate(
     if said in memo:
         return memo[said]
     found = _value(tree, names, algebra, memo)
-    home = memo if isinstance(memo, dict) else memo.home(tree)
+    home = memo.home(tree) if isinstance(memo, Layered) else memo
     home[said] = found
     return found
 

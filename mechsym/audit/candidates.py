@@ -18,13 +18,14 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.put_back import insertions
 from mechsym.audit.question import Question
 from mechsym.audit.required import Required, quotient, required
-from mechsym.audit.slips import single_edits
+from mechsym.audit.slips import CIRCULAR, in_degrees, single_edits
 from mechsym.audit.theory.record import dependencies, known
 from mechsym.audit.tree import (
     Node,
     Path,
     binary,
     children,
+    function_of,
     is_operation,
     letters,
     name,
@@ -39,6 +40,7 @@ from mechsym.quantities import record
 
 _MET = 1e-5
 _VALID = 0.6
+_DEGREES = ("times 180/pi", "times pi/180", "without the factor between degrees and radians")
 
 
 def listed_edits(question: Question, tree: Node) -> list[Edit]:
@@ -93,6 +95,21 @@ def repeated_edits(tree: Node) -> list[Edit]:
             changed = substitute(tree, partial(_instead, texts, text, new))
             about = f"{to_python(node)} becomes {to_python(new)} in {counts[text]} places"
             found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed), about=about))
+    return [*found, *_degrees_everywhere(tree)]
+
+
+def _degrees_everywhere(tree: Node) -> list[Edit]:
+    # degrees for radians is no slip of one place: whoever counts in degrees does so throughout
+    inside = [p.node.args[0] for p in places(tree) if isinstance(p.node, ast.Call) and function_of(p.node) in CIRCULAR]
+    changes: dict[str, dict[Node, Node]] = {}
+    for argument in inside if len(inside) > 1 else ():
+        for new, told in zip(reversed([*in_degrees(argument)]), _DEGREES, strict=False):
+            changes.setdefault(told, {})[argument] = new
+    found = []
+    for told, instead in changes.items():
+        if len(instead) > 1:
+            about = f"the arguments of {len(instead)} functions, {told}"
+            found.append(Edit(kind="everywhere", path=(), new=substitute(tree, instead.get), about=about))
     return found
 
 

@@ -1,6 +1,6 @@
 """The same states for every load: what no load changes is computed once, for the kinematics cost most."""
 
-from collections.abc import Collection, Iterator, Mapping, MutableMapping
+from collections.abc import Collection, Mapping
 from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
@@ -8,45 +8,14 @@ from typing import Any
 
 import mpmath
 
-from mechsym.audit.algebra import DIGITS
+from mechsym.audit.algebra import DIGITS, Layered
 from mechsym.audit.bench import Bench, bench, used_names
 from mechsym.audit.question import Question, digit_values, small_rods
 from mechsym.audit.theory.record import complete, dependencies
-from mechsym.audit.tree import Node, letters
+from mechsym.audit.tree import letters
 from mechsym.quantities import record
 
 ORDER_DIGITS = 110
-
-
-class Layered(MutableMapping[bytes, Any]):
-    """Values of expressions of one load; those that no load changes lie in a dictionary that all loads share."""
-
-    def __init__(self, common: dict[bytes, Any], changes: Mapping[str, bool]) -> None:
-        self.own: dict[bytes, Any] = {}
-        self.common, self.changes = common, changes
-
-    def home(self, tree: Node) -> dict[bytes, Any]:
-        """Where the value of an expression belongs."""
-        return self.own if any(map(self.changes.__getitem__, letters(tree))) else self.common
-
-    def __getitem__(self, said: bytes) -> Any:
-        return self.own[said] if said in self.own else self.common[said]
-
-    def __setitem__(self, said: bytes, found: Any) -> None:
-        self.own[said] = found
-
-    def __delitem__(self, said: bytes) -> None:
-        del self.own[said]
-
-    def __iter__(self) -> Iterator[bytes]:
-        return iter(self.own)
-
-    def __len__(self) -> int:
-        return len(self.own)
-
-    def popitem(self) -> tuple[bytes, Any]:
-        """The value of this load that came last."""
-        return self.own.popitem()
 
 
 class _Changes(dict[str, bool]):

@@ -1,6 +1,6 @@
 """The repair search: which single edit makes the formula right? Found by search, never entered by hand."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
@@ -20,7 +20,7 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
 from mechsym.audit.question import Question, digit_values, float_values, small_rods
 from mechsym.audit.states import drawn
-from mechsym.audit.tree import Node, digest
+from mechsym.audit.tree import Node, digest, function_of, walk
 from mechsym.quantities import record
 
 SEARCH_DIGITS = 80
@@ -99,12 +99,16 @@ def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repa
     return None
 
 
-def raising_repairs(exam: Examination, start: Repair) -> list[Repair]:
-    """Single edits that raise some load's order, lower none, and do not raise the error; the most plausible first."""
+def raising_repairs(exam: Examination, start: Repair) -> Iterator[list[Repair]]:
+    """Edits that raise some load's order, lower none, and do not raise the error; the most plausible first.
+
+    Yields
+    ------
+    repairs : list of Repair
+        Slips of one place, then those that are repeated
+    """
     for listed in slips(exam, start.tree):
-        if found := _raised(exam, start, listed, False):
-            return sorted((r for r in found if is_sound(r)), key=_rank)
-    return []
+        yield sorted((r for r in _raised(exam, start, listed, False) if is_sound(r)), key=_rank)
 
 
 def _exact(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -> Repair | None:
@@ -170,8 +174,11 @@ def search_bench(exam: Examination, group: str) -> Bench:
 def _search_bench(exam: Examination, group: str) -> Bench:
     question, theory = exam.question, exam.question.theory
     letters = theory.letters
+    # |F| for F is right wherever F is positive
+    turned = any(function_of(node) == "abs" for _, node in walk(question.formula.tree))
+    signs = {k: -1 if (turned and not r.positive) != (r.value < 0) else 1 for k, r in letters.items()}
     values = {
-        k: v if letters[k].domain else [abs(x) if letters[k].value >= 0 else -abs(x) for x in v]
+        k: v if letters[k].domain else [signs[k] * abs(x) for x in v]
         for k, v in drawn(question, SEARCH_POINTS, seed=5).items()
     }
     if theory.angle and not letters[theory.angle].domain and theory.angle not in question.hold:

@@ -58,8 +58,7 @@ def search(exam: Examination, start: Repair) -> Found:
     # in an honest approximation, a bracket moved or a factor taken away is a coincidence
     if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN):
         return Found(verdict="misprint", repairs=(single,))
-    raised = [r for r in raising_repairs(exam, start) if is_consistent(exam.scales, r.tree)] if start.orders else []
-    mended = [r for r in raised if _mends(exam, start, r)]
+    raised, mended = _raising(exam, start) if start.orders else ([], [])
     if mended and mended[0].edits[-1].kind in _PLAIN:
         return Found(verdict="misprint", repairs=tuple(mended))
     lost = exact_repair(exam, start, insert=True)
@@ -74,6 +73,17 @@ def search(exam: Examination, start: Repair) -> Found:
     if raised:
         return Found(verdict="nearer", nearer=raised[0])
     return Found(verdict="wrong")
+
+
+def _raising(exam: Examination, start: Repair) -> tuple[list[Repair], list[Repair]]:
+    # what raises an order, and what of it leaves nothing wrong
+    first: list[Repair] = []
+    for found in raising_repairs(exam, start):
+        raised = [r for r in found if is_consistent(exam.scales, r.tree)]
+        if mended := [r for r in raised if _mends(exam, start, r)]:
+            return raised, mended
+        first = first or raised
+    return first, []
 
 
 def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:

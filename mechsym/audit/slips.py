@@ -20,6 +20,8 @@ from mechsym.audit.tree import (
 
 FACTORS = tuple(Fraction(*f) for f in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4), (3, 2), (2, 3)))
 
+CIRCULAR = ("sin", "cos", "tan")
+
 
 def single_edits(tree: Node, siblings: Callable[[str], Sequence[str]]) -> Iterator[Edit]:
     """Every single edit that can be listed without knowing the right formula.
@@ -48,9 +50,11 @@ def node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterato
         yield from (("letter", name(other)) for other in siblings(node.id))
     if isinstance(node, ast.Constant) and not is_exponent(place) and isinstance(node.value, int):
         yield from (("number", number(n)) for n in (node.value - 1, node.value + 1) if n > 0)
-    if function_of(node) in (circular := ("sin", "cos", "tan")):
-        others = [f for f in circular if f != function_of(node)]
+    if function_of(node) in CIRCULAR:
+        others = [f for f in CIRCULAR if f != function_of(node)]
         yield from (("sine and cosine", call(other, node.args[0])) for other in others)  # type: ignore[attr-defined]
+    if function_of(node) == "abs":
+        yield "sign", node.args[0]  # type: ignore[attr-defined]
     yield from _powers(place)
     yield from _brackets(node)
     yield from _squares(node)
@@ -71,15 +75,15 @@ def _signs(place: Spot) -> Iterator[tuple[str, Node]]:
 def _factors(place: Spot) -> Iterator[tuple[str, Node]]:
     if not is_product(place) or isinstance(place.node, ast.UnaryOp):
         return
-    in_function = place.parent is not None and function_of(place.parent) in ("sin", "cos", "tan")
+    in_function = place.parent is not None and function_of(place.parent) in CIRCULAR
     for factor in FACTORS if not in_function else FACTORS[:2]:
         yield "argument" if in_function else "factor", scaled(place.node, factor)
     if in_function:
-        yield from (("degrees", new) for new in _degrees(place.node))
+        yield from (("degrees", new) for new in in_degrees(place.node))
 
 
-def _degrees(node: Node) -> Iterator[Node]:
-    # sin(phi) where phi is counted in degrees, and back; pi/180 that stands there already is taken out
+def in_degrees(node: Node) -> Iterator[Node]:
+    """An angle phi where it is counted in degrees, and back; pi/180 that stands there already is taken out."""
     pi, half = name("pi"), number(180)
     plain = substitute(node, lambda n: _without_degrees(n))
     if plain is not node:

@@ -20,6 +20,7 @@ from mechsym.audit.tree import Node, letters
 from mechsym.quantities import record
 
 PASSED = ("exact", "truncation", "convention")  # exit status 0
+_NONE = 1e-9  # an error that is rounding only [-]
 OPEN = ("mixed", "untestable")  # exit status 3
 
 
@@ -126,7 +127,7 @@ def domain(question: Question) -> str:
 
 
 def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Decision:
-    notes = [exam.question.formula.note, more.pop("note", "")]
+    notes = [exam.question.formula.note, more.pop("note", ""), _at_the_data(verdict, start)]
     return Decision(
         verdict=verdict,
         max_rel_error=start.max_rel_error,
@@ -137,6 +138,12 @@ def _verdict(exam: Examination, verdict: str, start: Repair, **more: Any) -> Dec
         note="; ".join(n for n in notes if n),
         **more,
     )
+
+
+def _at_the_data(verdict: str, start: Repair) -> str:
+    if verdict in PASSED or verdict == "untestable" or start.max_rel_error > _NONE:
+        return ""
+    return "at the case's own data it agrees over the whole turn; other values of the letters, as in the example, tell"
 
 
 def _counterexample(exam: Examination, tree: Node) -> dict[str, float]:

@@ -26,6 +26,19 @@ def test_one_sign_is_not_exact(text, against):
     assert check_formula(text, against)["verdict"] not in ("exact", "truncation", "convention")
 
 
+def test_a_size_for_a_signed_force_is_repaired_and_the_zero_error_explained():
+    row = check_formula("abs(F)*dx_dphi", "crosshead.gas_torque")
+    assert row["verdict"] == "misprint" and row["correction"] == "F*dx_dphi"
+    assert row["max_rel_error"] == 0 and "at the case's own data it agrees" in row["note"]
+
+
+@pytest.mark.parametrize("end", ["", "/sqrt(1 - lam**2*sin(phi*pi/180)**2)"])
+def test_degrees_in_two_places_are_one_slip(end):
+    text = f"r*sin(phi*pi/180) + r*lam/2*sin(2*phi*pi/180){end}"
+    row = check_formula(text, "slider_crank.dx_dphi")
+    assert row["verdict"] == "misprint" and row["correction"] == text.replace("phi*pi/180", "phi")
+
+
 def test_no_trap_is_called_exact():
     found = list(trapped())
     assert len(found) >= 200 and set(found) == {"not exact"}
