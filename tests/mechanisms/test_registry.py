@@ -2,8 +2,15 @@
 
 import ast
 import functools
+import json
+import os
 import re
+import shutil
+import subprocess
+import sys
 from pathlib import Path
+
+import pytest
 
 import mechsym
 from mechsym.mechanisms import traits
@@ -68,3 +75,53 @@ def test_a_name_in_a_table_is_seen():
     assert "crosshead" in texts(ast.parse('"""crosshead."""\nX = {"crosshead": 1}'))
     assert "crosshead" not in texts(ast.parse('"""crosshead"""\ndef f():\n    "crosshead"'))
     assert {"A", "b"} <= set(asked(ast.parse("isinstance(x, A | B)\nhasattr(x, 'b')")))
+
+
+ALL = """
+import json, sys
+from pathlib import Path
+from mechsym import cases, mechanisms
+from mechsym.jobs import own_turn
+assert Path(mechanisms.__file__).is_relative_to(Path.cwd()), mechanisms.__file__
+case = cases.load("yoke", {f"friction.{k}": v for k, v in json.loads(sys.argv[1]).items()})
+found = own_turn.turn(case)
+told = own_turn.summary(found, case)
+told["drawn"] = sorted(p.name for p in own_turn.write(found, case, Path("out")))
+told["known"] = mechanisms.names()
+print(json.dumps(told))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+def test_a_declaration_and_a_case_are_all_that_a_mechanism_takes(pytestconfig, tmp_path):
+    """Beside the package's own ones: generated, evaluated, turned with gas, its friction told, drawn."""
+    for folder in ("mechsym", "generated", "derivations"):
+        skipped = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(pytestconfig.rootpath / folder, tmp_path / folder, ignore=skipped)
+    given = pytestconfig.rootpath / "examples/mechanisms"
+    text = (given / "scotch_yoke.py").read_text().replace("scotch_yoke", "yoke")
+    place = '    m.guide("slot", reaction="R_n_S", travel=r * sin(phi))\n    return m'
+    text = text.replace("    return m", place).replace("Mechanism, pi", "Mechanism, pi, sin")
+    (tmp_path / "derivations/yoke.py").write_text(text)
+    case = (given / "scotch-yoke.toml").read_text().replace('"./scotch_yoke.py"', '"yoke"\nsource = "own"')
+    (tmp_path / "mechsym/cases/yoke.toml").write_text(case)
+
+    def run(*line):
+        here = os.environ | {"PYTHONPATH": str(tmp_path)}
+        return subprocess.run([sys.executable, "-P", *line], cwd=tmp_path, env=here, capture_output=True, text=True)
+
+    derived = run("-m", "mechsym", "derive", "yoke")
+    assert (derived.returncode, derived.stdout.split()) == (0, ["wrote", "yoke.py", "wrote", "equations/yoke.json"])
+    again = run("-m", "mechsym", "derive", "yoke", "--check")
+    assert again.returncode == 0, again.stdout
+    sizes = {"mu_guide": 0.1, "mu_pin": 0.01, "mu_main": 0.01, "radius_piston_pin": 0.1, "radius_crank_pin": 0.1,
+             "radius_main": 0.1}  # fmt: skip
+    shown = run("-c", ALL, json.dumps(sizes))
+    assert shown.returncode == 0, shown.stderr
+    told = json.loads(shown.stdout)
+    assert {"yoke", "crosshead", "crank_train"} <= set(told["known"])
+    assert told["power_residual"] < 1e-9
+    assert told["min"]["R_n_S"] < -1e5  # the gas pushes the yoke back on the pin
+    assert told["friction"]["places"]["slot"] > 1e3
+    assert {"forces.csv", "mechanism.svg", "mechanism.html"} <= set(told["drawn"])
