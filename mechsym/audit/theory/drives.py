@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from sympy import Rational, cos
 
-from mechsym.audit.theory.mechanisms import mechanism_theory, residuals, solved_accelerations, without
+from mechsym.audit.theory.mechanisms import Results, mechanism_theory, residuals, solved_accelerations, without
 from mechsym.audit.theory.record import Theory
 from mechsym.derive import Equations, Mechanism, acceleration, derive, output, velocities, velocity
 from mechsym.derive.build import declared
@@ -31,12 +31,14 @@ def mechanism(name: str, values: Mapping[str, float], data: str) -> Theory:
     return equations_theory(derive(declared(name)), values, data)
 
 
-def equations_theory(equations: Equations, values: Mapping[str, float], data: str) -> Theory:
-    """The theory of derived equations without results of its own; arguments as for `mechanism`."""
+def equations_theory(
+    equations: Equations, values: Mapping[str, float], data: str, more: Results | None = None
+) -> Theory:
+    """The theory of derived equations, with further results or none; arguments as for `mechanism`."""
     m = equations.mechanism
     rods = tuple(p.name for p in m.parameter_list if p.name.startswith("l") and m.units[p.name] == "m")
     speeds = {u.name: values.get("speed", 10.0) for u in velocities(m)}
-    return mechanism_theory(equations, dict.fromkeys(rods, 4.0) | speeds | dict(values), rods, data, {})
+    return mechanism_theory(equations, dict.fromkeys(rods, 4.0) | speeds | dict(values), rods, data, more or {})
 
 
 def crosshead(values: Mapping[str, float], data: str) -> Theory:

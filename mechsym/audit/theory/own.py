@@ -4,9 +4,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from mechsym.audit.theory.drives import equations_theory
+from mechsym.audit.theory.mechanisms import Results
 from mechsym.audit.theory.record import Theory
 from mechsym.cases.numbers import numbers, usual
-from mechsym.derive import derive
+from mechsym.derive import Mechanism, derive
 from mechsym.derive.files import chosen
 from mechsym.errors import BadInput
 from mechsym.mechanisms.own import file_of
@@ -33,6 +34,12 @@ def own_theory(name: str, case: str) -> Theory:
 @lru_cache(maxsize=8)
 def _theory(path: Path, which: str, data: str, values: tuple[tuple[str, float], ...], _changed: int) -> Theory:
     try:
-        return equations_theory(derive(chosen(path, which)), dict(values), data)
+        equations = derive(chosen(path, which))
+        return equations_theory(equations, dict(values), data, _named(equations.mechanism))
     except TypeError as error:
         raise BadInput(f"{path.name} cannot be a theory of the auditor: {error}") from None
+
+
+def _named(m: Mechanism) -> Results:
+    """All that the declaration names, links' angles and points included, besides what it puts out."""
+    return {symbol.name: (symbol, m.units[symbol.name]) for symbol in m.tape.entries if symbol.name in m.units}
