@@ -63,19 +63,20 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
 
 def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
     from mechsym.cycle.kinds import kind_of
-    from mechsym.jobs.cycle import columns_of_cylinder, engine
+    from mechsym.jobs.cycle import columns_of_cylinder, cycle, engine
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.jobs.judged import of_cycle
-    from mechsym.jobs.whole_engine import cylinders, of_engine
+    from mechsym.jobs.whole_engine import cylinders, of_engine, other_piston
 
-    as_json, out = output
     given = kind_of(case.need("cycle")).given
     if given == "train" and not over:
-        cycle_stirling.show(case, _array(omega), as_json, out)
+        cycle_stirling.show(case, _array(omega), *output)
+        return
+    if not over and other_piston(case):
+        _show(case, None, cycle(case, _array(omega)), {}, output)
         return
     cylinders(case)  # what is wrong with them is said before the work begins
     if given == "breathing" and not over:
-        cycle_breathing.show(case, _array(omega), as_json, out)
+        cycle_breathing.show(case, _array(omega), *output)
         return
     if given == "engine":
         machine = engine(one_cylinder(case))
@@ -85,9 +86,17 @@ def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[boo
     else:
         machine, found = None, columns_of_cylinder(case, _array(omega))
     found = of_engine(case, found, None if over else omega)
+    _show(case, machine, found, _units(machine) if over else {}, output)
+
+
+def _show(
+    case: Any, machine: Any, found: dict[str, Any], units: dict[str, str], output: tuple[bool, Path | None]
+) -> None:
+    from mechsym.jobs.judged import of_cycle
+
+    as_json, out = output
     files = _write(out, machine, found, case.need("operation").speed) if out else []
-    units = _units(machine) if over else {}
-    doubts = () if over else of_cycle(case, found)
+    doubts = () if units else of_cycle(case, found)
     emit(
         found | {"doubts": doubts},
         as_json,
@@ -128,7 +137,9 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     every = max(1, -(-count // 20))
     shown = [k for k in found if "." in k] + list(_SHOWN)
     lines = [_rows(found, shown, every, units)]
-    if found["cylinders"] > 1:
+    for name, one in found.get("pistons", {}).items():
+        lines += ["", f"piston {name}", _rows({"speed_rpm": found["speed_rpm"], **one}, list(_SHOWN), every, {})]
+    if found["per_cylinder"] and found["cylinders"] > 1:
         one = {"speed_rpm": found["speed_rpm"], **found["per_cylinder"]}
         lines = [
             f"engine of {found['cylinders']} cylinders",
@@ -159,11 +170,13 @@ def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list
     from mechsym.cycle.plots import cycle_picture, performance_picture
     from mechsym.files import write_quantities
 
-    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder")}
+    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder", "pistons")}
     if found["cylinders"] > 1:
         flat |= {f"{k}_per_cylinder": v for k, v in found["per_cylinder"].items()}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]
     files = [write_quantities(out / "performance.csv", flat)]
+    for name, one in found.get("pistons", {}).items():
+        files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": found["speed_rpm"], **one}))
     if machine is not None:
         one = curves(machine, omega)
         files += [write_quantities(out / "cycle.csv", one), cycle_picture(out / "cycle.svg", one)]

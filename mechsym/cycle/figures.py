@@ -21,7 +21,12 @@ _POINTS = 1441
 
 
 def cylinder_columns(
-    cycle: Any, name: str, parameters: Any, omega: np.ndarray, guesses: Mapping[str, float] | None = None
+    cycle: Any,
+    name: str,
+    parameters: Any,
+    omega: np.ndarray,
+    guesses: Mapping[str, float] | None = None,
+    number: int = 0,
 ) -> dict[str, Any]:
     """Figures of a cycle that needs nothing but a cylinder, over the speeds.
 
@@ -35,6 +40,8 @@ def cylinder_columns(
         Crank speeds; the algebraic cycle does not depend on them [rad/s]
     guesses : mapping of str to float, optional
         Of coordinates that loops hold [rad] or [m]
+    number : int
+        Place of the piston's role in the declaration, from 0
 
     Returns
     -------
@@ -49,10 +56,10 @@ def cylinder_columns(
             f"[cycle] is of no kind with figures over the speed; kinds are {', '.join(known)} and, with --diagram, "
             "diagram"
         )
-    moved = piston_travel(name, parameters, guesses)
+    moved = piston_travel(name, parameters, guesses, number)
     room = chamber_over(moved, cycle.bore, cycle.compression_ratio, back_pressure(cycle))
     # the same chamber over a piston with its mass, for the largest force
-    heavy = dataclasses.replace(room, motion=piston_motion(name, dataclasses.asdict(parameters), guesses))
+    heavy = dataclasses.replace(room, motion=piston_motion(name, dataclasses.asdict(parameters), guesses, number))
     found = ((*load(figures)(cycle, room, float(speed)), float(speed)) for speed in omega)
     rows = [_at(pressure, fuel, heavy, speed) for pressure, fuel, speed in found]
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}

@@ -65,7 +65,7 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
             speed, values = (np.asarray(found[n], dtype=float) for n in ("speed_rpm", key))
             axis.plot(speed * turning, values * factor, line, color=color, label=name)
         axis.set_ylabel(f"{label} [{shown}]")
-        if key == "sfc_g_kwh":
+        if key == "sfc_g_kwh" and _known(engines, key):
             low, high = _without_start(engines, key)
             axis.set_ylim(low * factor, high * factor)
     for (line, color), (name, found) in runs:
@@ -75,9 +75,13 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
         axes[5].plot(speed, found["efficiency"], line, color=color, label=name)
     for axis, label in ((axes[4], "share of the fuel's energy"), (axes[5], "efficiency")):
         axis.set_ylabel(f"{label} [-]")
+    if not _known(engines, "efficiency"):  # an algebraic cycle knows no fuel
+        for axis in axes[[k for k, (key, *_) in enumerate(_MAP) if key == "sfc_g_kwh"] + [4, 5]]:
+            axis.text(0.5, 0.5, "the cycle knows no fuel", ha="center", transform=axis.transAxes)
+            axis.set(yticks=[], xlim=axes[0].get_xlim())
     for axis in axes:
         axis.set_xlabel(f"speed [{turning_unit}]")
-    for axis in axes if len(engines) > 1 else axes[4:5]:
+    for axis in axes if len(engines) > 1 else axes[4:5] if _known(engines, "efficiency") else ():
         legend(axis)
     return write_picture(path, figure)
 
@@ -99,6 +103,10 @@ def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, again
         axis.plot(values, shown, "o-", color=BLUE, markersize=4)
         axis.set(xlabel=unit_words(across), ylabel=unit_words(up))
     return write_picture(path, figure)
+
+
+def _known(engines: Mapping[str, Mapping[str, Any]], key: str) -> bool:
+    return any(np.isfinite(np.asarray(found[key], dtype=float)).any() for found in engines.values())
 
 
 def _without_start(engines: Mapping[str, Mapping[str, Any]], key: str) -> tuple[float, float]:

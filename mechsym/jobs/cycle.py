@@ -24,7 +24,8 @@ from mechsym.jobs.scavenge import columns as scavenge_columns
 from mechsym.jobs.scavenge import follows, scavenged
 from mechsym.jobs.starts import guesses
 from mechsym.jobs.turn import drive_of, fitted_law
-from mechsym.jobs.whole_engine import of_engine
+from mechsym.jobs.unlike import unlike_pistons
+from mechsym.jobs.whole_engine import of_engine, other_piston
 from mechsym.page import ShownFigures
 from mechsym.quantities import RPM
 
@@ -49,7 +50,7 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
     -------
     columns : CycleFigures
         Arrays under the names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the
-        engine; `per_cylinder` of one cylinder
+        engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently
 
     Examples
     --------
@@ -62,6 +63,8 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
     given = kind_of(case.need("cycle")).given
     if given == "train":
         return CycleFigures(columns_of_stirling(case, speeds))
+    if other_piston(case):
+        return CycleFigures(unlike_pistons(case, speeds, _friction(case)))
     if given == "engine":
         found = columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
     elif given == "breathing":

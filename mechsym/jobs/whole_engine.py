@@ -62,18 +62,33 @@ def cylinders(case: Case) -> CylinderCount:
     return CylinderCount(count=count, share=float(count))
 
 
-def _own(case: Case) -> CylinderCount:
+def piston_travels(case: Case) -> dict[str, np.ndarray]:
+    """Travel of each piston of a declaration over a turn, from its own top dead centre on [m]."""
     with of(case):
         roles, mechanism = piston_roles(case.mechanism), one_coordinate(case)
-    phi, curves = np.linspace(0, 2 * math.pi, 73)[None, :], []
-    for role in roles:
-        travel = from_top(slopes(mechanism, role["travel"], {}))
-        curves.append(np.asarray(travel.call([phi])[0]).ravel())
-        if np.abs(curves[-1] - curves[0]).max() > _ALIKE * np.ptp(curves[0]):
-            raise BadInput(
-                f"{case.file}: piston {role['name']} moves otherwise than {roles[0]['name']}: the cycle is computed "
-                "for one of them and holds for equal cylinders; use 'mechsym forces' or 'mechsym simulate'"
-            )
+    phi = np.linspace(0, 2 * math.pi, 73)[None, :]
+    moved = {role["name"]: from_top(slopes(mechanism, role["travel"], {})) for role in roles}
+    return {name: np.asarray(travel.call([phi])[0]).ravel() for name, travel in moved.items()}
+
+
+def other_piston(case: Case) -> str:
+    """The first piston of a declaration that moves otherwise than its first one; empty where all move alike."""
+    if not is_own(case.mechanism):
+        return ""
+    travels = piston_travels(case)
+    first = next(iter(travels.values()))
+    far = (n for n, travel in travels.items() if np.abs(travel - first).max() > _ALIKE * np.ptp(first))
+    return next(far, "")
+
+
+def _own(case: Case) -> CylinderCount:
+    with of(case):
+        roles = piston_roles(case.mechanism)
+    if other := other_piston(case):
+        raise BadInput(
+            f"{case.file}: piston {other} moves otherwise than {roles[0]['name']}: this is computed for one of them "
+            "and holds for equal cylinders; use 'mechsym cycle' without --over, 'mechsym forces' or 'mechsym simulate'"
+        )
     pistons = getattr(case.sections.get("chamber"), "pistons", 1)
     count = max(1, len(roles) // int(pistons))
     return CylinderCount(count=count, share=float(count))
@@ -111,11 +126,12 @@ def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.
     if counted.count == 1:
         return {**found, "cylinders": 1, "per_cylinder": own}
     whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
-    whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else _largest(case, omega)
+    whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)
     return {**found, **whole, "cylinders": counted.count, "per_cylinder": own}
 
 
-def _largest(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
+def largest_torque(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
+    """Largest torque of the whole mechanism on the shaft at each of some speeds [rad/s]: [N*m]."""
     operation = case.need("operation")
     found = []
     for speed in omega:

@@ -23,6 +23,7 @@ def slider():
     m.slider("G", m.frame, piston)
     m.pin("B", rod.at(l), piston)
     x = m.let("x", r + l - piston.at().x, "m")
+    m.let("psi", rod.angle, "rad")
     m.force(F, along=x)
     m.piston("p", travel=x, force=F)
     return m
@@ -58,6 +59,14 @@ def test_formulas_of_the_textbooks(folder):
     lam = 0.04 / 0.15
     assert series["verdict"] == "truncation" and series["order"] == 3
     assert lam**3 / 16 / 2 < series["max_rel_error"] < lam**3
+
+
+def test_angles_of_links_and_names_that_nothing_is_put_out_of(folder):
+    for quantity in ("angle_rod", "psi"):
+        row = check_formula("-asin(r*sin(phi)/l)", f"./slider.py:{quantity}")
+        assert row["verdict"] == "exact" and row["max_rel_error"] < 1e-12
+    with pytest.raises(BadInput, match="has no quantity 'angle_conrod'; it has .*angle_rod"):
+        check_formula("phi", "./slider.py:angle_conrod")
 
 
 def test_a_slip_is_found_and_repaired(folder):

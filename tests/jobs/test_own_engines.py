@@ -11,11 +11,14 @@ from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
 from mechsym.hinge.price import misfire_share
 from mechsym.hinge.torque import torque
+from mechsym.jobs import own_turn
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.flywheel import flywheel
 from mechsym.jobs.loop import loop
 from mechsym.jobs.machine import machine
 from mechsym.jobs.size import size
+from mechsym.jobs.unlike import _together
+from mechsym.jobs.whole_engine import cylinders
 from mechsym.simulate.loop.run import run_loop
 
 SLIDER = """from mechsym.derive import Mechanism, cos, sin
@@ -188,6 +191,52 @@ def test_each_piston_has_a_cylinder_with_its_own_motion(folder, slider):
     works = {k: [c.work for c in found.cycles if c.cylinder == k] for k in (0, 1)}
     assert works[1][-1] == pytest.approx(works[0][-1] / 2, rel=0.05)  # half the stroke at the same bore
     assert max(abs(c.residual) for c in found.cycles) < 1e-8
+
+
+@pytest.mark.slow
+def test_pistons_that_move_differently_have_each_their_figures(folder):
+    declaration = SLIDER.replace("TILT", "0").replace("def slider", "def unlike").replace('"slider"', '"unlike"', 1)
+    declaration = declaration.replace(
+        "    m.rotor(",
+        """    F2 = m.inputs("F2", "N")
+    x2 = m.let("x2", x / 2, "m")
+    m.force(F2, along=x2)
+    m.piston("half", travel=x2, force=F2)
+    m.rotor(""",
+    )
+    data = '[parameters]\nr = "40 mm"\nl = "150 mm"\nm_p = 0.9\nI = 0.2\n'
+    text = f'mechanism = "./unlike.py"\n{data}{shipped("opposed-pistons")}'
+    case = written(folder, "unlike", declaration, text)
+    found = cycle(case)
+    (first, half), one = found["pistons"].values(), found["torque_avg"][0]
+    assert list(found["pistons"]) == ["p", "half"] and found["cylinders"] == 2
+    assert half["torque_avg"][0] == pytest.approx(first["torque_avg"][0] / 2, rel=1e-9)  # half the stroke, one mep
+    assert one == pytest.approx(1.5 * first["torque_avg"][0], rel=1e-9)
+    assert found["mep_kpa"][0] == pytest.approx(first["mep_kpa"][0], rel=1e-12)
+    # the same by another way: gas on the whole mechanism
+    turned = -own_turn.turn(case).columns["driving_torque"]
+    assert one == pytest.approx(turned.mean(), rel=1e-6)
+    assert found["torque_max"][0] == turned.max()
+    with pytest.raises(BadInput, match="piston half moves otherwise than p:"):
+        cylinders(case)
+
+
+def test_figures_of_unlike_pistons_keep_work_heat_and_fuel():
+    shares = {"work": np.array([0.4]), "heat": np.array([0.6])}, {"work": np.array([0.25]), "heat": np.array([0.75])}
+    rows = [
+        {"power_kw": np.array([p]), "efficiency": share["work"], "sfc_g_kwh": 84 / share["work"], "p_max_mpa": peak,
+         "p_max_angle_deg": 3 * peak, "energy_residual": res, "mep_kpa": np.array([mep]), "fractions": share}
+        for p, share, peak, res, mep in zip((30.0, 10.0), shares, np.array([[5.0], [7.0]]),
+                                            np.array([[1e-12], [-3e-12]]), (900.0, 600.0), strict=True)
+    ]  # fmt: skip
+    whole = _together(rows, np.array([0.1, 0.05]))
+    heat, fuel = 30 / 0.4 + 10 / 0.25, 30 * 84 / 0.4 + 10 * 84 / 0.25
+    assert whole["power_kw"][0] == 40
+    assert whole["efficiency"][0] == pytest.approx(40 / heat) == pytest.approx(whole["fractions"]["work"][0])
+    assert sum(v[0] for v in whole["fractions"].values()) == pytest.approx(1)
+    assert whole["sfc_g_kwh"][0] == pytest.approx(fuel / 40)
+    assert whole["mep_kpa"][0] == pytest.approx((900 * 0.1 + 600 * 0.05) / 0.15)
+    assert (whole["p_max_mpa"][0], whole["p_max_angle_deg"][0], whole["energy_residual"][0]) == (7, 21, -3e-12)
 
 
 @pytest.mark.slow
