@@ -47,6 +47,9 @@ I2 = "<I2> kg*m^2"     # assumed: planet about its centre
 m3 = "<piston> kg"     # assumed: piston with its rod
 alpha_n = "25 deg"     # pressure angle of the teeth
 
+[flywheel]
+inertia = "<flywheel> kg*m^2"   # assumed: 320 piston masses at half the stroke carry one cylinder over its compression
+
 [speeds]               # for mechsym compare and size
 lowest = "1000 rpm"
 highest = "4000 rpm"

@@ -183,7 +183,8 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
     head = _head("hypocycloid", f"Four-stroke geared hypocycloid, bore {1e3 * bore:g} mm", stroke, "four-stroke")
     size = bore**3
     text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, I1=30 * size * stroke**2, piston=780 * size, planet=300 * size,
-                 I2=300 * size * (stroke / 4) ** 2 / 2, pin=bore * 1e3 / 4)  # fmt: skip
+                 I2=300 * size * (stroke / 4) ** 2 / 2, pin=bore * 1e3 / 4,
+                 flywheel=320 * 780 * size * (stroke / 2) ** 2)  # fmt: skip
     return head + text + _fill(FOUR_STROKE, bore=bore * 1e3)
 
 

@@ -7,8 +7,13 @@ from typing import Any
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.quantities import RPM
+from mechsym.quantities.display import figure, quantity_text
 
 _MOST = 100  # values of one option
+_UNITS = {"speed": "rad/s", "mep": "Pa", "p0": "Pa", "p0 1": "Pa", "p0 2": "Pa", "p0 3": "Pa"}
+_INERTIAS = dict.fromkeys(("flywheel_inertia", "flywheel_inertia_bare", "flywheel_inertia_bound"), "kg*m^2")
+_HARDWARE = {"A": "m^2", "H": "m", "p0": "Pa", "rho0": "m", "radius": "m", "width": "m"}
 
 
 @click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
@@ -102,42 +107,47 @@ def _one(text: str, option: str) -> float:
 
 def _text(numbers: dict[str, Any], files: list[Path]) -> str:
     bound, found = numbers["bound"], numbers["verified"]
+    names = ["p0"] if len(numbers["p0"]) == 1 else [f"p0 {s + 1}" for s in range(len(numbers["p0"]))]
     rows = [
-        {"rpm": n, "mep bar": load / 1e5, "p0 MPa": ", ".join(f"{p[k] / 1e6:.4g}" for p in numbers["p0"]),
+        {"speed": n * RPM, "mep": load, **{name: p[k] for name, p in zip(names, numbers["p0"], strict=True)},
          "ripple": numbers["speed_ripple"][k], "steady": found["steady_ripple"][k], "in time": found["time_ripple"][k],
          "losses": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
         for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
     ]  # fmt: skip
-    floors = ", ".join(f"{r + 1}: {j:.4g}" for r, j in enumerate(bound["flywheel"]))
+    floors = ", ".join(f"{r + 1}: {_inertia(j)}" for r, j in enumerate(bound["flywheel"]))
+    pays = bound["springs_that_pay"]
     lines = [
-        f"status           {numbers['status']} ({numbers['reason']}), {numbers['wall_s']:.2g} s",
-        f"flywheel         {numbers['flywheel_inertia']:.5g} kg*m^2 added; bare "
-        f"{numbers['flywheel_inertia_bare']:.5g}, guide cut for one speed "
-        f"{_number(numbers['flywheel_inertia_cut_for_one'])}",
-        f"no guide better  {floors} kg*m^2 by the number of springs; up to {bound['springs_that_pay']} pay",
-        f"three ways       differ by {found['difference']:.1%} of the largest ripple",
+        f"status           {numbers['status']} ({numbers['reason']}), {figure(numbers['wall_s'], 2)} s",
+        f"flywheel         {_inertia(numbers['flywheel_inertia'])} added; bare "
+        f"{_inertia(numbers['flywheel_inertia_bare'])}, guide cut for one speed "
+        f"{_inertia(numbers['flywheel_inertia_cut_for_one'])}",
+        f"no guide better  {floors} by the number of springs; up to {pays} pay{'s' * (pays == 1)}",
+        f"three ways       differ by {figure(100 * found['difference'], 2)} % of the largest ripple",
         "",
-        table(rows, list(rows[0])),
+        table(rows, list(rows[0]), _UNITS),
         "",
-        *(f"{a['limit']}: {a['multiplier']:.4g} kg*m^2 for one {a['unit']} more" for a in numbers["active"]),
+        *(f"{a['limit'].replace('_', ' ')}: {figure(a['multiplier'], 4)} kg*m^2 for one {a['unit']} more"
+          for a in numbers["active"]),
         *(f"limit passed: {words}" for words in found["broken"]),
-    ]
+    ]  # fmt: skip
     if numbers["pareto"]:
-        lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"])]
+        lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"], _INERTIAS)]
     if "cylinders" in numbers:
         lines += ["", "flywheel of several cylinders that fire evenly, bare and the least that a hinge leaves",
-                  table(numbers["cylinders"], list(numbers["cylinders"][0]))]  # fmt: skip
+                  table(numbers["cylinders"], list(numbers["cylinders"][0]), _INERTIAS)]  # fmt: skip
     if "realised" in numbers:
-        made = numbers["realised"]
-        lines += ["", f"hardware of least {made['goal']}: {made['status']}, {_several(made['before'])} -> "
-                  f"{_several(made['after'])}; the same works within all limits",
-                  *(", ".join(f"{k} {v:.4g}" for k, v in guide.items()) for guide in made["guides"])]  # fmt: skip
+        lines += ["", *_realised(numbers["realised"])]
     return "\n".join([*lines, *(f"wrote {file}" for file in files)])
 
 
-def _several(values: list[float]) -> str:
-    return ", ".join(f"{v:.5g}" for v in values)
+def _realised(made: dict[str, Any]) -> list[str]:
+    from mechsym.codesign.realise import GOAL_UNITS
+
+    goal, unit = made["goal"].replace("_", " "), GOAL_UNITS[made["goal"]]
+    before, after = (", ".join(quantity_text(v, unit) for v in made[key]) for key in ("before", "after"))
+    told = [", ".join(f"{k} {quantity_text(v, _HARDWARE[k])}" for k, v in guide.items()) for guide in made["guides"]]
+    return [f"hardware of least {goal}: {made['status']}, {before} -> {after}; the same works within all limits", *told]
 
 
-def _number(value: float | None) -> str:
-    return "none" if value is None else f"{value:.5g}"
+def _inertia(value: float | None) -> str:
+    return "none" if value is None else quantity_text(value, "kg*m^2")

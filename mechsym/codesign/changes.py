@@ -14,6 +14,7 @@ from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running
 from mechsym.codesign.scenarios import Scenario, not_running, steady_speed, told
 from mechsym.codesign.task import CoDesign
+from mechsym.quantities.display import quantity_text
 
 _LEAK, _OFF = 0.10, 0.10  # share of the pressure that is lost, or off when a controller begins
 _TURNS = 10.0  # turns in which a leak is watched
@@ -80,7 +81,8 @@ def _start(machine: Running, k: int) -> Scenario:
     """Starting air is taken as a constant torque: which cylinder gets it, and when, is not known here."""
     torque = _PUSH * manoeuvres.standstill(machine).torque
     run = manoeuvres.start(machine, _PUSH)
-    about = f"from rest under a constant {torque:.3g} N m, {_PUSH:g} of what just turns the shaft; no fuel, no load"
+    pushed = quantity_text(torque, "N*m", 3)
+    about = f"from rest under a constant {pushed}, {_PUSH:g} of what just turns the shaft; no fuel, no load"
     return told("start", about, k, machine.point.omega, run,
                 lambda r: f"{r.omega[-1] / machine.point.omega:.2f} of the speed after two turns")  # fmt: skip
 

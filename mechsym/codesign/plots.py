@@ -2,49 +2,70 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from mechsym.codesign.cylinders import Count
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.verify import fine_path
-from mechsym.quantities import RPM
-from mechsym.style import BLUE, GREY, INK, ORANGE, PAPER, RED, SERIES, bare, heading, legend, panels
+from mechsym.quantities.display import quantity_text
+from mechsym.style import (
+    BLUE,
+    GREY,
+    INK,
+    ORANGE,
+    PAPER,
+    RED,
+    SERIES,
+    axis_unit,
+    bare,
+    heading,
+    legend,
+    over_angle,
+    panels,
+    unit_words,
+)
 
 _KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
 
 def works(result: CoDesignResult) -> Figure:
     """The works that the points want, by their own pressures: nearly one curve; what one shape leaves."""
-    figure, (left, right) = _panels(2)
+    figure, (left, right) = _panels(2, "Works that the points want, and what one shape leaves of them")
     bound, best = result.bound, result.bound.best[0]
+    period = result.design.task.points[0].period
+    angle = bound.phi * [over_angle(axis, period) for axis in (left, right)][0]
+    factor, unit = axis_unit("kg*m^2", bound.wanted)
     for k, point in enumerate(result.design.task.points):
-        color, name = SERIES[k % len(SERIES)], f"{point.omega / RPM:.0f} rpm"
-        left.plot(np.degrees(bound.phi), bound.wanted[k], color=color, linewidth=1, label=name)
-        right.plot(np.degrees(bound.phi), bound.wanted[k] - best.shares[k] @ best.shapes, color=color, linewidth=1)
-    left.set(xlabel="crank angle [deg]", ylabel="W / omega² [kg m²]")
+        color, name = SERIES[k % len(SERIES)], _speed(point.omega)
+        left.plot(angle, factor * bound.wanted[k], color=color, linewidth=1, label=name)
+        right.plot(angle, factor * (bound.wanted[k] - best.shares[k] @ best.shapes), color=color, linewidth=1)
+    left.set_ylabel(f"wanted work by speed squared [{unit}]")
     legend(left)
-    right.set(xlabel="crank angle [deg]", ylabel=f"left by one shape, swing {best.swing:.3g} [kg m²]")
+    right.set_ylabel(f"left by one shape [{unit}]")
+    heading(right, unit_words(f"swing {quantity_text(best.swing, 'kg*m^2', 3)}"))
     return figure
 
 
 def front(result: CoDesignResult) -> Figure:
     """Flywheel over ripple: bare, guide cut for one speed, co-designed, the bound, and what a misfire asks."""
-    figure, (axis,) = _panels(1)
+    figure, (axis,) = _panels(1, "Flywheel over the ripple")
+    factor, unit = axis_unit("kg*m^2", result.bare)
     designs = sorted([*result.front, result.design], key=lambda d: d.task.ripple)
     ripples = np.array([100 * d.task.ripple for d in designs])
     words = {1: "one spring", 2: "two springs", 3: "three springs"}[result.design.task.springs]
-    axis.plot(ripples, [d.flywheel for d in designs], "o-", color=BLUE, markersize=4, label=f"co-designed, {words}")
+    added = [factor * d.flywheel for d in designs]
+    axis.plot(ripples, added, "o-", color=BLUE, markersize=4, label=f"co-designed, {words}")
     wanted = 100 * result.design.task.ripple
-    axis.plot([wanted], [result.bare], "s", color=RED, label="without a hinge")
+    axis.plot([wanted], [factor * result.bare], "s", color=RED, label="without a hinge")
     if result.cut.flywheel is not None:
-        axis.plot([wanted], [result.cut.flywheel], "D", color=ORANGE, label="guide cut for one speed")
+        axis.plot([wanted], [factor * result.cut.flywheel], "D", color=ORANGE, label="guide cut for one speed")
     swings = result.bound.swing[result.design.task.springs - 1]
     own = float(np.mean(result.design.task.points[0].inertia(np.linspace(0, 2 * np.pi, 181))))
-    axis.plot(
-        ripples, np.maximum(100 * swings / ripples - own, 1e-3), ":", color=GREY, label="no guide better (massless)"
-    )
-    axis.set_yscale("symlog", linthresh=10)
+    floor = factor * np.maximum(100 * swings / ripples - own, 1e-3)
+    axis.plot(ripples, floor, ":", color=GREY, label="no guide better (massless)")
+    axis.set_yscale("symlog", linthresh=10 * factor)
     axis.set_ylim(bottom=0)
-    axis.set(xlabel="speed ripple [%]", ylabel="added flywheel [kg m²]")
+    axis.set(xlabel="speed ripple [%]", ylabel=f"added flywheel [{unit}]")
     legend(axis)
     return figure
 
@@ -52,16 +73,25 @@ def front(result: CoDesignResult) -> Figure:
 def guides(result: CoDesignResult) -> Figure:
     """Paths of the roller centres to scale, and contact force and closing around the turn at the hardest point."""
     figure = Figure(figsize=(9, 3.6), layout="constrained")
+    figure.set_label("Paths of the roller centres, and the closing of the springs over a turn")
+    longest, widest = (max(getattr(c, key) for c in result.verified.contacts) for key in ("rho_max", "z_max"))
+    (factor, unit), (closing, closing_unit) = axis_unit("m", longest), axis_unit("m", widest)
     polar, force = figure.add_subplot(1, 2, 1, projection="polar"), figure.add_subplot(1, 2, 2)
+    angle, heads = over_angle(force, result.design.task.points[0].period), []
     for s, (track, contact) in enumerate(zip(result.design.tracks, result.verified.contacts, strict=True)):
         phi, path = fine_path(track, result.design.task.points[0].period)
         ratio = track.hardware.shaft_ratio
-        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, np.append(path.rho, path.rho[0]), color=SERIES[s])
-        polar.set_title(f"path of the roller centres, {contact.rho_min:.3f} to {contact.rho_max:.3f} m", fontsize=8)
+        rho = factor * np.append(path.rho, path.rho[0])
+        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, rho, color=SERIES[s])
+        heads.append(f"{quantity_text(contact.rho_min, 'm', 4)} to {quantity_text(contact.rho_max, 'm', 4)}")
         name = f"guide {s + 1}" if len(result.design.tracks) > 1 else "closing z"
-        force.plot(np.degrees(phi), 1e3 * path.z, color=SERIES[s], label=name)
+        force.plot(phi * angle, closing * path.z, color=SERIES[s], label=name)
+    polar.set_title("roller centres at " + ",\n".join(heads), fontsize=8)
     polar.set_ylim(0)
-    force.set(xlabel="crank angle [deg]", ylabel="closing z [mm]")
+    polar.set_xlabel(f"radius [{unit}]", fontsize=8)
+    polar.yaxis.set_major_locator(MaxNLocator(3))
+    polar.tick_params(labelsize=7)
+    force.set_ylabel(f"closing z [{closing_unit}]")
     bare(force)
     legend(force)
     return figure
@@ -69,19 +99,21 @@ def guides(result: CoDesignResult) -> Figure:
 
 def points(result: CoDesignResult) -> Figure:
     """Ripple by three ways, and the schedule of pressures, over the speed."""
-    figure, (left, right) = _panels(2)
+    figure, (left, right) = _panels(2, "Ripple by three ways, and the pressures to set")
     design, found = result.design, result.verified
-    speeds = np.array([p.omega / RPM for p in design.task.points])
+    omega = np.array([p.omega for p in design.task.points])
+    (turning, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit("Pa", *(t.p0 for t in design.tracks))
+    speeds = omega * turning
     left.plot(speeds, 100 * found.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none")
     left.plot(speeds, 100 * found.steady_ripple, "x", color=RED, label="over the angle")
     left.plot(speeds, 100 * found.time_ripple, "+", color=INK, label="run in time")
     left.axhline(100 * design.task.ripple, color=GREY, linewidth=0.8)
-    left.set(xlabel="speed [rpm]", ylabel="speed ripple [%]")
-    left.set_ylim(bottom=0)
+    left.set(xlabel=f"speed [{rpm}]", ylabel="speed ripple [%]")
+    left.set_ylim(0, 1.15 * left.get_ylim()[1])
     legend(left)
     for s, track in enumerate(design.tracks):
-        right.plot(speeds, track.p0 / 1e6, "o-", color=SERIES[s], markersize=4, label=f"spring {s + 1}")
-    right.set(xlabel="speed [rpm]", ylabel="excess pressure p0 [MPa]")
+        right.plot(speeds, track.p0 * factor, "o-", color=SERIES[s], markersize=4, label=f"spring {s + 1}")
+    right.set(xlabel=f"speed [{rpm}]", ylabel=f"excess pressure p0 [{unit}]")
     right.set_ylim(bottom=0)
     legend(right)
     return figure
@@ -89,16 +121,19 @@ def points(result: CoDesignResult) -> Figure:
 
 def losses(result: CoDesignResult) -> Figure:
     """What friction and heat take at each point, as shares of the load's torque."""
-    figure, (axis,) = _panels(1)
+    figure, (axis,) = _panels(1, "What friction and heat take at each point")
     task = result.design.task
-    names, below = [f"{p.omega / RPM:.0f}" for p in task.points], np.zeros(len(task.points))
+    turning, rpm = axis_unit("rad/s", [p.omega for p in task.points])
+    names = [f"{p.omega * turning:.4g}\n{quantity_text(p.load, 'Pa', 3)}" for p in task.points]
+    places, below = np.arange(len(names)), np.zeros(len(names))
     for kind, color in zip(_KINDS, SERIES, strict=False):
         values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
                            for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
         if values.any():
-            axis.bar(names, values, bottom=below, color=color, label=kind, width=0.6)
+            axis.bar(places, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values
-    axis.set(xlabel="speed [rpm]", ylabel="losses of the hinge [% of the load's torque]")
+    axis.set_xticks(places, names)
+    axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge [% of the load's torque]")
     legend(axis)
     return figure
 
@@ -110,16 +145,14 @@ def scenarios(result: CoDesignResult) -> Figure | None:
     if not names:
         return None
     down = -(-len(names) // 3)
-    figure, axes = panels(9, 2.3 * down, down, 3)
+    figure, axes = panels(9, 2.3 * down, down, 3, "Speed over the turns of what may happen")
     for axis, name in zip(axes, names, strict=False):
         for s in (s for s in rows if s.name == name):
             assert s.run is not None
             point = result.design.task.points[s.point]
             turns, color = (s.run.phi - s.run.phi[0]) / (2 * np.pi), BLUE if s.point == 0 else RED
-            axis.plot(
-                turns, s.run.omega / point.omega, color=color, linewidth=0.8, label=f"{point.omega / RPM:.0f} rpm"
-            )
-        axis.set(xlabel="turns", ylabel="speed by the mean")
+            axis.plot(turns, s.run.omega / point.omega, color=color, linewidth=0.8, label=_speed(point.omega))
+        axis.set(xlabel="turns [-]", ylabel="speed by the mean [-]")
         heading(axis, name)
         bare(axis)
     legend(axes[0])
@@ -132,23 +165,19 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     """Ripple and best pressure over speed and load; None where they were not computed."""
     if result.map is None:
         return None
-    figure, (left, right) = _panels(2)
-    speeds, loads = result.map.omega / RPM, result.map.load / 1e5
+    figure, (left, right) = _panels(2, "Ripple and best pressure over speed and load")
+    (turning, rpm), (factor, unit) = axis_unit("rad/s", result.map.omega), axis_unit("Pa", result.map.p0)
+    pressing, pressure = axis_unit("Pa", result.map.load)
+    speeds, loads = result.map.omega * turning, result.map.load * pressing
     shown = np.minimum(100 * result.map.ripple, 30.0)
     drawn = left.contourf(speeds, loads, shown.T, levels=[0, 1, 2, 3, 5, 8, 12, 20, 30], cmap="viridis_r")
     figure.colorbar(drawn, ax=left, label="speed ripple [%]")
-    drawn = right.contourf(speeds, loads, result.map.p0.T / 1e6, levels=12, cmap="cividis")
-    figure.colorbar(drawn, ax=right, label="p0 [MPa]")
+    drawn = right.contourf(speeds, loads, result.map.p0.T * factor, levels=12, cmap="cividis")
+    figure.colorbar(drawn, ax=right, label=f"p0 [{unit}]")
     for axis in (left, right):
-        axis.plot(
-            [p.omega / RPM for p in result.design.task.points],
-            [p.load / 1e5 for p in result.design.task.points],
-            "o-",
-            color=PAPER,
-            markersize=3,
-            linewidth=0.8,
-        )
-        axis.set(xlabel="speed [rpm]", ylabel="mean indicated pressure [bar]")
+        at = [(p.omega * turning, p.load * pressing) for p in result.design.task.points]
+        axis.plot(*zip(*at, strict=True), "o-", color=PAPER, markersize=3, linewidth=0.8)
+        axis.set(xlabel=f"speed [{rpm}]", ylabel=f"mean indicated pressure [{pressure}]")
     return figure
 
 
@@ -156,10 +185,10 @@ def spread(result: CoDesignResult) -> Figure | None:
     """Ripple under small errors: histogram and tornado; None where they were not drawn."""
     if result.spread is None:
         return None
-    figure, (left, right) = _panels(2)
+    figure, (left, right) = _panels(2, "Ripple under small errors")
     left.hist(100 * result.spread.samples, bins=24, color=BLUE)
     left.axvline(100 * result.spread.p95, color=RED, linewidth=1, label="19 of 20 keep this")
-    left.set(xlabel="largest speed ripple [%]", ylabel="number of machines")
+    left.set(xlabel="largest speed ripple [%]", ylabel="machines [-]")
     legend(left)
     base = 100 * float(result.verified.programme_ripple.max())
     rows = sorted(result.spread.alone.items(), key=lambda row: max(row[1]))
@@ -173,16 +202,22 @@ def spread(result: CoDesignResult) -> Figure | None:
 
 def cylinders(rows: list[Count]) -> Figure:
     """Flywheel over the number of cylinders, without a hinge and with one."""
-    figure, (axis,) = _panels(1)
+    figure, (axis,) = _panels(1, "Flywheel over the number of cylinders")
+    factor, unit = axis_unit("kg*m^2", max(r.bare for r in rows))
     numbers = np.array([r.cylinders for r in rows])
-    axis.bar(numbers - 0.2, [r.bare for r in rows], width=0.4, color=RED, label="without a hinge")
-    axis.bar(numbers + 0.2, [max(r.hinge, 0.0) for r in rows], width=0.4, color=BLUE, label="one hinge, at least")
-    axis.set_yscale("symlog", linthresh=10)
-    axis.set(xlabel="cylinders, even firing", ylabel="added flywheel [kg m²]", xticks=numbers)
+    axis.bar(numbers - 0.2, [factor * r.bare for r in rows], width=0.4, color=RED, label="without a hinge")
+    least = [factor * max(r.hinge, 0.0) for r in rows]
+    axis.bar(numbers + 0.2, least, width=0.4, color=BLUE, label="one hinge, at least")
+    axis.set_yscale("symlog", linthresh=10 * factor)
+    axis.set(xlabel="cylinders, even firing [-]", ylabel=f"added flywheel [{unit}]", xticks=numbers)
     legend(axis)
     return figure
 
 
-def _panels(count: int) -> tuple[Figure, list]:
-    figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count)
+def _panels(count: int, title: str) -> tuple[Figure, list]:
+    figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count, title)
     return figure, list(axes)
+
+
+def _speed(omega: float) -> str:
+    return quantity_text(omega, "rad/s", 4)

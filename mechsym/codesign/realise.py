@@ -33,7 +33,7 @@ class Realised:
 
     status: str  #: `optimal` or the optimiser's words
     design: CoDesign  #: with the new guides and pressures; its ripple is that of the programme no more: verify it
-    before: tuple[float, ...]  #: goal of each guide as designed, see `GOALS` for the unit [-]
+    before: tuple[float, ...]  #: goal of each guide as designed, see `GOAL_UNITS` [-]
     after: tuple[float, ...]  #: goal of each guide as realised [-]
 
 
@@ -42,13 +42,14 @@ def _bearing_loss(h: Hardware, path: Path, pressure: np.ndarray, N: np.ndarray) 
     return float(np.mean(bearing_torque(N, path.rho, path.drho, given.bearing_mu, h.radius / 2, h.radius, h.count)))
 
 
-#: what can be made small: bearing loss [N*m], roller force [N], gas volume [m^3], pressure [Pa]
+#: what can be made small, in the units of `GOAL_UNITS`
 GOALS = {
     "bearing_loss": _bearing_loss,
     "roller_reaction": lambda h, path, pressure, N: float(N.max()),
     "gas_volume": lambda h, path, pressure, N: h.A * h.H,
     "spring_pressure": lambda h, path, pressure, N: float(pressure.max()),
 }
+GOAL_UNITS = {"bearing_loss": "N*m", "roller_reaction": "N", "gas_volume": "m^3", "spring_pressure": "Pa"}
 
 
 def check_goal(goal: str) -> str:

@@ -11,9 +11,26 @@ from mechsym.codesign.hardware import gas_pressure, outside
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import Track
 from mechsym.codesign.verify import fine_path
-from mechsym.files import to_json, write_csv, write_text
-from mechsym.page import page
+from mechsym.files import to_json, write_quantities, write_text
+from mechsym.page import Grid, grid, page
+from mechsym.quantities.display import ratio_text
 from mechsym.style import svg
+
+#: what a guide is made with, and what it bears: words, SI unit, keys of `guides` in the summary
+_SIZES = (
+    ("piston area", "m^2", ("A",)),
+    ("gas column H", "m", ("H",)),
+    ("roller centre to shaft axis", "m", ("rho_min", "rho_max")),
+    ("closing", "m", ("z_min", "z_max")),
+    ("roller radius", "m", ("roller_radius",)),
+    ("roller width", "m", ("roller_width",)),
+    ("mass on a roller", "kg", ("moving_mass",)),
+    ("highest pressure in the spring", "Pa", ("spring_pressure_max",)),
+    ("roller force", "N", ("roller_reaction_min", "roller_reaction_max")),
+    ("side force", "N", ("side_force_max",)),
+    ("contact stress", "Pa", ("hertz_stress_max",)),
+    ("pressure angle", "rad", ("pressure_angle_max",)),
+)
 
 
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:
@@ -22,17 +39,43 @@ def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list
     files = [
         write_text(folder / "report.html", html(result, numbers, pictures)),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
-        write_csv(folder / "points.csv", point_columns(result)),
+        _table(folder / "points.csv", point_columns(result)),
     ]
     for s, track in enumerate(result.design.tracks):
         name = "guide.csv" if len(result.design.tracks) == 1 else f"guide_{s + 1}.csv"
-        files.append(write_csv(folder / name, guide_columns(result, track)))
+        files.append(_table(folder / name, guide_columns(result, track)))
     return files + [write_text(folder / f"{name}.svg", text) for name, text in pictures.items()]
+
+
+def _table(path: Path, columns: dict[str, Any]) -> Path:
+    """Columns with their units in the headings, in the units that were chosen."""
+    named = {heading: heading.removesuffix("]").partition(" [") for heading in columns}
+    units = {name: unit for name, _, unit in named.values()}
+    return write_quantities(path, {named[heading][0]: values for heading, values in columns.items()}, units)
 
 
 def html(result: CoDesignResult, numbers: dict[str, Any], pictures: dict[str, str]) -> str:
     """The page as text."""
-    return page("codesign.html", result=result, numbers=numbers, figures=pictures, degrees=180 / np.pi)
+    return page(
+        "codesign.html", result=result, numbers=numbers, figures=pictures, sizes=_SIZES, points=_points(result, numbers)
+    )
+
+
+def _points(result: CoDesignResult, numbers: dict[str, Any]) -> Grid:
+    """What the design holds at each point."""
+    tracks, checked = result.design.tracks, result.verified
+    springs = ["p0"] if len(tracks) == 1 else [f"p0 of spring {s + 1}" for s in range(len(tracks))]
+    rows = [
+        {"speed": p.omega, "mean pressure": p.load,
+         **{name: float(track.p0[k]) for name, track in zip(springs, tracks, strict=True)},
+         "ripple, programme": float(result.design.ripple[k]), "over the angle": float(checked.steady_ripple[k]),
+         "run in time": float(checked.time_ripple[k]),
+         "energy residual": ratio_text(float(checked.energy_residual[k]), 2),
+         "losses": float(numbers["losses"]["share"][k]), "after a misfire": numbers["misfire_speed_share"][k]}
+        for k, p in enumerate(result.design.task.points)
+    ]  # fmt: skip
+    units = {"speed": "rad/s", "mean pressure": "Pa", **dict.fromkeys(springs, "Pa")}
+    return grid("Points", rows, list(rows[0]), units)
 
 
 def figures(result: CoDesignResult) -> dict[str, str]:
@@ -51,7 +94,7 @@ def figures(result: CoDesignResult) -> dict[str, str]:
 
 
 def point_columns(result: CoDesignResult) -> dict[str, Any]:
-    """The points as columns of a CSV file, SI."""
+    """The points as columns, SI."""
     design = result.design
     columns: dict[str, Any] = {
         "omega [rad/s]": [p.omega for p in design.task.points],
@@ -65,7 +108,7 @@ def point_columns(result: CoDesignResult) -> dict[str, Any]:
 
 
 def guide_columns(result: CoDesignResult, track: Track) -> dict[str, np.ndarray]:
-    """One guide over the angle of its shaft as columns of a CSV file, SI; forces at the last point."""
+    """One guide over the angle of its shaft as columns, SI; forces at the last point."""
     h, last = track.hardware, result.design.task.points[-1]
     phi, path = fine_path(track, last.period)
     pressure = gas_pressure(path.z, track.p0[-1], h.H, h.n, outside(h))

@@ -9,11 +9,12 @@ from mechsym.codesign.task import CoDesign
 from mechsym.codesign.uncertainty import Spread
 from mechsym.codesign.verify import Verified
 from mechsym.hinge.losses import HingeLosses, LossTorques
+from mechsym.page import Shown
 from mechsym.quantities import quantity, record
 
 
 @record
-class CoDesignResult:
+class CoDesignResult(Shown):
     """Everything that the report of a co-design shows."""
 
     name: str  #: of the case

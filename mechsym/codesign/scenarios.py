@@ -16,6 +16,7 @@ from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
+from mechsym.quantities.display import quantity_text
 
 _GOVERNED = 20  # turns after which a governor has answered
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
@@ -150,11 +151,12 @@ def _standstill(machine: Running, k: int) -> Scenario:
     """No run: where the shaft rests, and what turns it from there."""
     found = manoeuvres.standstill(machine)
     angles, load = ", ".join(f"{np.degrees(a):.0f}" for a in found.angles), abs(machine.point.load_torque)
+    torque, vented = (quantity_text(value, "N*m", 3) for value in (found.torque, found.vented))
     return Scenario(
         name="standing still", about="springs under pressure, no fuel, no friction", point=k, speed_min=None,
         speed_max=None, run=None,
-        outcome=f"rests at {angles} deg; a constant {found.torque:.3g} N m ({found.torque / load:.2f} of the load's) "
-                f"turns it from there for good, {found.vented:.3g} N m with the springs vented",
+        outcome=f"rests at {angles} deg; a constant {torque} ({found.torque / load:.2f} of the load's) "
+                f"turns it from there for good, {vented} with the springs vented",
     )  # fmt: skip
 
 

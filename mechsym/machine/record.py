@@ -13,6 +13,7 @@ from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.mechanisms.record import Mechanism
+from mechsym.page import Shown
 from mechsym.quantities import choice, quantity, record
 
 _TURN = 2 * np.pi
@@ -32,7 +33,7 @@ class AngleForce:
 
 
 @record
-class Machine:
+class Machine(Shown):
     """A mechanism with one coordinate, what drives it and what it drives."""
 
     mechanism: Mechanism  #: No dampers; a flywheel belongs into its parameters

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build
+from mechsym.page import Shown
 from mechsym.quantities import quantity, record
 from mechsym.simulate import Result
 from mechsym.simulate.settings import StepTorque
@@ -46,7 +47,7 @@ class Capture:
 
 
 @record
-class StartUp:
+class StartUp(Shown):
     """A start-up, explained."""
 
     c1: float  #: Torsional damping of the run [N*m*s/rad]

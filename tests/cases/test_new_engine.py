@@ -76,6 +76,12 @@ def test_the_commands_take_it_as_it_is(engine, written):
         assert json.loads(run("hinge", path, "--json").output)["guide"]["feasible"]
 
 
+@pytest.mark.slow
+def test_one_cylinder_is_carried_over_its_compression(written):
+    told = json.loads(run("simulate", written("hypocycloid", 80, 80, 1), "--no-check", "--json").output)
+    assert told["end"] == "turns" and told["speed_min"] > 0.9 * told["speed_mean"]
+
+
 @pytest.mark.parametrize(("words", "message"), [
     (("engine", "--kind", "v", "--bore", "0.09", "--stroke", "0.08", "--cylinders", "7"), "a V engine here has 2, 4"),
     (("engine", "--kind", "inline", "--bore", "86 kg", "--stroke", "0.08"), "--bore = '86 kg' has the wrong dimension"),

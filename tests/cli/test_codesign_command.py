@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from pictures import drawn, faults, ids
 
 from mechsym.cli import main
 
@@ -25,19 +26,20 @@ def run(monkeypatch, *words):
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
-    """One run with files, its JSON."""
+    """One run with files: its JSON, its figures."""
     folder = tmp_path_factory.mktemp("codesign")
     with pytest.MonkeyPatch.context() as patch, pytest.MonkeyPatch.context() as echo:
         said = []
         echo.setattr("click.echo", lambda text="", **_: said.append(str(text)))
+        figures = drawn(patch)
         code = run(patch, "zotov-89", "--speeds", "89,142", "--pareto", "2,5%", "--cylinders", "2", "--realise",
                    "gas_volume", "--json", "--out", str(folder))  # fmt: skip
-    return code, json.loads(said[0]), folder
+    return code, json.loads(said[0]), folder, figures
 
 
 @pytest.mark.slow
 def test_json_of_two_speeds(done):
-    code, numbers, _ = done
+    code, numbers, *_ = done
     assert code == 0
     assert set(numbers) >= KEYS
     assert numbers["status"] == "optimal"
@@ -56,7 +58,7 @@ def test_json_of_two_speeds(done):
 
 @pytest.mark.slow
 def test_more_cylinders_and_other_hardware(done):
-    _, numbers, _ = done
+    _, numbers, *_ = done
     one, two = numbers["cylinders"]
     assert one["flywheel_inertia_bare"] == pytest.approx(numbers["flywheel_inertia_bare"])
     assert one["flywheel_inertia_bound"] == pytest.approx(numbers["bound"]["flywheel"][0])
@@ -67,8 +69,16 @@ def test_more_cylinders_and_other_hardware(done):
 
 
 @pytest.mark.slow
+def test_texts_of_its_figures_keep_clear(done):
+    _, _, folder, figures = done
+    assert len(figures) == 8
+    assert {figure.get_label(): faults(figure) for figure in figures if faults(figure)} == {}
+    assert not ids((folder / "report.html").read_text())
+
+
+@pytest.mark.slow
 def test_report_says_what_kills_it(done):
-    _, numbers, folder = done
+    _, numbers, folder, _ = done
     page = (folder / "report.html").read_text()
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", page, flags=re.S).lower()
     for words in (

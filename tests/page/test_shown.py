@@ -7,18 +7,23 @@ import pytest
 
 from mechsym import cases
 from mechsym.errors import BadInput
+from mechsym.jobs.codesign import codesign, settings_of
 from mechsym.jobs.compare import compare
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces
 from mechsym.jobs.gas import gas
 from mechsym.jobs.hinge import hinge
+from mechsym.jobs.loop import loop
+from mechsym.jobs.machine import machine
 from mechsym.jobs.optimise import optimise
 from mechsym.jobs.run import run
 from mechsym.jobs.size import size
+from mechsym.jobs.startup import startup
 from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, page, shows
 from mechsym.page.template import pretty
 from mechsym.quantities import record
 from mechsym.quantities.display import choose
+from mechsym.simulate.loop.run import run_loop
 
 SPEEDS = np.array([400.0, 500.0])
 MADE = {
@@ -30,8 +35,12 @@ MADE = {
     "size": lambda: size(cases.load("nunes-hypocycloid")),
     "optimise": lambda: optimise(cases.load("nunes-hypocycloid")),
     "hinge": lambda: hinge(cases.load("zotov-89")),
+    "machine": lambda: machine(cases.load("zotov-89")),
+    "loop": lambda: run_loop(loop(cases.load("nunes-slider-crank")), 300.0, cycles=1.5),
+    "startup": lambda: startup(cases.load("chmielewski", {"simulation.t_end": "4"})),
+    "codesign": lambda: codesign(zotov := cases.load("zotov-89"), settings_of(zotov)),
 }
-SLOW = ("forces", "hinge", "optimise", "run", "size")
+SLOW = ("codesign", "forces", "hinge", "loop", "optimise", "run", "size", "startup")
 
 
 @record

@@ -5,6 +5,7 @@ from collections import Counter
 
 import pytest
 from click.testing import CliRunner
+from pictures import drawn, faults, ids
 
 from mechsym import papers
 from mechsym.cli import mechsym
@@ -139,7 +140,8 @@ def test_counts():
 
 
 @pytest.mark.slow
-def test_the_whole_reproduction_is_the_recorded_one(tmp_path):
+def test_the_whole_reproduction_is_the_recorded_one(tmp_path, monkeypatch):
+    figures = drawn(monkeypatch)
     result = run("--json", "--out", str(tmp_path))
     assert result.exit_code == 0
     found = json.loads(result.stdout)
@@ -150,14 +152,16 @@ def test_the_whole_reproduction_is_the_recorded_one(tmp_path):
         assert len(list((tmp_path / name).glob("*.svg"))) == count
     page_text = (tmp_path / "reproduction.html").read_text()
     assert "The outcome is the recorded one." in page_text
+    assert len(figures) == sum(FIGURES.values()) and not ids(page_text)
+    assert {f"{k} {figure.get_label()}": faults(figure) for k, figure in enumerate(figures) if faults(figure)} == {}
 
 
 @pytest.mark.parametrize("name", ["zotov2024", "moroianu2017"])
 def test_figures_have_curves(name):
     (source,) = sources(name)
-    drawn = source.figures()
-    assert len(drawn) == FIGURES[name]
-    for figure in drawn.values():
+    found = source.figures()
+    assert len(found) == FIGURES[name]
+    for figure in found.values():
         assert all(axis.lines for axis in figure.axes) and all(
             axis.get_title(loc="left") or axis.get_title() for axis in figure.axes
         )

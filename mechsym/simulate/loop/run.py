@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from mechsym.page import Shown
 from mechsym.quantities import record
 from mechsym.simulate.audit import energies
 from mechsym.simulate.loop.events import CYCLE, CylinderCycle, first_state, gap, ledger, pass_event
@@ -18,7 +19,7 @@ _STALL = 0.05  # of the first speed: a shaft as slow as that has stopped
 
 
 @record
-class LoopResult:
+class LoopResult(Shown):
     """What the loop did."""
 
     #: `done`, `stalled` or `failed`, and why
