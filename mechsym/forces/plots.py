@@ -18,6 +18,7 @@ from mechsym.style import (
     legend,
     over_angle,
     panels,
+    same_path,
     unit_words,
 )
 
@@ -69,7 +70,7 @@ def polar_diagrams(found: Forces) -> "Figure":
     labels = ("radial, outwards", "tangential"), ("along x", "along y")
     for axis, is_pin, (x, y) in zip(axes, (True, False), labels, strict=True):
         stacked = {_label(n): np.concatenate(v) for n, v in curves.items() if (n in of_pins) == is_pin}
-        chosen = {n: np.split(v, 2) for n, v in list(distinct(stacked).items())[:_MOST_CURVES]}
+        chosen = {n: np.split(v, 2) for n, v in list(distinct(stacked, same=same_path).items())[:_MOST_CURVES]}
         factor, unit = axis_unit("N", *(v for both in chosen.values() for v in both))
         for (name, (across, up)), color in zip(chosen.items(), SERIES, strict=False):
             axis.plot(_closed(across) * factor, _closed(up) * factor, color=color, lw=1.2, label=_short(name))

@@ -51,5 +51,5 @@ def pretty(text: Any) -> str:
     >>> pretty("37810 kg*m^2")
     '37810 kg m²'
     """
-    found = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³")
+    found = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
     return found.replace("1e-9", "1e\u20119")  # a hyphen that does not break

@@ -14,7 +14,8 @@ from mechsym.errors import BadInput
 from mechsym.quantities.names import stem_and_unit
 from mechsym.quantities.units import exponents, scale
 
-_USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "m^3": "cm^3"}
+_USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "m^3": "cm^3",
+          "J/kg": "kJ/kg"}  # fmt: skip
 _LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J")}
 SMALLEST = 1e-9  #: A ratio below it is round-off [-]
 _chosen: dict[tuple[Any, ...], str] = {}

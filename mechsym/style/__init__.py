@@ -9,7 +9,7 @@ numbers    significant digits
 matplotlib is imported inside functions, so that whoever only needs a colour or a number does not load it.
 """
 
-from mechsym.style.labels import clear_places, distinct, envelope, events, spread
+from mechsym.style.labels import clear_places, distinct, envelope, events, same_path, spread
 from mechsym.style.numbers import significant
 from mechsym.style.palette import (
     BLUE,
@@ -59,6 +59,7 @@ __all__ = [
     "legend",
     "over_angle",
     "panels",
+    "same_path",
     "significant",
     "spread",
     "svg",

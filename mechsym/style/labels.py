@@ -1,6 +1,6 @@
 """Labels that keep clear of each other, and curves that are equal named once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -87,13 +87,54 @@ def envelope(axis: Any, t: np.ndarray, y: np.ndarray, color: str, label: str | N
     axis.fill_between(t[edges], low, high, color=color, alpha=0.55, linewidth=0.6, label=label)
 
 
-def distinct(curves: Mapping[str, np.ndarray], joint: str = " = ") -> dict[str, np.ndarray]:
+def same_curve(one: np.ndarray, other: np.ndarray, size: float) -> bool:
+    """Whether two curves over the same values are equal but for round-off, beside the largest of all, `size` [unit]."""
+    return bool(one.shape == other.shape and np.abs(other - one).max(initial=0.0) <= 1e-6 * size)
+
+
+def same_path(one: np.ndarray, other: np.ndarray, size: float) -> bool:
+    """Whether two closed paths lie on each other, wherever each begins.
+
+    Parameters
+    ----------
+    one, other : ndarray, shape (2 n,)
+        Values across, then values up [unit]
+    size : float
+        Largest value of all paths [unit]
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 2 * np.pi, 100)
+    >>> circles = [np.concatenate([r * np.cos(t + s), r * np.sin(t + s)]) for r, s in ((1, 0), (1, 2), (1.1, 0))]
+    >>> same_path(circles[0], circles[1], 1.1), same_path(circles[0], circles[2], 1.1)
+    (True, False)
+    """
+    first, second = (np.reshape(path, (2, -1)).T for path in (one, other))
+    return max(_away(first, second), _away(second, first)) <= 2e-3 * size
+
+
+def _away(points: np.ndarray, path: np.ndarray) -> float:
+    """How far some of the points lie from the closed polygon of a path at most [unit]."""
+    start, step = path, np.roll(path, -1, axis=0) - path
+    seen = points[:: max(1, len(points) // 90), None]
+    long = np.maximum((step**2).sum(axis=1), 1e-300)
+    along = np.clip(((seen - start) * step).sum(axis=2) / long, 0.0, 1.0)
+    return float(np.linalg.norm(seen - start - along[..., None] * step, axis=2).min(axis=1).max())
+
+
+def distinct(
+    curves: Mapping[str, np.ndarray],
+    joint: str = " = ",
+    same: Callable[[np.ndarray, np.ndarray, float], bool] = same_curve,
+) -> dict[str, np.ndarray]:
     """Curves by name, those that lie on each other once, under all their names.
 
     Parameters
     ----------
     curves : mapping of str to ndarray, shape (n,)
         Of one unit [unit]
+    same : callable
+        Tells of two curves, and of the largest value of all, whether they lie on each other
 
     Examples
     --------
@@ -104,7 +145,7 @@ def distinct(curves: Mapping[str, np.ndarray], joint: str = " = ") -> dict[str, 
     found: list[tuple[list[str], np.ndarray]] = []
     for name, values in curves.items():
         for names, other in found:
-            if other.shape == values.shape and np.abs(other - values).max(initial=0.0) <= 1e-6 * size:
+            if same(other, values, size):
                 names.append(name)
                 break
         else:

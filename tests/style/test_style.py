@@ -145,3 +145,10 @@ def test_axes_follow_the_units_that_were_chosen():
     finally:
         choose(None)
     assert style.axis_unit("rad", 6.0)[1] == "deg" and style.axis_unit("m^3", 0.5) == (1000.0, "L")
+
+
+def test_equal_paths_are_named_once_wherever_they_begin():
+    t = np.linspace(0, 2 * np.pi, 721)
+    path = lambda shift, size: np.concatenate([size * np.cos(t + shift), np.sin(2 * (t + shift))])  # noqa: E731
+    found = style.distinct({"a": path(0, 1.0), "b": path(1.3, 1.0), "c": path(0, 1.05)}, same=style.same_path)
+    assert list(found) == ["a = b", "c"]

@@ -10,7 +10,7 @@ from mechsym.jobs.report.part import DONE, INFEASIBLE, ReportPart
 from mechsym.jobs.vibration import vibration
 from mechsym.page import Grid
 from mechsym.plausible import Doubt
-from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.display import figure, quantity_text, shown_in
 from mechsym.torsion import train
 
 
@@ -42,9 +42,15 @@ def _borne(numbers: dict) -> Grid:
     rows = borne(numbers)
     several = any(row["of"] for row in rows)
     cells = [
-        (row["quantity"].replace("_", " "), *([row["of"]] if several else []), quantity_text(row["max"], row["unit"]),
-         quantity_text(row["min"], row["unit"]), row["on"]) for row in rows
+        (row["quantity"].replace("_", " "), *([row["of"]] if several else []), *_extremes(row), row["on"])
+        for row in rows
     ]  # fmt: skip
     headings = ("quantity", *(["of"] if several else []), "largest", "smallest", "on")
     right = tuple(name in ("largest", "smallest") for name in headings)
     return Grid(title="What bears what", headings=headings, rows=tuple(cells), numbers=right)
+
+
+def _extremes(row: dict) -> list[str]:
+    """Largest and smallest in one unit, that of the larger."""
+    values, unit = shown_in([row["max"], row["min"]], row["unit"])
+    return [figure(value) if unit in ("", "-") else f"{figure(value)} {unit}" for value in values]
