@@ -41,7 +41,8 @@ READS: Mapping[str, tuple[str, ...]] = {
     "hinge": ("torque", "drive", "inputs", "start", "flywheel", "load", "trials", "retune", "losses",
               "scavenging", "gas_limits"),
     "identify": ("drive", "simulation"),
-    "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure", "gas_limits"),
+    "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure", "gas_limits", "stirling", "breathing", "boost",
+                 "scavenging"),
     "simulate": ("torque", "drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation",
                  "inputs", "start", *_GUIDE, "flywheel", "stirling", "scavenging", "gas_limits"),
     "size": ("sizing", "part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_crosshead",
@@ -128,6 +129,6 @@ def _of_cycle(command: str, kind: str, given: str) -> list[str]:
         return []
     if command in ("hinge", "codesign", "guide") and given != "chamber":
         return [f"[cycle] kind = {' or '.join(_FLAT)}"]
-    if command in ("optimise", "compare") and given != "engine":
+    if command == "compare" and given != "engine":
         return ['[cycle] kind = "spark-ignition"']
     return []

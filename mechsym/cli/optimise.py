@@ -22,11 +22,10 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     \b
     Examples: mechsym optimise nunes-hypocycloid
               mechsym optimise nunes-hypocycloid --set optimise.against=p_max --out front
+              mechsym optimise mine.toml, with phase, dead volumes and gas of a Stirling engine in [optimise]
     Exit status 1: no feasible design, or the solver did not converge.
     """
-    from mechsym.jobs.cycle import engine
     from mechsym.jobs.optimise import optimise
-    from mechsym.optimise.problem import design_units
 
     loaded = case_of(case, pairs(overrides))
     section = loaded.need("optimise")
@@ -34,7 +33,8 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     found, front = done.best, done.front
     result = asdict(found) | {"goal": section.goal, "objective_name": section.objective}
     result |= {"pareto": [_point(p, section) for p in front]} if front else {}
-    units = design_units(engine(loaded))
+    result |= {"chosen": dict(done.chosen), "choices": list(done.choices)} if done.choices else {}
+    units = dict(done.units)
     files = _write(out, result, section) if out else []
     emit(result, as_json, lambda: "\n".join([_text(result, units), *(f"written: {file}" for file in files)]))
     if any(point.status != "optimal" for point in (found, *front)):
@@ -52,6 +52,10 @@ def _text(result: dict[str, Any], units: dict[str, str]) -> str:
         f"{result['objective_name']} = {result['objective']:.6g}",
         *(f"{name} = {quantity_text(value, units.get(name, '-'), 6)}" for name, value in result["variables"].items()),
     ]
+    for row in result.get("choices", ()):
+        words = ", ".join(f"{key} = {row[key]}" for key in result["chosen"])
+        best = " (best)" if all(row[key] == word for key, word in result["chosen"].items()) else ""
+        lines.append(f"{words}: {row['status']}, {result['objective_name']} = {row['objective']:.6g}{best}")
     lines += ["active limits:" if result["active"] else "no limit is active"]
     lines += [f"  {row['name']} {row['side']} {row['limit']:.6g}: {row['meaning']}" for row in result["active"]]
     if "pareto" in result:

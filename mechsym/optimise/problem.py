@@ -28,14 +28,20 @@ class Optimise:
     variables: dict[str, Any] = dataclasses.field(default_factory=dict)
     #: Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
     constraints: dict[str, Any] = dataclasses.field(default_factory=dict)
+    #: Dotted name of a word of the case to the list of words that are tried, for example "cycle.gas"
+    choices: dict[str, Any] = dataclasses.field(default_factory=dict)
     against: str = ""  #: Second figure of a Pareto front, empty for none
     against_goal: str = choice("maximise", "minimise", default="minimise")
     points: float = quantity("-", default=9, low=3, high=101, about="points of the front")
 
     def __post_init__(self) -> None:
-        for name in ("variables", "constraints"):
+        for name in ("variables", "constraints", "choices"):
             if not isinstance(getattr(self, name), dict):
                 raise BadInput(f"{name} = {getattr(self, name)!r} is no table; write [optimise.{name}] in a case file")
+        for name, words in self.choices.items():
+            if not isinstance(words, (list, tuple)) or not words or len(set(map(str, words))) < len(words):
+                raise BadInput(f'choices."{name}" = {words!r} is no list of different words; write for example '
+                               '"cycle.gas" = ["air", "helium"]')  # fmt: skip
         if not self.variables:
             raise BadInput("variables is empty; name at least one, for example "
                            '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }')  # fmt: skip
@@ -65,6 +71,11 @@ class Programme:
     variables: tuple[Limit, ...]
     constraints: tuple[Limit, ...]
 
+    @property
+    def units(self) -> dict[str, str]:
+        """SI units of the figures."""
+        return figure_units(self.engine)
+
 
 def problem(engine: ClosedEngine, omega: float, section: Optimise) -> Programme:
     """Check a section against the engine and turn its texts into numbers.
@@ -79,13 +90,22 @@ def problem(engine: ClosedEngine, omega: float, section: Optimise) -> Programme:
     for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
         if name not in figures:
             raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
+    for name, spec in section.constraints.items():
+        if (
+            name in figures
+            and name not in SCALAR_UNITS
+            and np.isfinite(limit_of("constraints", name, spec, figures).low)
+        ):
+            raise BadInput(
+                f"optimise.constraints.{name}: a peak over the cycle can only be bounded from above; give high alone"
+            )
     return Programme(
         engine=engine,
         omega=omega,
         objective=section.objective,
         sign=1.0 if section.goal == "maximise" else -1.0,
-        variables=tuple(_limit("variables", name, spec, units) for name, spec in section.variables.items()),
-        constraints=tuple(_limit("constraints", name, spec, figures) for name, spec in section.constraints.items()),
+        variables=tuple(limit_of("variables", name, spec, units) for name, spec in section.variables.items()),
+        constraints=tuple(limit_of("constraints", name, spec, figures) for name, spec in section.constraints.items()),
     )
 
 
@@ -109,7 +129,8 @@ def design_units(engine: ClosedEngine) -> dict[str, str]:
     return {name: units.get(name, "rad/s") for name in design_names(engine)}
 
 
-def _limit(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
+def limit_of(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
+    """Bounds of a variable or figure out of what a case says; `table` is `variables` or `constraints`."""
     key = f"optimise.{table}.{name}"
     if name not in units:
         raise BadInput(f"{key} is not known; names are {', '.join(units)}")
@@ -120,6 +141,4 @@ def _limit(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
     low, high = (found.get("equal", found.get(side, end)) for side, end in (("low", -np.inf), ("high", np.inf)))
     if not low <= high or (table == "variables" and not (np.isfinite([low, high]).all() and low < high)):
         raise BadInput(f"{key} = {spec!r} leaves no room; low must be below high, and a variable needs both")
-    if table == "constraints" and name not in SCALAR_UNITS and np.isfinite(low):
-        raise BadInput(f"{key}: {name} is a peak over the cycle and can only be bounded from above; give high alone")
     return Limit(name=name, unit=units[name], low=low, high=high)

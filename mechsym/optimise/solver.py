@@ -6,7 +6,7 @@ a limit, turned back into SI, is what it costs: the change of the objective by t
 """
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.model import ClosedEngine, at_design
-from mechsym.optimise.problem import Limit, Programme, figure_units
+from mechsym.optimise.problem import Limit, Programme
 from mechsym.quantities import record
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
@@ -74,8 +74,15 @@ def solve(task: Programme) -> Optimum:
     return _optimum(task, figures, solver.stats(), found, blocks, size)
 
 
-def pareto(task: Programme, against: str, goal: str, points: int) -> list[Optimum]:
+def pareto(
+    task: Any, against: str, goal: str, points: int, one: Callable[[Any], Optimum] | None = None
+) -> list[Optimum]:
     """Best values of the objective for given values of a second figure.
+
+    Parameters
+    ----------
+    task : Programme or FigureProgramme
+        What is solved by `one`, which is `solve` where it is left out
 
     Returns
     -------
@@ -83,15 +90,15 @@ def pareto(task: Programme, against: str, goal: str, points: int) -> list[Optimu
         From the optimum of the objective alone to that of the second figure alone; figures tell both values
     """
     sign = 1.0 if goal == "maximise" else -1.0
-    ends = [solve(task), solve(dataclasses.replace(task, objective=against, sign=sign))]
+    one = one or solve
+    ends = [one(task), one(dataclasses.replace(task, objective=against, sign=sign))]
     if any(end.status != "optimal" for end in ends):
         return ends
-    unit = figure_units(task.engine)[against]
     front = [ends[0]]
     for value in np.linspace(ends[0].figures[against], ends[1].figures[against], points)[1:]:
         low, high = (float(value), np.inf) if sign > 0 else (-np.inf, float(value))
-        limit = Limit(name=against, unit=unit, low=low, high=high)
-        front.append(solve(dataclasses.replace(task, constraints=(*task.constraints, limit))))
+        limit = Limit(name=against, unit=task.units[against], low=low, high=high)
+        front.append(one(dataclasses.replace(task, constraints=(*task.constraints, limit))))
     return front
 
 
@@ -167,8 +174,9 @@ def _optimum(
     status = stats["return_status"]
     multipliers = {v.name: float(m) for v, m in zip(task.variables, lam_x, strict=True)} | costs
     variables = {v.name: float(d) for v, d in zip(task.variables, design, strict=True)}
-    active = [_active(task, v, variables[v.name], v.high - v.low, multipliers) for v in task.variables]
-    active += [_active(task, b.limit, values[b.limit.name], b.scale, multipliers) for b in blocks]
+    named = task.objective
+    active = [active_limit(named, v, variables[v.name], v.high - v.low, multipliers) for v in task.variables]
+    active += [active_limit(named, b.limit, values[b.limit.name], b.scale, multipliers) for b in blocks]
     met = [row for row in active if row]
     return Optimum(
         status=_STATUS.get(status, "not converged"), reason=status, variables=variables,
@@ -177,12 +185,25 @@ def _optimum(
     )  # fmt: skip
 
 
-def _active(task: Programme, limit: Limit, value: float, scale: float, costs: Mapping[str, float]) -> dict[str, Any]:
+def active_limit(
+    objective: str, limit: Limit, value: float, scale: float, costs: Mapping[str, float]
+) -> dict[str, Any]:
+    """What an active limit costs, in words too; empty where it is not met.
+
+    Parameters
+    ----------
+    value : float
+        Of the variable or figure [unit of the limit]
+    scale : float
+        Its range or size [unit of the limit]
+    costs : mapping of str to float
+        Change of the objective by that of each limit [SI]
+    """
     for side, bound in (("low", limit.low), ("high", limit.high)):
         if abs(value - bound) < _ACTIVE * scale:
             cost, step = costs[limit.name], abs(bound) / 100 or scale / 100
             unit = "" if limit.unit == "-" else f" {limit.unit}"
-            meaning = f"{step:.4g}{unit} more there (1 %) would change {task.objective} by {cost * step:+.4g}"
+            meaning = f"{step:.4g}{unit} more there (1 %) would change {objective} by {cost * step:+.4g}"
             name = "equal" if limit.low == limit.high else side
             row = {"name": limit.name, "side": name, "limit": bound, "unit": limit.unit}
             return row | {"multiplier": cost, "meaning": meaning}

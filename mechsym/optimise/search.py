@@ -1,0 +1,186 @@
+r"""The design problem where figures come from a cycle that is solved, without derivatives: sequential quadratic steps.
+
+.. math:: \nabla J = \sum_i \lambda_i \nabla g_i \quad\text{over the active limits}, \qquad
+          \lambda_i = \frac{dJ}{d\,\mathrm{limit}_i}
+
+Gradients are differences of the figures, over a thousandth of a range, or more where a cycle in fixed steps gives
+figures that jump as a timing passes from one step to the next. A design counts as an optimum where that sum
+holds and no limit pulls the wrong way; it is the best one nearby.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from mechsym.errors import BadInput
+from mechsym.optimise.problem import Limit
+from mechsym.optimise.solver import Optimum, active_limit
+from mechsym.quantities import record
+
+_STEP = 1e-3  # of a variable's range, for differences
+_MARGIN = 0.01  # the start keeps off the bounds of the variables
+_STEPS, _STILL = 60, 1e-8  # steps at most, and the change of the objective by its size at the last one
+_MET, _BALANCED = 1e-6, 2e-3  # a limit, and the first-order conditions by the objective's gradient
+
+
+@record
+class FigureProgramme:
+    """A design problem whose figures are computed one design at a time."""
+
+    figures: Callable[[np.ndarray], Mapping[str, float]]  #: Variables (k,) [SI] to figures [SI]; may refuse a design
+    start: np.ndarray  #: shape (k,) [SI]
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: SI units of the figures
+    objective: str  #: Figure to make large or small
+    sign: float  #: 1 to maximise, -1 to minimise [-]
+    #: What may change, and what must hold
+    variables: tuple[Limit, ...]
+    constraints: tuple[Limit, ...]
+    noise: float = 0.0  #: By which a figure of a cycle in fixed steps may be off, by its size [-]
+
+    @property
+    def step(self) -> float:
+        """Of a variable's range, for differences [-]."""
+        return max(_STEP, 2 * math.sqrt(self.noise))
+
+
+class _Figures:
+    """Figures over shares of the variables' ranges, each computed once."""
+
+    def __init__(self, task: FigureProgramme) -> None:
+        self.low, self.high = (np.array([getattr(v, side) for v in task.variables]) for side in ("low", "high"))
+        self.task, self.known = task, {}  # type: ignore[var-annotated]
+
+    def design(self, z: np.ndarray) -> np.ndarray:
+        return np.asarray(self.low + np.clip(z, 0, 1) * (self.high - self.low))
+
+    def __call__(self, z: np.ndarray) -> Mapping[str, float]:
+        key = np.asarray(z, float).tobytes()
+        if key not in self.known:
+            self.known[key] = self.task.figures(self.design(z))
+        return self.known[key]
+
+    def slopes(self, z: np.ndarray, names: list[str]) -> np.ndarray:
+        """Differences of figures, shape (figures, variables), of second order at the ends of a range too."""
+        found, width = np.empty((len(names), len(z))), self.task.step
+        for k in range(len(z)):
+            step = np.zeros(len(z))
+            step[k] = width
+            if width <= z[k] <= 1 - width:
+                points, weights = (z + step, z - step), (0.5, -0.5)
+            else:
+                step = step if z[k] < 0.5 else -step
+                points = (z, z + step, z + 2 * step)  # type: ignore[assignment]
+                weights = tuple(w * np.sign(step[k]) for w in (-1.5, 2.0, -0.5))  # type: ignore[assignment]
+            values = [self(point) for point in points]
+            found[:, k] = [sum(w * v[n] for w, v in zip(weights, values, strict=True)) / width for n in names]
+        return found
+
+
+def search(task: FigureProgramme) -> Optimum:
+    """Solve a design problem by its figures.
+
+    Returns
+    -------
+    optimum : Optimum
+        With status and reason; where there is no feasible design, the last one that was tried
+    """
+    figures = _Figures(task)
+    z = np.clip((task.start - figures.low) / (figures.high - figures.low), _MARGIN, 1 - _MARGIN)
+    size = abs(figures(z)[task.objective]) or 1.0
+    try:
+        found = minimize(
+            lambda u: -task.sign * figures(u)[task.objective] / size, z, method="SLSQP", bounds=[(0, 1)] * len(z),
+            jac=lambda u: -task.sign * figures.slopes(u, [task.objective])[0] / size,
+            constraints=[row for limit in task.constraints for row in _rows(limit, figures)],
+            options={"maxiter": _STEPS, "ftol": max(_STILL, task.noise / 4)},
+        )  # fmt: skip
+    except BadInput as error:
+        return _optimum(task, figures, z, f"a design on the way is refused: {error}", 0)
+    end = np.clip(found.x, 0, 1)
+    return _optimum(task, figures, end, "" if found.success else str(found.message), int(found.nit))
+
+
+def _scale(limit: Limit) -> float:
+    return max((abs(b) for b in (limit.low, limit.high) if math.isfinite(b) and b), default=1.0)
+
+
+def _rows(limit: Limit, figures: _Figures) -> list[dict[str, Any]]:
+    """A limit in the words of the solver, divided by its size."""
+    scale, equal = _scale(limit), limit.low == limit.high
+    sides = [(limit.low, 1.0), (limit.high, -1.0)][: 1 if equal else 2]
+    return [
+        {
+            "type": "eq" if equal else "ineq",
+            "fun": lambda u, bound=bound, sign=sign: sign * (figures(u)[limit.name] - bound) / scale,
+            "jac": lambda u, sign=sign: sign * figures.slopes(u, [limit.name])[0] / scale,
+        }
+        for bound, sign in sides
+        if math.isfinite(bound)
+    ]
+
+
+def _optimum(task: FigureProgramme, figures: _Figures, z: np.ndarray, trouble: str, steps: int) -> Optimum:
+    design, values = figures.design(z), figures(z)
+    variables = {v.name: float(d) for v, d in zip(task.variables, design, strict=True)}
+    missed = max((_missed(limit, values[limit.name]) for limit in task.constraints), default=0.0)
+    at_ends = [v for v, share in zip(task.variables, z, strict=True) if min(share, 1 - share) < _MET]
+    met = [c for c in task.constraints if abs(_missed(c, values[c.name])) < _MET]
+    costs, left = (dict.fromkeys([v.name for v in task.variables], 0.0), 0.0)
+    if not trouble:
+        costs, left = _multipliers(task, figures, z, at_ends, met)
+    status, reason = "optimal", f"first-order conditions hold to {left:.1e}"
+    if missed > _MET:
+        status, reason = "infeasible", f"no design nearby keeps all limits; the worst is missed by {missed:.2g} of it"
+    elif trouble or left > max(_BALANCED, math.sqrt(task.noise)):
+        status, reason = "not converged", trouble or f"first-order conditions are missed by {left:.1e}"
+    everything = {**variables, **values}
+    limits = [*((v, v.high - v.low) for v in task.variables), *((c, _scale(c)) for c in met)]
+    rows = [active_limit(task.objective, v, everything[v.name], scale, costs) for v, scale in limits if v.name in costs]
+    return Optimum(
+        status=status, reason=reason, variables=variables, objective=values[task.objective], figures=dict(values),
+        multipliers={limit.name: costs.get(limit.name, 0.0) for limit in (*task.variables, *task.constraints)},
+        active=tuple(row for row in rows if row), iterations=steps,
+    )  # fmt: skip
+
+
+def _missed(limit: Limit, value: float) -> float:
+    """How far a value lies beyond the nearer limit, by its size; below 0 inside."""
+    return max(limit.low - value, value - limit.high) / _scale(limit)
+
+
+def _multipliers(
+    task: FigureProgramme, figures: _Figures, z: np.ndarray, ends: list[Limit], met: list[Limit]
+) -> tuple[dict[str, float], float]:
+    """Change of the objective by that of each active limit, and what the first-order conditions leave over."""
+    slopes = figures.slopes(z, [task.objective, *(limit.name for limit in met)])
+    spans = figures.high - figures.low
+    names = [v.name for v in task.variables]
+    unit = np.eye(len(names))[[names.index(v.name) for v in ends]] * spans  # of the variables at their ends
+    columns = np.vstack([unit.reshape(-1, len(names)), slopes[1:]]).T
+    width = np.linalg.norm(columns, axis=0)
+    width[width == 0] = 1.0
+    found = np.linalg.lstsq(columns / width, slopes[0], rcond=1e-9)[0] / width if columns.size else np.zeros(0)
+    size = max(abs(figures(z)[task.objective]), float(np.abs(slopes[0]).max()), 1e-300)
+    left = float(np.abs(slopes[0] - columns @ found).max()) / size
+    costs = dict.fromkeys(names, 0.0) | dict(
+        zip([limit.name for limit in (*ends, *met)], found.tolist(), strict=True)
+    )  # fmt: skip
+    wrong = [_wrong(task, figures, z, limit, costs[limit.name]) / size for limit in (*ends, *met)]
+    return costs, max([left, *wrong])
+
+
+def _wrong(task: FigureProgramme, figures: _Figures, z: np.ndarray, limit: Limit, cost: float) -> float:
+    """What a limit gains that pulls the wrong way: a wider one must not make the design worse."""
+    if limit.low == limit.high:
+        return 0.0
+    names = [v.name for v in task.variables]
+    at_high = z[names.index(limit.name)] > 0.5 if limit.name in names else (
+        abs(figures(z)[limit.name] - limit.high) <= abs(figures(z)[limit.name] - limit.low)
+    )  # fmt: skip
+    better = task.sign * cost * (1.0 if at_high else -1.0)
+    scale = limit.high - limit.low if limit.name in names else _scale(limit)
+    return max(0.0, -better * scale)
