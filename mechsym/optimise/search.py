@@ -74,7 +74,7 @@ class _Figures:
             else:
                 step = step if z[k] < 0.5 else -step
                 points = (z, z + step, z + 2 * step)  # type: ignore[assignment]
-                weights = tuple(w * np.sign(step[k]) for w in (-1.5, 2.0, -0.5))  # type: ignore[assignment]
+                weights = tuple(w * np.sign(step[k]) for w in (-1.5, 2.0, -0.5))
             values = [self(point) for point in points]
             found[:, k] = [sum(w * v[n] for w, v in zip(weights, values, strict=True)) / width for n in names]
         return found
