@@ -1,5 +1,6 @@
 """What the workbench shows as a slider moves: verdict in words, limits with their margins, curves, a moving picture."""
 
+import functools
 import math
 from collections.abc import Callable, Mapping
 
@@ -10,15 +11,19 @@ from mechsym.errors import BadInput
 from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
+from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.summary import guide_turn
 from mechsym.jobs.hinge import hinge
+from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
 from mechsym.mechanisms.drawing import Shapes, extent_of
 from mechsym.mechanisms.drawn_parts import turned
+from mechsym.periodic import even_angles
 from mechsym.plausible import sifted
 from mechsym.quantities import quantity, record
 
-_POINTS = 361  # of each curve
+_POINTS = 241  # of each curve
+_DIGITS = 6  # of its largest value
 
 
 @record
@@ -53,7 +58,8 @@ class Answer:
     bars: tuple[Bar, ...] = ()
     curves: tuple[Plotted, ...] = ()
     doubts: tuple[str, ...] = ()
-    drawn: Callable[[float], Shapes] | None = None  #: crank angle [rad] to a drawing of mechanism and guide
+    #: makes the drawing of mechanism and guide over the crank angle [rad]; it costs more than all of the rest
+    drawn: Callable[[], Callable[[float], Shapes] | None] = lambda: None
     turns: int = 1  #: of the crank in a cycle
     ratio: float = quantity("-", default=1.0, about="turns of the guide in a turn of the crank")
 
@@ -78,14 +84,15 @@ def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
     return Answer(
         good=verdict.feasible, words=verdict.reason, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
-        curves=_curves(design), drawn=_drawing(design), turns=round(design.hinge.period / (2 * math.pi)),
-        ratio=design.guide.parameters.shaft_ratio,
+        curves=_curves(design), drawn=functools.partial(_drawing, design),
+        turns=round(design.hinge.period / (2 * math.pi)), ratio=design.guide.parameters.shaft_ratio,
     )  # fmt: skip
 
 
 def moving(answer: Answer, title: str) -> str | None:
     """A page in which the drawing of an answer turns; None without a drawing."""
-    return None if answer.drawn is None else plots.animation_of(answer.drawn, title, answer.turns)
+    drawn = answer.drawn()
+    return None if drawn is None else plots.animation_of(drawn, title, answer.turns)
 
 
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:
@@ -103,7 +110,23 @@ def _rows(design: Design) -> tuple[tuple[str, str], ...]:
         ]
         if verdict.spring_pressure_max is not None:
             rows.append(("spring pressure", f"{verdict.spring_pressure_max / 1e6:.4g} MPa"))
-    return tuple(rows)
+    if verdict.tilting_couple_max:
+        rows.append(("tilting couple of the tracks", f"{verdict.tilting_couple_max / 1e3:.4g} kN m"))
+    if verdict.loss_torque_mean:
+        rows.append(("rollers resist with", f"{verdict.loss_torque_mean:.4g} N m"))
+    return (*rows, ("speed ripple without the hinge", _bare(design)))
+
+
+def _bare(design: Design) -> str:
+    """Ripple of the engine with its flywheel and without the hinge, under the load of the case."""
+    phi, wanted = even_angles(design.hinge.period), design.hinge
+    missing, inertia = wanted.work(phi), wanted.inertia(phi)
+    if isinstance(design.machine.load, PropellerLoad):
+        speed = propeller_load_speed(missing, inertia, wanted.omega, wanted.load_torque, wanted.period)
+    else:
+        speed = constant_load_speed(missing, inertia, wanted.omega)
+    share = ripple(speed)
+    return "the shaft stops" if share is None else f"{100 * share:.4g} %"
 
 
 def _curves(design: Design) -> tuple[Plotted, ...]:
@@ -126,7 +149,9 @@ def _curve(name: str, chart: str, x_name: str, unit: str, x: np.ndarray, y: np.n
 
 
 def _short(values: np.ndarray) -> tuple[float, ...]:
-    return tuple(float(f"{v:.6g}") for v in values)
+    largest = float(np.max(np.abs(values)))
+    places = _DIGITS - 1 - math.floor(math.log10(largest)) if largest > 0 else 0
+    return tuple(np.round(values, places).tolist())
 
 
 def _drawing(design: Design) -> Callable[[float], Shapes] | None:

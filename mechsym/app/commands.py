@@ -19,7 +19,7 @@ from mechsym.quantities import record
 _NEEDS = {
     "hinge": ("spring", "guide", "rollers", "limits"),
     "simulate": ("parameters",),
-    "forces": ("cycle", "operation"),
+    "forces": ("parameters", "operation"),
     "cycle": ("cycle",),
     "size": ("sizing",),
     "codesign": ("codesign",),

@@ -17,7 +17,8 @@ const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, 
 new MutationObserver(tell).observe(label, { childList: true });
 addEventListener("message", e => {
   if (e.source !== parent || !e.data) return;
-  if ("hold" in e.data) {
+  if ("rest" in e.data && !stopped && play.textContent === "Pause") { stopped = true; play.click(); }
+  else if ("hold" in e.data) {
     const count = +angle.max + 1, at = ((e.data.hold % DEGREES) + DEGREES) % DEGREES;
     stopped = stopped || play.textContent === "Pause";
     angle.value = Math.round(at / DEGREES * count) % count;

@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 
 from mechsym import cases
 from mechsym.app import commands, uploads
+from mechsym.app.idle import idle
 from mechsym.app.panels import AUDIT, AuditPanel, HingePanel, Panel, RunPanel
 from mechsym.app.saving import FILES, case_text, file_of
 from mechsym.app.sliders import Slider, safe, sliders
@@ -34,6 +35,7 @@ class Page:
         self.moved = 0
         self.controls: dict[str, Any] = {}
         self.sections: dict[str, Any] = {}
+        self.rows: dict[str, Any] = {}
         self.panels: dict[str, Panel] = {}
 
     def build(self) -> None:
@@ -44,6 +46,7 @@ class Page:
         self.tabs = (*commands.tabs(case), AUDIT)
         self.tab = self.tab if self.tab in self.tabs else self.tabs[0]
         self.knobs = {s.key: s for s in sliders(case)}
+        self.idle = {tab: idle(case, tab) for tab in self.tabs}
         self._head()
         ui.label(case.about).classes("opacity-70")
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
@@ -78,16 +81,31 @@ class Page:
             keys.setdefault(key.partition(".")[0], []).append(key)
         for section, own in keys.items():
             opened = section in ("spring", "operation", "guide", "drive")
-            self.sections[section] = ui.expansion(section, value=opened).classes("w-full").props("dense")
-            with self.sections[section]:
-                for key in own:
-                    self._slider(self.knobs[key])
+            box = ui.expansion(section, value=opened).classes("w-full").props("dense")
+            self.sections[section] = box
+            # what is closed is built when it is opened: every element costs time whenever anything changes
+            if opened:
+                self._fill(section, own)
+            else:
+                box.on_value_change(partial(self._unfold, section, own))
+        self.still = ui.label().classes("text-xs mechsym-note")
+
+    def _fill(self, section: str, own: list[str]) -> None:
+        with self.sections[section]:
+            for key in own:
+                self._slider(self.knobs[key])
+
+    def _unfold(self, section: str, own: list[str], _: Any) -> None:
+        if own[0] not in self.controls:
+            self._fill(section, own)
+            self._offer()
 
     def _slider(self, knob: Slider) -> None:
         ui, value = self.ui, self.values.get(knob.key, knob.value)
         unit = "" if knob.unit == "-" else f" [{knob.unit}]"
-        with ui.row().classes("w-full items-center no-wrap gap-2"):
-            ui.label(f"{knob.label}{unit}").classes("w-32 text-sm break-words").tooltip(knob.about or knob.key)
+        self.rows[knob.key] = ui.row().classes("w-full items-center no-wrap gap-2")
+        with self.rows[knob.key]:
+            ui.label(f"{knob.label}{unit}").classes("w-32 text-sm break-words").props["title"] = knob.about or knob.key
             moved = ui.slider(min=min(knob.low, value), max=max(knob.high, value), step=knob.step, value=value)
             moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.key}"')
             shown = ui.label(f"{value:.4g}").classes("w-16 text-right text-sm")
@@ -113,10 +131,22 @@ class Page:
 
     def opened(self) -> None:
         """Show the sliders that can move what the open tab says, and what it says."""
-        read = commands.reads(self.tab)
-        for section, box in self.sections.items():
-            box.visible = section in read
+        self._offer()
         self.refresh()
+
+    def _offer(self) -> None:
+        """Show a slider only where it moves something; say of the others why it does not."""
+        still, read = self.idle[self.tab], commands.reads(self.tab)
+        here = [key for key in self.knobs if key.partition(".")[0] in read]
+        for section, box in self.sections.items():
+            box.visible = any(key.startswith(f"{section}.") and key not in still for key in here)
+        for key, row in self.rows.items():
+            row.visible = key not in still
+        told: dict[str, list[str]] = {}
+        for key in here:
+            if key in still:
+                told.setdefault(still[key], []).append(key)
+        self.still.text = "; ".join(f"not here: {', '.join(keys)} ({why})" for why, keys in told.items())
 
     async def move(self, key: str, value: float) -> None:
         """One slider has moved: the newest place wins."""
@@ -197,6 +227,8 @@ class Page:
 
 
 _STYLE = """<style>
+.mechsym-cursor { position: absolute; top: 30px; bottom: 40px; left: 0; width: 1px; background: #888;
+  pointer-events: none; }
 .nicegui-content { padding: .6rem; }
 .mechsym-note { opacity: .7; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }

@@ -6,11 +6,16 @@ from typing import Any
 import click
 
 from mechsym.cli.common import case_of, emit, file_option, json_option, pairs, set_option
+from mechsym.errors import BadInput
 
 
 @click.command(short_help="Write a functional mock-up unit (FMI 2.0 or 3.0).")
 @click.argument("case")
 @click.option("--fmi", "version", type=click.Choice(["2", "3"]), default="2", help="Version of the standard.")
+@click.option(
+    "--part", type=click.Choice(["machine", "controller"]), default="machine",
+    help="The machine, or the controller that sets its spring.",
+)  # fmt: skip
 @click.option("--platforms", default="linux64", metavar="NAMES", help="Binaries for linux64, win64; or none.")
 @click.option("--diagram", type=click.Path(), help="CSV file of a measured diagram in place of the cycle.")
 @click.option("--compare", "compared", is_flag=True, help="Run it and compare with the simulation (extra fmu).")
@@ -22,6 +27,7 @@ def fmu(
     ctx: click.Context,
     case: str,
     version: str,
+    part: str,
     platforms: str,
     diagram: str | None,
     compared: bool,
@@ -33,23 +39,32 @@ def fmu(
 
     Parameters of mechanism, spring and load are tunable; an input adds to what acts on an input of the mechanism.
     Kinks of the gas force are event indicators, a torque that is switched on is a time event, a stall ends the run.
-    Without a compiler for a platform the FMU has the sources only. Exit status 1 when --compare finds more than 1e-9.
+    The controller is a unit of its own for co-simulation: from crank angle and speed it sets the pressure once in a
+    period. Without a compiler for a platform the FMU has the sources only. Exit status 1 when --compare finds more
+    than 1e-9.
 
     \b
     Example: mechsym fmu zotov-89 --fmi 3 --out engine.fmu --compare
+             mechsym fmu zotov-89 --part controller --out controller.fmu
              mechsym fmu generator --diagram half-load.csv --platforms linux64,win64
     """
-    from mechsym.jobs.export import ready
+    from mechsym.jobs.export import controlled, ready
+    from mechsym.out.fmi import controller, write
     from mechsym.out.fmi import fmu as make
-    from mechsym.out.fmi import write
     from mechsym.out.laws import block_of
 
     found = case_of(case, pairs(overrides))
-    run = ready(found, diagram)
     wanted = [] if platforms == "none" else platforms.split(",")
-    unit = make(block_of(found.name, found.about, run), int(version), wanted)
-    path = write(unit, out or Path(f"{found.name}.fmu"))
-    differences = _differences(path, run.problem) if compared else {}
+    if part == "controller":
+        if compared:
+            raise BadInput("--compare is for the machine; a controller has no run of its own")
+        block, code = controller(found.name, *controlled(found, diagram))
+        unit, problem = make(block, int(version), wanted, code), None
+    else:
+        run = ready(found, diagram)
+        unit, problem = make(block_of(found.name, found.about, run), int(version), wanted), run.problem
+    path = write(unit, out or Path(f"{unit.name}.fmu"))
+    differences = _differences(path, problem) if compared else {}
     checks: dict[str, Any] = {"token": unit.token, "binaries": unit.binaries, "missing": unit.missing, **differences}
     emit({"written": [str(path)], "checks": checks}, as_json, lambda: _text(path, checks))
     ctx.exit(0 if all(v <= 1e-9 for v in differences.values()) else 1)

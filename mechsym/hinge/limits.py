@@ -223,7 +223,8 @@ def _room_check(rho0: float, free_height: float, radius: float) -> LimitCheck:
 
 def _undercut_check(largest: float | None, radius: float, profile_radius: float) -> LimitCheck:
     if largest is None:
-        return LimitCheck(name="undercut", text="the path never bends inwards", kept=True, margin=None)
+        text = f"the path never bends inwards; a bulge may have {profile_radius * 1e3:.4g} mm"
+        return LimitCheck(name="undercut", text=text, kept=True, margin=None)
     left = largest - radius - profile_radius
     text = (
         f"the path bends inwards with a radius of {largest * 1e3:.4g} mm, which leaves the profile "

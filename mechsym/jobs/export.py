@@ -27,6 +27,7 @@ from mechsym.jobs.problem import problem_of
 from mechsym.jobs.turn import turn
 from mechsym.machine.loads import Load, settle
 from mechsym.machine.record import Machine
+from mechsym.mechanisms.crank_train.parameters import each
 from mechsym.mechanisms.traits import is_train, with_hinge
 from mechsym.quantities import record
 from mechsym.simulate import Part, Problem
@@ -56,7 +57,8 @@ class Ready:
 def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
     hinged = {"spring", "guide"} <= set(case.sections)
-    if is_own(case.mechanism) and not hinged or "drive" in case.sections or is_train(case.mechanism):
+    train = is_train(case.mechanism) and not _by_spark(case)
+    if is_own(case.mechanism) and not hinged or "drive" in case.sections or train:
         return Ready(problem=problem_of(_running(case)))
     if is_own(case.mechanism) or case.mechanism in with_hinge() and not _by_spark(case):
         return _engine(case, diagram)
@@ -94,6 +96,14 @@ def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Gu
     if guide.rho is None:
         raise BadInput(f"{case.file}: no guide can be cut ({guide.reason}); change [spring] or [guide]")
     return engine, wanted, guide
+
+
+def controlled(case: Case, diagram: str | None = None) -> tuple[Hinge, Guide, Load]:
+    """What a controller of a case's spring needs: the wanted torque, the guide, and the settled load."""
+    engine, wanted, guide = guide_of(case, diagram)
+    if guide is None:
+        raise BadInput(f"{case.file}: sections [spring] and [guide] are missing; a controller sets a spring")
+    return wanted, guide, settle(engine.load, wanted.load_torque, engine.omega)
 
 
 def _running(case: Case) -> Case:
@@ -160,7 +170,8 @@ def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
     if _by_spark(case):
         closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
         angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
-    firing = getattr(case.sections.get("faces"), "firing", (0.0,))
+    train = is_train(case.mechanism)
+    firing = each(case.need("parameters"), "firing") if train else getattr(case.sections.get("faces"), "firing", (0.0,))
     return tuple(sorted({float(a + f) % once.period for a in angles for f in firing}))
 
 

@@ -68,7 +68,7 @@ def test_what_is_impossible_is_a_sentence():
 
 def test_guide_and_mechanism_are_drawn_to_one_scale():
     answer = hinge_answer("zotov-89", {})
-    left, right, low, high = extent_of(answer.drawn)
+    left, right, low, high = extent_of(answer.drawn())
     assert 2 < right - left < 6 and high - low > 1.6
     page = moving(answer, "<zotov>")
     assert 'id="angle"' in page and "<zotov>" not in page

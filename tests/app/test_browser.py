@@ -155,8 +155,8 @@ def test_picture_and_curves_share_a_cursor(page):
     """The turning picture draws a line in every chart; a pointer over a chart stops the picture at its angle."""
     picture = page.frame_locator("iframe")
     playwright.expect(picture.locator("#label")).to_be_visible(timeout=30_000)
-    lines = "[...mechsymCharts.values()].map(c => (c.chart.getOption().graphic || []).length)"
-    page.wait_for_function(f"({lines}).length === 3 && ({lines}).every(n => n > 0)", timeout=20_000)
+    lines = "[...mechsymCharts.values()].map(c => c.line.style.transform)"
+    page.wait_for_function(f"({lines}).length === 3 && ({lines}).every(n => n !== '')", timeout=20_000)
     chart = page.locator("canvas").first
     chart.scroll_into_view_if_needed()
     box = chart.bounding_box()

@@ -319,6 +319,64 @@ def test_a_mechanism_of_ones_own_is_an_fmu_too(tmp_path, monkeypatch):
             assert found.largest < 1e-9, f"{settings} {found.kind}: {found.largest:.2g}"
 
 
+ENGINES = {"two-stroke-crosshead": "1", "inline": "6", "v": "2", "opposed": "1", "hypocycloid": "2"}
+
+
+def new_engine(kind, folder, count=""):
+    words = ["--kind", kind, "--bore", "86 mm", "--stroke", "86 mm", "--out", str(folder)]
+    words += ["--cylinders", count] if count else []
+    done = CliRunner().invoke(mechsym, ["new", "engine", "mine", *words])
+    assert done.exit_code == 0, done.output
+    return cases.load(str(folder / "mine.toml"))
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("kind", ENGINES)
+def test_a_new_engine_is_an_fmu_at_once(tmp_path, kind, version):
+    case = new_engine(kind, tmp_path, ENGINES[kind])
+    run = ready(case)
+    path = tmp_path / "e.fmu"
+    path.write_bytes(fmu(block_of(case.name, case.about, run), version).data)
+    assert validation.validate_fmu(str(path)) == []
+    for found in compare(path, run.problem):
+        assert found.largest < 1e-9, f"{found.kind}: {found.largest:.2g}"
+
+
+@pytest.mark.slow
+def test_each_cylinder_of_a_train_has_its_own_gas(tmp_path):
+    """The exported force on each piston against the cycle that it was fitted from, between all kinks."""
+    from mechsym.jobs.turn import turn
+
+    case = new_engine("inline", tmp_path, "3")
+    run, once = ready(case), turn(case)
+    for i in (1, 2, 3):
+        found = run.tables[f"gas_F{i}"](once.phi % once.period)
+        wanted = once.inputs[f"F{i}"]
+        assert np.max(np.abs(found - wanted)) < 1e-6 * np.max(np.abs(wanted))
+
+
+@pytest.mark.parametrize("version", ["4", "1", "two"])
+def test_another_version_of_the_standard_is_refused(tmp_path, version):
+    path = tmp_path / "e.fmu"
+    done = CliRunner().invoke(mechsym, ["fmu", "zotov-89", "--fmi", version, "--out", str(path)])
+    assert done.exit_code == 2 and not path.exists()
+
+
+def test_a_missing_compiler_is_one_line_and_the_sources_are_written(tmp_path, monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    path = tmp_path / "e.fmu"
+    words = ["fmu", "zotov-89", "--platforms", "linux64,win64", "--out", str(path)]
+    done = CliRunner().invoke(mechsym, words)
+    assert done.exit_code == 0, done.output
+    said = [line for line in done.output.splitlines() if line.startswith("no binary for ")]
+    assert len(said) == 2 and "no-such-compiler" in said[0] and "mechsym[web]" in said[1]
+    with zipfile.ZipFile(path) as archive:
+        assert not any(n.startswith("binaries") for n in archive.namelist()) and "sources/fmi2.c" in archive.namelist()
+
+
 def test_constraints_are_refused_not_left_out(tmp_path, monkeypatch):
     for name in ("watt_six_bar.py", "watt-six-bar.toml"):
         (tmp_path / name).write_text((EXAMPLES / name).read_text())

@@ -69,8 +69,11 @@ def opened(browser, files):
         context.close()
 
 
+SOME = ("zotov-89", "chmielewski", "alpha-stirling", "generator")
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["zotov-89", "zotov-142", "chmielewski", "alpha-stirling", "generator"])
+@pytest.mark.parametrize("name", [n if n in SOME else pytest.param(n, marks=pytest.mark.heavy) for n in cases.names()])
 def test_numbers_are_those_of_simulate(opened, exported, name):
     run = exported(name)[0].problem
     tab, errors, requests = opened(name)
@@ -110,6 +113,39 @@ def test_a_number_outside_the_model_is_said_not_shown(opened):
     assert "leave the range" in said or "stops" in said
     assert "NaN" not in tab.inner_text("body")
     assert errors == []
+
+
+def test_numbers_are_shown_in_the_units_that_were_chosen(exported, monkeypatch):
+    from mechsym.out.web import build
+    from mechsym.quantities.display import choose
+
+    monkeypatch.setattr(build, "webassembly", lambda block: b"")
+    try:
+        choose("bar, rad/s, kN*m")
+        shown = build._data(exported("zotov-89")[1])["shown"]
+    finally:
+        choose(None)
+    assert shown["Pa"] == (1e-5, "bar") and shown["rad/s"] == (1.0, "rad/s") and shown["N*m"] == (1e-3, "kN m")
+    assert build._data(exported("zotov-89")[1])["shown"]["rad/s"][1] == "rpm"
+
+
+@pytest.mark.slow
+def test_the_page_shows_the_chosen_units(browser, tmp_path):
+    path = tmp_path / "p.html"
+    done = CliRunner().invoke(mechsym, ["page", "zotov-89", "--units", "bar, rad/s, cm", "--out", str(path)])
+    assert done.exit_code == 0, done.output
+    tab = browser.new_context(offline=True).new_page()
+    tab.goto(path.as_uri())
+    tab.wait_for_function("window.mechsym && window.mechsym.last")
+    assert "Speed at the end 9.3201 rad/s" in tab.inner_text("#verdict")
+    assert tab.locator("label", has=tab.locator("#slider_p0")).locator("output").inner_text() == "50 bar"
+    tab.locator("#fields summary").click()
+    assert tab.input_value("#field_H") == "100"  # cm
+    before = tab.evaluate("mechsym.last.mean")
+    tab.locator("#field_p0").fill("50")
+    tab.locator("#field_p0").dispatch_event("change")
+    assert tab.evaluate("mechsym.last.mean") == pytest.approx(before, rel=1e-12)
+    tab.context.close()
 
 
 @pytest.mark.slow

@@ -44,14 +44,16 @@ class Unit:
     missing: Mapping[str, str]  #: platform: why it has no binary
 
 
-def fmu(block: Block, version: int = 2, platforms: Sequence[str] = ("linux64",)) -> Unit:
-    """The functional mock-up unit of a block, for FMI 2.0 or 3.0."""
+def fmu(
+    block: Block, version: int = 2, platforms: Sequence[str] = ("linux64",), code: Mapping[str, str] | None = None
+) -> Unit:
+    """The functional mock-up unit of a block, for FMI 2.0 or 3.0; `code` has sources other than those of a machine."""
     if version not in (2, 3):
         raise BadInput(f"--fmi {version} is not allowed; allowed are 2, 3")
     for name in platforms:
         if name not in PLATFORMS:
             raise BadInput(f"--platforms {name!r} is not known; allowed are {', '.join(PLATFORMS)}")
-    sources = _sources(block, version)
+    sources = _sources(version, code or _machine(block))
     token = "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(f"{k}\n{v}" for k, v in sources.items()))) + "}"
     sources["identity.h"] = _identity(block, token, version)
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
@@ -72,14 +74,14 @@ def write(unit: Unit, path: Path) -> Path:
     return write_bytes(path, unit.data)
 
 
-def _sources(block: Block, version: int) -> dict[str, str]:
+def _machine(block: Block) -> dict[str, str]:
+    core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
+    return {"core.h": core, "model.h": model(block), "method.h": dop853_numbers() + "\n"}
+
+
+def _sources(version: int, code: Mapping[str, str]) -> dict[str, str]:
     room = resources.files("mechsym.out")
-    texts = {
-        f"fmi{version}.c": (room / "fmi" / f"fmi{version}.c").read_text(encoding="utf-8"),
-        "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
-        "model.h": model(block),
-        "method.h": dop853_numbers() + "\n",
-    }
+    texts = {f"fmi{version}.c": (room / "fmi" / f"fmi{version}.c").read_text(encoding="utf-8"), **code}
     for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
         if header.startswith(f"fmi{version}"):
             texts[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")

@@ -63,6 +63,11 @@ def description(block: Block, version: int, token: str, sources: list[str], tool
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + xml.tostring(root, encoding="unicode") + "\n"
 
 
+def _smooth(block: Block) -> str:
+    """What has no states is a controller, which has no derivatives."""
+    return "true" if block.states else "false"
+
+
 def _units(root: xml.Element, rows: list[Variable]) -> None:
     box = xml.SubElement(root, "UnitDefinitions")
     for unit in sorted({v.port.unit for v in rows} - {"-", ""}):
@@ -94,8 +99,9 @@ def _second(block: Block, token: str, sources: list[str]) -> xml.Element:
         numberOfEventIndicators=str(len(_indicators(block))),
     )  # fmt: skip
     can = {"modelIdentifier": identifier(block.name), "canGetAndSetFMUstate": "true",
-           "canSerializeFMUstate": "true", "providesDirectionalDerivative": "true"}  # fmt: skip
-    for kind, more in (("ModelExchange", {}), ("CoSimulation", {"canHandleVariableCommunicationStepSize": "true"})):
+           "canSerializeFMUstate": "true", "providesDirectionalDerivative": _smooth(block)}  # fmt: skip
+    kinds: dict[str, dict[str, str]] = {"ModelExchange": {}} if block.states else {}
+    for kind, more in (kinds | {"CoSimulation": {"canHandleVariableCommunicationStepSize": "true"}}).items():
         files = xml.SubElement(xml.SubElement(root, kind, can | more), "SourceFiles")
         for name in sources:
             xml.SubElement(files, "File", name=name)
@@ -124,6 +130,8 @@ def _structure_2(root: xml.Element, rows: list[Variable]) -> None:
     )
     for title, kinds, known in boxes:
         found = sorted((v for v in rows if v.kind in kinds), key=lambda v: v.reference)
+        if not found:
+            continue
         box = xml.SubElement(structure, title)
         for v in found:
             xml.SubElement(box, "Unknown", index=str(v.reference + 1), dependencies=known)
@@ -154,8 +162,9 @@ def _third(block: Block, token: str, sources: list[str]) -> xml.Element:
         description=block.about, license=_LICENSE, variableNamingConvention="structured",
     )  # fmt: skip
     can = {"modelIdentifier": identifier(block.name), "canGetAndSetFMUState": "true",
-           "canSerializeFMUState": "true", "providesDirectionalDerivatives": "true"}  # fmt: skip
-    xml.SubElement(root, "ModelExchange", can)
+           "canSerializeFMUState": "true", "providesDirectionalDerivatives": _smooth(block)}  # fmt: skip
+    if block.states:
+        xml.SubElement(root, "ModelExchange", can)
     xml.SubElement(root, "CoSimulation", can | {"canHandleVariableCommunicationStepSize": "true"})
     _units(root, rows)
     logs = xml.SubElement(root, "LogCategories")

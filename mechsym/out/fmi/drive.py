@@ -25,7 +25,7 @@ class Driven:
         self.rate_references = [v.valueReference for v in rates]
         self.inputs = self._with(description, "input")
         self.parameters = self._with(description, "parameter")
-        self.outputs = [r for r in self._with(description, "output") if r > max(self.rate_references)]
+        self.outputs = [r for r in self._with(description, "output") if r > max(self.rate_references, default=0)]
         self.indicator_count = description.numberOfEventIndicators or len(description.eventIndicators or ())
 
     def _with(self, description: Any, causality: str) -> list[int]:

@@ -39,7 +39,7 @@ def model(block: Block) -> str:
         array("start_x", [s.start for s in block.states]),
         array("start_p", [s.start for s in block.parameters]),
         array("switch_time", times, "int"),
-        _curves(block.curves),
+        curve_tables(block.curves),
         _kinks(block),
         _stops(block),
         *(function(read(f), f.name()) for f in (block.rates, block.observed)),
@@ -62,7 +62,8 @@ def array(name: str, values: Sequence[float], kind: str = "double") -> str:
     return f"static const {kind} {name}[{len(texts)}] = {{\n    " + ",\n    ".join(rows) + "};"
 
 
-def _curves(curves: Sequence[Curve]) -> str:
+def curve_tables(curves: Sequence[Curve]) -> str:
+    """Curves as constant tables of C, all of them in the array `curves`."""
     lines = []
     for i, curve in enumerate(curves):
         lines += [array(f"breaks_{i}", curve.poly.x), array(f"rows_{i}", curve.poly.c.T.ravel())]

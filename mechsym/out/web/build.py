@@ -17,6 +17,7 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
 from mechsym.out.text.c import model
+from mechsym.style import axis_unit
 
 _OPTIONS = ("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-O2", "-s", "-ffp-contract=off")
 # parameters that get a slider, with the range as shares of the start; others have a field
@@ -75,6 +76,7 @@ def _data(block: Block) -> dict[str, Any]:
         "about": block.about,
         "references": {v.port.name: v.reference for v in rows},
         "units": {v.port.name: v.port.unit for v in rows},
+        "shown": _shown(block),
         "angle": block.states[0].name,
         "speed": speed.name,
         "start_speed": speed.start,
@@ -86,6 +88,15 @@ def _data(block: Block) -> dict[str, Any]:
         "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         "t_end": _end(block, speed.start),
     }
+
+
+def _shown(block: Block) -> dict[str, tuple[float, str]]:
+    """How numbers are shown, in the units that the user chose: by SI unit the factor on a value, and its unit."""
+    ports = (*block.states, *block.parameters, *block.outputs, Port(name="s", unit="s"), Port(name="rho", unit="m"))
+    sizes: dict[str, float] = {}
+    for port in ports:
+        sizes[port.unit] = max(sizes.get(port.unit, 0.0), abs(port.start))
+    return {unit: axis_unit(unit, size) for unit, size in sizes.items()}
 
 
 def _slider(port: Port, low: float, high: float) -> dict[str, Any]:
