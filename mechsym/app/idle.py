@@ -34,14 +34,10 @@ def _said(words: str) -> Callable[[Case, Any], str | None]:
     return lambda case, data: words
 
 
-def _at_constant_speed(case: Case, data: Any) -> str | None:
-    return "the speed is held" if case.mechanism in ("crosshead", "crank_throw", "crank_train") else None
-
-
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
 _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any], str | None]], ...] = (
     ("scavenging", (), (), _unless("source", "turbocharger")),
     ("rollers", ("rolling_arm",), (), _unless("friction", "rolling")),
     ("cycle", ("c_v", "lhv"), (*_GUIDE_TABS, "forces"), _said(_FUEL)),
-    ("parameters", ("I01", "I0", "I_f"), ("forces", "cycle"), _at_constant_speed),
+    ("parameters", ("I01", "I0", "I_f"), ("forces", "cycle"), _said("the speed is held")),
 )
