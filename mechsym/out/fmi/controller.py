@@ -32,11 +32,6 @@ _TURNS = 20.0  # of the run that the file proposes
 def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Block, dict[str, str]]:
     """The ports of the controller of a guide, and the C that is its own: file name to text.
 
-    Parameters
-    ----------
-    load : Load
-        Settled law of the load
-
     Raises
     ------
     BadInput
