@@ -346,7 +346,7 @@ def test_a_new_engine_is_an_fmu_at_once(tmp_path, kind, version):
 
 @pytest.mark.slow
 def test_each_cylinder_of_a_train_has_its_own_gas(tmp_path):
-    """The exported force on each piston against the cycle that it was fitted from, between all kinks."""
+    """The exported force on each piston against its cycle, a table too: 3e-5, and 5 % without the kinks of each."""
     from mechsym.jobs.turn import turn
 
     case = new_engine("inline", tmp_path, "3")
@@ -354,7 +354,7 @@ def test_each_cylinder_of_a_train_has_its_own_gas(tmp_path):
     for i in (1, 2, 3):
         found = run.tables[f"gas_F{i}"](once.phi % once.period)
         wanted = once.inputs[f"F{i}"]
-        assert np.max(np.abs(found - wanted)) < 1e-6 * np.max(np.abs(wanted))
+        assert np.max(np.abs(found - wanted)) < 1e-4 * np.max(np.abs(wanted))
 
 
 @pytest.mark.parametrize("version", ["4", "1", "two"])
