@@ -24,7 +24,7 @@ RANK = 1e-7  # singular value by the largest, below which a direction is not det
 _APPROACH, _SETTLING, _STEPS = 20, 3, 60  # first steps, those before the parameters may move, and steps that follow
 _STRIDE, _NEAR = 0.5, 1e-3  # largest change of a parameter in a first step, and that of the last one, by its size
 _CORRECTIONS, _SOLVED = 12, 1e-9  # of states after a step, and their size at the end by the largest speed
-_GAIN = 1e-9  # what a last step would take off the sum of squares, by the sum
+_GAIN = 1e-5  # what a last step would take off the sum of squares, by the variance: three thousandths of an error
 _DAMPING, _STIFFEST = 1e-4, 1e8
 
 
@@ -177,7 +177,10 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
         width = np.linalg.norm(columns, axis=0)
         width[width == 0] = 1.0
         gain, full = _gain(columns / width, here.rest.ravel())
-        if gain <= _GAIN * here.left or float(np.abs(full).max(initial=0.0)) < 1e-13 * task.scale:
+        if (
+            gain <= _GAIN * here.left / (here.rest.size - len(free))
+            or float(np.abs(full).max(initial=0.0)) < 1e-13 * task.scale
+        ):
             return here._replace(status="converged")
         trial = _step(task, here, free, width, damping)
         if trial is not None and trial.left < here.left:

@@ -24,7 +24,8 @@ from mechsym.plausible import Doubt
 from mechsym.quantities import record
 
 _LONGEST = 0.5  # of an interval: radians of the fastest motion
-_STARTS, _SAME = 4, 0.1  # angles that are tried, and standard errors within which two fits are one
+_STARTS = 4  # angles that are tried
+_SAME, _BESIDE = 0.1, 0.2  # standard errors and radians of the first angle within which two fits are one
 
 
 @record
@@ -123,6 +124,11 @@ def _alike(fits: list[ClosestMotion], reach: float, errors: np.ndarray) -> list[
     found = fits[:1]
     for fit in fits[1:]:
         near = fit.status == "converged" and fit.left - fits[0].left < reach**2
-        if near and all((np.abs(fit.theta - other.theta) > _SAME * errors).any() for other in found):
+        if near and not any(_one(fit, other, errors) for other in found):
             found.append(fit)
     return found
+
+
+def _one(a: ClosestMotion, b: ClosestMotion, errors: np.ndarray) -> bool:
+    turned = abs(math.remainder(float(a.states[0, 0] - b.states[0, 0]), 2 * math.pi))
+    return turned < _BESIDE or bool((np.abs(a.theta - b.theta) < _SAME * errors).all())

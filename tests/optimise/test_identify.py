@@ -83,6 +83,7 @@ def test_a_piston_that_noise_hides_is_doubted(tmp_path, speeds, noise, doubt):
     assert doubt in {(one.code, one.quantity) for one in found.doubts} and mass.low <= 1.1 <= mass.high
 
 
+@pytest.mark.slow
 def test_an_interval_ends_where_the_best_motion_gets_worse_by_what_it_says(tmp_path, speeds):
     file = written(tmp_path, speeds[:, :101], noise=0.2, t=T[:101])
     free = ("I2", "c1")
