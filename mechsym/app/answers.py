@@ -114,13 +114,16 @@ def _rows(design: Design) -> tuple[tuple[str, str], ...]:
         rows.append(("tilting couple of the tracks", f"{verdict.tilting_couple_max / 1e3:.4g} kN m"))
     if verdict.loss_torque_mean:
         rows.append(("rollers resist with", f"{verdict.loss_torque_mean:.4g} N m"))
-    return (*rows, ("speed ripple without the hinge", _bare(design)))
+    inertia = design.hinge.inertia(even_angles(design.hinge.period))
+    rows.append(("inertia on the shaft", f"{inertia.min():.4g} to {inertia.max():.4g} kg m²"))
+    facts = design.machine.gas.pressure.facts if design.machine.gas else ()
+    return (*rows, ("speed ripple without the hinge", _bare(design, inertia)), *(("cycle", fact) for fact in facts))
 
 
-def _bare(design: Design) -> str:
-    """Ripple of the engine with its flywheel and without the hinge, under the load of the case."""
+def _bare(design: Design, inertia: np.ndarray) -> str:
+    """Ripple of the engine with an inertia [kg*m^2] and without the hinge, under the load of the case."""
     phi, wanted = even_angles(design.hinge.period), design.hinge
-    missing, inertia = wanted.work(phi), wanted.inertia(phi)
+    missing = wanted.work(phi)
     if isinstance(design.machine.load, PropellerLoad):
         speed = propeller_load_speed(missing, inertia, wanted.omega, wanted.load_torque, wanted.period)
     else:

@@ -4,9 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from mechsym.cases import Case
-
-_GUIDE_TABS = ("hinge", "simulate", "codesign")
-_FUEL = "it is for the estimate of fuel in the tab cycle"
+from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -34,10 +32,21 @@ def _said(words: str) -> Callable[[Case, Any], str | None]:
     return lambda case, data: words
 
 
+def _fuel(case: Case, data: Any) -> str | None:
+    return "it is for the fuel that the tab hinge tells" if isinstance(data, TwoStrokeMarine) else None
+
+
+def _no_friction(case: Case, data: Any) -> str | None:
+    free = data.friction == "none" and "losses" not in case.sections
+    return "the rollers have no friction" if free else None
+
+
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
 _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any], str | None]], ...] = (
     ("scavenging", (), (), _unless("source", "turbocharger")),
     ("rollers", ("rolling_arm",), (), _unless("friction", "rolling")),
-    ("cycle", ("c_v", "lhv"), (*_GUIDE_TABS, "forces"), _said(_FUEL)),
+    ("rollers", (), ("simulate",), _no_friction),
+    ("limits", (), ("simulate",), _said("the tab hinge judges them")),
+    ("cycle", ("c_v", "lhv"), ("simulate", "forces", "cycle", "codesign"), _fuel),
     ("parameters", ("I01", "I0", "I_f"), ("forces", "cycle"), _said("the speed is held")),
 )
