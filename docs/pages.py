@@ -18,19 +18,27 @@ from mechsym.cli import COMMANDS, mechsym
 
 # one example a command whose output is shown; each runs in some seconds
 EXAMPLES = {
+    "app": "app zotov-89 --check",
     "audit": 'audit --formula "r*(1-cos(phi))+r**2/(4*l)*(1-cos(2*phi))" --against crosshead.x',
     "cases": "cases",
     "check": "check zotov-89",
+    "codesign": "codesign zotov-89 --ripple 5%",
     "compare": "compare nunes-slider-crank nunes-hypocycloid --speeds 2000,6000",
     "cycle": "cycle nunes-slider-crank --speeds 2000:8000:2000",
+    "derive": "derive --check crosshead",
     "eval": "eval crosshead --case zotov-89 --set phi=1",
     "flywheel": "flywheel zotov-89 --ripple 2%",
+    "fmu": "fmu zotov-89 --out engine.fmu",
     "forces": "forces moroianu",
+    "guide": "guide zotov-89 --dxf guide.dxf",
     "hinge": "hinge zotov-89",
     "mechanisms": "mechanisms",
+    "native": "native --info",
     "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
     "optimise": "optimise nunes-hypocycloid",
+    "page": "page zotov-89 --out engine.html",
     "export": "export zotov-89 --to c --out engine",
+    "reproduce": "reproduce moroianu2017",
     "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
     "sweep": 'sweep zotov-89 --of hinge --over "spring.p0=4..6 MPa:3"',
@@ -92,7 +100,7 @@ def _run(line: str) -> str:
             os.chdir(here)
     if done.exit_code not in (0, 1):
         raise RuntimeError(f"mechsym {line} ended with {done.exit_code}: {done.output}")
-    return str(done.output).rstrip()
+    return str(done.output).rstrip().replace(str(Path.home()), "~")
 
 
 def _block(text: str) -> str:

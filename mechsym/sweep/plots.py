@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, bare
+from mechsym.quantities.names import stem_and_unit
+from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.palette import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
 from mechsym.sweep.units import unit_of
@@ -69,6 +70,14 @@ def _label(name: str, unit: str) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
+def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+    """Values in the unit that suits them or was chosen, and what is written at their axis."""
+    if unit in ("", "-"):
+        return values, _label(name, unit)
+    factor, word = axis_unit(unit, values)
+    return values * factor, _label(stem_and_unit(name)[0], word)  # speed_rpm in rad/s is no speed_rpm
+
+
 def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
     """A result over the free axes, the others at their middle value."""
     shape = tuple(len(a.values) for a in result.axes)
@@ -92,12 +101,13 @@ def _value(axis: Axis, value: Any) -> str:
     return f"{axis.key} = {value}" if isinstance(value, str) else f"{axis.key} = {value:.4g} {axis.unit}".rstrip(" -")
 
 
-def _ticks(axis: Any, along: Axis) -> np.ndarray:
+def _ticks(axis: Any, along: Axis) -> tuple[np.ndarray, str]:
+    """Places of the values along an axis, and what is written there."""
     if not isinstance(along.values[0], str):
-        return np.array(along.values)
+        return _scaled(along.key, np.array(along.values), along.unit)
     places = np.arange(len(along.values))
     axis.set_xticks(places, along.values)
-    return places
+    return places, along.key
 
 
 def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int | None]) -> Figure:
@@ -106,8 +116,9 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
     figure, axes = _panels(result, shown)
     figure.suptitle(_title(result, free), fontsize=10)
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        values = np.atleast_2d(_slice(result, free, column).T)
-        x = _ticks(axis, along)
+        drawn, told = _scaled(name, column, unit_of(name))
+        values = np.atleast_2d(_slice(result, free, drawn).T)
+        x, across = _ticks(axis, along)
         for k, y in enumerate(values):
             label = None if other is None else _value(other, other.values[k])
             # nothing lies between two words, and many dots hide the line
@@ -119,8 +130,8 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
             axis.plot(x[gaps], np.zeros(gaps.sum()), "x", color=GREY, transform=foot, clip_on=False)
         if _changes_sign(values):
             axis.axhline(0, color=INK, linewidth=0.6)
-        axis.set_xlabel(_label(along.key, along.unit))
-        axis.set_ylabel(_label(name, unit_of(name)))
+        axis.set_xlabel(across)
+        axis.set_ylabel(told)
     if other is not None:
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
@@ -131,9 +142,10 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
     right, up = result.axes[over[0]], result.axes[over[1]]
     figure, axes = _panels(result, shown)
     figure.suptitle(_title(result, list(over)), fontsize=10)
-    x, y = np.array(right.values), np.array(up.values)
+    (x, across), (y, upwards) = (_scaled(a.key, np.array(a.values), a.unit) for a in (right, up))
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        values = _slice(result, list(over), column).T
+        drawn, told = _scaled(name, column, unit_of(name))
+        values = _slice(result, list(over), drawn).T
         axis.set_facecolor(NOTHING)
         axis.grid(False)
         if np.isfinite(values).any():
@@ -145,9 +157,9 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
         gaps = np.argwhere(np.isnan(values))
         if gaps.size:
             axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
-        axis.set_title(_label(name, unit_of(name)), fontsize=9)
-        axis.set_xlabel(_label(right.key, right.unit))
-        axis.set_ylabel(_label(up.key, up.unit))
+        axis.set_title(told, fontsize=9)
+        axis.set_xlabel(across)
+        axis.set_ylabel(upwards)
     return figure
 
 
@@ -162,21 +174,18 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
     inputs = np.array(result.points, dtype=float).T
     for k, (name, column) in enumerate(shown.items()):
         there = np.isfinite(column)
-        y = column[there]
+        y, told = _scaled(name, column[there], unit_of(name))
         upper, lower = axes[k], axes[len(shown) + k]
-        upper.hist(
-            y,
-            bins=min(40, max(5, round(np.sqrt(y.size)))),
-            color=BLUE,
-        )
+        upper.hist(y, bins=min(40, max(5, round(np.sqrt(y.size)))), color=BLUE)
         upper.axvline(y.mean(), color=RED, linewidth=1)
         upper.set_title(f"{y.mean():.5g} ± {y.std():.2g}", fontsize=9)
-        upper.set_xlabel(_label(name, unit_of(name)))
-        upper.set_ylabel("samples")
+        upper.set_xlabel(told)
+        upper.set_ylabel("samples [-]")
         i = int(np.argmax([_rank_correlation(values[there], y) for values in inputs]))
-        lower.plot(inputs[i][there], y, ".", color=BLUE, markersize=3)
-        lower.set_xlabel(_label(result.axes[i].key, result.axes[i].unit))
-        lower.set_ylabel(_label(name, unit_of(name)))
+        x, across = _scaled(result.axes[i].key, inputs[i][there], result.axes[i].unit)
+        lower.plot(x, y, ".", color=BLUE, markersize=3)
+        lower.set_xlabel(across)
+        lower.set_ylabel(told)
     return figure
 
 

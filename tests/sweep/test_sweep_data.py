@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from pictures import faults
 
 from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
 from mechsym.errors import MissingExtra
+from mechsym.quantities.display import choose
 from mechsym.style import svg
 from mechsym.sweep import Plan, columns, dataset, failures, main_results, sweep, write_netcdf, write_table
 from mechsym.sweep import plots as plots_sweep
@@ -166,6 +168,21 @@ def test_pictures(plan):
     assert shown == list(plan.show) or len(shown) >= 2
     assert len(svg(figure)) > 5000
     assert ("failed" in figure.get_suptitle()) == bool(failures(result))
+    assert faults(figure) == []
+
+
+def test_axes_of_a_sweep_are_in_the_units_that_were_chosen():
+    result = sweep(Plan(case="nunes-slider-crank", over=("speed_rpm=2000,4000",), show=("torque_avg", "p_max_mpa")))
+    try:
+        choose("rad/s, kN*m, bar")
+        torque, pressure = (axis for axis in plots_sweep.picture(result).axes if axis.get_visible())
+    finally:
+        choose(None)
+    assert [a.get_ylabel() for a in (torque, pressure)] == ["torque_avg [kN m]", "p_max [bar]"]
+    assert torque.get_xlabel() == "speed [rad/s]"
+    assert torque.lines[0].get_xdata() == pytest.approx(np.array([2000, 4000]) * np.pi / 30)
+    assert torque.lines[0].get_ydata() == pytest.approx(columns(result)["torque_avg"] / 1e3)
+    assert pressure.lines[0].get_ydata() == pytest.approx(10 * columns(result)["p_max_mpa"])
 
 
 def test_a_map_may_be_empty_where_it_is_cut():
@@ -179,7 +196,7 @@ def test_a_map_may_be_empty_where_it_is_cut():
 
 def test_words_are_colours():
     figure = plots_sweep.picture(sweep(PICTURES["words and numbers"]))
-    assert figure.axes[0].get_xlabel() == "c1 [N*m*s/rad]"
+    assert figure.axes[0].get_xlabel() == "c1 [N m s/rad]"
     assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "simulation.backend = native"
 
 
