@@ -66,7 +66,12 @@ _COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
 
 
 def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    return [row | {"rel_error": None if row["rel_error"] is None else f"{row['rel_error']:+.1e}"} for row in rows]
+    from mechsym.papers.page import round_off
+
+    return [
+        row | {"rel_error": None if row["rel_error"] is None else f"{row['rel_error']:+.1e}",
+               "computed": "0 (below 1e-9)" if round_off(row["computed"]) else row["computed"]} for row in rows
+    ]  # fmt: skip
 
 
 def _notes(rows: list[dict[str, Any]]) -> str:

@@ -42,6 +42,11 @@ class LimitCheck:
     #: Share of the limit that is left, negative beyond it; None if a kept check knows no degree [-]
     margin: float | None
 
+    @property
+    def shown_margin(self) -> float | None:
+        """The margin for people: none where round-off stands beside the limit [-]."""
+        return None if self.margin is not None and self.margin > 1 - 1e-5 else self.margin
+
 
 @record
 class Verdict:
@@ -198,7 +203,7 @@ def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParamete
         _at_most("pressure_angle", "pressure angle", angle, math.degrees(limits.pressure_angle), "deg"),
         _undercut_check(numbers["undercut_radius"], rollers.radius, limits.profile_radius),
         _at_most("roller_reaction", "roller reaction", reaction, limits.roller_reaction / 1e3, "kN"),
-        _at_most("closure", "gap of the path", guide.closure, _CLOSURE * guide.parameters.rho0, "m"),
+        _closure_check(guide.closure, _CLOSURE * guide.parameters.rho0),
         _at_most("centre", "roller radius in the smallest rho", rollers.radius, numbers["rho_min"], "m"),
     ]
     if math.isfinite(stress):
@@ -206,6 +211,11 @@ def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParamete
     if guide.rollers == 2 and not isinstance(guide.spring, Coil):
         checks.append(_room_check(guide.parameters.rho0, guide.spring.H, rollers.radius))
     return checks
+
+
+def _closure_check(gap: float, limit: float) -> LimitCheck:
+    check = _at_most("closure", "gap of the path", gap, limit, "m")
+    return replace(check, text="the path closes within a billionth of its radius") if check.kept else check
 
 
 def _room_check(rho0: float, free_height: float, radius: float) -> LimitCheck:

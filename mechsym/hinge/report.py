@@ -11,9 +11,8 @@ from mechsym.files import to_json, write_quantities, write_text
 from mechsym.hinge.moving import readouts, scenes
 from mechsym.hinge.result import Design
 from mechsym.hinge.setting import setting_text
-from mechsym.hinge.shown import cards, pictures, shapes_of
+from mechsym.hinge.shown import cards, pictures
 from mechsym.hinge.summary import guide_columns, guide_turn, hinge_columns, summary
-from mechsym.mechanisms.plots import animation_of
 from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import rules
 from mechsym.page import page
@@ -31,8 +30,6 @@ def write(design: Design, folder: Path) -> list[Path]:
     numbers = summary(design)
     figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
     files = [write_text(folder / "report.html", html(design, numbers, figures))]
-    if (shapes := shapes_of(design)) is not None:
-        files.append(write_text(folder / "mechanism.html", animation_of(shapes, design.origin.about)))
     files.append(write_text(folder / "summary.json", to_json(numbers) + "\n"))
     files.append(write_quantities(folder / "hinge.csv", hinge_columns(design)))
     if design.guide.rho is not None:

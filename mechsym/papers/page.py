@@ -13,6 +13,7 @@ from mechsym.papers.sources import Source
 from mechsym.style import svg
 
 _DPI = 110
+_ROUND_OFF = 1e-12  # computed numbers are sized as the papers print them
 
 
 def write(
@@ -68,7 +69,13 @@ def html(
         counts={s.stem: counts(rows[s.stem]) for s in sources},
         pictures=drawn,
         differences=differences,
+        round_off=round_off,
     )
+
+
+def round_off(value: object) -> bool:
+    """Whether a computed number is nothing but round-off."""
+    return isinstance(value, float) and 0 < abs(value) < _ROUND_OFF
 
 
 def counts(rows: Sequence[dict[str, Any]]) -> dict[str, int]:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsym.quantities.display import quantity_text
 from mechsym.torsion.startup import StartUp
 
 _HIGHEST = 4  # orders above are too weak to speak of
@@ -76,7 +77,7 @@ def _validity(found: StartUp) -> list[str]:
     times = found.torque_peak / abs(found.drive.torque) if found.drive.torque else float("inf")
     lines = [
         f"largest twist {found.twist_peak:.4f} rad ({np.degrees(found.twist_peak):.1f} deg), shaft torque "
-        f"{found.torque_peak:.4g} N*m, {times:.0f} times the drive's"
+        f"{quantity_text(found.torque_peak, 'N*m', 4)}, {times:.0f} times the drive's"
     ]
     limit = found.claim.twist_limit
     if found.twist_peak > limit:

@@ -13,6 +13,7 @@ from mechsym.mechanisms import crank_train, shaft
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.plausible import Doubt, proportion
 from mechsym.quantities import quantity, record
+from mechsym.quantities.display import quantity_text
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.twist import ShaftSection
 
@@ -171,9 +172,10 @@ def words(found: TrainVibration) -> tuple[str, ...]:
     lines = [f"natural frequency {bare} rad/s bare, {full} rad/s with the mean reciprocating inertia"]
     for c in found.criticals:
         side = "above" if c.away > 0 else "below"
+        carried = quantity_text(c.torque, "N*m", 4)
         lines.append(
             f"order {c.order:g} is critical at {c.speed:.2f} rad/s, {abs(100 * c.away):.1f} % {side} the speed of "
-            f"operation: there the shaft carries {c.torque:.4g} N*m of it, {c.magnification:.3g} times a rigid one's"
+            f"operation: there the shaft carries {carried} of it, {c.magnification:.3g} times a rigid one's"
         )
     if not found.criticals:
         lines.append(f"no order is critical between {found.low:.2f} and {found.high:.2f} rad/s")
@@ -186,7 +188,7 @@ def twist_words(found: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[s
     for section, limit in zip(twist, found.twist_limit, strict=True):
         lines.append(
             f"largest twist of {section.section} {section.twist_peak:.4f} rad ({np.degrees(section.twist_peak):.1f} "
-            f"deg), shaft torque {section.torque_peak:.4g} N*m; the limit is {limit:.3g} rad"
+            f"deg), shaft torque {quantity_text(section.torque_peak, 'N*m', 4)}; the limit is {limit:.3g} rad"
         )
         if section.twist_peak > limit:
             lines.append(

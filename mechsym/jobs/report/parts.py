@@ -82,7 +82,7 @@ def _hinge(case: Case) -> ReportPart:
     numbers, verdict = hinge_summary(design), design.verdict
     checks = sorted((c for c in verdict.checks if c.margin is not None), key=lambda c: c.margin or 0.0)
     rows = [{"check": c.name.replace("_", " "), "value and limit": c.text, "kept": "yes" if c.kept else "NO",
-             "margin": _per_cent(c.margin)} for c in verdict.checks]  # fmt: skip
+             "margin": _per_cent(c.shown_margin)} for c in verdict.checks]  # fmt: skip
     runs = [{"run": t.about, "ripple": ratio_text(t.speed_ripple), "ends": t.result.end} for t in design.trials]
     saved = quantity_text(numbers["flywheel_inertia_saved"], "kg*m^2", 4)
     decide, told = [], f"The hinge {'can' if verdict.feasible else 'CANNOT'} be built: {verdict.reason}."
