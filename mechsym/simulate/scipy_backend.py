@@ -61,15 +61,16 @@ def _slow_down(phase: Phase, solver: Any, usual: float | None) -> bool:
     """Keep the next step from reaching far across a kink, where it would be rejected; whether it was limited."""
     if not phase.spans or not hasattr(solver, "h_abs"):  # LSODA chooses its steps out of sight
         return False
-    arrival = min(_arrival(span, solver, phase.system.size) for span in phase.spans)
+    rates = solver.f if hasattr(solver, "f") else solver.fun(solver.t, solver.y)  # BDF does not keep them
+    arrival = min(_arrival(span, solver, rates, phase.system.size) for span in phase.spans)
     close = usual is not None and arrival < _CLOSE * usual
     solver.max_step = arrival * (1 + 1e-5 if close else 1 - _CLOSE / 2)
     return solver.h_abs > solver.max_step
 
 
-def _arrival(span: Span, solver: Any, size: int) -> float:
+def _arrival(span: Span, solver: Any, rates: np.ndarray, size: int) -> float:
     """Estimated time until a coordinate leaves its interval."""
-    speed, rate = float(solver.f[span.state]), float(solver.f[span.state + size])
+    speed, rate = float(rates[span.state]), float(rates[span.state + size])
     if speed == 0.0:
         return np.inf
     way = max(abs((span.high if speed > 0 else span.low) - float(solver.y[span.state])), 1e-12)
