@@ -13,7 +13,7 @@ from slider_crank import slider_crank
 
 from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.chamber import travel
-from mechsym.cycle.measured.dead_centre import from_compression, from_motored, is_motored, peak_angle
+from mechsym.cycle.measured.dead_centre import behind_peak, from_compression, from_motored, is_motored, peak_angle
 from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.measured.timing import spread_error
 
@@ -72,6 +72,21 @@ def test_motored_records_tell_it_to_half_a_degree():
     # heat and blow-by: the peak lies before the dead centre
     loss = [(r.dead_centre[k] - peak_angle(*near_tdc(r, k))) / DEG for k in range(24)]
     assert np.median(loss) > 0.1
+
+
+def test_what_the_interval_is_made_of():
+    """1.96 times: what the fit does not know, and 0.2 degrees of the encoder, which no line tells of."""
+    r = records(np.random.default_rng(21), 1, 3)
+    (angle, mean), cylinder = near_tdc(r, 0), cylinder_of(r, 0)
+    found, fit = from_compression(angle, mean, cylinder, LINE, Prior())
+    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), 0.2 * DEG)
+    assert found.high - found.angle == pytest.approx(1.96 * spread) == pytest.approx(found.angle - found.low)
+    # share of the variance that is assumed: the encoder's, and of the fit's what its priors leave
+    assumed = fit.prior_share * fit.covariance[0, 0] + (0.2 * DEG) ** 2
+    assert found.prior_share == pytest.approx(assumed / spread**2)
+    peak = behind_peak(2.0, 0.8 * DEG)
+    assert (peak.angle, peak.high - peak.angle) == (pytest.approx(2.0 + 0.8 * DEG), pytest.approx(1.96 * 0.3 * DEG))
+    assert peak.prior_share == 1.0 and peak.loss_angle == 0.8 * DEG
 
 
 @pytest.mark.slow
