@@ -24,12 +24,16 @@ _HARDWARE = {"A": "m^2", "H": "m", "p0": "Pa", "rho0": "m", "radius": "m", "widt
 @click.option("--ripple", metavar="D", help="Allowed (max - min) / mean of the speed: 2%.")
 @click.option("--springs", type=click.IntRange(1, 3), help="Guides with a spring and a pressure of their own.")
 @click.option("--schedule", type=click.Choice(["each_point", "one"]), help="Pressures set at each point, or one.")
+@click.option(
+    "--losses", type=click.Choice(["beside", "inside"]), help="Friction and heat beside the programme, or in it."
+)
 @click.option("--robust", metavar="spring.p0=E", help="Error of every pressure that the ripple must bear: 1%.")
 @click.option("--misfire-speed", metavar="S", help="Share of the speed that a lost combustion must leave: 0.5.")
 @click.option("--free", metavar="KEY,KEY..", help="Chosen too: spring.A, spring.H, guide.rho0, rollers.radius, ..")
 @click.option("--pareto", metavar="D,D..", help="Ripples of a front: 1,2,5,8%.")
 @click.option("--cylinders", type=click.IntRange(1, 24), help="Also what 1 to N of these cylinders on a shaft need.")
 @click.option("--realise", metavar="GOAL", help="Hardware of least bearing_loss, roller_reaction, gas_volume, ..")
+@click.option("--peers", is_flag=True, help="Also coil springs, noncircular gears and two springs at the same ripples.")
 @out_option
 @set_option
 @json_option
@@ -47,7 +51,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     from mechsym.codesign.realise import check_goal
     from mechsym.codesign.summary import summary
     from mechsym.files import make_folder
-    from mechsym.jobs.codesign import STEPS, beside, for_report, settings_of
+    from mechsym.jobs.codesign import STEPS, beside, compared, for_report, settings_of
     from mechsym.jobs.codesign import codesign as design
 
     case = case_of(case_name, pairs(overrides))
@@ -55,8 +59,13 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     cylinders, goal = options["cylinders"] or 0, check_goal(options["realise"]) if options["realise"] else ""
     if out is not None:
         make_folder(out)
-    with progress(STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out), f"co-design of {case.name}") as bar:
+    with progress(
+        STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out) + 2 * options["peers"],
+        f"co-design of {case.name}",
+    ) as bar:
         found = design(case, settings, ripples, lambda: bar.update(1))
+        if options["peers"]:
+            found = compared(found, lambda: bar.update(1))
         numbers, files = summary(found) | beside(found, cylinders, goal, lambda: bar.update(1)), []
         if out is not None:
             from mechsym.codesign.report import write
@@ -80,7 +89,7 @@ def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]
         changed["speeds"] = tuple(values(options["speeds"], "rad/s", "--speeds", "rpm", most=_MOST))
     if options["loads"] is not None:
         changed["loads"] = tuple(values(options["loads"], "-", "--loads", most=_MOST))
-    for name in ("curve", "springs", "schedule"):
+    for name in ("curve", "springs", "schedule", "losses"):
         if options[name] is not None:
             changed[name] = options[name]
     for name in ("ripple", "misfire_speed"):
@@ -106,11 +115,12 @@ def _one(text: str, option: str) -> float:
 
 
 def _text(numbers: dict[str, Any], files: list[Path]) -> str:
-    bound, found = numbers["bound"], numbers["verified"]
+    bound, found, lost = numbers["bound"], numbers["verified"], numbers["losses"]
     names = ["p0"] if len(numbers["p0"]) == 1 else [f"p0 {s + 1}" for s in range(len(numbers["p0"]))]
     rows = [
         {"speed": n * RPM, "mep": load, **{name: p[k] for name, p in zip(names, numbers["p0"], strict=True)},
          "ripple": numbers["speed_ripple"][k], "steady": found["steady_ripple"][k], "in time": found["time_ripple"][k],
+         "with losses": numbers["losses"]["speed_ripple"][k],
          "losses": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
         for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
     ]  # fmt: skip
@@ -122,6 +132,8 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
         f"{_inertia(numbers['flywheel_inertia_bare'])}, guide cut for one speed "
         f"{_inertia(numbers['flywheel_inertia_cut_for_one'])}",
         f"no guide better  {floors} by the number of springs; up to {pays} pay{'s' * (pays == 1)}",
+        f"losses           {min(lost['share']):.1%} to {max(lost['share']):.1%} of the torque, friction assumed; "
+        f"{'in' if lost['in_programme'] else 'beside'} the programme; an index below gamma costs heat",
         f"three ways       differ by {figure(100 * found['difference'], 2)} % of the largest ripple",
         "",
         table(rows, list(rows[0]), _UNITS),
@@ -132,6 +144,9 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
     ]  # fmt: skip
     if numbers["pareto"]:
         lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"], _INERTIAS)]
+    if "peers" in numbers:
+        lines += ["", "other machines at the same points",
+                  table(numbers["peers"], ["name", "ripple", "flywheel_inertia", "about"], _INERTIAS)]  # fmt: skip
     if "cylinders" in numbers:
         lines += ["", "flywheel of several cylinders that fire evenly, bare and the least that a hinge leaves",
                   table(numbers["cylinders"], list(numbers["cylinders"][0]), _INERTIAS)]  # fmt: skip

@@ -6,7 +6,8 @@
     front       the same for many ripples; a guide cut for one point
     verify      every number by two other ways: running (over the angle, in time)
     scenarios, changes, manoeuvres    what kills it
-    loss, control, realise, cylinders, schedule    what it costs, how it is kept, sized, used
+    loss, real  friction and heat in the motion
+    control, realise, cylinders, schedule    what it costs, how it is kept, sized, used
 
 Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesign.md for the formulas.
 """
@@ -19,7 +20,7 @@ _NAMES = {
     "bounds": "mechsym.codesign.machines:bounds",
     "CoDesign": "mechsym.codesign.task:CoDesign",
     "CoDesignTask": "mechsym.codesign.task:CoDesignTask",
-    "fine_path": "mechsym.codesign.verify:fine_path",
+    "fine_path": "mechsym.codesign.contact_block:fine_path",
     "from_curve": "mechsym.codesign.machines:from_curve",
     "front": "mechsym.codesign.front:front",
     "Hardware": "mechsym.codesign.hardware:Hardware",

@@ -10,6 +10,7 @@ import scipy
 
 from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.control import hold
+from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running
 from mechsym.codesign.scenarios import Scenario, not_running, steady_speed, told
@@ -31,7 +32,7 @@ def rows(found: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenar
     scavenged : Point, optional
         The same point with a tenth less scavenge pressure and the load as it was
     """
-    machine = running.running(found.task.points[k], found.tracks, k, found.flywheel)
+    machine = machine_at(found, k)
     made = [] if scavenged is None else [_scavenge_step(found, machine, scavenged, k)]
     made += [_leak(machine, k), _controlled(found, k)]
     return made + ([] if machine.point.misfire is None else [_start(machine, k), _stop(machine, k)])
@@ -44,6 +45,7 @@ def _scavenge_step(found: CoDesign, machine: Running, scavenged: Point, k: int) 
     if start is None:
         return not_running(name, about, k)
     other = running.running(scavenged, found.tracks, k, found.flywheel)
+    other = dataclasses.replace(other, extra=machine.extra, load=machine.load)
     run = running.run(other, start[0], _TURNS)
 
     def ripple(share: float) -> float:

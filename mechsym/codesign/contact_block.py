@@ -13,7 +13,10 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign.hardware import Bounds, Hardware, gas_pressure, outside
+from mechsym.codesign.task import Track
 from mechsym.quantities import record
+
+_FINE = 720  # angles of a turn on which a finished guide is looked at
 
 
 @record
@@ -30,6 +33,13 @@ def path_of(hardware: Hardware, rho0: Any, z: Any, dz: Any, d2z: Any) -> Path:
     """Path of the rollers of a closing z [m] and its derivatives by the crank angle [m/rad, m/rad^2]; rho0 in [m]."""
     c, ratio = hardware.count, hardware.shaft_ratio
     return Path(z=z, rho=rho0 - z / c, drho=-dz / (c * ratio), d2rho=-d2z / (c * ratio**2))
+
+
+def fine_path(track: Track, period: float) -> tuple[np.ndarray, Path]:
+    """Even angles [rad] of a turn and the path of a guide there."""
+    phi = np.arange(round(_FINE * period / (2 * np.pi))) * 2 * np.pi / _FINE
+    z, h = track.z(phi), track.hardware
+    return phi, path_of(h, h.rho0, z, track.z.derivative()(phi), track.z.derivative(2)(phi))
 
 
 def curvature(path: Path) -> Any:

@@ -15,6 +15,7 @@ import numpy as np
 
 from mechsym.codesign import running
 from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.loss import machine_at
 from mechsym.codesign.running import Running, TimeRun, spring_energy
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import load_torque
@@ -68,7 +69,7 @@ def hold(
         Largest change of a pressure in a turn by the design's [-]
     """
     point, rng = found.task.points[k], np.random.default_rng(9)
-    design = running.running(point, found.tracks, k, found.flywheel)
+    design = machine_at(found, k)
     wanted = np.array(design.pressures)
     p, speed, errors, ripples, legs = wanted * (1 + off), point.omega, [], [], []
     for _ in range(turns):

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from mechsym.codesign.hardware import gas_energy, outside
-from mechsym.codesign.points import Point
+from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import ReadyProgramme, programme, solve
 from mechsym.codesign.start import closing
 from mechsym.codesign.task import CoDesign, CoDesignTask
@@ -25,6 +25,7 @@ def front(
     ripples: Sequence[float],
     ready: ReadyProgramme | None = None,
     progress: Callable[[], Any] = lambda: None,
+    saving: float = 0.0,
 ) -> list[CoDesign]:
     """The best flywheel for each ripple, smallest ripple first; one programme, each solve starts from the one before.
 
@@ -34,6 +35,8 @@ def front(
         Allowed (max - min) / mean of the speed [-]
     ready : ReadyProgramme, optional
         Of the same task but for ripple and limits
+    saving : float
+        Share of the bare flywheel that a hinge must save [-]
 
     Returns
     -------
@@ -49,9 +52,25 @@ def front(
         made = solve(asked, ready, near)
         if near is not None and made.status != "optimal":
             made = solve(asked, ready)
-        found.append(made)
+        found.append(worth_it(made, bare_flywheel(task.points, wanted), saving))
         progress()
     return found
+
+
+def worth_it(found: CoDesign, bare: float, saving: float) -> CoDesign:
+    """The design, infeasible where its flywheel is not enough below the bare one [kg*m^2] by the share `saving` [-].
+
+    A flywheel that is free makes up for any hinge: without this no limit could ever be too narrow.
+    """
+    most = (1 - saving) * bare
+    if found.status != "optimal" or found.flywheel <= most or bare == 0:
+        return found
+    met = ", ".join(a.limit for a in found.active if a.limit != "ripple") or "no limit but the ripple"
+    words = (
+        f"a hinge within these limits leaves {found.flywheel:.5g} of {bare:.5g} kg*m^2, and {most:.5g} is the most "
+        f"that codesign.saving = {saving:g} allows; {met} is met"
+    )
+    return dataclasses.replace(found, status="infeasible", reason=words)
 
 
 @record

@@ -67,7 +67,7 @@ def start(machine: Running, share: float, turns: float = 2.0) -> TimeRun:
     pushed = share * standstill(machine).torque
     unfired = machine.point.misfire or _nothing
     alone = dataclasses.replace(
-        machine, torque=lambda phi: unfired(phi) + pushed, kinks=machine.point.misfire_kinks,
+        machine, torque=lambda phi: unfired(phi) + pushed, kinks=machine.point.misfire_kinks, extra=None,
         load=dataclasses.replace(machine.load, torque=0.0),
     )  # fmt: skip
     return running.run(alone, 1e-3 * machine.point.omega, turns, _rest(machine)[0], stall=0.0)
@@ -75,7 +75,8 @@ def start(machine: Running, share: float, turns: float = 2.0) -> TimeRun:
 
 def astern(machine: Running) -> Running:
     """The machine turning the other way on the same guides, fired as ahead; the engine is its own mirror image."""
-    return dataclasses.replace(machine, tracks=tuple(mirrored(t, machine.point.period) for t in machine.tracks))
+    tracks = tuple(mirrored(t, machine.point.period) for t in machine.tracks)
+    return dataclasses.replace(machine, tracks=tracks, extra=None)
 
 
 def mirrored(track: Track, period: float) -> Track:

@@ -28,7 +28,9 @@ class MotionRows:
     high: tuple[float, ...]  #: of each piece [-]
 
 
-def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any) -> MotionRows:
+def block(
+    point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any, taken: Any = 0.0
+) -> MotionRows:
     """The motion of a point that keeps a ripple.
 
     Parameters
@@ -39,6 +41,8 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
         All inertia that turns [kg*m^2]
     ripple : casadi.SX
         Largest (max - min) / mean of the speed [-]
+    taken : casadi.SX
+        Mean torque that the hinge takes from the load [N*m]
     """
     n = samples.phi.size
     scale = 0.1 * float(np.ptp(samples.work[k]))
@@ -52,7 +56,7 @@ def block(point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ri
     mean = ca.dot(ca.DM(samples.weights), inverse)
     rows = [squares - u_low**2, squares - u_high**2, (u_high - u_low) * mean - ripple]
     if propeller:
-        rate = -2 * point.load_torque / (inertia * point.omega**2) * lag
+        rate = -2 * (point.load_torque - taken) / (inertia * point.omega**2) * lag
         after = ca.vertcat(rate[1:], rate[0])
         rows.append(ca.vertcat(g[1:], g[0]) - g - ca.DM(samples.step) / 2 * (rate + after))
     else:

@@ -4,18 +4,21 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.cylinders import Count
+from mechsym.codesign.loss import KINDS
 from mechsym.codesign.result import CoDesignResult
-from mechsym.codesign.verify import fine_path
 from mechsym.quantities.display import quantity_text
 from mechsym.style import (
     BLUE,
+    GREEN,
     GREY,
     INK,
     ORANGE,
     PAPER,
     RED,
     SERIES,
+    VIOLET,
     axis_unit,
     bare,
     heading,
@@ -25,7 +28,7 @@ from mechsym.style import (
     unit_words,
 )
 
-_KINDS = ("bearing", "seal", "guide", "rolling", "gas")
+_PEERS = {"plain flywheel": RED, "cam with coil springs": ORANGE, "noncircular gears": VIOLET, "two springs": GREEN}
 
 
 def works(result: CoDesignResult) -> Figure:
@@ -59,6 +62,11 @@ def front(result: CoDesignResult) -> Figure:
     axis.plot([wanted], [factor * result.bare], "s", color=RED, label="without a hinge")
     if result.cut.flywheel is not None:
         axis.plot([wanted], [factor * result.cut.flywheel], "D", color=ORANGE, label="guide cut for one speed")
+    for name, colour in _PEERS.items():
+        rows = [p for p in result.peers if p.name == name and p.flywheel is not None]
+        if rows:
+            axis.plot([100 * p.ripple for p in rows], [factor * (p.flywheel or 0.0) for p in rows], "o--", color=colour,
+                      markersize=3, linewidth=0.9, label=name)  # fmt: skip
     swings = result.bound.swing[result.design.task.springs - 1]
     own = float(np.mean(result.design.task.points[0].inertia(np.linspace(0, 2 * np.pi, 181))))
     floor = factor * np.maximum(100 * swings / ripples - own, 1e-3)
@@ -126,7 +134,7 @@ def losses(result: CoDesignResult) -> Figure:
     turning, rpm = axis_unit("rad/s", [p.omega for p in task.points])
     names = [f"{p.omega * turning:.4g}\n{quantity_text(p.load, 'Pa', 3)}" for p in task.points]
     places, below = np.arange(len(names)), np.zeros(len(names))
-    for kind, color in zip(_KINDS, SERIES, strict=False):
+    for kind, color in zip(KINDS, SERIES, strict=False):
         values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
                            for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
         if values.any():

@@ -3,6 +3,7 @@ r"""The programme: shapes of guides, pressures of springs and one small flywheel
     minimise J   over the shapes z(phi), the pressures p_k, J, and the motion of each point
     subject to   the steady motion of each point keeps the ripple                          (motion_block)
                  spring, track and rollers keep their limits where they are asked most      (contact_block)
+                 friction and heat, if the task asks for them                               (loss_block)
 
 Angles are common to all points and contain the kinks. IPOPT with exact derivatives; the splines are sparse. The
 multipliers of ripple and limits come out as what one unit of each is worth in flywheel.
@@ -16,7 +17,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.codesign import contact_block, motion_block
+from mechsym.codesign import contact_block, loss_block, motion_block
 from mechsym.codesign.basis import Basis, basis, curve
 from mechsym.codesign.derivatives import solver
 from mechsym.codesign.hardware import Bounds, gas_energy, outside
@@ -147,13 +148,19 @@ def _motions(
     rollers = sum(g.inertia for g in found)
     total = ca.DM(samples.inertia) + flywheel + rollers
     sides = (1 - task.robust, 1 + task.robust) if task.robust else (1.0,)
-    ripples = []
+    ripples, given = [], task.losses
+    warm = loss_block.warmths(task, samples, found, given, gathered) if given else []
     for k, point in enumerate(task.points):
         for errors in itertools.product(sides, repeat=task.springs):
             # the constant of the work is free: g takes it up
-            missing = ca.DM(samples.work[k]) + point.omega**2 / 2 * rollers
-            missing += sum(_energy(task, g, k, e) for g, e in zip(found, errors, strict=True))
-            made = motion_block.block(point, k, samples, missing, total, ripple)
+            missing, taken = ca.DM(samples.work[k]) + point.omega**2 / 2 * rollers, 0.0
+            if given:
+                pressures = [e * g.p0[k] for g, e in zip(found, errors, strict=True)]
+                lost = loss_block.taken(task, point, samples, found, pressures, warm[k], given, gathered)
+                missing, taken = missing + lost.work, lost.torque
+            else:
+                missing += sum(_energy(task, g, k, e) for g, e in zip(found, errors, strict=True))
+            made = motion_block.block(point, k, samples, missing, total, ripple, taken)
             gathered.add(made.unknowns, made.start)
             gathered.group(zip(made.rows, made.low, made.high, strict=True))
             ripples.append(made.ripple)

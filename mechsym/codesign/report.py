@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 
 from mechsym.codesign import plots
-from mechsym.codesign.contact_block import contact_force
+from mechsym.codesign.contact_block import contact_force, fine_path
 from mechsym.codesign.hardware import gas_pressure, outside
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import Track
-from mechsym.codesign.verify import fine_path
 from mechsym.files import to_json, write_quantities, write_text
 from mechsym.page import Grid, grid, page
 from mechsym.quantities.display import ratio_text
@@ -31,6 +30,8 @@ _SIZES = (
     ("contact stress", "Pa", ("hertz_stress_max",)),
     ("pressure angle", "rad", ("pressure_angle_max",)),
 )
+
+_DANGERS = ("misfire", "burst", "leak", "astern")  # what a builder asks about first
 
 
 def write(result: CoDesignResult, numbers: dict[str, Any], folder: Path) -> list[Path]:
@@ -57,8 +58,24 @@ def _table(path: Path, columns: dict[str, Any]) -> Path:
 def html(result: CoDesignResult, numbers: dict[str, Any], pictures: dict[str, str]) -> str:
     """The page as text."""
     return page(
-        "codesign.html", result=result, numbers=numbers, figures=pictures, sizes=_SIZES, points=_points(result, numbers)
-    )
+        "codesign.html", result=result, numbers=numbers, figures=pictures, sizes=_SIZES,
+        points=_points(result, numbers), **_first_page(result),
+    )  # fmt: skip
+
+
+def _first_page(result: CoDesignResult) -> dict[str, Any]:
+    """What the first page of a builder says beside the numbers: dangers, ripple with losses, share of the heat."""
+    ripples, residuals = [at.ripple for at in result.lossy], np.abs(result.verified.energy_residual)
+    points = result.design.task.points
+    speeds = [p.omega for p in points]
+    return {
+        "dangers": [s for name in _DANGERS for s in result.scenarios if s.name == name],
+        "lossy_ripple": None if None in ripples else max(r for r in ripples if r is not None),
+        "gas_share": max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
+        "residual": ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
+        "index": result.design.tracks[0].hardware.n, "gamma": result.assumed.gamma,
+        "speeds": (min(speeds), max(speeds)),
+    }  # fmt: skip
 
 
 def _points(result: CoDesignResult, numbers: dict[str, Any]) -> Grid:

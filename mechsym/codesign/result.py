@@ -1,8 +1,9 @@
 """What the job of a co-design gives: the design, its bound, what stands beside it, its checks, costs and dangers."""
 
 from mechsym.codesign.front import CutForOne
-from mechsym.codesign.loss import Lossy
+from mechsym.codesign.peers import Rival
 from mechsym.codesign.rank import Bound
+from mechsym.codesign.real import Lossy
 from mechsym.codesign.scenarios import Scenario
 from mechsym.codesign.schedule import RippleMap
 from mechsym.codesign.task import CoDesign
@@ -29,6 +30,7 @@ class CoDesignResult(Shown):
     lossy: tuple[Lossy, ...]  #: each point with them, its springs filled anew
     misfire: tuple[float | None, ...]  #: lowest speed after a lost combustion by the mean, at each point; 0 stalls [-]
     front: tuple[CoDesign, ...]
+    peers: tuple[Rival, ...] = ()  #: computed where they are asked for only
     scenarios: tuple[Scenario, ...] = ()  #: computed for the report only
     spread: Spread | None = None  #: computed for the report only
     map: RippleMap | None = None  #: computed for the report only

@@ -41,6 +41,9 @@ class Running:
     load: ConstantLoad | PropellerLoad
     torque: Function  #: gas and gravity over the angle [N*m]
     kinks: tuple[float, ...]  #: of that torque [rad]
+    extra: scipy.interpolate.PPoly | None = (
+        None  #: torque of friction, and of a gas with heat beside the polytrope [N*m]
+    )
 
 
 @record
@@ -98,7 +101,8 @@ def inertia(machine: Running, phi: Any) -> np.ndarray:
 def torque(machine: Running, phi: Any) -> np.ndarray:
     """Torque of gas, gravity and springs on the shaft [N*m] at phi [rad]."""
     springs = zip(machine.tracks, machine.pressures, strict=True)
-    return machine.torque(phi) + sum(spring_torque(track, p0, phi) for track, p0 in springs)
+    extra = 0.0 if machine.extra is None else machine.extra(phi)
+    return machine.torque(phi) + extra + sum(spring_torque(track, p0, phi) for track, p0 in springs)
 
 
 def panels(machine: Running) -> Panels:
@@ -188,10 +192,11 @@ def _rates(machine: Running) -> Callable[[Any], list[float]]:
     engine = periodic.scalar(point.inertia)
     springs = [_spring_rates(t, p0) for t, p0 in zip(machine.tracks, machine.pressures, strict=True)]
     load, flywheel = machine.load, machine.flywheel
+    extra = _nothing if machine.extra is None else periodic.scalar(machine.extra)
 
     def rates(y: Any) -> list[float]:
         phi, omega = float(y[0]), float(y[1])
-        driving = gas(phi)[0]
+        driving = gas(phi)[0] + extra(phi)[0]
         own, slope = engine(phi)
         total, rise, push = own + flywheel, slope, 0.0
         for of in springs:
@@ -201,6 +206,10 @@ def _rates(machine: Running) -> Callable[[Any], list[float]]:
         return [omega, (driving + push - taken - rise * omega**2 / 2) / total, driving * omega, taken * omega]
 
     return rates
+
+
+def _nothing(phi: float) -> tuple[float, float]:
+    return 0.0, 0.0
 
 
 def _spring_rates(track: Track, p0: float) -> Callable[[float], tuple[float, float, float]]:

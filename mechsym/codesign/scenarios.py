@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from mechsym.codesign import manoeuvres, running
+from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
@@ -38,7 +39,7 @@ class Scenario:
 def misfire(found: CoDesign, k: int, flywheel: float | None = None) -> Scenario:
     """One period without combustion from dead centre at a point; `flywheel` [kg*m^2] in place of the design's."""
     point, inertia = found.task.points[k], found.flywheel if flywheel is None else flywheel
-    machine = running.running(point, found.tracks, k, inertia)
+    machine = machine_at(found, k, inertia)
     return _lost_combustion(machine, point, k)
 
 
@@ -80,7 +81,7 @@ def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
     rows = []
     for k in ks if ks is not None else sorted({0, len(found.task.points) - 1}):
         point = found.task.points[k]
-        machine = running.running(point, found.tracks, k, found.flywheel)
+        machine = machine_at(found, k)
         if point.misfire is not None:
             rows.append(_lost_combustion(machine, point, k))
         rows += [_load_step(machine, k), _governed(machine, k), _scatter(machine, k, 0.01), _scatter(machine, k, 0.03)]
@@ -196,7 +197,7 @@ def _vented(machine: Running, k: int) -> Scenario:
         return not_running(name, about, k)
     empty = dataclasses.replace(
         machine, torque=machine.point.misfire, kinks=machine.point.misfire_kinks,
-        pressures=tuple(1e3 for _ in machine.pressures),
+        pressures=tuple(1e3 for _ in machine.pressures), extra=None,
     )  # fmt: skip
     run = running.run(empty, start[0], _SETTLE)
     return told(name, about, k, start[1], run, lambda r: f"still {r.omega[-1] / start[1]:.2f} after {_SETTLE:g} turns")

@@ -22,6 +22,10 @@ class CoDesignSettings:
     ripple: float = quantity("-", default=0.02, above=0, below=1, about="allowed (max - min) / mean of the speed")
     springs: float = quantity("-", default=1, low=1, high=3, about="guides with a spring and pressure of their own")
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
+    losses: str = choice("beside", "inside", default="beside", about="friction and heat beside the programme or in it")
+    saving: float = quantity(
+        "-", default=0.3, low=0, below=1, about="share of the bare flywheel that a hinge must save to be a design"
+    )
     robust: float = quantity("-", default=0.0, low=0, high=0.2, about="error of every p0 that the ripple must bear")
     free: tuple[str, ...] = ()  #: values of the hardware that are chosen too
     moving_mass: float = quantity("kg", default=0.0, low=0, high=10000, about="mass that moves with each roller")

@@ -6,14 +6,13 @@ import numpy as np
 
 from mechsym.codesign.front import CutForOne
 from mechsym.codesign.hardware import rollers_at_rest
-from mechsym.codesign.loss import relaxation_time
+from mechsym.codesign.loss import KINDS, relaxation_time
+from mechsym.codesign.peers import Rival
 from mechsym.codesign.rank import Bound, flywheel_bound
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import GuideLoads, Verified
 from mechsym.quantities import RPM
-
-_KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
 
 def summary(result: CoDesignResult) -> dict[str, Any]:
@@ -24,6 +23,7 @@ def summary(result: CoDesignResult) -> dict[str, Any]:
         **what_it_costs(result),
         "misfire_speed_share": list(result.misfire),
         "pareto": [row(design) for design in result.front],
+        **({"peers": [peer(p) for p in result.peers]} if result.peers else {}),
         "doubts": [],
     }
 
@@ -88,7 +88,7 @@ def what_it_costs(result: CoDesignResult) -> dict[str, Any]:
     """Losses at each point, as torques and as shares of the load's torque, with what was assumed for them."""
     design, lost, assumed = result.design, result.losses, result.assumed
     loads = np.array([abs(p.load_torque) for p in design.task.points])
-    torques = {kind: np.array([getattr(at, kind) for at in lost]) for kind in _KINDS}
+    torques = {kind: np.array([getattr(at, kind) for at in lost]) for kind in KINDS}
     total = sum(torques.values())
     return {
         "losses": {
@@ -96,7 +96,10 @@ def what_it_costs(result: CoDesignResult) -> dict[str, Any]:
             "share": (total / loads).tolist(),
             "shaft_efficiency": (1 - total / loads).tolist(),
             "extra_fuel": (total / np.maximum(loads - total, 1e-30)).tolist(),
+            "in_programme": design.task.losses is not None,
             "speed_ripple": [at.ripple for at in result.lossy],
+            "time_ripple": [at.time_ripple for at in result.lossy],
+            "energy_residual": [at.energy_residual for at in result.lossy],
             "fill": [at.fill for at in result.lossy],
             "assumed": {
                 "bearing_mu": assumed.bearing_mu,
@@ -110,7 +113,15 @@ def what_it_costs(result: CoDesignResult) -> dict[str, Any]:
 
 def row(design: CoDesign) -> dict[str, Any]:
     """One point of a front."""
-    return {"ripple": design.task.ripple, "flywheel_inertia": design.flywheel, "status": design.status}
+    return {
+        "ripple": design.task.ripple, "flywheel_inertia": design.flywheel, "status": design.status,
+        "reason": design.reason,
+    }  # fmt: skip
+
+
+def peer(found: Rival) -> dict[str, Any]:
+    """Another machine at one ripple."""
+    return {"name": found.name, "ripple": found.ripple, "flywheel_inertia": found.flywheel, "about": found.about}
 
 
 def _numbers(values: np.ndarray) -> list[float | None]:

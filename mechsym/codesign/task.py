@@ -8,6 +8,7 @@ import scipy
 from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.points import Point
 from mechsym.errors import BadInput
+from mechsym.hinge.losses import HingeLosses
 from mechsym.quantities import choice, quantity, record
 
 #: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
@@ -28,6 +29,7 @@ class CoDesignTask:
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
     robust: float = quantity("-", default=0.0, low=0, high=0.2, about="error of every p0 that the ripple must bear")
     free: tuple[str, ...] = ()  #: names of `FREE`, and `moving_mass`, that are chosen too
+    losses: HingeLosses | None = None  #: friction and heat inside the programme; None leaves them beside it
     knots: int = 60  #: of the spline of each guide
     angles: int = 180  #: of the programme over a turn of the crank
 

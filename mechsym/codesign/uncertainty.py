@@ -3,8 +3,11 @@
 import dataclasses
 
 import numpy as np
+import scipy
 
+from mechsym import periodic
 from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Point, motion
 from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign, Track
@@ -41,20 +44,42 @@ def spread(found: CoDesign, count: int = 200, errors: dict[str, float] | None = 
     """
     sigma = ERRORS | (errors or {})
     draws = np.random.default_rng(_SEED).standard_normal((count, len(sigma)))
-    samples = [worst(found, dict(zip(sigma, row * list(sigma.values()), strict=True))) for row in draws]
-    alone = {name: (worst(found, {name: -2 * s}), worst(found, {name: 2 * s})) for name, s in sigma.items()}
+    lost = _lost(found)
+    samples = [_worst(found, dict(zip(sigma, row * list(sigma.values()), strict=True)), lost) for row in draws]
+    alone = {
+        name: (_worst(found, {name: -2 * s}, lost), _worst(found, {name: 2 * s}, lost)) for name, s in sigma.items()
+    }
     return Spread(samples=np.sort(samples), alone=alone, errors=sigma)
 
 
 def worst(found: CoDesign, off: dict[str, float]) -> float:
     """Largest ripple of all points with errors by name [-]; 2 where the shaft stops."""
+    return _worst(found, off, _lost(found))
+
+
+def _worst(found: CoDesign, off: dict[str, float], lost: "list[scipy.interpolate.PPoly | None]") -> float:
     tracks = [_changed(track, off) for track in found.tracks]
     flywheel = found.flywheel * (1 + off.get("flywheel", 0.0))
-    rows = [_ripple(point, tracks, k, flywheel, off) for k, point in enumerate(found.task.points)]
+    rows = [_ripple(p, tracks, k, flywheel, off, extra) for k, (p, extra) in
+            enumerate(zip(found.task.points, lost, strict=True))]  # fmt: skip
     return max(_STOPPED if r is None else r for r in rows)
 
 
-def _ripple(point: Point, tracks: list[Track], k: int, flywheel: float, off: dict[str, float]) -> float | None:
+def _lost(found: CoDesign) -> "list[scipy.interpolate.PPoly | None]":
+    """Torque of friction and heat at each point [N*m], where the programme had them."""
+    return [machine_at(found, k).extra for k in range(len(found.task.points))]
+
+
+def _ripple(
+    point: Point,
+    tracks: list[Track],
+    k: int,
+    flywheel: float,
+    off: dict[str, float],
+    extra: scipy.interpolate.PPoly | None,
+) -> float | None:
+    taken = 0.0 if extra is None else -periodic.mean(extra)
+    gone = None if extra is None else extra.antiderivative()
     half, load = point.omega**2 / 2, 1 + off.get("load", 0.0)
 
     def missing(phi: np.ndarray) -> np.ndarray:
@@ -64,12 +89,15 @@ def _ripple(point: Point, tracks: list[Track], k: int, flywheel: float, off: dic
         for track in tracks:
             h, p0 = track.hardware, track.p0[k] * (1 + off.get("p0", 0.0))
             w = w + h.A * gas_energy(track.z(phi), p0, h.H, h.n, outside(h)) + half * added_inertia(track, phi)
+        if gone is not None:
+            w = w - gone(phi) - taken * phi
         return np.asarray(w - w.mean())
 
     def total(phi: np.ndarray) -> np.ndarray:
         return np.asarray(point.inertia(phi) + flywheel + sum(added_inertia(t, phi) for t in tracks))
 
-    return ripple(motion(point, missing, total)[1])
+    left = dataclasses.replace(point, load_torque=point.load_torque - taken)
+    return ripple(motion(left, missing, total)[1])
 
 
 def _changed(track: Track, off: dict[str, float]) -> Track:

@@ -9,16 +9,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import Path, contact_force, curvature, path_of
+from mechsym.codesign.contact_block import contact_force, curvature, fine_path
 from mechsym.codesign.hardware import Hardware, gas_pressure, outside
+from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Point
+from mechsym.codesign.real import in_time
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.hinge.losses import side_force
 from mechsym.quantities import quantity, record
 from mechsym.simulate.steady import Steady
 
-TURNS = 4.0  # of each run in time
-_FINE = 720  # angles of a turn for contact
+PERIODS = 2  # of each run in time; it starts in the steady motion
 _STOPPED = 2.0  # ripple of a shaft that stops
 _SLACK = 5e-3  # a limit between the angles of the programme may be passed by this share
 
@@ -68,17 +69,21 @@ def verify(found: CoDesign) -> Verified:
     verified : Verified
         Ripples and residuals [-], contact, limits that are passed
     """
-    corner = [0.0] * len(found.tracks)
     steady, time_ripple, residual = [], [], []
     for k, point in enumerate(found.task.points):
-        machine = running.running(point, found.tracks, k, found.flywheel, corner)
+        machine = machine_at(found, k)
         motion = running.steady(machine)
         steady.append(motion)
         if motion.speed_mean is None:
             time_ripple.append(np.nan)
             residual.append(np.nan)
             continue
-        run = running.run(machine, float(motion.omega[0]), TURNS * point.period / (2 * np.pi))
+        start, inside = float(motion.omega[0]), found.task.losses
+        run = (
+            in_time(machine, inside, start, PERIODS)
+            if inside
+            else running.run(machine, start, PERIODS * point.period / (2 * np.pi))
+        )
         ripple = running.ripple_of_last_turn(run, point.period)
         time_ripple.append(np.nan if ripple is None else ripple)
         residual.append(run.energy_residual)
@@ -92,13 +97,6 @@ def verify(found: CoDesign) -> Verified:
         contacts=contacts,
         broken=tuple(words for c, t in zip(contacts, found.tracks, strict=True) for words in _broken(c, t, found)),
     )
-
-
-def fine_path(track: Track, period: float) -> tuple[np.ndarray, Path]:
-    """Even angles [rad] of a turn and the path of a guide there."""
-    phi = np.arange(round(_FINE * period / (2 * np.pi))) * 2 * np.pi / _FINE
-    z, h = track.z(phi), track.hardware
-    return phi, path_of(h, h.rho0, z, track.z.derivative()(phi), track.z.derivative(2)(phi))
 
 
 def contact(track: Track, points: Sequence[Point]) -> GuideLoads:

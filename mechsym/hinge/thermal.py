@@ -120,7 +120,7 @@ def gas_temperature(volume: Any, step: Any, x: Any, gamma: float, wall: float) -
     known: dict[Any, Any] = {}
     for r in rates:  # even angles have one relaxation
         if symbols or r not in known:
-            known[r] = _relaxation(r)
+            known[r] = relaxation(r)
     decay = [known[r][0] for r in rates]
     gains = [known[r][1] * forcing[i] + known[r][2] * forcing[(i + 1) % count] for i, r in enumerate(rates)]
     end = 0.0
@@ -262,7 +262,7 @@ def foam_index(gas: float, store: float, gamma: float = 1.4) -> float:
     return (gamma * gas + store) / (gas + store)
 
 
-def _relaxation(r: Any) -> tuple[Any, Any, Any]:
+def relaxation(r: Any) -> tuple[Any, Any, Any]:
     """exp(-r), and the weights of both ends of a straight line over a step of r relaxation times."""
     keep, lost = _exp(-r), _lost(r)
     # lost / r - keep cancels for short steps; there its series stands

@@ -8,11 +8,12 @@ import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
-from mechsym.codesign import changes, family, loss, scenarios
+from mechsym.codesign import changes, family, loss, real, scenarios
 from mechsym.codesign.cylinders import counts
-from mechsym.codesign.front import cut_for_one, front
+from mechsym.codesign.front import cut_for_one, front, worth_it
 from mechsym.codesign.hardware import rollers_at_rest
 from mechsym.codesign.machines import bounds, hardware, point
+from mechsym.codesign.peers import peers, springs_of
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
@@ -34,6 +35,7 @@ from mechsym.quantities import RPM
 _SHARES = (0.12, 1.1)  # loads of the map by the full load
 _LOADS = 12  # computed; those between are interpolated
 _SCAVENGE = 0.1  # of the scavenge pressure that is missing in a scenario
+_LOSSY = (40, 240)  # most knots and least angles in a turn of a programme with friction and heat in it
 _MAP = 50  # speeds and loads of the map
 STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple of a front
 
@@ -61,19 +63,31 @@ def codesign(
     cut = cut_for_one(task, _middle(task))
     progress()
     ready = programme(task)
-    design = _heavy_enough(solve(task, ready), settings.misfire_speed)
+    found = worth_it(solve(task, ready), bare, settings.saving)
+    design = _heavy_enough(found, settings.misfire_speed)
     progress()
-    designs = front(task, ripples, ready, progress)
+    designs = front(task, ripples, ready, progress, settings.saving)
     verified = verify(design)
     progress()
-    assumed = case.sections.get("losses", HingeLosses())
+    assumed = _losses(case)
     lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
-    lossy = tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points)))
+    lossy = tuple(real.with_losses(design, k, assumed) for k in range(len(task.points)))
     progress()
     return CoDesignResult(
         name=case.name, about=case.about, design=design, bound=bound, bare=bare, cut=cut, verified=verified,
         losses=lost, assumed=assumed, lossy=lossy, misfire=tuple(misfire), front=tuple(designs),
     )  # fmt: skip
+
+
+def compared(result: CoDesignResult, progress: Callable[[], Any] = lambda: None) -> CoDesignResult:
+    """The result with its peers at the ripples of its front: flywheel, coil springs, noncircular gears, two springs."""
+    task = result.design.task
+    ripples = sorted({task.ripple, *(d.task.ripple for d in result.front)})
+    found = peers(task.points, ripples)
+    progress()
+    more = springs_of(task, ripples, 2) if task.springs == 1 and len(task.points) > 1 else []
+    progress()
+    return dataclasses.replace(result, peers=(*found, *more))
 
 
 def beside(
@@ -102,7 +116,7 @@ def beside(
 def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:
     """The result with what only the report shows: scenarios, spread under small errors, map over speed and load."""
     design, high = result.design, settings.full_speed
-    one = len(design.tracks) == 1 and settings.curve == "propeller"
+    one = len(design.tracks) == 1 and design.task.losses is None and settings.curve == "propeller"
     return dataclasses.replace(
         result,
         scenarios=(*scenarios.table(design), *_changes(case, settings, design)),
@@ -143,6 +157,7 @@ def codesign_task(case: Case) -> CoDesignTask:
 
 def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
     """Points, hardware and limits of a case for other settings than its own."""
+    inside = settings.losses == "inside"
     return CoDesignTask(
         points=points(case, settings),
         hardware=hardware(case.need("spring"), case.need("guide"), case.need("rollers"), settings.moving_mass),
@@ -151,10 +166,16 @@ def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
         springs=int(settings.springs),
         schedule=settings.schedule,
         robust=settings.robust,
+        losses=_losses(case) if inside else None,
         free=tuple(name.rpartition(".")[2] for name in settings.free),
-        knots=int(settings.knots),
-        angles=int(settings.angles),
+        # with friction a guide of many knots would find its way between the angles
+        knots=min(int(settings.knots), _LOSSY[0]) if inside else int(settings.knots),
+        angles=max(int(settings.angles), _LOSSY[1]) if inside else int(settings.angles),
     )
+
+
+def _losses(case: Case) -> HingeLosses:
+    return case.sections.get("losses", HingeLosses())
 
 
 def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:

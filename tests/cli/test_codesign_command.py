@@ -158,6 +158,7 @@ def test_hardly_possible_tasks_end_with_the_bound(monkeypatch, capsys, words):
     code = run(monkeypatch, "zotov-89", "--speeds", "60,142", "--json", *words)
     numbers = json.loads(capsys.readouterr().out)
     assert code == (0 if numbers["feasible"] else 1)
-    assert numbers["feasible"] == (words[-1] != "limits.roller_reaction=10 kN")
+    assert numbers["feasible"] == (words == ("--ripple", "0.01%"))  # a heavy flywheel is no hinge
+    assert numbers["feasible"] or numbers["reason"]
     assert not (numbers["feasible"] and numbers["verified"]["broken"])
     assert numbers["bound"]["flywheel"][0] >= 0

@@ -11,10 +11,11 @@ from mechsym.codesign import running, scenarios
 from mechsym.codesign.control import hold
 from mechsym.codesign.cylinders import even_firing, together
 from mechsym.codesign.family import places
-from mechsym.codesign.loss import gas_turn, losses, with_losses
+from mechsym.codesign.loss import gas_turn, losses
 from mechsym.codesign.machines import from_curve
 from mechsym.codesign.points import bare_flywheel
 from mechsym.codesign.rank import rank
+from mechsym.codesign.real import with_losses
 from mechsym.codesign.realise import realise
 from mechsym.codesign.schedule import gas_to_move, ripple_map
 from mechsym.codesign.uncertainty import worst
@@ -73,7 +74,7 @@ def test_losses_of_the_specification():
 
 @pytest.mark.parametrize(("tau", "index"), [(10.0, 1.400), (1.0, 1.397), (0.139, 1.272), (0.05, 1.101)])
 def test_index_of_the_gas_on_the_designed_guide(tau, index):
-    made = gas_turn(design().tracks[0], 2, task().points[2], HingeLosses(tau=tau))
+    made = gas_turn(design().tracks[0], design().tracks[0].p0[2], task().points[2], HingeLosses(tau=tau))
     assert made.n_effective == pytest.approx(index, abs=2e-3)
 
 
