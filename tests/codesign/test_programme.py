@@ -9,8 +9,9 @@ from codesigns import bound, cut, design, front, ready, task, verified
 from mechsym.codesign.front import cut_for_one
 from mechsym.codesign.points import bare_flywheel, sample
 from mechsym.codesign.programme import solve
-from mechsym.codesign.rank import flywheel_bound
+from mechsym.codesign.rank import flywheel_bound, rank
 from mechsym.codesign.start import middle
+from mechsym.codesign.verify import verify
 
 
 def test_flywheels_of_the_prototype():
@@ -136,3 +137,14 @@ def test_constant_load_is_held_by_a_governor():
 
 def test_middle_point_is_that_of_the_middle_work():
     assert middle(sample(task().points, 60)) == 2
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+def test_a_third_spring_pays_where_the_rank_says_so():
+    few = task(at=(0, 2, 3, 5), ripple=0.002)
+    assert rank(few.points).pays == 3
+    two, three = solve(dataclasses.replace(few, springs=2)), solve(dataclasses.replace(few, springs=3))
+    assert two.status == three.status == "optimal"
+    assert two.flywheel > 1000 and three.flywheel < 1
+    assert verify(three).steady_ripple.max() < 0.00202
