@@ -9,6 +9,7 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.engine import over_speeds
+from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.jobs import own_turn
 from mechsym.jobs.compare import crossovers
@@ -69,11 +70,17 @@ def size(case: Case) -> Sizing:
     """
     if is_own(case.mechanism):
         return _own_loads(case)
+    if _given_drive(case) and kind_of(case.need("cycle")).given != "engine":
+        return _crosshead(case)  # no rule sizes such an engine: the sizes that it has are checked
     one = task(case)
     rules = {"planet": _hypocycloid, "slider crank": _slider_crank}
     if rules_of(case.mechanism) not in rules:
         raise _unsized(case)
     return rules[rules_of(case.mechanism)](one)
+
+
+def _given_drive(case: Case) -> bool:
+    return rules_of(case.mechanism) == "slider crank" and "part_crosshead" in case.sections
 
 
 def _unsized(case: Case) -> BadInput:
@@ -104,13 +111,12 @@ def check_printed(case: Case) -> Sizing:
     BadInput
         The case prints no parts
     """
-    slider = rules_of(case.mechanism) == "slider crank"
-    if slider and "part_crosshead" in case.sections:
+    if _given_drive(case):
         return _crosshead(case)
     one = task(case)
     if not rules_of(case.mechanism):
         raise _unsized(case)
-    if slider:
+    if rules_of(case.mechanism) == "slider crank":
         raise BadInput(f"{case.file}: the case prints no parts; leave out --as-printed")
     reference = printed_parts(one.case)
     # the printed engine takes its torque off at the output shaft set only

@@ -115,3 +115,10 @@ def test_command_on_the_marine_engine():
     assert rows["piston rod", "buckling load"]["safety_factor"] > 4
     assert rows["guide shoe", "pressure times sliding speed"]["value"] > 0
     assert found.exit_code == (1 if any(row["holds"] is False for row in rows.values()) else 0)
+
+
+def test_the_marine_case_names_its_drive_and_holds_its_rules():
+    found = CliRunner().invoke(mechsym, ["size", "moroianu", "--json"])
+    rows = json.loads(found.stdout)
+    assert found.exit_code == 0 and {row["holds"] for row in rows if row["limit"]} == {True}
+    assert {row["component"] for row in rows} >= {"crosshead pin", "crank pin", "guide shoe", "piston rod", "crank web"}
