@@ -10,7 +10,9 @@ the shuttle of the hot piston. Losses do not act back on the turn but through th
 Sources: I. Urieli, D. M. Berchowitz, Stirling Cycle Engine Analysis (1984), chapters 5 to 7; W. R. Martini, Stirling
 Engine Design Manual, NASA CR-168088 (1983). Valid: one pressure in all spaces, flow friction small against it.
 Of the GPU-3 engine the indicated power comes out 1.12 times as large as measured at 4.13 MPa and 1.26 to 1.29 times at
-6.9 MPa: good for comparing designs, too high for a promise.
+6.9 MPa: good for comparing designs, too high for a promise. No scatter of such models was found in the literature as a
+number: J. M. Strauss, R. T. Dobson, J. Energy South. Afr. 21 (2010), find the trends of this engine followed and some
+figures far off; R. C. Tew, NASA (1986), that a model calibrated on one type of engine does not foretell another.
 """
 
 import math
