@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from collections.abc import Callable
 from typing import Any
 
 from mechsym import cases
@@ -18,8 +19,8 @@ _HOST = "127.0.0.1"
 _WAIT = 60.0  # for the server in `check` [s]
 
 
-def serve(name: str, port: int) -> None:
-    """Serve the workbench of a case on this machine alone, until it is stopped."""
+def serve(name: str, port: int, tell: Callable[[str], None] = lambda address: None) -> None:
+    """Serve the workbench of a case on this machine alone, until it is stopped; `tell` takes its address before."""
     try:
         from fastapi import Request
         from nicegui import ui
@@ -31,6 +32,7 @@ def serve(name: str, port: int) -> None:
     def page(request: Request) -> None:
         Page(name, dict(request.query_params)).build()
 
+    tell(f"http://{_HOST}:{port}/")
     ui.run(host=_HOST, port=port, title="mechsym", reload=False, show=False, show_welcome_message=False)
 
 

@@ -27,8 +27,7 @@ def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
         found = check(case_name, 0)
         emit(found, as_json, lambda: _text(found))
     else:
-        click.echo(f"http://127.0.0.1:{port}/  (Ctrl-C ends it)", err=True)
-        serve(case_name, port)
+        serve(case_name, port, lambda address: click.echo(f"{address}  (Ctrl-C ends it)", err=True))
 
 
 def _text(found: dict[str, Any]) -> str:
