@@ -5,6 +5,7 @@ import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
+from functools import cache
 
 import mpmath
 import numpy as np
@@ -60,7 +61,9 @@ class Draws:
         found = {}
         for letter, numbers in self.numbers.items():
             start, slope = self._lines(letter)
-            found[letter] = [start[n > 0] + slope[n > 0] * abs(n) for n in (numbers[i] for i in chosen)]
+            few = [numbers[i] for i in chosen]
+            sized = [slope[n > 0] * abs(n) for n in few]
+            found[letter] = [start[n > 0] + s for n, s in zip(few, sized, strict=True)] if any(start) else sized
         return found
 
     def _lines(self, letter: str) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
@@ -84,13 +87,22 @@ class Draws:
 
 def draws(question: Question, count: int, seed: int) -> Draws:
     """Random values near the source's data, of both signs where a letter may have both; the angle anywhere."""
-    generator, theory = random.Random(seed), question.theory
-    found = {}
-    for letter, about in theory.letters.items():
+    theory = question.theory
+    fixed = tuple(
+        bool(letter in question.hold or about.domain or about.positive and letter != theory.angle)
+        for letter, about in theory.letters.items()
+    )
+    return Draws(question=question, numbers=dict(zip(theory.letters, _numbers(fixed, count, seed), strict=True)))
+
+
+@cache
+def _numbers(fixed: tuple[bool, ...], count: int, seed: int) -> list[list[int]]:
+    # the same for all questions of a theory
+    generator, found = random.Random(seed), []
+    for positive in fixed:
         numbers = [generator.randint(7000, 14000) for _ in range(count)]
-        fixed = letter in question.hold or about.domain or about.positive and letter != theory.angle
-        found[letter] = numbers if fixed else [generator.choice((1, -1)) * n for n in numbers]
-    return Draws(question=question, numbers=found)
+        found.append(numbers if positive else [generator.choice((1, -1)) * n for n in numbers])
+    return found
 
 
 def small_rods(theory: Theory, values: Mapping[str, list[Fraction]], eps: Fraction) -> dict[str, list[Fraction]]:

@@ -1,5 +1,6 @@
 """States at which the derived quantity has a value and the assumptions hold."""
 
+from collections.abc import Mapping
 from fractions import Fraction
 
 import numpy as np
@@ -19,12 +20,16 @@ def drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]
     return dict(question.states[count, seed])
 
 
-def _drawn(question: Question, count: int, seed: int) -> dict[str, list[Fraction]]:
+def _drawn(question: Question, count: int, seed: int) -> Mapping[str, list[Fraction]]:
     found = draws(question, _MORE * count, seed)
     asked = bench(question, found.floats(), FLOATS)
     good = np.isfinite(np.broadcast_to(asked.expected, (_MORE * count,))) & kept(question, asked)
     chosen = [*np.flatnonzero(good), *np.flatnonzero(~good)][:count]
-    return found.exact(chosen)
+    key = (count, seed, tuple(question.hold.items()), tuple(map(int, chosen)))
+    known = question.theory.states
+    if key not in known:
+        known[key] = found.exact(chosen)
+    return known[key]
 
 
 def kept(question: Question, asked: Bench) -> np.ndarray:

@@ -5,6 +5,7 @@ import pytest
 
 from mechsym.audit.algebra import DIGITS
 from mechsym.audit.bench import bench, value
+from mechsym.audit.formula import check_formula
 from mechsym.audit.long_rods import ORDER_DIGITS, LongRods
 from mechsym.audit.orders import COARSE
 from mechsym.audit.question import Question, digit_values, small_rods
@@ -30,3 +31,8 @@ def test_one_load_is_as_if_it_were_asked_alone(load):
     other = bench(question, digits, DIGITS, ORDER_DIGITS)
     for one, two in ((asked.expected, other.expected), (value(asked, formula.tree), value(other, formula.tree))):
         assert all(a == b for a, b in zip(one, two, strict=True))
+
+
+def test_the_springs_work_has_its_force_for_a_slope():
+    # z = 2 rho0 - 2 rho, and the spring gives what it loses
+    assert check_formula("2*spring_force", "guide.dwork_drho")["verdict"] == "exact"

@@ -7,7 +7,7 @@ W(phi) is the work of the hinge on the crank from phi = 0, M_h its torque: the s
 from collections.abc import Mapping
 
 import sympy
-from sympy import Symbol, diff, integrate, solve
+from sympy import Symbol, diff
 
 from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.record import Letter, Theory
@@ -35,7 +35,7 @@ def guide(values: Mapping[str, float], data: str) -> Theory:
     z = Symbol("z", positive=True)
     height = Symbol("y", positive=True)  # y = H - z
     force = p0 * A * (H / height) ** n  # p V^n = p0 (A H)^n with V = A y
-    stored = generic(integrate(force, height))
+    stored = height * force / (1 - n)  # the integral of force over height for n other than 1
     closed, reference = (_path(H, A, n, p, rho0, W) for p in (p0, p0s))
     slope = diff(reference, W) * M_h
     expressions = {
@@ -69,5 +69,6 @@ def generic(expression: sympy.Expr) -> sympy.Expr:
 def _path(H: Symbol, A: Symbol, n: Symbol, p0: Symbol, rho0: Symbol, W: Symbol) -> sympy.Expr:
     # W = A p0 H^n (H^(1-n) - y)/(n-1) is linear in y = (H - z)^(1-n)
     y = Symbol("y", positive=True)
-    (power,) = solve(A * p0 * H**n * (H ** (1 - n) - y) / (n - 1) - W, y)
+    balance = A * p0 * H**n * (H ** (1 - n) - y) / (n - 1) - W
+    power = -balance.subs(y, 0) / diff(balance, y)
     return rho0 - H / 2 + power ** (1 / (1 - n)) / 2

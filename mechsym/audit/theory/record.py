@@ -3,6 +3,7 @@
 import ast
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -59,6 +60,10 @@ class Theory:
     #: What a source may take for granted: words to the letters that vanish then
     conditions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     data: str = ""
+    #: Random states that were drawn before, which questions of one theory share
+    states: dict[tuple[object, ...], Mapping[str, list[Fraction]]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     def __post_init__(self) -> None:
         """Every name gets its slopes, rates and harmonics."""

@@ -4,6 +4,7 @@ Each function gives one erratum's figures by name; `errata` gives all of them un
 """
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -203,6 +204,12 @@ def _engine(case: str, changes: dict[str, str] | None = None) -> ClosedEngine:
 
 
 def _marched(case: str, changes: dict[str, str] | None = None) -> tuple[ClosedEngine, March, Performance]:
-    machine = _engine(case, changes)
+    return _marched_once(case, tuple((changes or {}).items()))
+
+
+@cache
+def _marched_once(case: str, changes: tuple[tuple[str, str], ...]) -> tuple[ClosedEngine, March, Performance]:
+    # several claims ask for the same run
+    machine = _engine(case, dict(changes))
     omega = speed_range(load(case).need("speeds"))
     return machine, marched(machine, omega), over_speeds(machine, omega)
