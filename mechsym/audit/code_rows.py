@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mechsym.audit.code import Assigned, read_code
+from mechsym.audit.code_numbers import candidates, nearest
 from mechsym.audit.findings import Row, unread_row
 from mechsym.audit.formula import Asked, answer
 from mechsym.audit.reader import letter_pairs
@@ -12,6 +13,8 @@ from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.catalogue import target as parted
 from mechsym.audit.theory.record import Theory
 from mechsym.errors import BadInput
+
+_SAME = 1e-6  # numbers that agree but for rounding [-]
 
 
 def check_code(place: str, against: str, asked: Asked) -> list[Row]:
@@ -21,19 +24,42 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
     ----------
     against : str
         `THEORY.QUANTITY`: the variable of that name or description, or else what the function returns. `THEORY` or
-        nothing: every variable whose name or description is that of a quantity
+        nothing: every variable whose name or description is that of a quantity, else what its numbers are near to
     asked : Asked
         Letters, assumptions and the rest, for every formula
     """
     found = read_code(place)
     theory, quantity = parted(against)
     pairs = list(_one(found, against.strip(), quantity) if theory else _every(found, against.strip(), asked))
-    if not pairs:
+    if not pairs and not theory:
+        return _by_numbers(place, found, against.strip(), asked)
+    return _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+
+
+def _by_numbers(place: str, found: list[Assigned], theory: str, asked: Asked) -> list[Row]:
+    # neither a name nor a comment says what it is
+    rows: list[Row] = []
+    theories = [named(theory, asked.case, asked.theory)] if theory else [*_theories(asked), named("slider_crank")]
+    for assigned in candidates(found):
+        likes = [(nearest(assigned.text, t, _own_letters(assigned.text, t, asked)), t) for t in theories]
+        known = sorted(((k, t) for k, t in likes if k is not None), key=lambda pair: pair[0].away)
+        if len(known) > 1 and known[0][0].away > _SAME:
+            near = ", ".join(f"{t.name}.{like.quantity}" for like, t in known[:4])
+            raise BadInput(
+                f"--code {place}: the numbers of {assigned.name} are near to {near}; say which with --against"
+            )
+        if known:
+            like, other = known[0]
+            row = _row(assigned, f"{other.name}.{like.quantity}", asked)
+            told = f"taken for {like.quantity} by its numbers; if it is another, name it with --against"
+            rows.append(row | {"note": "; ".join(n for n in (row["note"], told) if n)})
+    if not rows:
         names = ", ".join(dict.fromkeys(a.name for a in found))
         raise BadInput(
-            f"--code {place}: none of {names} is called as a quantity; name one with --against THEORY.QUANTITY"
+            f"--code {place}: none of {names} is called as a quantity or near to one in its numbers; name one with "
+            "--against THEORY.QUANTITY, and letters of your own with --letters"
         )
-    return _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+    return rows
 
 
 def _answered(rows: list[tuple[str, Row]]) -> list[Row]:
@@ -63,9 +89,12 @@ def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
 
 
 def _letters(text: str, target: str, asked: Asked) -> dict[str, str]:
+    return _own_letters(text, named(parted(target)[0], asked.case, asked.theory), asked)
+
+
+def _own_letters(text: str, theory: Theory, asked: Asked) -> dict[str, str]:
     # omega_m is omega where the theory has omega and the author gave nothing for omega_m
     given = letter_pairs(asked.letters) if isinstance(asked.letters, str) else dict(asked.letters)
-    theory = named(parted(target)[0], asked.case, asked.theory)
     for used in dict.fromkeys(re.findall(r"(?<![\w.])[A-Za-z_]\w*", text)):
         stem = used.partition("_")[0]
         if used not in given and used not in theory.letters and used not in theory.tape and stem in theory.letters:

@@ -81,3 +81,31 @@ def test_bad_places_are_refused(tmp_path, monkeypatch, place, reason):
         write(tmp_path / name, PYTHON)
     with pytest.raises(BadInput, match=reason):
         check_code(place, "slider_crank.x_d", NONE)
+
+
+JAVA = """class Piston {
+  double rate(double t) {
+    double q = Math.sqrt(l*l - r*r*Math.sin(t)*Math.sin(t));
+    return w*(-r*Math.sin(t) + r*r*Math.sin(t)*Math.cos(t)/q);
+  }
+}
+"""
+
+
+def test_a_return_without_a_name_is_told_by_its_numbers(tmp_path):
+    # a public program: velocity from the crank's centre with the sign of the rod's term wrong, 28 %
+    (row,) = check_code(write(tmp_path / "p.java", JAVA) + "::rate", "slider_crank", LETTERS)
+    assert row["claim"] == "slider_crank.x_d" and "by its numbers" in row["note"]
+    assert row["verdict"] == "misprint" and row["corrected_max_rel_error"] < 1e-9
+
+
+def test_numbers_that_several_theories_have_are_asked_back(tmp_path, monkeypatch):
+    monkeypatch.setattr("mechsym.audit.code_rows.shipped", lambda: ["rhombic_drive"])
+    with pytest.raises(BadInput, match="near to rhombic_drive.gap_d, slider_crank.x_d; say which with --against"):
+        check_code(write(tmp_path / "p.java", JAVA) + "::rate", "", LETTERS)
+
+
+def test_numbers_of_another_dimension_are_no_match(tmp_path):
+    place = write(tmp_path / "p.py", "def f(r, l, phi):\n    return r*l*np.sin(phi)/r**3\n") + "::f"
+    with pytest.raises(BadInput, match="near to one in its numbers; name one with"):
+        check_code(place, "slider_crank", NONE)
