@@ -43,8 +43,11 @@ formula is passed when it is called exact, a truncation, or right under a conven
 
 _HEAD = """# Errata of the sources
 
-What this page says, for a reader who has never seen the program. Each formula of a paper was compared with the same
-quantity derived from the mechanism's geometry and Lagrange's equations, at random states and to 40 digits, and judged:
+What this page says, for a reader who has never seen the program. Five papers print formulas for engines and their
+mechanisms. Each formula was compared with the same quantity derived anew, from the mechanism's geometry and Lagrange's
+equations, at random states and to 40 digits. Where the two differ, a search looks for the one slip of the pen that
+explains it. An entry below shows the formula as printed, as corrected, and what the slip does to a number that matters.
+Each formula has one of these verdicts:
 
 - *exact*: the same function. *truncation*: the same but for powers of lambda = crank/rod that are left out; each
   one that is printed is right.

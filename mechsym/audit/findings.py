@@ -3,6 +3,9 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import numpy as np
+
+from mechsym.audit.bench import turn, value
 from mechsym.audit.edits import apply
 from mechsym.audit.entries import Audited, Entry, Listed, Printed, TextClaim
 from mechsym.audit.printer import to_python
@@ -66,7 +69,7 @@ def row(source: str, entry: Entry) -> Row:
     if isinstance(entry, Printed):
         question = question_of(entry)
         answer = decide(question)
-        effect = entry.effect(answer) if entry.effect else ""
+        effect = entry.effect(answer) if entry.effect else _at_the_data(question, answer)
         return head | formula_row(question, answer, entry.statement, entry.note, effect)
     if isinstance(entry, Listed):
         return head | _plain(entry.verdict, None, entry.note, entry.statement)
@@ -75,6 +78,21 @@ def row(source: str, entry: Entry) -> Row:
     verdict = "supported claim" if decided.supported else "unsupported claim"
     error = None if decided.rel_error is None else abs(decided.rel_error)
     return head | _plain(verdict, error, decided.note, "")
+
+
+def _at_the_data(question: Question, decision: Decision) -> str:
+    # what a wrong formula does to the number that it stands for
+    if decision.verdict not in ("misprint", "nearer", "wrong"):
+        return ""
+    asked = turn(question)
+    printed, derived = (
+        float(np.nanmax(np.abs(np.asarray(v, dtype=float))))
+        for v in (value(asked, question.formula.tree), asked.expected)
+    )
+    unit = question.theory.units.get(question.quantity, "").removesuffix("-")
+    right, own = f"{derived:.4g} {unit}".strip(), f"{printed:.4g} {unit if decision.dimensions else ''}".strip()
+    where = "the largest value over a turn at the source's data" if question.theory.angle else "at the source's data it"
+    return f"{where} is {own} as printed and {right} as derived"
 
 
 def formula_row(question: Question, verdict: Decision, printed: str, note: str, effect: str) -> Row:

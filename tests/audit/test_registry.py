@@ -5,7 +5,7 @@ import re
 import pytest
 
 from mechsym.audit.entries import Listed, Printed, TextClaim
-from mechsym.audit.findings import question_of
+from mechsym.audit.findings import question_of, row
 from mechsym.audit.formula import Asked
 from mechsym.audit.formula import question_of as asked_by_user
 from mechsym.audit.statement import statement
@@ -47,6 +47,15 @@ def test_every_formula_is_read_in_known_letters(short, entry):
 def test_verdicts_that_are_given_are_definitions_or_empirical():
     given = {e.verdict for s in sources() for e in s.entries if isinstance(e, Listed)}
     assert given == {"definition", "empirical"}
+
+
+def test_a_misprint_says_what_it_does_to_its_number():
+    printed = next(e for s, e in PRINTED if s == "nunes2017" and e.statement == "CR**(-gamma)")
+    told = row("004", printed)
+    assert told["verdict"] == "misprint"
+    # p4 = p3 CR^-gamma; as printed it is no pressure, so it has no unit
+    assert "at the source's data it is 0.03981 as printed and 5.4" in told["effect"]
+    assert told["effect"].endswith("Pa as derived") and told["effect"] in told["note"]
 
 
 def test_no_correction_is_entered_by_hand():
