@@ -37,8 +37,6 @@ def nearest(text: str, theory: Theory, own: Mapping[str, str]) -> Likeness | Non
 
     Parameters
     ----------
-    text : str
-        The formula
     own : mapping of str to str
         Its letters, where they are not the theory's
     """
