@@ -65,8 +65,9 @@ def bench(
 
 def used_names(formula: Formula) -> list[str]:
     """Names that a formula and its author's letters use."""
-    trees = [*formula.letters.values(), formula.tree]
-    return list(dict.fromkeys(n for tree in trees for n in letters(tree) if n not in formula.letters))
+    # what an author's letter stands for is in the theory's letters, also where both have the same name
+    meant = [n for tree in formula.letters.values() for n in letters(tree)]
+    return list(dict.fromkeys([*meant, *(n for n in letters(formula.tree) if n not in formula.letters)]))
 
 
 def part_values(asked: Bench, tree: Node) -> dict[Node, Any]:
@@ -133,6 +134,12 @@ def turn(question: Question) -> Bench:
     return bench(question, turn_values(question), FLOATS)
 
 
+def peak(values: Any) -> float:
+    """Largest size of values that may be nan; 0 where all are."""
+    sizes = np.abs(np.asarray(values, dtype=float))
+    return float(np.max(sizes, initial=0.0, where=~np.isnan(sizes)))
+
+
 def max_rel_error(asked: Bench, tree: Node) -> float:
     r"""Largest relative error, :math:`\max |P - E| / \max(|E|, 0.1 \max|E|)`.
 
@@ -144,5 +151,5 @@ def max_rel_error(asked: Bench, tree: Node) -> float:
     printed, expected = value(asked, tree).astype(float), np.asarray(asked.expected, dtype=float)
     with np.errstate(all="ignore"):
         size = np.abs(expected)
-        error = np.abs(printed - expected) / np.maximum(size, 0.1 * np.nanmax(size))
+        error = np.abs(printed - expected) / np.maximum(size, 0.1 * peak(size))
     return float(np.max(np.where(np.isnan(error), np.where(np.isnan(expected), 0.0, np.inf), error), initial=0.0))

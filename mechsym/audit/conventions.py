@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechsym.audit.bench import value
+from mechsym.audit.bench import peak, value
 from mechsym.audit.prover import agreement, judges
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read_expression
@@ -103,5 +103,5 @@ def _holds(question: Question, chosen: tuple[str, ...]) -> bool:
     judged = judges(other)
     with np.errstate(all="ignore"):
         printed, expected = value(judged.quick, other.formula.tree), judged.quick.expected
-        close = np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected))
+        close = np.abs(printed - expected) <= 1e-8 * peak(expected)
     return bool(np.all(close)) and agreement(judged, other.formula.tree).exact

@@ -3,9 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import numpy as np
-
-from mechsym.audit.bench import turn, value
+from mechsym.audit.bench import peak, turn, value
 from mechsym.audit.edits import apply
 from mechsym.audit.entries import Audited, Entry, Listed, Printed, TextClaim
 from mechsym.audit.printer import to_python
@@ -85,10 +83,7 @@ def _at_the_data(question: Question, decision: Decision) -> str:
     if decision.verdict not in ("misprint", "nearer", "wrong"):
         return ""
     asked = turn(question)
-    printed, derived = (
-        float(np.nanmax(np.abs(np.asarray(v, dtype=float))))
-        for v in (value(asked, question.formula.tree), asked.expected)
-    )
+    printed, derived = peak(value(asked, question.formula.tree)), peak(asked.expected)
     unit = question.theory.units.get(question.quantity, "").removesuffix("-")
     right, own = f"{derived:.4g} {unit}".strip(), f"{printed:.4g} {unit if decision.dimensions else ''}".strip()
     where = "the largest value over a turn at the source's data" if question.theory.angle else "at the source's data it"

@@ -6,7 +6,7 @@ import sympy
 from sympy import Expr
 
 from mechsym.audit.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
-from mechsym.audit.bench import Bench, bench, used_names, value
+from mechsym.audit.bench import Bench, bench, peak, used_names, value
 from mechsym.audit.question import Question, digit_values, float_values
 from mechsym.audit.states import drawn
 from mechsym.audit.theory.record import Theory, complete
@@ -92,7 +92,7 @@ def agrees_quickly(judged: Judges, tree: Node) -> bool:
     with np.errstate(all="ignore"):
         if judged.angle:
             printed = printed - 2 * np.pi * np.round((printed - expected) / (2 * np.pi))
-        wrong = ~(np.abs(printed - expected) <= 1e-8 * np.nanmax(np.abs(expected)))
+        wrong = ~(np.abs(printed - expected) <= 1e-8 * peak(expected))
     return not np.any(wrong & np.isfinite(expected))
 
 

@@ -5,6 +5,7 @@ import inspect
 
 import pytest
 
+from mechsym.audit.bench import peak
 from mechsym.audit.formula import check_formula
 from mechsym.audit.trial import spoiler
 from mechsym.audit.trial.matrix import trapped
@@ -130,3 +131,11 @@ def test_the_spoiler_shares_no_code_with_the_repair_search():
     modules = {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
     names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
     assert not {m for m in modules | names if m and m.startswith("mechsym")}
+
+
+def test_a_letter_that_stands_for_itself_changes_nothing():
+    assert check_formula("r*sin(phi)", "scotch_yoke.dx_dphi", letters="x=x,r=r")["verdict"] == "exact"
+
+
+def test_the_peak_of_nothing_is_zero_without_a_warning():
+    assert peak([float("nan")] * 2) == 0 and peak([float("nan"), -3.0]) == 3
