@@ -40,6 +40,7 @@ COMMANDS = {
     "sections": "mechsym.cli.sections:sections",
     "simulate": "mechsym.cli.simulate:simulate",
     "size": "mechsym.cli.size:size",
+    "study": "mechsym.cli.study:study",
     "sweep": "mechsym.cli.sweep:sweep",
 }
 

@@ -8,6 +8,7 @@ spring gets its hinge designed, an engine without one runs its cycle (as one map
 gap with a reason, not the end of the sweep.
 
 axes.py      what to run over: ranges, lists, distributions
+ties.py      values that follow from these
 run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
 cluster.py   chunks on a dask cluster
@@ -18,7 +19,9 @@ guides.py    which guides can be built, many at once
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason
 data.py      labelled columns with units, CSV, netCDF
+sensitivity.py  Sobol indices: which value matters how much
 plots.py     the picture
+study.py     several sweeps of a file, one report
 """
 
 from mechsym.sweep.axes import Axis

@@ -106,10 +106,11 @@ def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict
         raise BadInput(f"the sweep has {count} points; allowed are 1 to {MOST}")
     if samples is None:
         return {a.key: len(a.values) for a in axes}, list(itertools.product(*(a.values for a in axes)))
-    return {"sample": samples}, _drawn(axes, samples, seed)
+    return {"sample": samples}, drawn(axes, samples, seed)
 
 
-def _drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Any, ...]]:
+def drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Any, ...]]:
+    """Samples of the ranges and distributions, of Sobol's sequence [unit of the axis]."""
     from scipy.stats import norm, qmc
 
     # the sequence is balanced in powers of two; what is over is left out
@@ -121,6 +122,21 @@ def _drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Any, .
         for a, u in zip(axes, shares.T, strict=True)
     ]
     return list(zip(*(c.tolist() for c in columns), strict=True))
+
+
+def saltelli(axes: tuple[Axis, ...], count: int, seed: int) -> list[tuple[Any, ...]]:
+    """Points A, B, AB_1 .. AB_d for `count` base samples, a power of two.
+
+    Returns
+    -------
+    points : list of tuple
+        (d + 2) times `count` values in the axes' order [unit of the axis]
+    """
+    d = len(axes)
+    both = np.array(drawn((*axes, *axes), count, seed))
+    a, b = both[:, :d], both[:, d:]
+    mixed = [np.where(np.arange(d) == i, b, a) for i in range(d)]
+    return [tuple(row) for row in np.concatenate([a, b, *mixed]).tolist()]
 
 
 def override(axis: Axis, value: Any) -> str | float:

@@ -11,11 +11,13 @@ from typing import Any
 from mechsym import cases
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
+from mechsym.quantities.ranges import MOST
 from mechsym.sweep import cluster, store, work
-from mechsym.sweep.axes import Axis, override, parse_axis, points, split
+from mechsym.sweep.axes import Axis, override, parse_axis, points, saltelli, split
 from mechsym.sweep.outcomes import Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
 from mechsym.sweep.stopping import asked_to_stop
+from mechsym.sweep.ties import Ties, ties
 
 Progress = Callable[[int], Any]
 INTERRUPTED = Gap(reason="interrupted")
@@ -32,6 +34,8 @@ class Plan:
     analysis: str | None = None  #: A name of `points.ANALYSES`; None takes what the case is for
     samples: int | None = None  #: Number of samples instead of a grid
     seed: int = 0
+    sobol: int | None = None  #: Base samples of Sobol indices, a power of two; in place of `samples`
+    tied: tuple[str, ...] = ()  #: Values that follow from others, each KEY=FORMULA as in `ties`
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones; `all` of them
 
     def __post_init__(self) -> None:
@@ -39,6 +43,10 @@ class Plan:
             raise BadInput(f"analysis = {self.analysis!r} is not an option; options are {', '.join(ANALYSES)}")
         if self.seed < 0:
             raise BadInput(f"seed = {self.seed} is out of range; it must be >= 0")
+        if self.sobol is None:
+            return
+        if self.samples is not None or not 2 <= self.sobol <= MOST or self.sobol & (self.sobol - 1):
+            raise BadInput(f"sobol = {self.sobol}: give a power of two from 2 on, such as 256, and no samples besides")
 
 
 @record
@@ -63,6 +71,7 @@ class Sweep:
     points: tuple[tuple[Any, ...], ...]  #: Values of the axes at each point, the last axis fastest
     outcomes: tuple[Outcome, ...]  #: Results of each point by name, or why there are none
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
+    sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
     interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
     kept: int = 0  #: Points that were finished before, in the store of the same sweep
 
@@ -74,6 +83,7 @@ class Layout:
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
     points: tuple[tuple[Any, ...], ...]  #: Values of the axes, the last axis fastest
+    ties: Ties  #: Values that follow from those of the axes
 
 
 def layout(plan: Plan) -> Layout:
@@ -97,8 +107,18 @@ def layout(plan: Plan) -> Layout:
             raise BadInput(f"{taken[place]} and {name} give the same value {'.'.join(place)}; keep one")
         taken[place] = name
         axes.append(axis)
-    dims, values = points(tuple(axes), plan.samples, plan.seed)
-    return Layout(axes=tuple(axes), dims=dims, points=tuple(values))
+    tied = ties(plan.case, plan.overrides, plan.tied, {axis.key: axis.place for axis in axes})
+    for tie in tied.ties:
+        if tie.place is not None:
+            place, name = (tie.place.section, tie.place.field), f"--tie {tie.key}"
+            if place in taken:
+                raise BadInput(f"{taken[place]} and {name} give the same value {'.'.join(place)}; keep one")
+            taken[place] = name
+    dims, values = points(tuple(axes), plan.sobol or plan.samples, plan.seed)
+    if plan.sobol:
+        values = saltelli(tuple(axes), plan.sobol, plan.seed)
+        dims = {"sample": len(values)}
+    return Layout(axes=tuple(axes), dims=dims, points=tuple(values), ties=tied)
 
 
 def ends(found: Layout) -> list[dict[str, str | float]]:
@@ -152,7 +172,8 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     means = means or Means()
     base, place = cases.load(plan.case, plan.overrides), layout(plan)
     chosen = route(base, plan.analysis, plan.show)
-    order = work.SweepOrder(case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show)
+    order = work.SweepOrder(case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show,
+                            tied=plan.tied)  # fmt: skip
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
     with _stored(plan, base, place, means) as kept_in, asked_to_stop() as asked_to:
         before = store.known(kept_in) if kept_in else {}
@@ -175,7 +196,8 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
         _check_reasons(outcomes)
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
-        outcomes=tuple(outcomes), show=plan.show, interrupted=interrupted, kept=len(before),
+        outcomes=tuple(outcomes), show=plan.show, sobol=plan.sobol or 0,
+        interrupted=interrupted, kept=len(before),
     )  # fmt: skip
 
 
@@ -187,7 +209,8 @@ def _stored(plan: Plan, base: cases.Case, place: Layout, means: Means) -> Iterat
         return
     key = store.identity(
         base, over=plan.over, overrides={k: str(v) for k, v in plan.overrides.items()}, analysis=plan.analysis,
-        samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), words=_words(place),
+        samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), words=_words(place), sobol=plan.sobol,
+        tied=plan.tied,
     )  # fmt: skip
     with store.opened(means.folder, key, means.fresh) as found:
         yield found

@@ -17,7 +17,11 @@ _PARTS = {
         "guide", "rolling", "gas", "total",
     ),
     "N": ("force_max", "roller_reaction_max", "spring_force_max"),
-    "m": ("rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius", "bearing_radius"),
+    "m": (
+        "rho_min", "rho_max", "z_min", "z_max", "curvature_radius_min", "undercut_radius", "bearing_radius",
+        "face_width",
+    ),
+    "kg": ("mass_of_one",),
     "rad": ("pressure_angle_max", "phi", "twist_mean", "twist_amplitude", "twist_peak"),
     "Pa": ("spring_pressure_max", "hertz_stress_max"),
     "kg*m^2": ("flywheel_inertia_saved", "flywheel_inertia_to_turn", "flywheel_inertia_beside_faulty"),
@@ -25,7 +29,7 @@ _PARTS = {
         "energy_residual", "tolerance_difference", "steps", "feasible", "margin", "judged", "speed_ripple",
         "ripple_wanted", "efficiency", "brake_efficiency", "p0_ratio", "speed_ripple_paper_factor", "torque_ratio_max",
         "torque_ratio_min", "torque_ratio_peak", "share", "fill", "gas_index", "misfire_speed_share", "bearing_mu",
-        "seal_mu", "guide_mu", "gamma", "knock",
+        "seal_mu", "guide_mu", "gamma", "knock", "failing", "converged", "safety_factor",
     ),
 }  # fmt: skip
 _GROUPS = {"losses.shares.": "-", "energy.work.": "J", "fractions.": "-", "loads.": "N", "margins.": "-"}

@@ -23,6 +23,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known
 from mechsym.sweep.points import Route, route
+from mechsym.sweep.ties import ties
 
 Here = Mapping[str, Any]  # values of the axes at a point, as `--set` takes them
 _PAUSE = 0.2  # between two looks at a request to end [s]
@@ -37,6 +38,7 @@ class SweepOrder:
     overrides: Mapping[str, Any]
     analysis: str
     show: tuple[str, ...]
+    tied: tuple[str, ...] = ()  #: KEY=FORMULA as in `ties`
 
 
 @record
@@ -64,11 +66,28 @@ def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
 
     def work(chunk: Chunk) -> Done:
         start = time.perf_counter()
-        outcomes = computed(order, chosen, chunk.heres)
+        outcomes = tied(order, chosen, chunk.heres)
         seconds = (time.perf_counter() - start) / len(chunk.members)
         return Done(members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=socket.gethostname())
 
     return work
+
+
+def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:
+    """Results of points whose tied values are worked out first; a formula without a value leaves a gap."""
+    if not order.tied or not heres:
+        return computed(order, chosen, heres)
+    places = {key: cases.locate(order.case, key, order.overrides) for key in heres[0]}
+    rules = ties(order.case, order.overrides, order.tied, places)
+    found: dict[int, Here] = {}
+    outcomes: dict[int, Outcome] = {}
+    for i, here in enumerate(heres):
+        try:
+            found[i] = rules.at(here)
+        except BadInput as error:
+            outcomes[i] = known(error)
+    outcomes |= dict(zip(found, computed(order, chosen, list(found.values())), strict=True))
+    return [outcomes[i] for i in range(len(heres))]
 
 
 def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:

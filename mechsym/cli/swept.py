@@ -1,0 +1,122 @@
+"""What `sweep` and `study` share: doubts of a sweep, its time, its files, its numbers."""
+
+import contextlib
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mechsym.cli.common import case_of
+from mechsym.errors import BadInput, MissingExtra
+
+_UNKEPT = 1800.0  # time of a processor from which a sweep without --out is refused: too much to lose [s]
+INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
+
+
+def judge(plan: Any, points: Any) -> None:
+    """Put the doubts of a case, and of it at the ends of the axes, into what the command prints."""
+    from mechsym.sweep import ends
+
+    case_of(plan.case, plan.overrides)
+    for end in ends(points):
+        with contextlib.suppress(BadInput):  # a point that is refused is a gap
+            case_of(plan.case, {**plan.overrides, **points.ties.at(end)})
+
+
+def kept_or_short(count: int, seconds: float, out: Path | None) -> None:
+    """Refuse long work that nothing would be left of; make the folder of what is kept.
+
+    Parameters
+    ----------
+    seconds : float
+        What all points take on one processor [s]
+    """
+    from mechsym.files import make_folder
+
+    if out is not None:
+        make_folder(out)
+    elif seconds > _UNKEPT:
+        raise BadInput(
+            f"the sweep has {count} points, about {seconds / 60:.0f} minutes of a processor ({seconds / count:g} s "
+            "each), and without --out nothing of it is kept; give --out DIR, where the same command goes on if it is "
+            "stopped, or fewer points"
+        )
+
+
+def picture_of(found: Any, name: str = "") -> str:
+    """The picture of a sweep as SVG; empty where there is nothing to draw. `name` keeps its ids its own on a page."""
+    from mechsym.style import svg
+    from mechsym.sweep import plots as plots_sweep
+
+    figure = plots_sweep.picture(found)
+    return "" if figure is None else svg(figure, name)
+
+
+def write(found: Any, out: Path, picture: str) -> list[Path]:
+    """Table, netCDF where it can be written, picture."""
+    from mechsym.files import write_text
+    from mechsym.sweep import store, write_netcdf, write_table
+
+    files = [write_table(found, out)]
+    try:
+        files.append(write_netcdf(found, out))
+    except MissingExtra as error:
+        click.echo(f"no netCDF file: {error}", err=True)
+    pictures = [write_text(out / "sweep.svg", picture)] if picture else []
+    return [*files, *pictures, out / store.NAME]
+
+
+def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
+    """A sweep as JSON."""
+    from mechsym.sweep import columns, failures
+    from mechsym.sweep.sensitivity import indices
+    from mechsym.sweep.units import unit_of
+
+    sampled, data = "sample" in found.dims, columns(found)
+    reasons = failures(found)
+    return {
+        "case": found.case,
+        "analysis": found.analysis,
+        "dims": dict(found.dims),
+        "shape": list(found.dims.values()),
+        "axes": {
+            a.key: {"unit": a.unit, "values": [p[i] for p in found.points] if sampled else list(a.values)}
+            for i, a in enumerate(found.axes)
+        },
+        "units": {name: unit_of(name) for name in data},
+        # a word that is not there is null, as a number
+        "data": {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()},
+        "failed": [{"index": i, "at": _values(found, i), "reason": reason} for i, reason in reasons.items()],
+        "sobol": [vars(row) for row in indices(found)] if found.sobol else [],
+        "interrupted": found.interrupted,
+        "kept": found.kept,
+        "files": [str(f) for f in files],
+    }
+
+
+def rows_of(found: Any) -> list[dict[str, Any]]:
+    """Smallest and largest of the main results and where they are, in the unit of each."""
+    from mechsym.sweep import main_results
+    from mechsym.sweep.units import unit_of
+
+    return [_row(found, name, column) | {"unit": unit_of(name)} for name, column in main_results(found).items()]
+
+
+def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
+    import numpy as np
+
+    low, high = int(np.nanargmin(column)), int(np.nanargmax(column))
+    return {
+        "name": name, "min": float(column[low]), "at min": place(found, low), "max": float(column[high]),
+        "at max": place(found, high), "mean": float(np.nanmean(column)), "std": float(np.nanstd(column)),
+    }  # fmt: skip
+
+
+def _values(found: Any, index: int) -> dict[str, Any]:
+    return {a.key: v for a, v in zip(found.axes, found.points[index], strict=True)}
+
+
+def place(found: Any, index: int) -> str:
+    """Where a point is, in words."""
+    parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
+    return ", ".join(f"{a.key}={v}{' ' + a.suffix if a.suffix else ''}" for a, v in parts)
