@@ -41,6 +41,7 @@ EXAMPLES = {
     "reproduce": "reproduce moroianu2017",
     "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
+    "study": "study nunes2017-chapter-6 --only compression",
     "sweep": 'sweep zotov-89 --of hinge --over "spring.p0=4..6 MPa:3"',
     "simulate": "simulate alpha-stirling --set simulation.turns=3",
     "size": "size nunes-hypocycloid",
