@@ -115,8 +115,8 @@ def pictures(design: Design) -> tuple[Picture, ...]:
             Picture(name="track", draw=lambda: plots.track(design, guide_turn(design), radius),
                     see="Guide to scale; the profile is the exact parallel curve at the roller radius."),
             Picture(name="contact", draw=lambda: plots.contact(guide_turn(design)),
-                    see="Contact around the turn; N1 and N2 are the reactions that Zotov et al. (2024) name as their "
-                    "open problem."),
+                    see="Contact around the turn: reactions of the rollers, pressure angle, pressure in the spring, "
+                    "curvature."),
         ]  # fmt: skip
     if design.retuned is not None:
         rpm = figure(design.retuned.other.omega / RPM, 4)

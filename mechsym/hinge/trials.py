@@ -21,6 +21,7 @@ from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
+from mechsym.quantities.display import figure
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import problem, reduced
@@ -160,7 +161,7 @@ def with_flywheel(machine: Machine, wanted: Hinge, inertia: float, turns: float)
     engine = fitted(replace(machine, mechanism=heavier), wanted)
     steady = steady_state(tabulate(reduced(engine)), machine.omega)
     speed = float(steady.omega[0]) if len(steady.omega) else machine.omega
-    return run("flywheel", f"no hinge, flywheel of {inertia:.4g} kg m²", engine, speed, turns)
+    return run("flywheel", f"no hinge, flywheel of {figure(inertia, 4)} kg m²", engine, speed, turns)
 
 
 def _heavier(mechanism: Mechanism, inertia: float) -> Mechanism:

@@ -83,7 +83,10 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
             figures = []
             for picture in found.view.pictures:
                 number += 1
-                figures.append({"number": number, "see": picture.see, "svg": svg(picture.draw(), str(number))})
+                drawn = picture.draw()
+                width, height = drawn.get_size_inches()
+                figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)),
+                                "narrow": height > 0.75 * width})  # fmt: skip
             parts.append({"part": found, "figures": figures, "id": f"{found.name}-{place}"})
         shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
     return page(
