@@ -105,6 +105,11 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
     """Angle of the least (sign 1) or greatest (-1) travel, in [0, 2 pi) [rad]; function as for `top_of`."""
     grid = np.linspace(0, _TURN, 721)[:-1]
     values = sign * np.asarray(travel(grid[None, :])[0]).ravel()
+    if not np.isfinite(values).all():
+        at = math.degrees(grid[int(np.argmin(np.isfinite(values)))])
+        raise BadInput(
+            f"the loop opens at a crank angle of {at:g} deg: links too short, or a wrong branch; it cannot turn round"
+        )
     best = float(grid[int(np.argmin(values))])
     low, high = best - _TURN / 720, best + _TURN / 720
 

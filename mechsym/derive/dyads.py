@@ -14,6 +14,7 @@ from typing import Any
 from sympy import Expr, Integer, Symbol, cos, sin, sqrt
 
 from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint, Pair, named_point
+from mechsym.derive.refuse import refuse
 
 Declaration = Any  # the declaration, which imports this module
 
@@ -234,7 +235,11 @@ def line_of_centres(m: Declaration, joint: Joint, second: Pair) -> Symbol:
     """Angle through which the line of centres has turned; its rates are those of the geometry."""
     x, y = _minus(second, joint.first.xy)
     roots = _roots(m, (x, y))
-    carriers = [k.turns for k in m.links if k.given and k.origin is not None and k.angle.free_symbols & roots]
+    turning = [k for k in m.links if k.origin is not None and (k.given or k.turns in m.dependent_list)]
+    carriers = [k.turns for k in turning if k.angle.free_symbols & roots]
+    if roots and not carriers:
+        why = f"no link carries the wheels of the gear {joint.name!r}: their line of centres turns with none"
+        refuse(f"{why}; pin the second wheel on a link that turns about the first one's centre", joint.where)
     return m.tape.define_turn(f"gamma_{joint.name}", carriers[0] if carriers else Integer(0), x, y)
 
 

@@ -156,14 +156,15 @@ def build(path: Path, name: str, source_hash: str) -> tuple[str, dict[str, Any]]
     Raises
     ------
     BadInput
-        The declaration is refused
-    ArithmeticError
-        The equations differ from those of T - V
+        The declaration is refused, or its equations differ from those of T - V
     """
     declaration = chosen(path, name)
     equations = derive(declaration)
     states, wrong = disagreement(equations)
     if wrong > 1e-8:
-        raise ArithmeticError(f"{path.name}: the equations differ from those of T - V by {wrong:.1g} (relative)")
+        raise BadInput(
+            f"{path.name}: the equations differ from those of T - V by {wrong:.1g} (relative): what is declared is not "
+            "one mechanism; declare it in smaller steps and see which joint, angle or force brings the difference"
+        )
     code = module_text(equations, path.name, source_hash)
     return code, listing(equations) | {"checked": states}

@@ -6,6 +6,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
 
@@ -52,6 +53,11 @@ def _motion(
     dynamics = mechanism.functions["dynamics"]
     given = [float(values.get(n, 0.0)) for n in dynamics.name_in()]
     mass, bias, force = (np.asarray(v) for v in dynamics.call(given))
+    if not all(np.isfinite(v).all() for v in (mass, bias, force)):
+        at = ", ".join(f"{q} = {float(values.get(q, 0.0)):g}" for q in mechanism.coordinates)
+        raise BadInput(
+            f"{mechanism.name}: the loop is open at {at}: links too short there, or a wrong branch; give another pose"
+        )
     return dict(values), np.linalg.solve(mass, force - bias).ravel(), {}
 
 

@@ -1,13 +1,16 @@
 """Links and joints: every closed form obeys Newton and Euler link by link, and closes."""
 
+import casadi as ca
 import linkages
 import numpy as np
 import pytest
 from newton_euler import Oracle
 
-from mechsym.derive import derive
+from mechsym.cycle.motion import top_of
+from mechsym.derive import Mechanism, derive
 from mechsym.derive.autodiff import disagreement
 from mechsym.derive.emit import module_text
+from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.own import _module
 from mechsym.mechanisms.record import bind_module
@@ -16,11 +19,11 @@ from mechsym.mechanisms.state import state
 STATES = [{"phi": 0.4, "phid": 5.0, "phidd": -3.0}, {"phi": 2.1, "phid": -7.0, "phidd": 11.0}]
 
 
-def runtime(equations):
+def runtime(equations, values=linkages.VALUES):
     from pathlib import Path
 
     module = _module(Path("linkage.py"), module_text(equations, "linkage.py", "0" * 16))
-    return bind_module(module, linkages.VALUES)
+    return bind_module(module, values)
 
 
 def reactions_at(mechanism, given):
@@ -107,3 +110,62 @@ def test_gears_on_a_carrier_obey_newton_and_euler(inside):
     s = state(mechanism, STATES[0])
     torque = s["mass_matrix"][0][0] * STATES[0]["phidd"] + s["bias"][0] - s["generalized_force"][0]
     assert_newton_and_euler(equations, mechanism, STATES[0], torque)
+
+
+def planetary():
+    """The sun drives planets in a fixed ring: the carrier's angle has no dyad and is held by a constraint."""
+    m = Mechanism("planetary")
+    phi = m.coordinates("phi")
+    rs, rp = m.parameters("rs rp", "m", above=0)
+    m_p = m.parameters("m_p", "kg", low=0)
+    I_s, I_p, I_c = m.parameters("I_s I_p I_c", "kg*m^2", above=0)
+    M, M_r = m.inputs("M M_r", "N*m")
+    sun, carrier = m.link("sun", turns=phi, inertia=I_s), m.link("carrier", inertia=I_c)
+    planet = m.link("planet", mass=m_p, inertia=I_p)
+    m.pin("O", m.frame, sun)
+    m.pin("C", m.frame, carrier)
+    m.pin("P", carrier.at(rs + rp), planet)
+    m.gear("S", sun.at(), planet.at(), radii=(rs, rp))
+    m.gear("R", m.frame.at(), planet.at(), radii=(rs + 2 * rp, rp), inside=True)
+    m.torque(M, along=phi)
+    m.torque(-M_r, along=carrier.angle)
+    return m
+
+
+@pytest.mark.slow
+def test_a_planetary_train_has_the_ratio_and_the_inertia_of_the_textbook():
+    equations = derive(planetary())
+    states, wrong = disagreement(equations)
+    assert states > 0 and wrong < 1e-12  # equal to the derivatives of T - V
+    v = {"rs": 0.03, "rp": 0.02, "m_p": 0.4, "I_s": 1e-3, "I_p": 2e-4, "I_c": 4e-3}
+    mechanism = runtime(equations, v)
+    k, spin = v["rs"] / (2 * (v["rs"] + v["rp"])), -v["rs"] / (2 * v["rp"])
+    single = loops.reduced(mechanism)[0]
+    for phi in (0.3, 3.0, 40.0):  # turns of the carrier included: no jump of an arc tangent
+        at = single.functions["dynamics"](phi=phi, phid=2.0, M=5.0, M_r=3.0)
+        inertia = v["I_s"] + k**2 * (v["I_c"] + v["m_p"] * (v["rs"] + v["rp"]) ** 2) + spin**2 * v["I_p"]
+        assert float(at["mass_matrix"]) == pytest.approx(inertia, rel=1e-10)
+        assert float(at["bias"]) == pytest.approx(0, abs=1e-10)
+        assert float(at["generalized_force"]) == pytest.approx(5 - 3 * k, rel=1e-10)
+
+
+def test_wheels_that_no_link_carries_are_refused():
+    m = Mechanism("loose")
+    phi, x = m.coordinates("phi"), m.coordinates("x", "m")
+    r = m.parameters("r", "m", above=0)
+    one = m.link("one", turns=phi, inertia=m.parameters("I", "kg*m^2", above=0))
+    m.pin("O", m.frame, one)
+    two = m.link("two", mass=m.parameters("m", "kg", above=0))
+    m.pin("P", m.frame.at(x, 2 * r), two)
+    with pytest.raises(BadInput, match=r"test_linkage.py:\d+: no link carries the wheels of the gear 'T'"):
+        m.gear("T", one.at(), two.at(), radii=(r, r))
+
+
+def test_an_open_loop_is_told_with_its_angle():
+    opened = linkages.VALUES | {"c": 0.02}  # a rocker that the rod cannot reach
+    with pytest.raises(BadInput, match="rrr: the loop is open at phi = 2.1: links too short there"):
+        state(runtime(derive(linkages.rrr()), opened), STATES[1])
+    phi = ca.SX.sym("phi")
+    travel = ca.Function("travel", [phi], [ca.sqrt(ca.cos(phi) + 0.5), phi])
+    with pytest.raises(BadInput, match="the loop opens at a crank angle of 120.5 deg"):
+        top_of(travel)
