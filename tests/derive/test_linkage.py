@@ -162,7 +162,7 @@ def test_wheels_that_no_link_carries_are_refused():
 
 
 def test_an_open_loop_is_told_with_its_angle():
-    opened = linkages.VALUES | {"c": 0.02}  # a rocker that the rod cannot reach
+    opened = linkages.VALUES | {"b": 0.05, "c": 0.02}  # rod and rocker do not reach each other
     with pytest.raises(BadInput, match="rrr: the loop is open at phi = 2.1: links too short there"):
         state(runtime(derive(linkages.rrr()), opened), STATES[1])
     phi = ca.SX.sym("phi")
