@@ -13,6 +13,7 @@ from mechsym.app.markup import bars, chart, frame, run_table, table
 
 AUDIT = "audit"
 _REST = 0.4  # sliders rest so long before what is slow begins [s]
+_PICTURE = 1.2  # and so long before the picture is drawn anew: it would keep the next answer waiting [s]
 
 
 class Panel:
@@ -81,7 +82,7 @@ class HingePanel(Panel):
         if not newest() or answer is None:
             return
         self._show(answer)
-        await asyncio.sleep(_REST)
+        await asyncio.sleep(_PICTURE)
         if newest():
             picture = await run.io_bound(moving, answer, "mechanism and guide, to scale")
             self.stage.set_content("" if picture is None else frame(picture, "mechanism and guide", answer.turns))
