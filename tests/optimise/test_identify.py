@@ -105,7 +105,7 @@ def test_command_writes_json_picture_and_table(tmp_path, speeds):
     assert found["doubts"] == [] and found["status"] == "found"
     for name, estimate in found["parameters"].items():
         assert abs(estimate["value"] - TRUTH[name]) < 4 * estimate["error"]
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"trace.csv", "trace.svg"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"trace.csv", "trace.svg", "summary.json"}
 
 
 @pytest.mark.slow
