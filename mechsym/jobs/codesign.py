@@ -85,7 +85,8 @@ def compared(result: CoDesignResult, progress: Callable[[], Any] = lambda: None)
     ripples = sorted({task.ripple, *(d.task.ripple for d in result.front)})
     found = peers(task.points, ripples)
     progress()
-    more = springs_of(task, ripples, 2) if task.springs == 1 and len(task.points) > 1 else []
+    to_save = any(d.flywheel > 0 for d in (result.design, *result.front))  # a second spring saves nothing of nothing
+    more = springs_of(task, ripples, 2) if task.springs == 1 and len(task.points) > 1 and to_save else []
     progress()
     return dataclasses.replace(result, peers=(*found, *more))
 
