@@ -86,7 +86,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
                 drawn = picture.draw()
                 width, height = drawn.get_size_inches()
                 figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)),
-                                "narrow": height > 0.75 * width})  # fmt: skip
+                                "narrow": len(drawn.axes) == 1 and height > 0.75 * width})  # fmt: skip
             parts.append({"part": found, "figures": figures, "id": f"{found.name}-{place}"})
         shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
     return page(
