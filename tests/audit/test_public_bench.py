@@ -83,6 +83,7 @@ def test_a_bracket_that_closes_too_soon():
     assert check_formula(row["correction"], "trochoid.x")["verdict"] == "exact"
 
 
+@pytest.mark.slow
 def test_an_angle_is_the_same_after_whole_turns():
     text = "2*atan((a*sin(alpha) - b*sin(g))/(a*cos(alpha) + c - d0 - b*cos(g)))"
     row = check_formula(text, "four_bar.gamma", letters="g=transmission")

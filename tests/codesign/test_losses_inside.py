@@ -24,6 +24,7 @@ def inside(given=None, **changes):
     return solve(dataclasses.replace(asked, **changes))
 
 
+@pytest.mark.slow
 def test_a_gas_that_relaxes_in_time_agrees_with_one_that_relaxes_over_the_angle():
     found = with_losses(design(), 2, HingeLosses())
     assert found.time_ripple == pytest.approx(found.ripple, rel=5e-3)

@@ -35,6 +35,7 @@ def mechsym(*arguments, status=0):
     return json.loads(done.stdout) if status != 2 else done.stderr
 
 
+@pytest.mark.slow
 def test_a_scotch_yoke_is_derived_and_evaluated(folder):
     assert len(mechsym("derive", "./scotch_yoke.py", "--out", "derived")["written"]) == 2
     checked = mechsym("derive", "./scotch_yoke.py", "--out", "derived", "--check")
@@ -52,6 +53,7 @@ def test_a_scotch_yoke_is_derived_and_evaluated(folder):
     assert state["outputs"]["x"] == pytest.approx(r * (1 - np.cos(phi)), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_scotch_yoke_has_forces_a_run_and_a_hinge(folder):
     forces = mechsym("forces", "scotch-yoke.toml", "--out", "forces")
     assert forces["power_residual"] < 1e-12
