@@ -23,35 +23,44 @@ _ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
 @click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram: combustion from pressure.")
 @click.option("--motored", type=click.Path(dir_okay=False), help="CSV without combustion, same encoder: dead centre.")
+@click.option("--torque", type=click.Path(dir_okay=False), help="CSV of a measured crank torque: pressure from it.")
+@click.option("--noise", metavar="TORQUE", help="Standard deviation of each torque of --torque, such as '2 N*m'.")
 @click.option("--loop", type=click.FloatRange(0.5, 1000), help="Engine cycles to run with the mechanism in the loop.")
 @json_option
 @out_option
 @set_option
 def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, motored: str | None,
-          loop: float | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:  # fmt: skip
+          torque: str | None, noise: str | None, loop: float | None, as_json: bool, out: Path | None,
+          overrides: tuple[str, ...]) -> None:  # fmt: skip
     """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
 
     Torque and power are the engine's, all cylinders together; of several cylinders those of one stand beside them.
 
     With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle; --motored, a
-    record of the same encoder without combustion, gives its dead centre. With --loop: gas and motion integrated
-    together, against the case's load (a propeller without [load]).
+    record of the same encoder without combustion, gives its dead centre. With --torque: the cylinder pressure out of a
+    torque over the angle (a file as [torque] takes it), with gaps at the dead centres. With --loop: gas and motion
+    integrated together, against the case's load (a propeller without [load]).
 
     \b
     Examples: mechsym cycle nunes-slider-crank --speeds 500:8000:500
               mechsym cycle nunes-hypocycloid --set cycle.method=nunes2017_printed --speeds 10:8000:10 --json
               mechsym cycle nunes-slider-crank --over "cycle.ignition=-30 deg:0 deg:2 deg" --speeds 4000
               mechsym cycle generator --diagram measured.csv --motored motored.csv
+              mechsym cycle zotov-89 --torque torque.csv --noise "200 N*m"
               mechsym cycle nunes-hypocycloid --loop 10
               mechsym cycle alpha-stirling --set cycle.kind=stirling-adiabatic
               mechsym cycle generator-breathing --speeds 1000:4000:500
               mechsym cycle zotov-142 --set scavenging.source=turbocharger --set "scavenging.altitude=2000 m"
     """
-    from mechsym.cli import cycle_loop, cycle_measured
+    from mechsym.cli import cycle_loop, cycle_measured, cycle_torque
     from mechsym.cycle.kinds import kind_of
 
     loaded = case_of(case, pairs(overrides))
-    if diagram or motored or kind_of(loaded.need("cycle")).measured:
+    if torque or noise:
+        if speeds or over or diagram or motored or loop:
+            raise BadInput("--torque stands alone: leave out --speeds, --over, --diagram, --motored and --loop")
+        cycle_torque.show(loaded, torque, noise, (as_json, out))
+    elif diagram or motored or kind_of(loaded.need("cycle")).measured:
         cycle_measured.show(loaded, (diagram, motored), as_json, out)
     elif loop:
         cycle_loop.show(loaded, loop, as_json, out)

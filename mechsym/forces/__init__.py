@@ -4,6 +4,7 @@ turn.py         mechanism, gas, speed -> gas forces and exact reactions over the
 loads.py        reactions under common names: side force, crank pin radial and tangential, main bearing
 table.py        forces.csv and its extremes
 textbook.py     the chains of Moroianu (2017) and Prymak: two-mass rod, Terskih's rule, their errors
+indicated.py    the chain backwards: cylinder pressure out of a measured torque on the shaft
 harmonics.py    orders of torque and shaking forces
 shaking.py      what shakes the frame, the counterweight that shakes it least, balance that was asked for
 friction.py     first-order losses from the frictionless reactions
@@ -27,6 +28,7 @@ _NAMES = {
     "Friction": "mechsym.forces.friction:Friction",
     "loads": "mechsym.forces.loads:loads",
     "losses": "mechsym.forces.friction:losses",
+    "pressure_from_torque": "mechsym.forces.indicated:pressure_from_torque",
     "Turn": "mechsym.forces.turn:Turn",
     "turn": "mechsym.forces.turn:turn",
 }

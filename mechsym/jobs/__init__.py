@@ -5,7 +5,7 @@ codesign    guide, pressures and flywheel for a range of speeds and loads
 hinge       hinge, guide, verdict, trials by simulation
 run         simulation in time; startup explains a start-up; problem and train say what runs
 cycle       figures of the engine cycle; gas is its pressure on the pistons, loop the cycle in motion, measured a
-            diagram taken apart
+            diagram taken apart, indicated the pressure out of a measured torque
 forces      the force chain over one turn
 size        every part with load, limit and factor
 optimise    the design that `[optimise]` declares

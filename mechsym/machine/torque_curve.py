@@ -52,6 +52,7 @@ class TorqueTable:
     speeds: tuple[float, ...]  #: Ascending; empty where the file has none [rad/s]
     loads: tuple[float, ...]  #: Ascending [-]
     curves: Mapping[tuple[float, float], Function]  #: by speed [rad/s] and load [-]: phi [rad] to torque [N*m]
+    angles: Mapping[tuple[float, float], np.ndarray]  #: by speed [rad/s] and load [-]: phi of its rows [rad]
 
 
 def read_torque(path: str) -> TorqueTable:
@@ -89,6 +90,7 @@ def _read(path: str, _changed: int) -> TorqueTable:
         file=path, period=period, with_inertia="torque_with_inertia" in heads, loads=loads,
         speeds=speeds if "speed" in heads else (),
         curves={p: _spline(path, columns["phi"][r], torque[r], period) for p, r in one.items()},
+        angles={p: columns["phi"][r] for p, r in one.items()},
     )  # fmt: skip
 
 

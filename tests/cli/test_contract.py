@@ -268,7 +268,8 @@ def test_a_speed_beyond_all_engines_is_refused(monkeypatch, capsys):
 #: Commands that read a file which the user names, with FILE in its place
 READERS = {
     "case": ["cycle", "FILE"], "check": ["check", "FILE"], "diagram": ["cycle", "generator", "--diagram", "FILE"],
-    "motored": ["cycle", "generator", "--motored", "FILE"], "formulas": ["audit", "--file", "FILE"],
+    "motored": ["cycle", "generator", "--motored", "FILE"],
+    "torque": ["cycle", "moroianu", "--torque", "FILE", "--noise", "1"], "formulas": ["audit", "--file", "FILE"],
     "paper": ["audit", "FILE"], "theory": ["audit", "--formula", "r", "--against", "a.x", "--theory", "FILE"],
     "points": ["codesign", "zotov-89", "--curve", "FILE"],
     "materials": ["size", "nunes-hypocycloid", "--set", "sizing.materials_file=FILE"],

@@ -11,9 +11,10 @@ from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
 from mechsym.hinge.price import misfire_share
 from mechsym.hinge.torque import torque
-from mechsym.jobs import own_turn
+from mechsym.jobs import own, own_gas, own_turn
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.flywheel import flywheel
+from mechsym.jobs.indicated import common_gas, indicated
 from mechsym.jobs.loop import loop
 from mechsym.jobs.machine import machine
 from mechsym.jobs.size import size
@@ -300,3 +301,27 @@ def test_sizing_gives_the_loads_of_every_joint(slider):
 def test_a_mechanism_without_a_piston_says_how_to_declare_one(slider):
     with pytest.raises(BadInput, match="has no piston for an engine cycle; declare one with m.piston"):
         cycle(replace(slider, mechanism="rodless_constraints"))
+
+
+@pytest.mark.parametrize("kind", ["tilted", "stirling"])
+def test_the_torque_on_the_crank_tells_the_pressure(folder, kind):
+    """What drives the shaft against the gas, over one cycle, gives back the gas: of one piston and of two."""
+    if kind == "tilted":
+        case = slider_crank(folder, "told_by_torque", "pi / 3")
+    else:
+        case = written(folder, "rhombic", RHOMBIC, STIRLING)
+    one, (acting, *_) = own_turn.turn(case), own_gas.pistons(case, own.one_coordinate(case))
+    rows = "\n".join(f"{a:.17g},{-m:.17g},{one.omega:.17g}"
+                     for a, m in zip(np.degrees(one.phi), one.columns["driving_torque"], strict=True))  # fmt: skip
+    (folder / "torque.csv").write_text(f"phi [deg],torque_with_inertia [N*m],speed [rad/s]\n{rows}\n")
+    _, found = indicated(case, str(folder / "torque.csv"), 0.0)
+    truth = acting.gas.pressure.absolute(one.phi - acting.start)
+    assert found.told.mean() > 0.9
+    assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
+
+
+@pytest.mark.slow
+def test_the_torque_of_a_star_tells_no_pressure(folder):
+    text = '[parameters]\nr = "26 mm"\nl = "90 mm"\nm_p = 0.25\nI = 0.002\n' + shipped("nunes-slider-crank")
+    with pytest.raises(BadInput, match="3 cylinders fire one after the other"):
+        common_gas(written(folder, "star", RADIAL, f'mechanism = "./star.py"\n{text}'))
