@@ -303,6 +303,7 @@ def test_a_mechanism_without_a_piston_says_how_to_declare_one(slider):
         cycle(replace(slider, mechanism="rodless_constraints"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["tilted", "stirling"])
 def test_the_torque_on_the_crank_tells_the_pressure(folder, kind):
     """What drives the shaft against the gas, over one cycle, gives back the gas: of one piston and of two."""
