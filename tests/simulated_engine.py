@@ -187,24 +187,29 @@ class Records:
     rows: np.ndarray  # (engines, cycles, n) measured pressure [Pa]
     dead_centre: np.ndarray  # (engines,) where the true one lies on the angles of the file, with the sensor's lag [rad]
     ratio: np.ndarray  # (engines,) compression ratio of the data sheet [-]
+    lag: np.ndarray  # (engines,) lag of the sensor [s]
     noise: np.ndarray  # (engines,) deviation of white noise that says as much as that of the mean cycle [Pa]
 
 
 LAG, DRIFT, MEMBRANE, ENCODER, SHEET = 0.3 * DEG, 0.01, 0.01, 0.4 * DEG, 0.02
 
 
-def records(rng, engines, cycles, fired=True):
-    """Records of very different quality with everything that spoils them."""
+def records(rng, engines, cycles, fired=True, faster=1.0, longest=LAG):
+    """Records of very different quality with everything that spoils them.
+
+    `faster` is every cycle's factor on the speed, `longest` the longest lag at factor 1 [rad].
+    """
     e = drawn(rng, engines, cycles)
+    base, e = e.omega, dataclasses.replace(e, omega=e.omega * faster)
     if not fired:
         e = dataclasses.replace(e, burn_heat=0 * e.burn_heat)
     phi, p = whole_cycle(e, (0.97 * e.p_closed.mean(axis=1, keepdims=True))[..., None], 1.1e5)
     each, swing = (engines, cycles), np.ptp(p, axis=-1).mean(axis=1)[:, None, None]
-    lag = rng.uniform(0, LAG, (engines, 1))
+    lag = rng.uniform(0, longest, (engines, 1))
     y = sensed(
         p,
         np.broadcast_to(e.omega, each),
-        lag / e.omega,
+        lag / base,
         np.broadcast_to(MEMBRANE * abs(rng.standard_normal((engines, 1))), each),
     )
     y = y + swing * (
@@ -228,6 +233,7 @@ def records(rng, engines, cycles, fired=True):
         rows=rows,
         dead_centre=by * np.sin(where) + lag[:, 0],
         ratio=e.ratio[:, 0] * (1 + SHEET * rng.standard_normal(engines)),
+        lag=(lag / base)[:, 0],
         noise=spread,
     )
 

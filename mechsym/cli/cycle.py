@@ -37,7 +37,8 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
     Torque and power are the engine's, all cylinders together; of several cylinders those of one stand beside them.
 
     With --diagram, or a case of kind "diagram": combustion out of measured pressure, cycle by cycle; --motored, a
-    record of the same encoder without combustion, gives its dead centre. With --torque: the cylinder pressure out of a
+    record of the same encoder without combustion, gives its dead centre. The sensor's lag is in it; cycles of several
+    speeds (a run-down with time_s) tell the lag apart, with its interval. With --torque: the cylinder pressure out of a
     torque over the angle (a file as [torque] takes it), with gaps at the dead centres. With --loop: gas and motion
     integrated together, against the case's load (a propeller without [load]).
 

@@ -38,7 +38,7 @@ def _text(found: dict[str, Any]) -> str:
         f"dead centre {_known(found['dead_centre'])}; one degree later changes work by "
         f"{100 * per_degree['work']:+.2f} % and heat by {100 * per_degree['heat']:+.2f} %",
     ]
-    return "\n".join([*lines, *_fits(found)])
+    return "\n".join([*lines, *_lag(found["lag"]), *_fits(found)])
 
 
 def _known(centre: dict[str, Any]) -> str:
@@ -47,6 +47,20 @@ def _known(centre: dict[str, Any]) -> str:
         return f"{centre['deg']:.2f} deg as given"
     assumed = f"{100 * centre['prior_share']:.0f} % of its variance assumed, not measured"
     return f"{centre['deg']:.2f} deg by {centre['method']}, 19 times in 20 between {low:.2f} and {high:.2f} ({assumed})"
+
+
+def _lag(lag: dict[str, Any] | None) -> list[str]:
+    if lag is None:
+        return []
+    (low, high), (slow, fast) = (1e3 * end for end in lag["interval_seconds"]), lag["speeds_rpm"]
+    says = f"sensor's lag by cycles of {slow:.0f} to {fast:.0f} rpm: 19 times in 20 between {low:.3f} and {high:.3f} ms"
+    if not lag["told"]:
+        usual = " to ".join(f"{1e3 * end:g}" for end in lag["usual_seconds"])
+        return [f"{says}, wider than what is usual of any sensor ({usual} ms): the dead centre holds the lag"]
+    if lag["dead_centre_deg"] is None:
+        return [says]
+    ends = " and ".join(f"{end:.2f}" for end in lag["dead_centre_interval_deg"])
+    return [f"{says}; dead centre without it {lag['dead_centre_deg']:.2f} deg, between {ends}"]
 
 
 def _fits(found: dict[str, Any]) -> list[str]:

@@ -13,6 +13,7 @@ from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
 from mechsym.cycle.measured.facts import cycle_work, read_and_used
 from mechsym.cycle.measured.fits import Fit
+from mechsym.cycle.measured.lag import USUAL, SensorLag, lag_of, without_lag
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.motion import piston_travel
 from mechsym.jobs.gas import of, one_cylinder
@@ -31,6 +32,7 @@ class MeasuredResult:
     line: str  #: What was read and what was used
     mep: float  #: Mean indicated pressure, net, mean over the cycles [Pa]
     speed: float  #: By the file's times, else of the case [rad/s]
+    lag: SensorLag | None  #: What cycles of several speeds say of the sensor's lag; None where they have one
 
 
 def measured_combustion(case: Case, file: str | None = None, motored: str | None = None) -> MeasuredResult:
@@ -68,6 +70,7 @@ def measured_combustion(case: Case, file: str | None = None, motored: str | None
         line=read_and_used(cycle, measured),
         mep=mep,
         speed=case.need("operation").speed if measured.speeds is None else float(measured.speeds.mean()),
+        lag=lag_of(measured, cylinder, cycle),
     )
 
 
@@ -77,7 +80,7 @@ def summary(result: MeasuredResult) -> dict[str, Any]:
     Returns
     -------
     summary : dict
-        `dead_centre`, `speed_rpm`, `mep_bar`, `n_compression`, `n_expansion`, `read_and_used`, `cycles` (rows),
+        `dead_centre`, `lag`, `speed_rpm`, `mep_bar`, `n_compression`, `n_expansion`, `read_and_used`, `cycles` (rows),
         `weak_cycles` (from 1), `mean`, `wiebe`, `double_wiebe`, `compression_line`, `trapped_mass`,
         `tdc_uncertainty_deg`, `per_degree`, `uncertainty`, `doubts`
     """
@@ -88,6 +91,7 @@ def summary(result: MeasuredResult) -> dict[str, Any]:
         row["speed_rpm"] = None if speeds is None else float(speeds[k]) / RPM
     return {
         "dead_centre": _dead_centre(found),
+        "lag": None if result.lag is None else _lag(found, result.lag),
         "speed_rpm": result.speed / RPM,
         "mep_bar": result.mep / 1e5,
         "n_compression": float(np.mean([c.n_compression for c in found.cycles])),
@@ -119,6 +123,23 @@ def _dead_centre(found: DiagramCombustion) -> dict[str, Any]:
         "method": centre.method,
         "prior_share": centre.prior_share,
         "loss_angle_deg": None if loss is None else loss * _DEG,
+    }
+
+
+def _lag(found: DiagramCombustion, lag: SensorLag) -> dict[str, Any]:
+    """Interval of the lag and whether it is narrower than what is usual; if so, the dead centre without it."""
+    alignment = found.measured.alignment
+    # of a dead centre from elsewhere this record does not know at which speed it was found
+    centre = without_lag(alignment.dead_centre, lag) if lag.told and alignment.own is None else None
+    deg, half = (None, None) if centre is None else (centre[0] * _DEG % 360, centre[1] * _DEG)
+    return {
+        "seconds": lag.lag,
+        "interval_seconds": [lag.lag - lag.half, lag.lag + lag.half],
+        "usual_seconds": list(USUAL),
+        "told": lag.told,
+        "speeds_rpm": [speed / RPM for speed in lag.speeds],
+        "dead_centre_deg": deg,
+        "dead_centre_interval_deg": None if deg is None or half is None else [deg - half, deg + half],
     }
 
 

@@ -21,7 +21,7 @@ _Z = 1.96
 _DEG = math.radians(1.0)
 _EARLIER, _BURNS = (0.0, 8.0 * _DEG), 1.4
 _ENCODER = 0.2 * _DEG  # what no line tells of: its mounting, its teeth
-_THROUGH = (-60.0 * _DEG, 60.0 * _DEG)
+THROUGH = (-60.0 * _DEG, 60.0 * _DEG)
 _LOSS_ANGLE, _STARTS = (0.6 * _DEG, 0.6 * _DEG), (-18.0, -5.0)
 _MOTORED = 0.004  # of the swing: a line without combustion leaves a tenth of it, the weakest one with it twice as much
 
@@ -105,7 +105,7 @@ def from_motored(
         Measured pressure of the mean cycle [Pa]
     """
     top = peak_angle(angle, mean)
-    fit = joint_fit(angle, mean, cylinder, _THROUGH, noise(mean), prior, [top + _LOSS_ANGLE[0]])
+    fit = joint_fit(angle, mean, cylinder, THROUGH, noise(mean), prior, [top + _LOSS_ANGLE[0]])
     spread = math.hypot(math.sqrt(fit.covariance[0, 0]), _ENCODER)
     share = 1 - (1 - fit.prior_share) * fit.covariance[0, 0] / spread**2
     return _around(fit.tdc, spread, method, prior_share=share, loss_angle=fit.tdc - top), fit
@@ -123,7 +123,7 @@ def is_motored(angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Pr
     """
     top, sigma = peak_angle(angle, mean), noise(mean)
     pinned = Prior(n0=prior.n0, tdc=(top + _LOSS_ANGLE[0], _LOSS_ANGLE[1]))
-    fit = joint_fit(angle, mean, cylinder, _THROUGH, sigma, pinned, [top + _LOSS_ANGLE[0]])
+    fit = joint_fit(angle, mean, cylinder, THROUGH, sigma, pinned, [top + _LOSS_ANGLE[0]])
     return math.sqrt(max(fit.rms**2 - sigma**2, 0.0)) < _MOTORED * float(np.ptp(mean))
 
 

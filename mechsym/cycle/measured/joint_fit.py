@@ -4,7 +4,8 @@ r"""Dead centre, exponent, losses, offset and drift of a measured charge line in
 
 Offset and level of every cycle and the dead centre are free; the rest has a prior, because dead centre, exponent and
 losses of one line are nearly one number. The mean of the cycles carries all that they say of what they share. A lag
-of the sensor at one speed is a later dead centre: their sum is found, and the sum is what the work needs.
+of the sensor at one speed is a later dead centre: their sum is found, and the sum is what the work needs;
+`lag` separates them where the cycles differ in speed.
 """
 
 import math
@@ -115,6 +116,17 @@ def cycle_lines(
     measured = (rows[:, inside] - drift * (at - REFERENCE)) * root[inside]
     found = np.linalg.lstsq(columns, measured.T, rcond=None)[0]
     return found[0], found[1]
+
+
+def pulls(fit: JointFit, prior: Prior) -> np.ndarray:
+    """How far the dead centre of a fit goes with the middle of each of its priors.
+
+    Returns
+    -------
+    pulls : ndarray, shape (8,)
+        In the order of the covariance, 0 for what is free [rad by the unit of each]
+    """
+    return fit.covariance[0] * _known(prior, fit.tdc)[1] ** 2
 
 
 def _weights(phi: np.ndarray, between: tuple[float, float]) -> np.ndarray:
