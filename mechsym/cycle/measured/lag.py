@@ -26,7 +26,7 @@ _SEEN = math.radians(0.05)  # cycles whose lines a usual lag moves by less are o
 #: 19 lags in 20 lie between 0 and 0.1 ms: 20 mm of passage at 500 m/s take 0.04 ms, a filter of 3 kHz 0.05 ms [s]
 USUAL = (0.0, 1e-4)
 # How much n0, n1, loss, sharpness (in the order of the fit's covariance) and drift may change where the speed changes
-# e-fold: 0.02 are 100 K of the charge; heat lost per radian goes with speed to -0.2 to -0.7, blow-by to -1
+# e-fold (assumed): 0.02 are 200 K of the charge; heat lost per radian goes as speed to -0.2 to -0.7, blow-by to -1
 _BY_SPEED = np.array([0.0, 0.02, 0.02, 0.06, 0.2, 0.0, 0.0, 0.0025])
 
 
@@ -116,7 +116,7 @@ def sensor_lag(fits: Sequence[JointFit], speeds: np.ndarray, prior: Prior) -> Se
     Weights w are one over the variance that the noise leaves of each dead centre; s is the deviation of tau by the
     scatter about the straight line. What is assumed of the charge (pull g on the dead centre) is in all cycles alike
     and goes out with phi_0, but for c_j, by which it may change with speed.
-    Source: least squares; c from the exponents of speed in the heat transfer of Woschni, Annand and Eichelberg.
+    Source: least squares; c of the losses from the exponents of speed of Woschni, Annand and Eichelberg, else assumed.
     Valid: a lag that is short beside compression (tau omega below about 3 degrees), on an encoder that follows the
     shaft inside a turn.
 
