@@ -1,6 +1,7 @@
 """`mechsym mechanisms` and `mechsym cases`: what there is."""
 
 import tomllib
+from typing import Any
 
 import click
 
@@ -23,7 +24,7 @@ def mechanisms(as_json: bool) -> None:
         found = known.listing(name)
         letters = {k: list(found[k]) for k in ("coordinates", "parameters", "inputs", "outputs")}
         rows.append({"name": name, **letters, "source": found["source"], "about": found["about"]})
-    emit(rows, as_json, lambda: table(rows, ["name", "coordinates", "inputs", "source", "about"]))
+    emit(rows, as_json, lambda: table(_cited(rows), ["name", "coordinates", "inputs", "source", "about"]))
 
 
 @click.command()
@@ -48,4 +49,10 @@ def cases(name: str | None, as_json: bool) -> None:
         rows.append({"name": case, **{k: head.get(k) for k in ("mechanism", "source", "about")}})
     if not rows:
         raise BadInput("no built-in case was found; the installation is damaged, install mechsym again")
-    emit(rows, as_json, lambda: table(rows, ["name", "mechanism", "source", "about"]))
+    emit(rows, as_json, lambda: table(_cited(rows), ["name", "mechanism", "source", "about"]))
+
+
+def _cited(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    from mechsym.papers.sources import short_name
+
+    return [row | {"source": short_name(row["source"])} for row in rows]

@@ -1,12 +1,15 @@
 """`mechsym eval`: a mechanism at one state."""
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import click
 
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
+
+_ROUND_OFF = 1e-14  # of quantities in SI: what trigonometry leaves of a zero
 
 
 @click.command("eval", short_help="Evaluate a mechanism at one state.")
@@ -24,6 +27,7 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     Examples: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
               mechsym eval crosshead --latex
     """
+    from mechsym import mechanisms
     from mechsym.mechanisms.state import state
 
     if latex:
@@ -33,7 +37,7 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
         return
     mechanism, values = _read(name, case_name, pairs(overrides))
     found = state(mechanism, values)
-    emit(found, as_json, lambda: "\n".join(_lines(found)))
+    emit(found, as_json, lambda: "\n".join(_lines(found, mechanisms.listing(name, mechanism))))
 
 
 def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float]]:
@@ -74,8 +78,16 @@ def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:
     return dataclasses.asdict(parameters)
 
 
-def _lines(found: dict[str, Any]) -> list[str]:
+def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
+    """A line for each value, with its unit and, of a reaction, who acts on whom."""
     flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
-    return [
-        f"{key:24s} {value:.12g}" if isinstance(value, float) else f"{key:24s} {value}" for key, value in flat.items()
-    ]
+    units = {"kinetic_energy": "J", "potential_energy": "J", **listing["outputs"]}
+    about = listing.get("reactions", {})
+    rows = ((key, _shown(value), units.get(key, ""), about.get(key, "")) for key, value in flat.items())
+    return [f"{key:25s} {value:18s} {unit:12s} {who}".rstrip() for key, value, unit, who in rows]
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(_shown(v) for v in value) + "]"
+    return f"{value:.10g}" if abs(value) > _ROUND_OFF else "0"

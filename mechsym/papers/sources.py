@@ -61,3 +61,8 @@ def sources(name: str | None = None) -> tuple[Source, ...]:
 def _with_print(row: dict[str, Any]) -> dict[str, Any]:
     text = row.get("printed", row["published"])
     return row | {"published": number(text), "printed": text}
+
+
+def short_name(stem: str) -> str:
+    """Name and year of the source with a stem; what is no source (a file of data, an own engine) stays as it is."""
+    return next((one.name for one in sources() if one.stem == stem), stem)

@@ -19,7 +19,8 @@ TEXTS = [
     ("report", "zotov-89", "--parts", "cycle,hinge,forces"), ("report", "generator", "nunes-slider-crank"),
     ("codesign", "zotov-89", "--ripple", "2%"), ("simulate", "chmielewski", "--no-check"),
     ("simulate", "alpha-stirling", "--set", "simulation.turns=3"), ("eval", "crosshead", "--case", "zotov-89"),
-    ("reproduce", "prymak"), ("reproduce", "moroianu2017"), ("sections", "spring"), ("mechanisms",),
+    ("reproduce", "prymak"), ("reproduce", "moroianu2017"), ("sections", "spring"), ("mechanisms",), ("cases",),
+    ("audit", "--source", "prymak"),
 ]  # fmt: skip
 TABLES = [("hinge", "zotov-89"), ("forces", "opposed-pistons"), ("forces", "balandin"), ("forces", "nunes-hypocycloid"),
           ("cycle", "nunes-slider-crank"), ("simulate", "alpha-stirling", "--set", "simulation.turns=3")]  # fmt: skip
@@ -42,6 +43,7 @@ def test_no_digits_of_round_off(words, tmp_path, monkeypatch):
     ]  # the usual tolerance may be told
     long = re.findall(r"\d\.\d{12,}", text)
     assert text and not tiny + long, tiny + long
+    assert not re.findall(r"\b\d{3}_[0-9a-f]{16}\b", text)  # a source has a name
 
 
 @pytest.mark.slow

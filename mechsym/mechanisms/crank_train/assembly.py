@@ -174,7 +174,7 @@ def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
         "coordinates": dict.fromkeys(coordinates, "rad"),
         "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
         "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
-        "outputs": dict.fromkeys(outputs, ""),
+        "outputs": {name: _unit(name) for name in outputs},
         "roles": {"rotor": [{"name": "flywheel", "angle": "phi_f", "load": "M", "drive": None, "inertia": "I_f"}]},
         "equations": [],
     }
@@ -182,3 +182,16 @@ def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
 
 def _outputs(mechanism: Mechanism) -> list[str]:
     return [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]
+
+
+def _unit(output: str) -> str:
+    """Unit of an output, which is that of the throw's quantity behind it."""
+    kinds = {
+        "x_": "m",
+        "dx_": "m/rad",
+        "d2x_": "m/(rad*rad)",
+        "psi_": "rad",
+        "dpsi_": "rad/rad",
+        "shaft_torque_": "N*m",
+    }
+    return next((unit for start, unit in kinds.items() if output.startswith(start)), "" if output == ".." else "N")
