@@ -13,11 +13,15 @@ Source: Nunes (2017), ch. 2.6.3 and 4.5 to 4.8. The distances are read from his 
 34 mm, webs 15 mm, shaft 77 mm, needles 16 mm, pinion 39 mm), which close to the millimetre.
 """
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import require
+
+SIDE = ("inner_journal", "outer_journal", "main", "outboard")  # places of the bearings of one side
 
 
 @record
@@ -172,7 +176,9 @@ def side_vectors(
     return force, teeth, np.asarray(spin)[:, None] / 2 * np.array([c, s])[:, None, :]
 
 
-def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[float, float]) -> dict[str, np.ndarray]:
+def side_loads(
+    vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[float, float], places: Sequence[str] = SIDE
+) -> dict[str, np.ndarray]:
     r"""Loads of the bearings of one side, as magnitudes.
 
     .. math::
@@ -187,6 +193,8 @@ def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[floa
         From `side_vectors` [N]
     shares : (float, float)
         Shares s_F, s_T of the outer journal, from `shaft_beam.outer_shares` [-]
+    places : sequence of str
+        Those that are wanted of `SIDE`
 
     Returns
     -------
@@ -209,14 +217,17 @@ def side_loads(vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[floa
     force, teeth, centrifugal = vectors
     s_F, s_T = shares
     lever = (spans.outer - spans.inner) / (spans.outboard - spans.inner)
-    outboard = lever * (s_T * teeth - s_F * force)
-    found = {
-        "inner_journal": (1 + s_F) * force + (1 - s_T) * (teeth + centrifugal),
-        "outer_journal": s_F * force - s_T * (teeth + centrifugal),
-        "main": force + teeth - outboard,
+
+    def outboard() -> np.ndarray:
+        return lever * (s_T * teeth - s_F * force)
+
+    of: dict[str, Callable[[], np.ndarray]] = {
+        "inner_journal": lambda: (1 + s_F) * force + (1 - s_T) * (teeth + centrifugal),
+        "outer_journal": lambda: s_F * force - s_T * (teeth + centrifugal),
+        "main": lambda: force + teeth - outboard(),
         "outboard": outboard,
     }
-    return {name: np.hypot(*vector) for name, vector in found.items()}
+    return {name: np.hypot(*of[name]()) for name in places}
 
 
 def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:

@@ -63,7 +63,8 @@ def test_the_study_of_chapter_6_asks_what_the_chapter_names():
     assert "nunes2017-chapter-6" in built_in()
     asked = read("nunes2017-chapter-6")
     assert [one.name for one in asked.sweeps] == [
-        "materials", "gear-sets", "bore-to-stroke", "compression", "boost", "rod",
+        "materials", "gear-sets", "bore-to-stroke", "compression", "boost", "rod", "narrow-gears",
+        "hypocycloid-speeds", "slider-crank-speeds", "hypocycloid-losses", "slider-crank-losses",
     ]  # fmt: skip
     for one in asked.sweeps:
         assert layout(one.plan).points

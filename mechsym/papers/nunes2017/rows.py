@@ -9,14 +9,14 @@ arrives with the internal energy of the liquid, the piston feels the atmosphere 
 from typing import Any
 
 from mechsym.cases import load
-from mechsym.papers.nunes2017 import outlook, sizing, text
+from mechsym.papers.nunes2017 import chapter6, outlook, sizing, studied, text
 from mechsym.papers.nunes2017.computed import ENGINES, MODELS, at_crossover, curves_of, difference, value
 from mechsym.papers.nunes2017.facts import FACTS
 from mechsym.papers.nunes2017.numbers import CROSSOVER, DIFFERENCES, OVER_SPEEDS, item_row
 
 
 def rows() -> list[dict[str, Any]]:
-    """The thesis's published numbers with their verdicts: engine model, component sizing, statements, outlook.
+    """The thesis's published numbers with their verdicts: engine model, parts, statements, outlook, chapter 6.
 
     Returns
     -------
@@ -24,7 +24,9 @@ def rows() -> list[dict[str, Any]]:
         Keys source, item, published, computed, rel_error, verdict, note, and converged, corrected (None where the
         models do not differ)
     """
-    return engine_rows() + sizing.rows() + text.rows() + outlook.rows()
+    engine = engine_rows()
+    found = engine + sizing.rows() + text.rows() + outlook.rows() + studied.rows(engine)
+    return found + chapter6.rows(found)
 
 
 def engine_rows() -> list[dict[str, Any]]:

@@ -131,7 +131,7 @@ def _weakest(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> tu
     """Smallest factor over wanted factor of the inner bearings, at most 1, and then of the crankshaft."""
     inner = chosen(parts.bearings, stock)["inner"]
     crankshaft = get(dict(stock.materials), wants.crankshaft)
-    rows = check_bearing(inner, seats(parts, forces, stock)["inner"], wants)
+    rows = check_bearing(inner, seats(parts, forces, stock, ["inner"])["inner"], wants)
     held = min(c.safety_factor / c.wanted for c in rows)
     if held < 1 - 1e-9:  # the cheap checks first
         return held, 0.0
@@ -150,7 +150,7 @@ def _with_inner(parts: Parts, choice: Choice, pin: float, stack: float, wants: W
 
 
 def _with_outer(parts: Parts, options: list[Choice], forces: PartForces, wants: Wants, stock: Stock) -> Parts:
-    seat = seats(parts, forces, stock)["outer"]
+    seat = seats(parts, forces, stock, ["outer"])["outer"]
     found = choose(options, seat, wants) or (options[-1] if options else None)
     if found is None:
         return parts
@@ -160,7 +160,7 @@ def _with_outer(parts: Parts, options: list[Choice], forces: PartForces, wants: 
 
 def _outboard(parts: Parts, forces: PartForces, wants: Wants, stock: Stock, output: float) -> Parts:
     """The outboard bearing sits on the output shaft, which takes the bearing's bore."""
-    seat = seats(parts, forces, stock)["outboard"]
+    seat = seats(parts, forces, stock, ["outboard"])["outboard"]
     balls = [b for b in stock.bearings.values() if b.kind == "ball" and b.bore <= 0.04]
     options = choices(balls, (output, 0.04), 0.1, most=2)
     single = [c for c in options if c.count == 1]

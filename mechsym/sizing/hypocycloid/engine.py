@@ -3,12 +3,12 @@
 Forces come from outside as arrays over speed and angle (`parts.PartForces`).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
-from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
+from mechsym.sizing.loads import Spans, side_loads, tooth_share_one_end
 from mechsym.sizing.parts.bearing_design import Seat
 from mechsym.sizing.parts.crank_design import CrankLoads
 from mechsym.sizing.parts.gear_design import ToothLoads
@@ -18,6 +18,15 @@ from mechsym.sizing.wants import Wants
 
 _GAP = 2e-3  # between web, bearings and housing, as in the source's sizes [m]
 _END_WALL = 5e-3  # carrier between shaft end and outboard bearing, assumed [m]
+# name, place of `side_loads`, turns of a bearing by those of the crank: the planet turns backwards at the crank's
+# speed, once against the rod, twice against the carrier
+_SEATS = {
+    "rod": ("rod bearing", "", 1),
+    "inner": ("inner journal", "inner_journal", 2),
+    "outer": ("outer journal", "outer_journal", 2),
+    "main": ("main bearing", "main", 1),
+    "outboard": ("outboard bearing", "outboard", 1),
+}
 
 
 def spans(parts: Parts, stock: Stock) -> Spans:
@@ -66,17 +75,6 @@ def shaft(parts: Parts, stock: Stock) -> Shaft:
                  seat=crank.shaft, seat_end=min(seat_end, z.gear), thin=thin)  # fmt: skip
 
 
-def vectors(forces: PartForces) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Forces on one side of the planet.
-
-    Returns
-    -------
-    vectors : tuple of ndarray, shape (2, k, n)
-        On the crankpin, from the teeth, from the masses [N]
-    """
-    return side_vectors(forces.net, forces.tooth, forces.radial, forces.spin, forces.theta)
-
-
 def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[float], np.ndarray]:
     """Bending moment along the crankshaft.
 
@@ -85,7 +83,7 @@ def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[
     moment : callable
         Distance from the middle of the crankpin [m] -> moment (2, k, n) [N*m]
     """
-    force, teeth, centrifugal = vectors(forces)
+    force, teeth, centrifugal = forces.side
     z, shares = spans(parts, stock), outer_shares(shaft(parts, stock))
     return lambda place: moment(place, z, shares, force, teeth + centrifugal)
 
@@ -103,19 +101,16 @@ def tooth_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) ->
     return ToothLoads(omega=forces.omega, tooth=share * forces.tooth)
 
 
-def seats(parts: Parts, forces: PartForces, stock: Stock) -> dict[str, Seat]:
-    """Loads and speeds of the bearings."""
-    loads = side_loads(vectors(forces), spans(parts, stock), outer_shares(shaft(parts, stock)))
-    w = forces.omega
-    # the planet turns backwards at the crank's speed: once against the rod, twice against the carrier
-    places = {
-        "rod": ("rod bearing", np.abs(forces.rod), w),
-        "inner": ("inner journal", loads["inner_journal"], 2 * w),
-        "outer": ("outer journal", loads["outer_journal"], 2 * w),
-        "main": ("main bearing", loads["main"], w),
-        "outboard": ("outboard bearing", loads["outboard"], w),
-    }
-    return {key: Seat(name=name, omega=w, load=load, turning=turning) for key, (name, load, turning) in places.items()}
+def seats(parts: Parts, forces: PartForces, stock: Stock, wanted: Sequence[str] = tuple(_SEATS)) -> dict[str, Seat]:
+    """Loads and speeds of the bearings at the places that are wanted."""
+    places = [place for place in (_SEATS[key][1] for key in wanted) if place]
+    loads = side_loads(forces.side, spans(parts, stock), outer_shares(shaft(parts, stock)), places)
+    found = {}
+    for key in wanted:
+        name, place, turns = _SEATS[key]
+        load = loads[place] if place else np.abs(forces.rod)
+        found[key] = Seat(name=name, omega=forces.omega, load=load, turning=turns * forces.omega)
+    return found
 
 
 def crank_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> CrankLoads:

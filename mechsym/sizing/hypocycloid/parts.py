@@ -1,11 +1,13 @@
 """Records of the hypocycloid engine: its parts, the forces on them, and the stock to choose from."""
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.sizing.loads import side_vectors
 from mechsym.sizing.parts.bearing_design import Choice
 from mechsym.sizing.parts.records import BearingPart, CrankPart, CylinderPart, GearPart, PistonPart
 from mechsym.sizing.rules.bearing_data import Bearing
@@ -45,6 +47,11 @@ class PartForces:
     stroke: float
     gap: float
     head_heat: float
+
+    @cached_property
+    def side(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Forces on one side of the planet: on the crankpin, from the teeth, from the masses; each (2, k, n) [N]."""
+        return side_vectors(self.net, self.tooth, self.radial, self.spin, self.theta)
 
 
 @record
