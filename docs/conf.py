@@ -1,5 +1,6 @@
 """The docs site: `make docs` writes it to docs/_build/html, offline; pages that follow from the program come first."""
 
+import logging
 import re
 import sys
 from pathlib import Path
@@ -30,6 +31,7 @@ def _make(app):
     import gallery
     import pages
 
+    logging.getLogger().setLevel(logging.WARNING)  # the theme's colours ask for the talk of every library
     pages.make(HERE / "made")
     findings.make(HERE)
     gallery.make(HERE / "made" / "gallery")

@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -56,7 +57,8 @@ def test_the_site_builds_without_a_warning_and_is_all_local(tmp_path):
     pytest.importorskip("furo")
     pytest.importorskip("myst_parser")
     command = [sys.executable, "-m", "sphinx", "-W", "-q", "-b", "html", str(DOCS), str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    outside = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}  # the workbench asks for it
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=outside)
     assert done.returncode == 0 and not done.stderr, done.stderr
     for page in tmp_path.rglob("*.html"):
         text = page.read_text(encoding="utf-8")

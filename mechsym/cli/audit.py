@@ -9,6 +9,7 @@ import click
 from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
 
+_ROUND_OFF = 1e-12  # relative error that the floats of a right formula leave [-]
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
 
 
@@ -155,7 +156,7 @@ def _published(source: str | None, write: bool, certificate: Path | None, as_jso
     with progress(sum(len(s.entries) for s in chosen), "auditing") as bar:
         rows = findings.rows(chosen, lambda: bar.update(1))
     differences = record.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
-    emit(rows, as_json, lambda: table(rows, _COLUMNS))
+    emit(rows, as_json, lambda: table(_shown(rows), _COLUMNS))
     if certificate is not None:
         text, without = of_sources(chosen, rows)
         click.echo(str(write_text(certificate, text)), err=True)
@@ -166,6 +167,20 @@ def _published(source: str | None, write: bool, certificate: Path | None, as_jso
     for line in differences:
         click.echo(f"differs from the record: {line}", err=True)
     return 1 if differences else 0
+
+
+def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    from mechsym.papers.sources import short_name
+
+    errors = ("max_rel_error", "corrected_max_rel_error")
+    return [row | {"source": short_name(row["source"])} | {key: _error(row[key]) for key in errors} for row in rows]
+
+
+def _error(value: float | None) -> str | None:
+    """A relative error; what rounding leaves is none."""
+    if value is None:
+        return None
+    return f"{value:.3g}" if value > _ROUND_OFF else f"below {_ROUND_OFF:g}"
 
 
 def _write(sources: Sequence[Any], rows: list[dict[str, Any]]) -> None:
@@ -192,9 +207,9 @@ def _told(row: dict[str, Any]) -> str:
         lines.append(f"corrected:     {row['correction']}")
     if row["evidence"]["domain"]:
         lines.append(f"holds for:     {row['evidence']['domain']}")
-    lines.append(f"largest relative error: {row['max_rel_error']:.3g}")
+    lines.append(f"largest relative error: {_error(row['max_rel_error'])}")
     if row["corrected_max_rel_error"] is not None:
-        lines.append(f"when corrected:         {row['corrected_max_rel_error']:.3g}")
+        lines.append(f"when corrected:         {_error(row['corrected_max_rel_error'])}")
     if row["order"] is not None:
         lines.append(f"order of lambda: {row['order']}" if row["order"] >= 0 else "the leading term is wrong")
     counterexample = row["evidence"]["counterexample"]
