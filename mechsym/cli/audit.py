@@ -9,7 +9,7 @@ import click
 from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
 
-_ROUND_OFF = 1e-12  # relative error that the floats of a right formula leave [-]
+_ROUND_OFF = 1e-10  # relative error that the floats of a right formula leave [-]
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
 
 
