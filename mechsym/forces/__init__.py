@@ -26,7 +26,6 @@ _NAMES = {
     "Forces": "mechsym.forces.result:Forces",
     "forces": "mechsym.forces.result:forces",
     "Friction": "mechsym.forces.friction:Friction",
-    "loads": "mechsym.forces.loads:loads",
     "losses": "mechsym.forces.friction:losses",
     "pressure_from_torque": "mechsym.forces.indicated:pressure_from_torque",
     "Turn": "mechsym.forces.turn:Turn",
