@@ -18,7 +18,7 @@ $(READY): pyproject.toml setup.py
 setup-all: .venv/ready-all
 
 .venv/ready-all: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,app,docs,check]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,app,cluster,docs,check]'
 	@touch $@
 
 derive: | $(READY)

@@ -48,6 +48,7 @@ def test_a_cluster_of_two_gives_the_same():
     assert failures(found) == failures(alone) and len(failures(alone)) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")
 def test_nobody_at_the_address():
     pytest.importorskip("distributed")
