@@ -76,11 +76,11 @@ ENTRIES: dict[str, Any] = {
             "coil": "mechsym.hinge.springs:Coil",
         },
     ),
-    "guide": "mechsym.hinge.guide:GuideParameters",
+    "guide": "mechsym.hinge.choices:GuideParameters",
     "rollers": "mechsym.hinge.rollers:RollerParameters",
     "losses": "mechsym.hinge.losses:HingeLosses",
     "codesign": "mechsym.codesign.settings:CoDesignSettings",
-    "limits": "mechsym.hinge.limits:Limits",
+    "limits": "mechsym.hinge.choices:Limits",
     "friction": "mechsym.forces.friction:Friction",
     "rings": (
         "law",

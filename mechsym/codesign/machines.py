@@ -11,9 +11,8 @@ from mechsym.codesign.hardware import Bounds, Hardware
 from mechsym.codesign.points import Function, Point
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.errors import BadInput
-from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
 from mechsym.hinge.guide import Spring
-from mechsym.hinge.limits import Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque

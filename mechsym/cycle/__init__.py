@@ -23,7 +23,7 @@ _NAMES = {
     "columns": "mechsym.cycle.engine:columns",
     "curves": "mechsym.cycle.engine:curves",
     "gas_in_cylinder": "mechsym.cycle.gas:gas_in_cylinder",
-    "gas_of_engine": "mechsym.cycle.gas:gas_of_engine",
+    "gas_of_engine": "mechsym.cycle.gas_of_engine:gas_of_engine",
     "over_speeds": "mechsym.cycle.engine:over_speeds",
     "piston_motion": "mechsym.cycle.motion:piston_motion",
     "piston_travel": "mechsym.cycle.motion:piston_travel",

@@ -4,10 +4,14 @@ r"""Friction of piston rings by a named rule, for one piston.
 pressure of the rings on the wall, elastic and from the gas behind them.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from mechsym.cycle.gas import Gas
 from mechsym.quantities import quantity, record
+
+if TYPE_CHECKING:
+    from mechsym.cycle.gas import Gas
 
 
 @record
@@ -36,7 +40,7 @@ class ContactPressure:
 Rings = NoRings | Patton1989 | ContactPressure
 
 
-def ring_power(law: Rings, gas: Gas, phi: np.ndarray, speed: np.ndarray, omega: float) -> np.ndarray:
+def ring_power(law: Rings, gas: "Gas", phi: np.ndarray, speed: np.ndarray, omega: float) -> np.ndarray:
     r"""Power lost at the rings of one piston.
 
     .. math::
@@ -73,7 +77,7 @@ def ring_power(law: Rings, gas: Gas, phi: np.ndarray, speed: np.ndarray, omega: 
     return mean * np.abs(speed) / np.abs(speed).mean()
 
 
-def patton_pressure(law: Patton1989, gas: Gas, omega: float) -> float:
+def patton_pressure(law: Patton1989, gas: "Gas", omega: float) -> float:
     """Mean pressure of ring friction after Patton, Nitschke and Heywood (1989).
 
     Parameters

@@ -9,18 +9,20 @@ The same torque follows from the forces on the crank alone; their difference is 
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.mechanisms.chain import CrankChain
 from mechsym.mechanisms.record import Mechanism, along
 from mechsym.mechanisms.traits import traits_of, with_chain
 from mechsym.quantities import record
+
+if TYPE_CHECKING:
+    from mechsym.cycle.gas import Gas
 
 _STEPS_PER_TURN = 1440
 
@@ -42,7 +44,7 @@ class Turn:
     """One cycle at constant speed, evenly spaced angles without the last."""
 
     drive: CrankDrive
-    gas: Gas | None
+    gas: "Gas | None"
     #: Crank speed [rad/s], period of the cycle [rad]
     omega: float
     period: float
@@ -56,7 +58,7 @@ class Turn:
     gas_power: np.ndarray  #: shape (n,): Power of the gas forces [W]
 
 
-def turn(drive: CrankDrive, gas: Gas | None, omega: float) -> Turn:
+def turn(drive: CrankDrive, gas: "Gas | None", omega: float) -> Turn:
     """One cycle at a speed.
 
     Parameters
@@ -105,7 +107,7 @@ def chain_named(name: str) -> CrankChain:
     return known.chain
 
 
-def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Turn:
+def at(drive: CrankDrive, gas: "Gas | None", omega: float, phi: np.ndarray) -> Turn:
     """Forces of a mechanism at given angles.
 
     Parameters
@@ -136,7 +138,7 @@ def at(drive: CrankDrive, gas: Gas | None, omega: float, phi: np.ndarray) -> Tur
     )
 
 
-def shaft_torque(drive: CrankDrive, gas: Gas | None, omega: float) -> np.ndarray:
+def shaft_torque(drive: CrankDrive, gas: "Gas | None", omega: float) -> np.ndarray:
     """Torque for the load over a cycle, without the reactions.
 
     Parameters
@@ -154,7 +156,7 @@ def shaft_torque(drive: CrankDrive, gas: Gas | None, omega: float) -> np.ndarray
     return work - slope
 
 
-def angles(gas: Gas | None) -> np.ndarray:
+def angles(gas: "Gas | None") -> np.ndarray:
     """Evenly spaced angles of a cycle without the last [rad]."""
     period = gas.pressure.period if gas else 2 * math.pi
     steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
@@ -172,7 +174,7 @@ def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, n
     return {q: phi, f"{q}d": none + omega, f"{q}dd": none} | dict.fromkeys(mechanism.inputs, none)
 
 
-def pushes(drive: CrankDrive, gas: Gas | None, phi: np.ndarray) -> dict[str, np.ndarray]:
+def pushes(drive: CrankDrive, gas: "Gas | None", phi: np.ndarray) -> dict[str, np.ndarray]:
     """Gas forces by the input of the mechanism that takes them [N].
 
     Parameters

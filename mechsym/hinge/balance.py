@@ -13,12 +13,12 @@ import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
+from mechsym.hinge.choices import BALANCES
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
 
-KINDS = ("whole_cycle", "every_turn")
 _TURN = 2 * math.pi
 
 
@@ -54,8 +54,8 @@ def balance(hinge: Hinge, kind: str) -> Balance:
     balance : Balance
         The torque, the rest and its ripple
     """
-    if kind not in KINDS:
-        raise BadInput(f"balance = {kind!r} is not an option; options are {', '.join(KINDS)}")
+    if kind not in BALANCES:
+        raise BadInput(f"balance = {kind!r} is not an option; options are {', '.join(BALANCES)}")
     period = hinge.period if kind == "whole_cycle" else min(hinge.period, _TURN)
     torque = hinge.torque if period == hinge.period else turn_mean(hinge.torque)
     rest = _rest(hinge.torque, torque)

@@ -18,9 +18,9 @@ Source: Zotov et al. (2024), section 3, draws two rollers on one track, which ca
 import math
 
 from mechsym.errors import BadInput
-from mechsym.hinge.balance import KINDS
 from mechsym.quantities import choice, quantity, record
 
+BALANCES = ("whole_cycle", "every_turn")  # part of the torque that is balanced
 ROLLERS = {"two_tracks": 2, "one_roller": 1, "half_speed_pi_periodic": 2}
 _PERIODS_MULTIPLE_OF = {"two_tracks": 1, "one_roller": 1, "half_speed_pi_periodic": 2}
 
@@ -36,7 +36,19 @@ class GuideParameters:
     z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
     shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
     #: Part of the torque to balance, `whole_cycle` or `every_turn`
-    balance: str = choice(*KINDS, default="whole_cycle", about="part of the torque to balance")
+    balance: str = choice(*BALANCES, default="whole_cycle", about="part of the torque to balance")
+
+
+@record
+class Limits:
+    """What the spring, the track and the rollers may be asked."""
+
+    spring_pressure: float = quantity("Pa", above=0, about="excess pressure in the air spring")
+    closing_share: float = quantity("-", above=0, high=1, about="closing over free height, z / H")
+    pressure_angle: float = quantity("rad", above=0, below=math.pi / 2, about="pressure angle")
+    profile_radius: float = quantity("m", low=0, about="radius of the profile where it bulges towards the roller")
+    roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
+    hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
 
 
 def closing_ratio(arrangement: str, period: float) -> float:

@@ -26,10 +26,9 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
 from mechsym.hinge.kernel_formulas import coordinate, of_limits, over_the_turn
 from mechsym.hinge.law_path import LawSpring
-from mechsym.hinge.limits import Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.native import compiled, compiled_all, marcher
 from mechsym.quantities import record

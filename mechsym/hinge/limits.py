@@ -8,27 +8,16 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
+from mechsym.hinge.choices import Limits
 from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import Coil, law
 from mechsym.hinge.thermal import AirThermal
-from mechsym.quantities import quantity, record
+from mechsym.quantities import record
 
 _CLOSURE = 1e-9  # gap of the path after a period, as a share of rho0
 _ROUNDING = 1e-12  # equal values may differ in the last digits
-
-
-@record
-class Limits:
-    """What the spring, the track and the rollers may be asked."""
-
-    spring_pressure: float = quantity("Pa", above=0, about="excess pressure in the air spring")
-    closing_share: float = quantity("-", above=0, high=1, about="closing over free height, z / H")
-    pressure_angle: float = quantity("rad", above=0, below=math.pi / 2, about="pressure angle")
-    profile_radius: float = quantity("m", low=0, about="radius of the profile where it bulges towards the roller")
-    roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
-    hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
 
 
 @record

@@ -7,10 +7,10 @@ guide turn with the crank and takes only what repeats every turn; the rest stays
 import dataclasses
 
 from mechsym.hinge import balance
-from mechsym.hinge.balance import KINDS, Balance
-from mechsym.hinge.choices import GuideParameters, closing_ratio
+from mechsym.hinge.balance import Balance
+from mechsym.hinge.choices import BALANCES, GuideParameters, Limits, closing_ratio
 from mechsym.hinge.guide import Guide, Spring, cut
-from mechsym.hinge.limits import Limits, Verdict, judge
+from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge
 from mechsym.quantities import record
@@ -42,7 +42,7 @@ def offers(
     offers : tuple of Offer
         One or two, the chosen one first
     """
-    kinds = [choices.balance] + [k for k in KINDS if k != choices.balance]
+    kinds = [choices.balance] + [k for k in BALANCES if k != choices.balance]
     parts = [balance.balance(hinge, kind) for kind in kinds]
     if parts[0].period == parts[1].period:
         parts = parts[:1]

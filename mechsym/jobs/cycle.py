@@ -13,7 +13,7 @@ from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.engine import columns, over_design
 from mechsym.cycle.figures import cylinder_columns
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
-from mechsym.cycle.gas import engine_of_train, gas_of_engine_on
+from mechsym.cycle.gas_of_train import engine_of_train, gas_of_engine_on
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_columns
 from mechsym.forces.turn import turn

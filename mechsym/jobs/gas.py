@@ -4,13 +4,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, replace
 
+from mechsym import cycle as cycles
 from mechsym.cases import Case
 from mechsym.cycle.breathing.engine import BreathingEngine
 from mechsym.cycle.breathing.engine import pressure as breathing_pressure
 from mechsym.cycle.breathing.engine import run as run_breathing
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
-from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine, gas_of_train
+from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.heat import Adiabatic
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram, period_of
@@ -55,10 +56,12 @@ def gas(case: Case) -> Gas | None:
     if given == "train":
         with of(case):
             speed = case.need("operation").speed
+            from mechsym.cycle.gas_of_train import gas_of_train
+
             return gas_of_train(cycle, case.need("parameters"), speed, case.sections.get("stirling"))
     seen = one_cylinder(case)
     if given == "engine":
-        return gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)
+        return cycles.gas_of_engine(engine_with(seen, NoFriction()), case.need("operation").speed)
     if given == "breathing":
         with of(case):
             found = run_breathing(breathing_with(seen, NoFriction()), [case.need("operation").speed])

@@ -11,13 +11,14 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from mechsym import cycle as cycles
 from mechsym.cases import Case
 from mechsym.cycle.breathing.engine import pressure as breathing_pressure
 from mechsym.cycle.breathing.engine import run as run_breathing
 from mechsym.cycle.chamber import Chamber, piston_area
 from mechsym.cycle.dead_centres import motion_over
 from mechsym.cycle.friction import NoFriction
-from mechsym.cycle.gas import Gas, gas_in_cylinder, gas_of_engine
+from mechsym.cycle.gas import Gas, gas_in_cylinder
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_engine, stirling_pressure
 from mechsym.cycle.kinds.stirling_spaces import areas
@@ -73,7 +74,7 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
     cycle = case.sections["cycle"]
     if kind_of(cycle).given == "engine":
         engine = engine_with(case, NoFriction(), number)
-        gas = gas_of_engine(engine, case.need("operation").speed)
+        gas = cycles.gas_of_engine(engine, case.need("operation").speed)
         # the tabulated pressure jumps to that of the gas exchange
         valves = tuple(sorted(v % gas.pressure.period for v in (cycle.exhaust_opens, cycle.inlet_closes)))
         gas = replace(gas, pressure=replace(gas.pressure, kinks=valves))

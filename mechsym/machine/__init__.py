@@ -4,10 +4,19 @@ record    Machine: mechanism, gas, forces over the angle, load, speed
 loads     laws of the load torque over the speed
 """
 
-from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, load_torque, settle
-from mechsym.machine.record import AngleForce, Machine
+from mechsym.quantities import lazily
 
-__all__ = ["AngleForce", "ConstantLoad", "Machine", "PropellerLoad", "TableLoad", "load_torque", "settle"]
+_NAMES = {
+    "AngleForce": "mechsym.machine.record:AngleForce",
+    "ConstantLoad": "mechsym.machine.loads:ConstantLoad",
+    "Machine": "mechsym.machine.record:Machine",
+    "PropellerLoad": "mechsym.machine.loads:PropellerLoad",
+    "TableLoad": "mechsym.machine.loads:TableLoad",
+    "load_torque": "mechsym.machine.loads:load_torque",
+    "settle": "mechsym.machine.loads:settle",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

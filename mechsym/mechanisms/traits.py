@@ -56,6 +56,7 @@ class Traits:
     alone: Callable[[Any], tuple[str, Any]] | None = None
 
 
+@functools.cache
 def packaged() -> tuple[str, ...]:
     """Names of the mechanisms that the package has, generated or assembled."""
     generated = {p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _code(p.name)}

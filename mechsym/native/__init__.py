@@ -8,14 +8,22 @@ march.py      a recurrence over stages in many lanes         external.py  functi
 c/*.h         what does not depend on the program: elementary functions, methods, step control
 """
 
-from mechsym.native.evaluate import Compiled, compiled, compiled_all
-from mechsym.native.fold import folder
-from mechsym.native.march import marcher
-from mechsym.native.runs import Breaks, Level, Outcome, Runs, Table
+from mechsym.quantities import lazily
 
-__all__ = [
-    "Breaks", "Compiled", "Level", "Outcome", "Runs", "Table", "compiled", "compiled_all", "folder", "marcher",
-]  # fmt: skip
+_NAMES = {
+    "Breaks": "mechsym.native.runs:Breaks",
+    "Compiled": "mechsym.native.evaluate:Compiled",
+    "Level": "mechsym.native.runs:Level",
+    "Outcome": "mechsym.native.runs:Outcome",
+    "Runs": "mechsym.native.runs:Runs",
+    "Table": "mechsym.native.runs:Table",
+    "compiled": "mechsym.native.evaluate:compiled",
+    "compiled_all": "mechsym.native.evaluate:compiled_all",
+    "folder": "mechsym.native.fold:folder",
+    "marcher": "mechsym.native.march:marcher",
+}
+__all__ = sorted(_NAMES)
+__getattr__ = lazily(__name__, _NAMES)
 
 
 def __dir__() -> list[str]:

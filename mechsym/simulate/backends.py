@@ -5,10 +5,13 @@ Python callables, otherwise scipy. Each of the others takes a `Phase` and return
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
 from mechsym.quantities import load
-from mechsym.simulate.phase import Leg, Phase
+
+if TYPE_CHECKING:
+    from mechsym.simulate.phase import Leg, Phase
 
 DEFAULT, FALLBACK = "auto", "scipy-dop853"
 NATIVE = ("auto", "native")
@@ -27,7 +30,7 @@ _PHASES: dict[str, tuple[str, tuple[str, ...]]] = {
 BACKENDS = (*NATIVE, *_PHASES)
 
 
-def backend(name: str) -> Callable[[Phase], Leg]:
+def backend(name: str) -> "Callable[[Phase], Leg]":
     """The function that integrates a phase."""
     if name not in _PHASES:
         raise BadInput(f"backend {name!r} does not go phase by phase; there are {', '.join(_PHASES)}")

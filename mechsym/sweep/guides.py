@@ -15,9 +15,9 @@ from mechsym.cases import Case
 from mechsym.cases.values import Place
 from mechsym.errors import BadInput
 from mechsym.quantities import parse
-from mechsym.sweep.outcomes import Outcome, known
+from mechsym.sweep.outcomes import Gap, Outcome, known
 
-BLOCK = 2000  # points in one call: enough to hide the making of the kernel, few enough for the progress to move
+BLOCK = 10_000  # points in one call: enough to hide the making of the kernel, few enough for the progress to move
 _SECTIONS = ("spring", "guide", "rollers", "limits")
 _KERNEL = 1e-3  # margins of the kernel differ from those of `judge` by less; nearer to a limit than this is not decided
 
@@ -70,31 +70,46 @@ def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[st
     wanted = balance(torque(machine(case)), given["guide"].balance)
     # a map over speeds alone has one design at each of them
     names = [f"{p.section}.{p.field}" for p in places.values()] or ["limits.closing_share"]
-    designs = [_design(case, given, places, here) for here in heres]
-    good = [i for i, design in enumerate(designs) if isinstance(design, dict)]
+    columns = [_column(case, given, key, place, [here[key] for here in heres]) for key, place in places.items()]
+    columns = columns or [[given["limits"].closing_share] * len(heres)]
+    outcomes: dict[int, Outcome] = {}
+    for column in reversed(columns):  # the first value that is impossible gives the reason
+        outcomes |= {i: value for i, value in enumerate(column) if isinstance(value, Gap)}
+    good = [i for i in range(len(heres)) if i not in outcomes] if outcomes else range(len(heres))
+    values = np.array([[column[i] for i in good] for column in columns]).reshape(len(names), len(good)).T
     spring, choices, rollers, limits = given.values()
     kernel = design_kernel(wanted, spring, choices, rollers, limits, names)
-    values = [[getattr(designs[i][s], f) for s, _, f in (n.partition(".") for n in names)] for i in good]
-    outcomes = dict(enumerate(designs))
-    margins = kernel.margins(np.array(values).reshape(len(good), len(names)))
+    margins = kernel.margins(values)
     least = margins.min(axis=1, initial=np.inf)
-    again = (np.abs(least) < _KERNEL) | (least == least.max(initial=-1.0))
-    for k, i in enumerate(good):
-        told = dict(zip(kernel.limits, margins[k].tolist(), strict=True))
-        outcomes[i] = _judged(wanted, designs[i], kernel.limits) if again[k] else _told(told)
+    again = np.flatnonzero((np.abs(least) < _KERNEL) | (least == least.max(initial=-1.0)))
+    outcomes |= dict(zip(good, _told(margins, least, kernel.limits), strict=True))
+    for k in again.tolist():
+        outcomes[good[k]] = _judged(wanted, _design(given, names, values[k].tolist()), kernel.limits)
     return [outcomes[i] for i in range(len(heres))]
 
 
-def _design(case: Case, given: Mapping[str, Any], places: Mapping[str, Place], here: Mapping[str, Any]) -> Any:
-    """Records of a point by section, or the gap that an impossible value leaves."""
+def _column(case: Case, given: Mapping[str, Any], key: str, place: Place, texts: Sequence[Any]) -> list[float | Gap]:
+    """Values of an axis at each point [SI], each checked once, or the gap that an impossible one leaves."""
+
+    def value(text: Any) -> float | Gap:
+        try:
+            found = parse(f"{text} {place.written}" if place.written else text, place.unit or "-", key)
+            # the records of these sections check each value by itself
+            return getattr(dataclasses.replace(given[place.section], **{place.field: found}), place.field)
+        except BadInput as error:
+            return known(BadInput(f"{case.file}: {error}"))
+
+    made = {text: value(text) for text in dict.fromkeys(texts)}
+    return [made[text] for text in texts]
+
+
+def _design(given: Mapping[str, Any], names: Sequence[str], values: Sequence[float]) -> dict[str, Any]:
+    """Records of a point by section."""
     changed: dict[str, dict[str, float]] = {name: {} for name in given}
-    try:
-        for key, place in places.items():
-            text = f"{here[key]} {place.written}" if place.written else here[key]
-            changed[place.section][place.field] = parse(text, place.unit or "-", key)
-        return {name: dataclasses.replace(found, **changed[name]) for name, found in given.items()}
-    except BadInput as error:
-        return known(BadInput(f"{case.file}: {error}"))
+    for name, value in zip(names, values, strict=True):
+        section, _, field = name.partition(".")
+        changed[section][field] = value
+    return {name: dataclasses.replace(found, **changed[name]) for name, found in given.items()}
 
 
 def _judged(wanted: Any, design: Mapping[str, Any], limits: Sequence[str]) -> Outcome:
@@ -106,8 +121,9 @@ def _judged(wanted: Any, design: Mapping[str, Any], limits: Sequence[str]) -> Ou
     return {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0, "margins": margins}
 
 
-def _told(margins: Mapping[str, float]) -> Outcome:
+def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> list[Outcome]:
     """What the kernel says, a limit that asks nothing as not a number; -1 throughout where there is no guide."""
-    least = min(margins.values())
-    found = {name: m if math.isfinite(m) else math.nan for name, m in margins.items()}
-    return {"feasible": float(least >= 0), "margin": least, "judged": 0.0, "margins": found}
+    names = ("feasible", "margin", "judged", *(f"margins.{name}" for name in limits))
+    finite = np.where(np.isfinite(margins), margins, math.nan)
+    table = np.column_stack([least >= 0, least, np.zeros_like(least), finite]).tolist()
+    return [dict(zip(names, row, strict=True)) for row in table]

@@ -56,7 +56,9 @@ def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
     found: dict[str, float | str] = {}
     for key, value in result.items():
         name = f"{prefix}{key}"
-        if isinstance(value, Mapping):
+        if type(value) is float and key not in _NO_RESULT:  # most are
+            found[name] = value
+        elif isinstance(value, Mapping):
             found |= flat(value, f"{name}.")
         elif isinstance(value, str):
             found |= {name: value} if name in WORDS else {}

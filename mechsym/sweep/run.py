@@ -256,7 +256,7 @@ def _here(place: Layout, index: int) -> dict[str, Any]:
 
 def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
-    names = {name for outcome in found if not isinstance(outcome, Gap) for name in outcome}
+    names = {name for outcome in found if not isinstance(outcome, Gap) for name in outcome} if show else ()
     for name in show if names else ():
         if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")

@@ -9,9 +9,9 @@ import pytest
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge import contact as contacts
-from mechsym.hinge.choices import GuideParameters
+from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide
-from mechsym.hinge.limits import Limits, judge, undercut_radius
+from mechsym.hinge.limits import judge, undercut_radius
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, Coil
 

@@ -1,10 +1,12 @@
 """Which guides can be built: the numbers of `hinge` to 1e-4, the same verdicts, gaps where a value is impossible."""
 
+import inspect
 import math
 
 import numpy as np
 import pytest
 
+from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.sweep import Gap, Plan, columns, sweep
 
@@ -47,3 +49,11 @@ def test_a_gas_with_heat_is_refused_with_words():
     overrides = {"spring.law": "air_thermal", "spring.tau": "1 s"}
     with pytest.raises(BadInput, match="force follows from the closing alone"):
         sweep(Plan(case="zotov-89", over=("spring.p0=3..8 MPa:3",), overrides=overrides, analysis="guides"))
+
+
+def test_each_value_of_a_guide_is_checked_by_itself():
+    """The map checks each value once; a record that judged two together would need its point made."""
+    case = cases.load("zotov-89")
+    for section in ("spring", "guide", "rollers", "limits"):
+        checked = type(case.need(section)).__post_init__
+        assert inspect.getclosurevars(checked).nonlocals["own"] is None

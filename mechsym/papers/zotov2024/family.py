@@ -10,9 +10,9 @@ import dataclasses
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import GuideParameters
+from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide, Spring, cut
-from mechsym.hinge.limits import Limits, Verdict, judge
+from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.quantities import record
