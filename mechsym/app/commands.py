@@ -24,7 +24,7 @@ _NEEDS = {
     "size": ("sizing",),
     "codesign": ("codesign",),
 }
-_MOST_ROWS = 60
+_MOST_ROWS = 400  # more than any command says of a case of ours
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
 _ROUNDING = 1e-9  # of the largest value of a unit

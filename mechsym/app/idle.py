@@ -3,8 +3,12 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cycle.friction import MechanismFriction
+from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
+from mechsym.cycle.measured.diagram import Diagram
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -14,7 +18,7 @@ def idle(case: Case, tab: str) -> Mapping[str, str]:
         data = case.sections.get(section)
         why = None if data is None or (tabs and tab not in tabs) else reason(case, data)
         if why is not None:
-            found |= {f"{section}.{name}": why for name in names or vars(data)}
+            found |= {f"{section}.{name}": why for name in names or vars(data) if name in vars(data)}
     return found
 
 
@@ -33,7 +37,8 @@ def _said(words: str) -> Callable[[Case, Any], str | None]:
 
 
 def _fuel(case: Case, data: Any) -> str | None:
-    return "it is for the fuel that the tab hinge tells" if isinstance(data, TwoStrokeMarine) else None
+    given = isinstance(data, TwoStrokeMarine) and data.mean_indicated_pressure
+    return "the mean pressure is given: it tells temperatures and fuel only" if given else None
 
 
 def _no_friction(case: Case, data: Any) -> str | None:
@@ -41,12 +46,58 @@ def _no_friction(case: Case, data: Any) -> str | None:
     return "the rollers have no friction" if free else None
 
 
+def _schmidt(case: Case, data: Any) -> str | None:
+    return "kind is schmidt, without losses" if isinstance(case.sections.get("cycle"), Schmidt) else None
+
+
+def _scavenge(case: Case, data: Any) -> str | None:
+    under = getattr(data, "crank_side", "atmosphere")
+    return None if under == "atmosphere" else f"crank_side is {under}"
+
+
+def _opposed(case: Case, data: Any) -> str | None:
+    return "it acts on both ends of a slider" if "faces" in case.sections else None
+
+
+def _measured(case: Case, data: Any) -> str | None:
+    return "the cycle is measured" if isinstance(case.sections.get("cycle"), Diagram) else None
+
+
+def _no_joints(case: Case, data: Any) -> str | None:
+    """The cycle asks for the friction of the joints only where its mean pressure is made of it."""
+    law = case.sections.get("friction_pressure")
+    return None if isinstance(law, MechanismFriction) else "the cycle is without the friction of the joints"
+
+
+def _not_reciprocating(case: Case, data: Any) -> str | None:
+    held = case.mechanism in mechanisms.names() and _no_joints(case, data) is not None
+    return "of the masses only the reciprocating ones act here" if held else None
+
+
+# masses of the mechanisms that come with the package and do not move with a piston, and what goes with them
+_TURNING = ("m0", "m1", "m2", "m_link", "u0", "u1", "I1", "I2", "IC2", "I_link", "I01", "I0", "I_f", "g", "axis_tilt",
+            "alpha_n", "k", "c")  # fmt: skip
+
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
 _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any], str | None]], ...] = (
     ("scavenging", (), (), _unless("source", "turbocharger")),
     ("rollers", ("rolling_arm",), (), _unless("friction", "rolling")),
     ("rollers", (), ("simulate",), _no_friction),
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
-    ("cycle", ("c_v", "lhv"), ("simulate", "forces", "cycle", "codesign"), _fuel),
-    ("parameters", ("I01", "I0", "I_f"), ("forces", "cycle"), _said("the speed is held")),
+    ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
+    ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
+    ("cycle", ("p_back",), (), _scavenge),
+    ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
+    ("cycle", ("p_back",), ("cycle",), _measured),
+    ("stirling", (), (), _schmidt),
+    ("operation", ("speed",), ("cycle",), _measured),
+    ("friction", (), ("cycle",), _no_joints),
+    ("rings", (), ("cycle",), _no_joints),
+    ("parameters", _TURNING, ("cycle",), _not_reciprocating),
+    ("parameters", ("m3", "m4", "m5"), ("cycle",), _measured),
+    ("parameters", ("I01", "I1", "I_link"), ("forces",), _said("the speed is held")),
+    ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
+    ("chamber", ("back_pressure",), ("forces",), _opposed),
+    ("shaking", ("limit",), ("forces",), _said("it only judges")),
+    ("startup", ("twist_limit",), ("simulate",), _said("the twist is told, and beside it the limit")),
 )

@@ -35,3 +35,10 @@ for (const kind of ["pointerdown", "pointermove", "keydown"])
     clearTimeout(mechsymResting);
     mechsymResting = setTimeout(() => mechsymTell({ go: true }), 1500);
   }, true);
+
+/* The address holds case, tab and values; the browser is told once they rest. */
+let mechsymAsked;
+function mechsymAddress(address) {
+  clearTimeout(mechsymAsked);
+  mechsymAsked = setTimeout(() => history.replaceState(null, "", address), 300);
+}

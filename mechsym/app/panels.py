@@ -3,7 +3,6 @@
 import asyncio
 import json
 from collections.abc import Callable, Mapping
-from importlib import resources
 from typing import Any
 
 from mechsym.app import commands
@@ -63,8 +62,7 @@ class HingePanel(Panel):
     def build(self) -> None:
         """Lay out what it holds."""
         ui = self.ui
-        script = (resources.files("mechsym.app") / "linked.js").read_text(encoding="utf-8")
-        ui.add_body_html(f"<script>{script}</script>")
+        self.one = asyncio.Lock()
         self.answer: Answer | None = None
         self.pinned: Answer | None = None
         self.verdict = ui.label().classes("text-lg").props('data-verdict="1"')
@@ -78,8 +76,9 @@ class HingePanel(Panel):
         """The answer at once, the picture when the sliders rest."""
         from nicegui import run
 
-        answer = await run.io_bound(hinge_answer, self.path, values)
-        if not newest() or answer is None:
+        async with self.one:  # one answer at a time; what has been overtaken while it waited is left out
+            answer = await run.io_bound(hinge_answer, self.path, values) if newest() else None
+        if answer is None:
             return
         self._show(answer)
         await asyncio.sleep(_PICTURE)

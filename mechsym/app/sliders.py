@@ -4,6 +4,7 @@ import dataclasses
 import math
 import tomllib
 from collections.abc import Mapping
+from typing import Any
 
 from mechsym import cases
 from mechsym.app import uploads
@@ -13,6 +14,8 @@ from mechsym.quantities import quantity, record
 
 _REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
 _STEPS = 200
+#: how far the slider of a zero goes by its unit; else as far as the largest value of its section with that unit, or 1
+_FROM_ZERO = {"Pa": 2e5, "m/s^2": 20.0}
 _HALVINGS = 8
 
 
@@ -41,7 +44,8 @@ def sliders(case: Case) -> tuple[Slider, ...]:
             value = getattr(data, field.name)
             stands = any(k == field.name or k.startswith(f"{field.name}_") for k in given[section])
             if stands and "unit" in field.metadata and isinstance(value, (int, float)):
-                found.append(_slider(case, f"{section}.{field.name}", field, float(value)))
+                reach = _REACH * abs(float(value)) or _from_zero(data, field.metadata["unit"])
+                found.append(_slider(case, f"{section}.{field.name}", field, float(value), reach))
     return tuple(found)
 
 
@@ -77,9 +81,16 @@ def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     return values
 
 
-def _slider(case: Case, key: str, field: dataclasses.Field, value: float) -> Slider:
+def _from_zero(data: Any, unit: str) -> float:
+    """How far the slider of a zero among the values of a section goes [`unit`]."""
+    alike = [getattr(data, f.name) for f in dataclasses.fields(data) if f.metadata.get("unit") == unit]
+    return _FROM_ZERO.get(unit) or max((abs(v) for v in alike if isinstance(v, (int, float))), default=0.0) or 1.0
+
+
+def _slider(case: Case, key: str, field: dataclasses.Field, value: float, reach: float) -> Slider:
+    """The slider of a value, as far as a reach in its unit on the side away from zero [unit of the key]."""
     meta = field.metadata
-    low, high = sorted((value / _REACH, value * _REACH)) if value else (-1.0, 1.0)
+    low, high = sorted((value / _REACH, math.copysign(reach, value))) if value else (-reach, reach)
     low = max(x for x in (low, meta.get("low"), meta.get("above")) if x is not None)
     high = min(x for x in (high, meta.get("high"), meta.get("below")) if x is not None)
     whole = value == round(value) and meta["unit"] == "-" and not _accepted(case, key, value + 0.5)

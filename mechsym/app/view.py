@@ -1,8 +1,9 @@
 """The page of the workbench: sliders to the left, what they do to the right. Each browser has a state of its own."""
 
-import asyncio
 import json
+import time
 from functools import partial
+from importlib import resources
 from typing import Any
 from urllib.parse import urlencode
 
@@ -14,7 +15,7 @@ from mechsym.app.saving import FILES, case_text, file_of
 from mechsym.app.sliders import Slider, safe, sliders
 from mechsym.errors import BadInput
 
-_PAUSE = 0.04  # a slider rests so long before the page is computed [s]
+_ONE_MOVE = 1.0  # moves of one slider that follow each other so fast are one step of undo [s]
 
 
 class Page:
@@ -33,6 +34,7 @@ class Page:
         self.path = uploads.kept(self.name) or self.name
         self.before: list[dict[str, float]] = []
         self.moved = 0
+        self.last = ("", 0.0)
         self.controls: dict[str, Any] = {}
         self.sections: dict[str, Any] = {}
         self.rows: dict[str, Any] = {}
@@ -43,6 +45,8 @@ class Page:
         ui, case = self.ui, cases.load(self.path)
         ui.dark_mode(None)
         ui.add_head_html(_STYLE)
+        script = (resources.files("mechsym.app") / "linked.js").read_text(encoding="utf-8")
+        ui.add_body_html(f"<script>{script}</script>")
         self.tabs = (*commands.tabs(case), AUDIT)
         self.tab = self.tab if self.tab in self.tabs else self.tabs[0]
         self.knobs = {s.key: s for s in sliders(case)}
@@ -50,7 +54,7 @@ class Page:
         self._head()
         ui.label(case.about).classes("opacity-70")
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
-            with ui.column().classes("w-full md:w-80 shrink-0 order-2 md:order-1 gap-0"):
+            with ui.column().classes("w-full md:w-80 shrink-0 order-2 md:order-1 gap-0 mechsym-sliders"):
                 self._sliders()
             with ui.column().classes("w-full grow min-w-0 order-1 md:order-2"):
                 self._views(case.mechanism)
@@ -146,23 +150,24 @@ class Page:
         for key in here:
             if key in still:
                 told.setdefault(still[key], []).append(key)
-        self.still.text = "; ".join(f"not here: {', '.join(keys)} ({why})" for why, keys in told.items())
+        left_out = "; ".join(f"{', '.join(keys)} ({why})" for why, keys in told.items())
+        self.still.text = f"not here: {left_out}" if left_out else ""
 
     async def move(self, key: str, value: float) -> None:
         """One slider has moved: the newest place wins."""
         if value == self.values.get(key, self.knobs[key].value):
             return
-        self.before.append(dict(self.values))
+        if key != self.last[0] or time.monotonic() - self.last[1] > _ONE_MOVE:
+            self.before.append(dict(self.values))
+        self.last = (key, time.monotonic())
         self.values = {**self.values, key: value}
         self.controls[key][1].text = f"{value:.4g}"
         self.moved += 1
-        mine = self.moved
-        await asyncio.sleep(_PAUSE)
-        if mine == self.moved:
-            await self.update()
+        await self.update()
 
     def undo(self) -> None:
         """Back to what was before the last move."""
+        self.last = ("", 0.0)
         if self.before:
             self.go(self.before.pop(), keep=False)
 
@@ -218,7 +223,7 @@ class Page:
     async def update(self) -> None:
         """Show in the open tab what belongs to the values as they stand; the address keeps both."""
         state = {"case": self.name, "tab": self.tab, **{k: repr(v) for k, v in self.values.items()}}
-        self.ui.run_javascript(f"history.replaceState(null, '', '/?' + {json.dumps(urlencode(state))})")
+        self.ui.run_javascript(f"mechsymAddress('/?' + {json.dumps(urlencode(state))})")
         if self.refused:
             self.ui.notify(self.refused, type="negative")
             self.refused = ""
@@ -229,7 +234,14 @@ class Page:
 _STYLE = """<style>
 .mechsym-cursor { position: absolute; top: 30px; bottom: 40px; left: 0; width: 1px; background: #888;
   pointer-events: none; }
+.q-slider * { transition: none !important; } /* each frame of a moving thumb keeps the answer waiting */
 .nicegui-content { padding: .6rem; }
+/* the sliders stay beside what they move: at the left of a wide screen, at the foot of a narrow one */
+.mechsym-sliders { position: sticky; z-index: 2; overflow-y: auto; flex-wrap: nowrap; }
+@media (min-width: 768px) { .mechsym-sliders { top: 0; max-height: 100vh; } }
+@media (max-width: 767px) {
+  .mechsym-sliders { bottom: 0; max-height: 40vh; background: #fff; border-top: 1px solid #888; }
+  .body--dark .mechsym-sliders { background: #121212; } }
 .mechsym-note { opacity: .7; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
 .mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }

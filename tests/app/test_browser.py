@@ -65,22 +65,36 @@ def outputs(page):
     return page.locator(".nicegui-content").inner_text()
 
 
+# the time from a key to the first frame after the answer, taken by the page itself: asking it would keep it busy
+WATCH = """() => {
+  window.answered = [];
+  let start = 0;
+  addEventListener("keydown", e => { start = e.timeStamp; }, true);
+  new MutationObserver(() => {
+    if (!start) return;
+    const asked = start;
+    start = 0;
+    requestAnimationFrame(() => setTimeout(() => answered.push(performance.now() - asked)));
+  }).observe(document.querySelector("table").parentElement, { childList: true, subtree: true, characterData: true });
+}"""
+
+
 def press(page, key, way="ArrowRight"):
-    """Move a slider by a step and wait until something that is shown has changed; the time it took [s]."""
+    """Move a slider by a step and wait until the table has changed; the time it took [ms]."""
     page.locator(f'.q-slider[data-key="{key}"] [tabindex="0"]').first.focus()
-    before, start = page.locator("table").first.inner_text(), time.monotonic()
+    if page.evaluate("typeof answered") == "undefined":
+        page.evaluate(WATCH)
+    count = page.evaluate("answered.length")
     page.keyboard.press(way)
-    while page.locator("table").first.inner_text() == before:
-        assert time.monotonic() - start < 20, f"{key} moved and nothing changed"
-        page.wait_for_timeout(4)
-    return time.monotonic() - start
+    page.wait_for_function("count => answered.length > count", arg=count, timeout=20_000, polling=50)
+    return page.evaluate("answered.at(-1)")
 
 
 def test_sliders_move_the_answer_and_undo_takes_it_back(page):
     first = page.locator("table").first.inner_text()
     for key in ("spring.p0", "spring.A", "operation.speed", "guide.rho0"):
         press(page, key)
-    assert "spring.p0=" in page.url and "guide.rho0=" in page.url
+    page.wait_for_url("**spring.p0=*guide.rho0=*", timeout=10_000)
     for _ in range(4):
         page.get_by_text("undo").click()
         page.wait_for_timeout(300)
@@ -93,8 +107,8 @@ def test_sliders_move_the_answer_and_undo_takes_it_back(page):
 
 def test_every_move_is_answered(page, record_property):
     times = [press(page, "spring.p0") for _ in range(20)]
-    record_property("p95_ms", float(1e3 * np.quantile(times, 0.95)))  # wanted: 250 on an idle machine
-    print(f"p95 of a slider move: {1e3 * np.quantile(times, 0.95):.0f} ms")
+    record_property("p95_ms", float(np.quantile(times, 0.95)))  # wanted: 250 on an idle machine
+    print(f"slider moves, ms: median {np.median(times):.0f}, p95 {np.quantile(times, 0.95):.0f}")
 
 
 def test_two_browsers_do_not_share_state(browser, address, page):
@@ -139,7 +153,7 @@ def test_a_tab_runs_its_command_and_again_when_a_slider_rests(page, tab, key):
     changed = "([tab, first]) => document.querySelector(`[data-run=${tab}]`).innerText !== first"
     page.wait_for_function(changed, arg=[tab, first], timeout=120_000)
     assert "exit status 0" in said(page, tab) and not page.errors
-    assert f"tab={tab}" in page.url
+    page.wait_for_url(f"**tab={tab}*", timeout=10_000)
 
 
 def test_a_tab_shows_the_sliders_that_its_command_reads(page):
