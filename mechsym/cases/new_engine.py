@@ -29,6 +29,8 @@ _ORDERS = {
 }  # fmt: skip
 _BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
 _MOST = 12
+_COMPRESSION = ((0.1, 10), (0.14, 9), (math.inf, 8))  # widest bore [m], compression ratio below knock
+_DAMPING = 0.12  # of the first mode: no order up to 12 is magnified by more than 5, wherever it is critical
 # mean piston speed at the speed of operation, usual at full power [m/s]
 _PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
 
@@ -168,7 +170,7 @@ def _v(bore: float, stroke: float, count: int) -> str:
 
 def _spark(layout: CylinderLayout, about: str, bore: float, stroke: float) -> str:
     head = _head("crank_train", about, stroke, "four-stroke")
-    return head + _train(layout, bore, stroke, 3.5) + _fill(FOUR_STROKE, bore=bore * 1e3)
+    return head + _train(layout, bore, stroke, 3.5) + _four_stroke(bore)
 
 
 def _opposed(bore: float, stroke: float, count: int) -> str:
@@ -185,7 +187,12 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
     text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, I1=30 * size * stroke**2, piston=780 * size, planet=300 * size,
                  I2=300 * size * (stroke / 4) ** 2 / 2, pin=bore * 1e3 / 4,
                  flywheel=320 * 780 * size * (stroke / 2) ** 2)  # fmt: skip
-    return head + text + _fill(FOUR_STROKE, bore=bore * 1e3)
+    return head + text + _four_stroke(bore)
+
+
+def _four_stroke(bore: float) -> str:
+    """Chamber and cycle; a wide chamber burns longer at its low speed, so that it knocks at a lower compression."""
+    return _fill(FOUR_STROKE, bore=bore * 1e3, ratio=next(ratio for widest, ratio in _COMPRESSION if bore <= widest))
 
 
 def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> str:
@@ -198,6 +205,8 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> 
     pins = [[p for p, k in zip(layout.phase, layout.throw, strict=True) if k == t + 1] for t in range(throws)]
     inertia = 11 * piston * radius**2
     stiffness = 0.5 * 80e9 * math.pi / 32 * (0.6 * bore) ** 4 / (1.2 * bore)
+    # first natural frequency of equal throws on equal sections whose flywheel stands still
+    first = 2 * math.sqrt(stiffness / inertia) * math.sin(math.pi / (4 * throws + 2))
     far = 2 * (radius + rod + bore) + 0.02 * stroke
     lists = {
         "throw": str(list(layout.throw)), "bank": _angles(layout.bank), "phase": _angles(layout.phase),
@@ -207,7 +216,7 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> 
     numbers = {
         "period": layout.period, "r": radius * 1e3, "l1": rod / 3 * 1e3, "l2": rod * 2 / 3 * 1e3, "rod": rod_mass,
         "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": inertia, "k": stiffness,
-        "c": 0.02 * math.sqrt(stiffness * inertia), "I_f": 160 * piston * radius**2 * (2 if throws < 3 else 1),
+        "c": 2 * _DAMPING * stiffness / first, "I_f": 160 * piston * radius**2 * (2 if throws < 3 else 1),
         "ratio": ratio, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
     }  # fmt: skip
     return _fill(TRAIN, **lists, **numbers)

@@ -9,6 +9,7 @@ has mechsym's usual value.
 import dataclasses
 import re
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from mechsym import cases
@@ -104,7 +105,8 @@ def _overridden(case: Case) -> set[str]:
 
 def _shown(value: Any, unit: str) -> str:
     if isinstance(value, bool) or isinstance(value, str):
-        return str(value)
+        text = str(value)
+        return Path(text).name if Path(text).is_absolute() else text  # a reader has not the writer's folders
     if isinstance(value, (int, float)):
         return quantity_text(float(value), unit, 6)
     if isinstance(value, (tuple, list)) and value and all(isinstance(v, (int, float)) for v in value):

@@ -4,6 +4,9 @@ from pathlib import Path
 from typing import Any
 
 from mechsym.cli.common import emit, table
+from mechsym.quantities.display import figure, shown_in
+
+_UNITS = {"pressure": "Pa", "tdc": "rad", **dict.fromkeys(("start", "duration", "duration_p", "duration_d"), "rad")}
 
 
 def show(case: Any, files: tuple[str | None, str | None], as_json: bool, out: Path | None) -> None:
@@ -66,6 +69,11 @@ def _lag(lag: dict[str, Any] | None) -> list[str]:
 def _fits(found: dict[str, Any]) -> list[str]:
     fits = ((name, found[name]) for name in ("wiebe", "double_wiebe", "compression_line") if found[name])
     return [
-        f"{name}: " + ", ".join(f"{k} {v['value']:.4g} +- {v['confidence']:.2g}" for k, v in fit.items() if k != "rms")
+        f"{name.replace('_', ' ')}: " + ", ".join(_fitted(k, v) for k, v in fit.items() if k != "rms")
         for name, fit in fits
     ]
+
+
+def _fitted(name: str, known: dict[str, float]) -> str:
+    (value, half), unit = shown_in([known["value"], known["confidence"]], _UNITS.get(name, "-"))
+    return f"{name.replace('_', ' ')} {figure(value, 4)} +- {figure(half, 2)} {unit}".removesuffix(" -")

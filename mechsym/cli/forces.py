@@ -13,6 +13,8 @@ from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_te
 from mechsym.quantities.names import stem_and_unit
 
 _SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal; the page has them all
+_SPLITS = {"two_mass": "its centre of mass kept", "terskih": "after Terskih"}
+_LETTERS = {"N": "side force", "Z": "force towards the shaft", "T": "tangential force", "M": "torque"}
 
 
 @click.command(short_help="Force chain over one cycle at constant speed.")
@@ -123,8 +125,9 @@ def _text(report: dict[str, Any]) -> str:
             f"shaking force {before} -> {after} rms"
         )
     for name, errors in (report["two_mass"] or {}).items():
-        told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in errors.items() if v > SMALLEST)
-        lines.append(f"rod as two masses ({name.replace('_', ' ')}), error of the peak: {told or 'none'}")
+        named = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
+        told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())
+        lines.append(f"rod as two masses, {_SPLITS[name]}: the peak is wrong by {told or 'nothing'}")
     lines += _friction(report["friction"], report["friction_law"]) + _overconstrained(report.get(report["mechanism"]))
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]
     if report["comparison"]:

@@ -98,7 +98,7 @@ def _text(numbers: dict[str, Any], setting: Callable[[float], str], files: list[
         )
     if again["p0"] is not None:
         lines.append(
-            f"at {again['speed_rpm']:.4g} rpm       best setting {setting(again['p0'])} "
+            f"{'at ' + figure(again['speed_rpm'], 4) + ' rpm':17}best setting {setting(again['p0'])} "
             f"({again['p0_ratio']:.3g} times), ripple {ratio_text(again['speed_ripple'])}"
         )
     if numbers["loads"]:

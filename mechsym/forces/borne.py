@@ -8,11 +8,12 @@ from mechsym.quantities.names import stem_and_unit
 
 # what bears a load, by how its name starts
 _BEARS = {
-    "p": "", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from the rod",
+    "p": "gas in the cylinder", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from the rod",
     "pin_and_guide": "pin and guides together", "crank_pin": "crank pin, in the crank's frame",
     "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
     "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",
-    "tooth": "teeth", "journal": "journal of the planet or slider", "X_": "guide of the slider",
+    "tooth": "teeth", "piston_torque": "crank, from the piston", "guide_combination": "guides together",
+    "journal": "journal of the planet or slider", "X_": "guide of the slider",
 }  # fmt: skip
 _RAW = re.compile(r"_force_[xy](_|$)")
 _NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")

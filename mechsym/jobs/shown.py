@@ -27,6 +27,8 @@ def cycle_view(found: CycleFigures) -> View:
     cards = [Card(name="speed", value=quantity_text(float(rpm[0]) * np.pi / 30, "rad/s", 4))] if one else []
     cylinders = found.get("cylinders", 1)
     for name, key, factor, unit in _CYCLE:
+        if key.startswith("brake") and not np.any(found.get("friction_mep_kpa", 0.0)):
+            continue  # nothing is known of friction
         values = np.asarray(found.get(key, np.nan), dtype=float)
         if np.isfinite(values).any():
             k = int(np.nanargmax(values))

@@ -15,8 +15,9 @@ from mechsym.quantities.names import stem_and_unit
 from mechsym.quantities.units import exponents, scale
 
 _USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "m^3": "cm^3",
-          "J/kg": "kJ/kg"}  # fmt: skip
+          "J/kg": "kJ/kg", "Pa*m/s": "MPa*m/s"}  # fmt: skip
 _LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J")}
+_LONG = 36e3  # a life is told in hours [s]
 SMALLEST = 1e-9  #: A ratio below it is round-off [-]
 _chosen: dict[tuple[Any, ...], str] = {}
 
@@ -92,6 +93,8 @@ def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
         return own or unit
     if unit in _LADDERS:
         return _LADDERS[unit][abs(size) >= 1e3]
+    if unit == "s":
+        return "h" if abs(size) >= _LONG else "s"
     return _USUAL.get(unit, unit)
 
 

@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -55,7 +56,7 @@ def test_what_is_missing_is_named_and_the_rest_is_there(both, text):
 
 
 def test_every_value_stands_with_its_origin(text):
-    assert text.count("<code>chamber.bore</code>") == 2 and "where from" in text
+    assert text.count("<code>chamber.<wbr>bore</code>") == 2 and "where from" in text
 
 
 def test_the_digest_changes_with_every_value():
@@ -109,13 +110,21 @@ def test_a_chromium_prints_it(tmp_path):
     assert done.exit_code == 0 and (tmp_path / "r.pdf").read_bytes().startswith(b"%PDF")
 
 
+def test_a_measured_cycle_stands_in_the_report_without_the_writers_folders(tmp_path):
+    file = tmp_path / "r.html"
+    done = run("generator", "--parts", "cycle", "--out", str(file))
+    text = file.read_text(encoding="utf-8")
+    assert done.exit_code == 0 and "The measured cycles give 3.7 bar" in text and "Cycle by cycle" in text
+    assert "generator-synthetic.csv" in text and str(Path(cases.__file__).parent) not in text
+
+
 @pytest.mark.slow
 def test_an_infeasible_hinge_is_on_the_first_page_and_loses_nothing(tmp_path):
     file = tmp_path / "r.html"
     done = run("zotov-89", "--parts", "cycle,hinge", "--set", "limits.roller_reaction=50 kN", "--out", str(file))
     text = file.read_text(encoding="utf-8")
     assert done.exit_code == 1 and "CANNOT be built: roller reaction" in text[: text.index("Contents")]
-    assert "Figure 3." in text and "<code>limits.roller_reaction</code>" in text
+    assert "Figure 3." in text and "<code>limits.<wbr>roller_<wbr>reaction</code>" in text
 
 
 @pytest.mark.slow

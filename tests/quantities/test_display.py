@@ -95,3 +95,7 @@ def test_the_table_of_a_hinge_goes_back_in_as_a_diagram(tmp_path):
         assert run.invoke(mechsym, ["hinge", "zotov-89", "--out", str(out), *units]).exit_code == 0
         again = run.invoke(mechsym, ["hinge", "zotov-89", "--diagram", str(out / "hinge.csv"), *units])
         assert again.exit_code == 0 and "can be built" in again.output
+
+
+def test_a_life_is_told_in_hours_and_a_stroke_of_time_in_seconds():
+    assert quantity_text(720000, "s") == "200 h" and quantity_text(100.0, "s") == "100 s"

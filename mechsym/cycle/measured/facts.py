@@ -1,6 +1,7 @@
 """What a measured diagram tells of the engine, cycle by cycle, and of itself: work, weak cycles, facts and doubts."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -71,7 +72,8 @@ def diagram_facts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles,
     return (
         read_and_used(diagram, measured),
         *(f"the file says: {comment}" for comment in measured.comments),
-        f"{measured.file}: {len(p_mi)} cycles; net mean indicated pressure {p_mi.min():.2f} to {p_mi.max():.2f} bar, "
+        f"{Path(measured.file).name}: {len(p_mi)} cycles; net mean indicated pressure {p_mi.min():.2f} to "
+        f"{p_mi.max():.2f} bar, "
         f"peaks {measured.cycles.max(axis=1).min() / 1e5:.1f} to {measured.cycles.max() / 1e5:.1f} bar absolute",
         _alignment_fact(diagram, measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
         _pegging_fact(diagram, measured),

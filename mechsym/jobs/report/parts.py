@@ -3,6 +3,8 @@
 import dataclasses
 from collections.abc import Callable, Mapping
 
+import numpy as np
+
 from mechsym.cases import Case, written
 from mechsym.cases.needs import lacking
 from mechsym.cycle.kinds import kind_of
@@ -14,6 +16,7 @@ from mechsym.jobs.forces import forces
 from mechsym.jobs.gas import gas
 from mechsym.jobs.hinge import hinge
 from mechsym.jobs.judged import of_cycle, of_forces, of_gas
+from mechsym.jobs.measured import measured_combustion, summary
 from mechsym.jobs.own import is_own
 from mechsym.jobs.report.force_part import force_part
 from mechsym.jobs.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
@@ -55,6 +58,8 @@ def part(name: str, case: Case) -> ReportPart:
 
 
 def _cycle(case: Case) -> ReportPart:
+    if kind_of(case.need("cycle")).measured:
+        return _measured(case)
     found = cycle(case)
     view, acting = found.view, None if is_own(case.mechanism) else gas(case)
     pictures = () if acting is None else acting.view.pictures
@@ -63,7 +68,8 @@ def _cycle(case: Case) -> ReportPart:
     verdict = f"{quantity_text(1e3 * power, 'W', 4)} at {figure(rpm, 4)} rpm" + (
         f", {many} cylinders" if many > 1 else ""
     )
-    one = found.get("per_cylinder") or {}
+    rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
+    one = {k: v for k, v in (found.get("per_cylinder") or {}).items() if rubs or not k.startswith("brake")}
     rows = [{"of": "engine", **{k: float(found[k][0]) for k in one}}]
     rows += [{"of": "one cylinder", **{k: float(v[0]) for k, v in one.items()}}] if many > 1 else []
     facts = () if acting is None else tuple(acting.pressure.facts)
@@ -74,6 +80,18 @@ def _cycle(case: Case) -> ReportPart:
         grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
         silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),),
         numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(case, acting)),
+    )  # fmt: skip
+
+
+def _measured(case: Case) -> ReportPart:
+    acting, found = gas(case), measured_combustion(case)
+    numbers = summary(found)
+    mean = f"{figure(numbers['mep_bar'], 3)} bar indicated at {figure(numbers['speed_rpm'], 4)} rpm"
+    return ReportPart(
+        name="cycle", title=TITLES["cycle"], view=None if acting is None else acting.view,
+        verdict=f"The measured cycles give {mean}.", facts=() if acting is None else tuple(acting.pressure.facts),
+        grids=(grid("Cycle by cycle", numbers["cycles"], list(numbers["cycles"][0])),),
+        silent=("the gas is what was measured, at its speed and load",), numbers=numbers, doubts=found.doubts,
     )  # fmt: skip
 
 

@@ -13,6 +13,8 @@ from mechsym.out.web.build import page
 from mechsym.quantities import record
 
 _END = "</body>"
+# as high as what it shows, which changes with the width of the page
+_FIT = "const b=this.contentDocument.body;new ResizeObserver(()=>{this.style.height=b.scrollHeight+48+'px'}).observe(b)"
 
 
 @record
@@ -45,4 +47,4 @@ def section(run: LiveRun) -> str:
     except (MissingExtra, NoCompiler, BadInput) as missing:
         return f'{title}<p class="note">Not in this report: {html.escape(str(missing))}</p>\n'
     frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(made)}"'
-    return f'{title}{frame} style="width:100%;height:56rem;border:0;background:#fff"></iframe>\n'
+    return f'{title}{frame} style="width:100%;height:56rem;border:0" onload="{_FIT}"></iframe>\n'
