@@ -15,9 +15,17 @@ from fuzz.judge import answer, judged
 from fuzz.mutators import Input, make
 
 CORPUS = Path(__file__).parent.parent / "tests" / "corpus"
+STEP = 100  # inputs from one line of figures to the next: nothing is lost where the run is cut
 # imported once, so that a forked process starts at once
-WARM = ("mechsym.cli.cycle", "mechsym.jobs.cycle", "mechsym.jobs.forces", "mechsym.jobs.hinge", "mechsym.jobs.run",
-        "mechsym.jobs.size", "mechsym.jobs.flywheel", "mechsym.jobs.measured", "mechsym.cli.sweep")  # fmt: skip
+WARM = (
+    "scipy.optimize", "scipy.integrate", "scipy.interpolate", "sympy", "mechsym.audit.formula", "mechsym.cli.audit",
+    "mechsym.cli.cycle", "mechsym.cli.cycle_measured", "mechsym.cli.flywheel", "mechsym.cli.forces",
+    "mechsym.cli.hinge", "mechsym.cli.simulate", "mechsym.cli.size", "mechsym.cli.sweep",
+    "mechsym.codesign.task", "mechsym.jobs.cycle",
+    "mechsym.jobs.forces", "mechsym.jobs.hinge", "mechsym.jobs.run", "mechsym.jobs.size", "mechsym.jobs.flywheel",
+    "mechsym.jobs.measured", "mechsym.generated.crosshead", "mechsym.generated.hypocycloid",
+    "mechsym.generated.crank_throw", "mechsym.mechanisms.rodless", "mechsym.optimise.solver",
+)  # fmt: skip
 
 
 def main(arguments: list[str]) -> int:
@@ -36,13 +44,12 @@ def main(arguments: list[str]) -> int:
         for done, (made, code, fault) in enumerate(found, 1):
             codes[str(code)] += 1
             if fault is not None:
-                faults[_keep(made, fault, f"{seed}-{done - 1}")] = fault
-            if sys.stderr.isatty():
-                print(f"\r{done} of {count}, {len(faults)} faults", end="", file=sys.stderr)
-    ended = ", ".join(f"{code}: {n}" for code, n in sorted(codes.items()))
-    print(f"{count} inputs of seed {seed}; exit status {ended}; {len(faults)} faults")
-    for file, fault in faults.items():
-        print(f"{file}: {fault}")
+                file = _keep(made, fault, f"{seed}-{done - 1}")
+                faults[file] = fault
+                print(f"{file}: {fault}", flush=True)
+            if done % STEP == 0 or done == count:
+                ended = ", ".join(f"{code}: {n}" for code, n in sorted(codes.items()))
+                print(f"{done} inputs of seed {seed}; exit status {ended}; {len(faults)} faults", flush=True)
     return 1 if faults else 0
 
 

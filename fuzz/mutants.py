@@ -6,17 +6,24 @@ The tests are those of the folder in tests/ that has the room's name; others wit
 
 import ast
 import copy
+import importlib
+import multiprocessing
 import os
 import random
+import resource
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NoReturn
+
+import pytest
 
 ROOT = Path(__file__).parent.parent
-LIMIT = 300.0  # time that the tests may take, a mutant that hangs is noticed [s]
+# imported once, so that the tests of a mutant start at once
+WARM = ("numpy", "scipy.optimize", "scipy.integrate", "scipy.interpolate", "sympy", "casadi", "click")
+LIMIT = 300  # time of a processor that the tests may take: a mutant that hangs is noticed [s]
 _OPERATORS: dict[type[ast.AST], type[ast.AST]] = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult, ast.FloorDiv: ast.Div,
     ast.Lt: ast.GtE, ast.GtE: ast.Lt, ast.Gt: ast.LtE, ast.LtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
@@ -97,50 +104,47 @@ def _of(name: str) -> str:
 
 def _run(file: Path, tests: str, count: int, rng: random.Random, copy_of: Path) -> int:
     ignored = shutil.ignore_patterns(".venv", ".git", "__pycache__", ".*_cache", "*.egg-info")
+    for module in WARM:
+        importlib.import_module(module)
     shutil.copytree(ROOT, copy_of, ignore=ignored, symlinks=True)
+    tree = ast.parse((ROOT / file).read_text(encoding="utf-8"))
+    # written as a mutant is, without comments: a test that reads those would notice every mutant
+    (copy_of / file).write_text(ast.unparse(tree), encoding="utf-8")
     if not _passes(copy_of, tests):
         print(f"{tests} fails without any change", file=sys.stderr)
         return 2
-    tree = ast.parse((ROOT / file).read_text(encoding="utf-8"))
     possible = places(tree)
     chosen = rng.sample(possible, min(count, len(possible)))
-    survivors = []
+    killed = 0
     for done, (place, kind) in enumerate(chosen, 1):
         text, change = mutant(tree, place, kind)
         (copy_of / file).write_text(text, encoding="utf-8")
-        if _passes(copy_of, tests):
-            survivors.append(change)
-        if sys.stderr.isatty():
-            print(f"\r{done} of {len(chosen)}, {len(survivors)} not noticed", end="", file=sys.stderr)
-    killed = len(chosen) - len(survivors)
+        survives = _passes(copy_of, tests)
+        killed += not survives
+        # one line for each as it comes, so that nothing is lost where the run is cut
+        print(f"{killed} of {done}{' not noticed:' if survives else ''} {file} {change}", flush=True)
     print(f"{file}: {killed} of {len(chosen)} mutants noticed by {tests} ({100 * killed / len(chosen):.0f} %)")
-    for change in survivors:
-        print(f"not noticed: {file} {change}")
     return 0
 
 
 def _passes(folder: Path, tests: str) -> bool:
-    # the copy stands before the installed package
-    surroundings = os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-x",
-        "-q",
-        "-n",
-        "0",
-        "-m",
-        "not slow",
-        "-p",
-        "no:cacheprovider",
-        *tests.split(),
-    ]
-    try:
-        done = subprocess.run(command, cwd=folder, env=surroundings, capture_output=True, timeout=LIMIT, check=False)
-    except subprocess.TimeoutExpired:
-        return False
-    return done.returncode == 0
+    child = multiprocessing.get_context("fork").Process(target=_test, args=(folder, tests))
+    child.start()
+    child.join()
+    return child.exitcode == 0
+
+
+def _test(folder: Path, tests: str) -> NoReturn:
+    """Run the tests in this process, forked off one that has imported everything but the package."""
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
+    quiet = os.open(os.devnull, os.O_RDWR)
+    for handle in (0, 1, 2):
+        os.dup2(quiet, handle)
+    os.chdir(folder)
+    sys.path.insert(0, str(folder))  # the copy stands before the installed package
+    sys.dont_write_bytecode = True
+    os.environ |= {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+    os._exit(pytest.main(["-x", "-q", "-n", "0", "-m", "not slow", "-p", "no:cacheprovider", *tests.split()]))
 
 
 if __name__ == "__main__":

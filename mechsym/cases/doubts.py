@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mechsym.errors import BadInput, shown, suggest
-from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, proportions, scaled
+from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, proportion, proportions, scaled
 from mechsym.quantities import parse
 
 # doubts about measured diagrams, in the units that they name
@@ -22,12 +22,14 @@ _MEASURED = (
     "early_heat",
     "even_angles",
     "expansion_exponent",
+    "floor",
     "free_exponent",
     "heat",
     "loss_angle",
     "mechanical_efficiency",
     "peak_angle",
     "scale",
+    "speed",
 )
 _UNITS = (
     {k.code: k.unit for k in (*INPUTS, *RESULTS, *PROPORTIONS)} | {"drive_start": "s"} | dict.fromkeys(_MEASURED, "-")
@@ -73,6 +75,9 @@ def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
     stroke, ratio = _crank(sections.get("parameters"))
     area, spring = _piston_area(sections), getattr(sections.get("spring"), "A", None)
     found += proportions(stroke, ratio, getattr(sections.get("operation"), "speed", None))
+    guide = getattr(sections.get("guide"), "rho0", None)
+    if guide is not None and stroke:
+        found += proportion("guide_size", "guide.rho0 / stroke", guide / stroke)
     return found + scaled(_masses(sections, area), spring, area)
 
 

@@ -106,7 +106,10 @@ class LazyGroup(click.Group):
         """The command that is asked for; one that is not there is refused with the nearest."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             ctx.fail(f"command {args[0]!r} is not known; {suggest(args[0], sorted(COMMANDS))}")
-        return super().resolve_command(ctx, args)
+        name, command, rest = super().resolve_command(ctx, args)
+        if command is not None:
+            _refuse_twice(ctx, command, rest)
+        return name, command, rest
 
     def make_context(self, *args: Any, **options: Any) -> click.Context:
         """Parse; help may be printed here."""
@@ -125,6 +128,19 @@ class LazyGroup(click.Group):
         if ctx.meta.get("mechsym.strict") and ctx.meta.get("mechsym.doubted"):
             ctx.exit(3)
         return value
+
+
+def _refuse_twice(ctx: click.Context, command: click.Command, args: list[str]) -> None:
+    """Refuse an option that is given again: the first one would be lost without a word."""
+    own = click.Context(command, parent=ctx, **command.context_settings)
+    try:
+        _, _, given = command.make_parser(own).parse_args(args=list(args))
+    except click.UsageError:
+        return  # the command says it with its own usage
+    once = [o for o in given if isinstance(o, click.Option) and not (o.multiple or o.is_flag or o.count)]
+    for option in once:
+        if once.count(option) > 1:
+            ctx.fail(f"{option.opts[-1]} is given {once.count(option)} times; it takes one value")
 
 
 def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> list[Any]:

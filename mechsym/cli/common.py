@@ -72,11 +72,13 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
     values : dict of str to str
         Key to text, in the order given
     """
-    values = {}
+    values: dict[str, str] = {}
     for text in texts:
         key, sign, value = text.partition("=")
         if not sign or not key.strip() or not value.strip():
             raise BadInput(f"{option} {text!r} is not KEY=VALUE; write for example {option} operation.speed='142 rpm'")
+        if key.strip() in values:
+            raise BadInput(f"{option} {key.strip()} is given twice, {values[key.strip()]!r} and {value.strip()!r}")
         values[key.strip()] = value.strip()
     return values
 

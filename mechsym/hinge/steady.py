@@ -172,4 +172,5 @@ def _panels(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Pane
 
 
 def _scaled(spring: Spring, name: str, factor: float) -> Spring:
-    return dataclasses.replace(spring, **{name: factor * getattr(spring, name)})
+    value = factor * getattr(spring, name)
+    return dataclasses.replace(spring, **{name: max(value, 1.0) if name == "n" else value})  # n = 1 is isothermal

@@ -9,7 +9,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cycle.dead_centres import chamber_over
 from mechsym.cycle.kinds import with_diagram
-from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
+from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, speed_doubt
 from mechsym.cycle.measured.combustion import Analysis, DiagramCombustion, diagram_combustion, rows
 from mechsym.cycle.measured.facts import cycle_work, read_and_used
 from mechsym.cycle.measured.fits import Fit
@@ -61,15 +61,18 @@ def measured_combustion(case: Case, file: str | None = None, motored: str | None
     found = diagram_combustion(measured, cylinder, case.sections.get("combustion", Analysis()))
     mep = float(cycle_work(measured, cylinder).mean())
     doubts = diagram_doubts(cycle, cylinder, measured, found.mean.phi_p_max)
+    speed = case.need("operation").speed
+    beside = [] if measured.speeds is None else [speed_doubt(float(measured.speeds.mean()), speed)]
     if "measured" in case.sections and mep > 0:
-        beside = brake_doubt(case.sections["measured"].torque, mep, float(cylinder.displacement), measured.period)
-        doubts += (beside,) if beside else ()
+        torque, swept = case.sections["measured"].torque, float(cylinder.displacement)
+        beside.append(brake_doubt(torque, mep, swept, measured.period))
+    doubts += tuple(doubt for doubt in beside if doubt is not None)
     return MeasuredResult(
         combustion=found,
         doubts=doubts,
         line=read_and_used(cycle, measured),
         mep=mep,
-        speed=case.need("operation").speed if measured.speeds is None else float(measured.speeds.mean()),
+        speed=speed if measured.speeds is None else float(measured.speeds.mean()),
         lag=lag_of(measured, cylinder, cycle),
     )
 

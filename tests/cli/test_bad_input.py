@@ -30,6 +30,8 @@ COMMAND_LINE = [
     ("formula that would run", ["audit", "--formula", "__import__('os')", "--against", "crosshead.x"], ["__import__"]),
     ("no dampings", ["simulate", "chmielewski", "--dampings", ""], ["--dampings", "N*m*s/rad"]),
     ("half a value", ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:2.5"], ["how many", "spring.p0=1..5 Pa:9"]),
+    ("an option given twice", ["cycle", "generator", "--diagram", "a", "--diagram", "b"], ["--diagram", "2 times"]),
+    ("a key given twice", ["cycle", "zotov-89", "--set", "g=9", "--set", "g=8"], ["g is given twice, '9' and '8'"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "a <= b"]),
 ]
 OVERRIDES = [

@@ -7,7 +7,7 @@ import pytest
 from simulated_engine import DEG, records, whole_cycle
 from slider_crank import slider_crank
 
-from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts
+from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, speed_doubt
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.errors import BadInput
@@ -95,6 +95,18 @@ def test_a_dead_centre_given_wrong_is_doubted(diagram_file, engine):
     cylinder, p = engine
     diagram, measured = read(diagram_file, cylinder, p, alignment="given", tdc_offset=394 * DEG)
     assert "dead_centre" in codes(diagram, cylinder, measured)
+
+
+def test_a_sensor_that_is_saturated_below_is_doubted(diagram_file, engine):
+    cylinder, p = engine
+    diagram, measured = read(diagram_file, cylinder, np.maximum(p, 2.5))
+    assert "floor" in codes(diagram, cylinder, measured)
+
+
+def test_a_speed_that_is_not_the_engines_is_doubted():
+    assert speed_doubt(250.0, 320.0) is None
+    assert speed_doubt(0.32, 320.0).code == "speed"  # milliseconds read as seconds
+    assert speed_doubt(3.2e5, 320.0).value == pytest.approx(1000)
 
 
 def test_speed_of_every_cycle_comes_from_the_times(diagram_file, engine):

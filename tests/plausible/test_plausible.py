@@ -56,6 +56,8 @@ IMPOSSIBLE = [
     ("zotov-89", "rollers.E=206 MPa"),
     ("chmielewski", "simulation.output_step=200"),
     ("alpha-stirling", "T_e=900000"),
+    ("nunes-slider-crank", "cycle.ignition=-170 deg"),
+    ("zotov-89", "axis_tilt=90"),
     ("alpha-stirling", "operation.speed=600000 rpm"),
 ]
 
@@ -68,6 +70,20 @@ def test_the_impossible_is_refused_with_what_is_possible(name, setting):
     words = str(told.value)
     assert "\n" not in words
     assert key.rpartition(".")[2] in words
+
+
+DOUBTED = [
+    ("nunes-slider-crank", "cycle.ignition=90 deg", "ignition"),
+    ("zotov-89", "parameters.g=981", "gravity"),
+    ("zotov-89", "rho0=80 m", "guide_size"),
+]
+
+
+@pytest.mark.parametrize(("name", "setting", "code"), DOUBTED)
+def test_what_no_engine_has_is_doubted(name, setting, code):
+    key, _, value = setting.partition("=")
+    case = cases.load(name, {key: value})
+    assert [d.code for d in sifted(case.doubts, case.acceptances)[0]] == [code]
 
 
 def test_the_unusual_is_doubted_and_strict_says_so():

@@ -23,6 +23,8 @@ _LOSS_ANGLE = (0.0, 2.5 * _DEG)
 _MIXTURE_HEAT = 3.0e6
 _EARLY = (-0.12, 0.06)  # heat before ignition by the heat of the cycle: walls take some, nothing gives any
 _GAMMA, _R, _T_CLOSED = 1.35, 287.0, 330.0
+_SPEED = (0.05, 3.0)  # from cranking by hand to overspeed
+_FLOOR = 75 * _DEG  # inlet valves close at most 70 degrees behind the dead centre, then the pressure rises
 _BURNT, _OPENS = 0.97, 110 * _DEG
 _Z = 1.96
 
@@ -37,7 +39,13 @@ def diagram_doubts(
     phi_p_max : float
         Crank angle of the highest pressure, from firing TDC [rad]
     """
-    found = [_scale(diagram, measured), _drift(measured), _exponent(diagram, cylinder, measured), _width(measured)]
+    found = [
+        _scale(diagram, measured),
+        _floor(measured),
+        _drift(measured),
+        _exponent(diagram, cylinder, measured),
+        _width(measured),
+    ]
     found += [_agreement(measured), _free(diagram, cylinder, measured), _spread(measured), _loss_angle(measured)]
     if not measured.alignment.motored:
         found += [_peak(phi_p_max), *_combustion(diagram, cylinder, measured)]
@@ -62,6 +70,15 @@ def _scale(diagram: Diagram, measured: MeasuredCycles) -> Doubt | None:
     ratio = measured.bottom / diagram.inlet_pressure
     why = "the sensor's scale, its unit or inlet_pressure is wrong; scale = 'exhaust' or 'trapped' corrects the first"
     return _doubt("scale", "compression line at BDC by inlet_pressure [-]", ratio, USUAL_SCALE, why)
+
+
+def _floor(measured: MeasuredCycles) -> Doubt | None:
+    # a sensor that is saturated below shows one value until compression has come up to it
+    phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
+    rising = mean[(phi > -math.pi) & (phi < -math.pi / 3)]
+    flat = np.count_nonzero(rising <= rising.min() + 1e-4 * np.ptp(mean)) * float(phi[1] - phi[0])
+    why = "compression raises the pressure there: the sensor is saturated below, and the work is as wrong"
+    return _doubt("floor", "crank angle without any rise in compression [deg]", flat / _DEG, (0, _FLOOR / _DEG), why)
 
 
 def _drift(measured: MeasuredCycles) -> Doubt | None:
@@ -175,6 +192,18 @@ def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber)
     n = polytropic_fit(phi, p, cylinder, first, float(phi[-1]))
     why = "behind burning the gas expands with 1.2 to 1.35: dead centre, offset or scale is wrong, or the sensor drifts"
     return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, _EXPANSION, why)
+
+
+def speed_doubt(read: float, wanted: float) -> Doubt | None:
+    """Whether the times of a record give a speed that its engine runs at.
+
+    Parameters
+    ----------
+    read, wanted : float
+        Mean speed by `time_s`, and the speed of operation of the case [rad/s]
+    """
+    why = "another unit of time_s, other angles than those of the crank, or a record of another engine"
+    return _doubt("speed", "speed by time_s / operation.speed [-]", read / wanted, _SPEED, why)
 
 
 def brake_doubt(torque: float, p_mi: float, swept: float, period: float) -> Doubt | None:
