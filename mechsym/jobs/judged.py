@@ -95,6 +95,8 @@ def of_cycle(case: Case, columns: dict[str, Any]) -> tuple[Doubt, ...]:
     """
     best, bound = float(np.nanmax(np.append(columns["efficiency"], -np.inf))), _bound(case)
     beyond = of_limits(case, columns)
+    if "work_j" in columns:  # a Stirling engine whose cold piston leads is none
+        beyond += proportion("driven", "work of the gas in a turn", float(np.min(columns["work_j"])))
     return beyond + (
         proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
     )

@@ -60,6 +60,14 @@ INPUTS = (
     Usual(code="polytropic_index", keys=("n",), unit="-", low=1.35, high=1.67, lowest=1.0, highest=1.7,
           section="spring", why="a gas spring faster than its heat exchange has n = gamma = 1.4; an index "
           "between 1 and gamma means heat through the wall, which costs work every turn"),
+    Usual(code="octane", keys=("octane",), unit="-", low=80, high=100, lowest=60, highest=130,
+          why="the law of the ignition delay was fitted to octane numbers of 80 to 100 (Douaud and Eyzat)"),
+    Usual(code="porosity", keys=("porosity",), unit="-", low=0.6, high=0.83, lowest=0.3, highest=1.0,
+          section="stirling", why="the laws of the screens hold at porosities of 0.6 to 0.83 (Kays and London)"),
+    Usual(code="seal_gap", keys=("seal_gap",), unit="m", high=1e-4, section="stirling",
+          why="a hundredth of a millimetre seals a piston, a tenth lets the gas through"),
+    Usual(code="shuttle_gap", keys=("shuttle_gap",), unit="m", low=5e-5, high=5e-3, section="stirling",
+          why="the law of the shuttle takes the heat through a narrow gap: some tenths of a millimetre"),
 )  # fmt: skip
 
 
@@ -88,6 +96,12 @@ RESULTS = (
           why="the end gas is ready to ignite before the flame reaches it (Livengood and Wu, Douaud and Eyzat)"),
     Usual(code="delivery", keys=("delivery_ratio",), unit="-", low=0.8, high=2.5,
           why="two-stroke engines are swept by 1 to 1.7 times their volume of air"),
+    Usual(code="flow_share", keys=("flow_share",), unit="-", high=0.5,
+          why="flow friction takes most of the work, the model needs it small: widen the exchangers, or slow down"),
+    Usual(code="screen_reynolds", keys=("screen_reynolds",), unit="-", low=1, high=1000,
+          why="the laws of the screens were measured at Reynolds numbers of 1 to 1000 (Kays and London)"),
+    Usual(code="seal_reynolds", keys=("seal_reynolds",), unit="-", high=1000,
+          why="the law of the leak is laminar: less flows in truth; take a narrower or longer seal"),
     Usual(code="compressor_ratio", keys=("compressor_ratio",), unit="-", low=1, high=6,
           why="one stage of a compressor reaches about 5.5"),
     Usual(code="condensation", keys=("dew_margin_k",), unit="K", low=0,
@@ -114,6 +128,8 @@ PROPORTIONS = (
           why="bearing forces are of the order of the gas force; check masses, speed and units"),
     Usual(code="efficiency_bound", keys=(), unit="-", high=1 + 1e-9,
           why="no cycle beats that of its compression ratio (Otto) or of its temperatures (Carnot)"),
+    Usual(code="driven", keys=(), unit="J", low=0,
+          why="the gas takes work: a heat pump, or a brake; in an engine the hot piston leads"),
     Usual(code="critical", keys=(), unit="-", high=5,
           why="the engine runs at a critical speed with little damping: move speed, inertias or stiffness, or damp it"),
     Usual(code="window", keys=(), unit="-", high=1, why="the run is shorter than what is summed up"),

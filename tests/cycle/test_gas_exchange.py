@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.flow import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
+from mechsym.cycle.breathing.newton import repeating
 from mechsym.cycle.breathing.records import Breathing, FreshCharge, HeatSink, Surroundings
 from mechsym.cycle.breathing.run import breathe
 from mechsym.cycle.heat import Woschni
@@ -140,3 +141,26 @@ def test_walls_take_heat_and_the_balance_still_closes():
     assert without.wall_heat == 0
     assert warm.work < without.work
     assert warm.T_exhaust < without.T_exhaust
+
+
+def test_newton_finds_the_state_that_repeats_and_none_that_runs_away():
+    mix = np.array([[0.999, 1e-3], [2e-4, 0.2]])
+    point = np.array([[3.0], [5.0]])
+
+    def cycle(states, lane, by=mix):
+        return point + by @ (states - point) + 1e-3 * (states - point) ** 2
+
+    found = repeating(cycle, np.array([[1.0], [9.0]]), [0, 1], 1e-10)
+    np.testing.assert_allclose(found, point, rtol=1e-6)
+    assert repeating(lambda s, lane: cycle(s, lane, 1.5 * mix), np.array([[2.9], [5.1]]), [0, 1], 1e-10) is None
+    assert repeating(lambda s, lane: np.nan * s, point, [0, 1], 1e-10) is None
+
+
+@pytest.mark.slow
+def test_large_volumes_are_the_limit_of_constant_pressure():
+    """A plenum of a cubic metre fills for minutes; the cycle that repeats is found all the same."""
+    large = [SMALL | {"plenum_volume": v, "manifold_volume": v} for v in (0.1, 1.0)]
+    (some,), (many,) = (breathed(Breathing(**one), FIRED, [300.0]) for one in large)
+    assert many.mass_residual < 1e-9 and many.energy_residual < 1e-9
+    assert np.ptp(many.pressures["plenum"]) < 0.2 * np.ptp(some.pressures["plenum"])
+    assert many.volumetric_efficiency == pytest.approx(some.volumetric_efficiency, rel=3e-3)

@@ -92,3 +92,42 @@ def test_rhombic_drive_is_a_crank_train():
     result = json.loads(found.stdout)
     assert result["power_kw"][0] == pytest.approx(4.438, abs=0.002)
     assert result["efficiency"][0] == pytest.approx(0.3516, abs=0.001)
+
+
+def with_phases(folder, phases):
+    text = (Path(cases.__file__).parent / "alpha-stirling.toml").read_text()
+    file = folder / "turned.toml"
+    file.write_text(text.replace('phase = ["90 deg", "0 deg"]', f"phase = {phases}"))
+    return str(file)
+
+
+@pytest.mark.parametrize(("phases", "codes"), [('["0 deg", "90 deg"]', ["driven"]), ('["0 deg", "0 deg"]', [])])
+def test_what_is_no_engine_has_no_efficiency(tmp_path, phases, codes):
+    # the cold piston leads: a heat pump; both together: the work of a turn is exactly nothing, and so is the heat
+    done = CliRunner().invoke(mechsym, ["cycle", with_phases(tmp_path, phases), "--json"])
+    found = json.loads(done.stdout)
+    assert found["efficiency"] == [None] and found["indicated_efficiency"] == [None]
+    assert [doubt["code"] for doubt in found["doubts"]] == codes
+    assert abs(found["energy_residual"][0]) < 1e-10
+    assert found["work_j"][0] == pytest.approx(-224.077 if codes else 0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("side", ["hot", "cold"])
+def test_second_order_without_an_exchanger_is_refused(side):
+    settings = ["--set", "cycle.kind=stirling-second-order", "--set", f"cycle.clearance_share_{side}=1"]
+    done = CliRunner().invoke(mechsym, ["cycle", "alpha-stirling", *settings])
+    assert isinstance(done.exception, BadInput) and f"clearance_share_{side} = 1" in str(done.exception)
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        ("operation.speed=3000 rpm", "flow_share"), ("operation.speed=5 rpm", "screen_reynolds"),
+        ("stirling.seal_gap=0.3 mm", "seal_reynolds"), ("stirling.seal_gap=0.3 mm", "seal_gap"),
+        ("stirling.porosity=0.9", "porosity"), ("stirling.shuttle_gap=20 mm", "shuttle_gap"),
+    ],
+)  # fmt: skip
+def test_second_order_beyond_its_laws_is_doubted(change, code):
+    found = cycle("--set", "cycle.kind=stirling-second-order", "--set", change)
+    assert code in {doubt["code"] for doubt in found["doubts"]}
+    assert found["flow_share"][0] > 0 and found["seal_reynolds"][0] > 0

@@ -1,5 +1,7 @@
 """Whole cycles of a cylinder that breathes, one after the other until one repeats, at all speeds side by side.
 
+Where volumes are so large that none repeats for long, Newton looks for the one that does.
+
 A cycle runs from one closing of the inlet to the next. Crank angles count from firing top dead centre, so gas exchange
 lies around 2 pi.
 """
@@ -14,6 +16,7 @@ import numpy as np
 
 from mechsym.cycle.breathing.equations import GIVEN, STATES, VOLUMES, Cylinder, rate
 from mechsym.cycle.breathing.flow import orifice_flow
+from mechsym.cycle.breathing.newton import repeating
 from mechsym.cycle.breathing.records import PERIOD, Breath, Surroundings
 from mechsym.cycle.closed.runge_kutta import METHOD
 from mechsym.errors import BadInput
@@ -53,7 +56,7 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
     closed = float(room[0])
     state = _start(cylinder, outside, closed)
     past: list[tuple[np.ndarray, np.ndarray]] = []
-    for _ in range(_CYCLES):
+    for count in range(_CYCLES + 1):
         history = fold(state, _given(cylinder, state, closed, speeds, outside), steps)
         if not np.isfinite(history[-1]).all():
             return None
@@ -62,7 +65,10 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
         if np.all(closure < _SETTLED):
             break
         past = [*past[-4:], (state[:9], gain)]
-        state = np.vstack([_ahead(past), np.zeros((_SUMS, len(speeds)))])
+        ahead = _ahead(past) if count < _CYCLES - 1 else _repeating(cylinder, state[:9], closed, speeds, outside, steps)
+        if ahead is None:
+            return None
+        state = np.vstack([ahead, np.zeros((_SUMS, len(speeds)))])
     else:
         return None
     whole = np.concatenate([state[None], history])
@@ -70,6 +76,18 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
         _summed(cylinder, float(speed), (phi, room), outside[:, k], whole[:, :, k], float(closure[k]))
         for k, speed in enumerate(speeds)
     ]
+
+
+def _repeating(
+    cylinder: Cylinder, state: np.ndarray, closed: float, speeds: np.ndarray, outside: np.ndarray, steps: int
+) -> np.ndarray | None:
+    fold = _fold(cylinder)
+
+    def cycle(states: np.ndarray, lane: np.ndarray) -> np.ndarray:
+        whole = np.vstack([states, np.zeros((_SUMS, len(lane)))])
+        return np.asarray(fold(whole, _given(cylinder, whole, closed, speeds[lane], outside[:, lane]), steps)[-1, :9])
+
+    return repeating(cycle, state, _SIZES, _SETTLED)
 
 
 @functools.lru_cache(maxsize=4)

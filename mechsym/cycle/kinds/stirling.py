@@ -93,13 +93,13 @@ def stirling_columns(engine: StirlingEngine, omega: float) -> dict[str, Any]:
     heat_in = found.heat_in * per_second if second is None else second.heat_in
     figures = {
         "torque_avg": power / omega, "power_kw": power / 1e3, "mep_kpa": found.mean_indicated / 1e3,
-        "sfc_g_kwh": math.nan, "efficiency": power / heat_in, "p_max_mpa": float(found.p.max()) / 1e6,
+        "sfc_g_kwh": math.nan, "efficiency": _share(power, heat_in), "p_max_mpa": float(found.p.max()) / 1e6,
         "p_max_angle_deg": math.degrees(math.remainder(float(found.phi[np.argmax(found.p)]), 2 * math.pi)),
         "energy_residual": found.residual, "work_j": found.work, "work_hot_j": found.sums["W_e"],
         "work_cold_j": found.sums["W_c"], "heat_in_j": found.heat_in,
         "heat_out_j": -found.sums["Q_k"] - found.sums["Q_c"],
         "heat_regenerator_j": float(np.ptp(found.stored)),
-        "indicated_efficiency": found.work / found.heat_in, "heat_in_kw": heat_in / 1e3, "gas_kg": found.mass,
+        "indicated_efficiency": _share(found.work, found.heat_in), "heat_in_kw": heat_in / 1e3, "gas_kg": found.mass,
     }  # fmt: skip
     temperatures = {
         f"T_{side}_{name}_k": float(getattr(curve, name)())
@@ -107,5 +107,13 @@ def stirling_columns(engine: StirlingEngine, omega: float) -> dict[str, Any]:
     }  # fmt: skip
     if second is not None:
         temperatures |= {"T_h_k": second.T_h, "T_k_k": second.T_k, "regenerator_effectiveness": second.effectiveness}
+        flow = sum(lost for name, lost in second.work_losses.items() if name.startswith("flow_"))
+        figures |= {"flow_share": _share(flow, found.work * per_second), "screen_reynolds": second.screen_reynolds,
+                    "seal_reynolds": second.seal_reynolds}  # fmt: skip
     losses = {} if second is None else second.work_losses | {f"{k}_heat": v for k, v in second.heat_losses.items()}
     return figures | temperatures | {"losses": losses}
+
+
+def _share(part: float, whole: float) -> float:
+    """nan where there is nothing to take a share of: a machine that is driven takes no heat from its hot side."""
+    return part / whole if whole > 0 else math.nan

@@ -71,6 +71,40 @@ def leakage_loss(dp_squared: float, gap: float, length: float, bore: float, mu: 
     return math.pi * bore * gap**3 / (12 * mu * length) * dp_squared
 
 
+def seal_reynolds(dp: float, gap: float, length: float, rho: float, mu: float) -> float:
+    r"""Reynolds number of the laminar flow past a piston, which tells whether `leakage_loss` holds.
+
+    .. math:: Re = \frac{\rho\,\delta^3\,\Delta p}{12\,\mu^2 L}
+
+    Parameters
+    ----------
+    dp : float
+        Difference of pressure [Pa]
+    gap, length : float
+        Radial gap and length of the seal [m]
+    rho : float
+        Density of the gas [kg/m^3]
+    mu : float
+        Viscosity [Pa*s]
+
+    Returns
+    -------
+    Re : float
+        With the gap and the mean speed in it [-]
+
+    Notes
+    -----
+    Source: laminar flow between plates (Poiseuille), mean speed dp gap^2/(12 mu L). Valid: up to about 1000, beyond
+    which less flows than the laminar law says.
+
+    Examples
+    --------
+    >>> round(seal_reynolds(1e6, 10e-6, 0.02, 5.0, 2e-5), 1)
+    52.1
+    """
+    return rho * gap**3 * dp / (12 * mu**2 * length)
+
+
 def gas_spring_loss(omega: float, gamma: float, wall: float, p_mean: float, k: float, ratio: float,
                     area: float) -> float:  # fmt: skip
     r"""Power that a gas spring loses in heat that comes too late.

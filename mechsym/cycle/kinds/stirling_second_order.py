@@ -67,6 +67,9 @@ class SecondOrder:
     T_k: float
     #: share of its heat that the regenerator gives back [-]
     effectiveness: float
+    #: mean Reynolds number of the regenerator's screens, and of the seal's gap [-]
+    screen_reynolds: float
+    seal_reynolds: float
     #: powers lost, by name [W]
     work_losses: dict[str, float]
     #: heats lost from the hot to the cold side, by name [W]
@@ -102,6 +105,7 @@ def second_order(
     cycle: StirlingCylinders, losses: StirlingLosses, volumes: Callable[[Any], tuple[Any, Any]], omega: float
 ) -> SecondOrder:
     """The engine at a shaft speed [rad/s]; volumes of the angle as `stirling_spaces.swept` gives them."""
+    _check(cycle)
     temperatures = np.array([cycle.T_e, cycle.T_c])
     solve = solver(lambda z: five_spaces(cycle, volumes, z[0], z[1]), temperatures)
     for _ in range(_ROUNDS):
@@ -118,6 +122,16 @@ def second_order(
     raise BadInput(
         f"gas temperatures do not settle at {omega:.4g} rad/s: they still move by {np.abs(change).max():.2g} K"
     )
+
+
+def _check(cycle: StirlingCylinders) -> None:
+    for side, name, duct in (("hot", "T_e", "heater"), ("cold", "T_c", "cooler")):
+        volume, share = getattr(cycle, f"dead_{side}"), getattr(cycle, f"clearance_share_{side}")
+        if not volume * (1 - share) > 0:
+            raise BadInput(
+                f"dead_{side} = {volume:g} m^3 with clearance_share_{side} = {share:g} leaves the {duct} no volume, "
+                f"and no heat passes at {name}; the second order needs dead_{side} above 0 and a share below 1"
+            )
 
 
 def _ducts(cycle: StirlingCylinders, losses: StirlingLosses, T: np.ndarray) -> tuple[_Duct, _Duct, _Duct]:
@@ -164,7 +178,8 @@ def _at(
     gas, ducts = GASES[cycle.gas], _ducts(cycle, losses, T)
     flows = _flows(cycle, turn, ducts, omega)
     per_second = omega / (2 * math.pi)
-    stanton = float(duct_law.screen_stanton(_mean(turn, _reynolds(gas, ducts[1], flows[1])), gas.Pr))
+    reynolds = _mean(turn, _reynolds(gas, ducts[1], flows[1]))
+    stanton = float(duct_law.screen_stanton(reynolds, gas.Pr))
     effectiveness = duct_law.regenerator_effectiveness(stanton * ducts[1].A_w / (2 * ducts[1].area))
     heat = {
         "regenerator": (1 - effectiveness) * float(np.ptp(turn.stored)) * per_second,
@@ -179,7 +194,8 @@ def _at(
     work["mechanical"] = left - power
     return SecondOrder(
         turn=turn, omega=omega, T_h=float(T[0]), T_k=float(T[1]), effectiveness=effectiveness, work_losses=work,
-        heat_losses=heat, power=power, heat_in=turn.heat_in * per_second + sum(heat.values()),
+        heat_losses=heat, power=power, heat_in=turn.heat_in * per_second + sum(heat.values()), screen_reynolds=reynolds,
+        seal_reynolds=_seal_reynolds(cycle, losses, turn),
     )  # fmt: skip
 
 
@@ -209,6 +225,13 @@ def _hot_end(cycle: StirlingCylinders, losses: StirlingLosses, turn: StirlingTur
     stroke = float(np.ptp(turn.V_e)) / piston_area(cycle.bore)
     shuttle = loss.shuttle_loss(stroke, losses.shuttle_gap, losses.shuttle_length, cycle.bore, k, dT)
     return {"conduction": losses.conductance * dT, "shuttle": shuttle}
+
+
+def _seal_reynolds(cycle: StirlingCylinders, losses: StirlingLosses, turn: StirlingTurn) -> float:
+    gas = GASES[cycle.gas]
+    mu = duct_law.viscosity(gas.mu_0, 273.0, gas.sutherland, cycle.T_c)
+    push = math.sqrt(_mean(turn, (turn.p - cycle.p_back) ** 2))
+    return loss.seal_reynolds(push, losses.seal_gap, losses.seal_length, cycle.mean_pressure / (gas.R * cycle.T_c), mu)
 
 
 def _piston(cycle: StirlingCylinders, losses: StirlingLosses, turn: StirlingTurn, omega: float) -> dict[str, float]:

@@ -70,9 +70,9 @@ class StirlingTurn:
 
     @property
     def residual(self) -> float:
-        """What the first law leaves over, by the heat from the hot side [-]."""
+        """What the first law leaves over, by the heat from the hot side, or by p V where there is none [-]."""
         heat = sum(self.sums[name] for name in ("Q_h", "Q_r", "Q_k", "Q_e", "Q_c"))
-        return (heat - self.work) / abs(self.heat_in)
+        return (heat - self.work) / (abs(self.heat_in) or float(self.p.max() * np.ptp(self.V_e)))
 
 
 def turn(spaces: FiveSpaces, steps: int = STEPS) -> StirlingTurn:
