@@ -84,7 +84,13 @@ def _own(case: Any, out: Path | None, as_json: bool) -> None:
 def _own_text(report: dict[str, Any]) -> str:
     acts = {name: who for name, who in report["reactions"].items()}
     rows = [
-        {"quantity": n, "max": v, "min": report["min"][n], "of": acts.get(n, ""), "unit": stem_and_unit(n)[1]}
+        {
+            "quantity": n,
+            "max": v,
+            "min": report["min"][n],
+            "of": acts.get(n, ""),
+            "unit": report["units"].get(n) or stem_and_unit(n)[1],
+        }
         for n, v in report["max"].items()
     ]
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm; SI where no unit stands", ""]

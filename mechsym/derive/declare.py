@@ -6,6 +6,7 @@ its generalised force is the reaction of the first body on the second. What shal
 links and joints without algebra are in linkage.py, what parts are for in roles.py.
 """
 
+from math import inf
 from typing import Any
 
 from sympy import Expr, Integer, Symbol
@@ -98,6 +99,7 @@ class Declaration(Letters, Linkage, Roles):
         """Declare constants with their range: `above, below, low, high` and a `default`, all in the unit [unit]."""
         if unknown := set(bounds) - set(_RANGE):
             refuse(f"{', '.join(sorted(unknown))} is no bound of a parameter; there are {', '.join(_RANGE)}, about")
+        _require_range(names, bounds)
         symbols = self._symbols(names, unit)
         self.parameter_list += symbols
         described = {k: float(v) for k, v in bounds.items()} | ({"about": about} if about else {})
@@ -147,9 +149,9 @@ class Declaration(Letters, Linkage, Roles):
         """Name a physical intermediate; its unit is checked against the expression."""
         self._usable(name)
         expression = self._checked(value, unit, name)
-        symbol = self.tape.define(name, expression)
         if name in self.units:
             refuse(f"the name {name!r} is taken (first at {self.where[name]}); give one of them another name")
+        symbol = self.tape.define(name, expression)
         self.units[name], self.where[name] = unit, place()
         self.dimensions[symbol] = self._unit(unit) if unit else self.dimension(expression)
         return symbol
@@ -262,6 +264,16 @@ class Declaration(Letters, Linkage, Roles):
                 unit = "N" if self.dimension(self.constraints[part]) == self._unit("m") else "N*m"
                 self.multiplier_of[part] = self._reaction(reaction or f"R_{part}", unit)
                 self.joint_about[self.multiplier_of[part]] = between or f"joint {name}"
+
+
+def _require_range(names: str, bounds: dict[str, float]) -> None:
+    """Refuse bounds that leave nothing between them, and a default that they do not allow."""
+    least = max(float(bounds[k]) for k in bounds if k in ("above", "low")) if {"above", "low"} & bounds.keys() else -inf
+    most = min(float(bounds[k]) for k in bounds if k in ("below", "high")) if {"below", "high"} & bounds.keys() else inf
+    if least > most:
+        refuse(f"nothing is above {least:g} and below {most:g}; correct the bounds of {names}")
+    if "default" in bounds and not least <= float(bounds["default"]) <= most:
+        refuse(f"default = {bounds['default']:g} of {names} is outside its bounds; correct one of them")
 
 
 def _one_or_all(symbols: list[Symbol]) -> Any:

@@ -17,6 +17,7 @@ from mechsym.derive.declare import Declaration
 from mechsym.derive.elements import Body
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
 from mechsym.derive.refuse import refuse
+from mechsym.derive.roles import require_reactions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,6 +95,7 @@ def derive(m: Declaration) -> Equations:
     if not m.q:
         refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])
     _count_constraints(m)
+    require_reactions(m)
     if m.given is not None:
         rows, bias, force = m.given
         return Equations(

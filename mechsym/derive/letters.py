@@ -4,11 +4,12 @@ import keyword
 import unicodedata
 from typing import Any
 
-from sympy import Expr, Symbol, nan, oo, sympify, zoo
+from sympy import Expr, Float, Symbol, nan, oo, sympify, zoo
 
 from mechsym.derive.dimensions import PURE, Dimension, dimension_of, in_words, of_unit
 from mechsym.derive.refuse import place, refuse
 from mechsym.derive.tape import Intermediates
+from mechsym.quantities.units import scale
 
 
 class Letters:
@@ -38,7 +39,11 @@ class Letters:
             refuse(f"the letter {name!r} is declared twice in {self.name}{first}; give one of them another name")
         self._usable(name)
         self.units[name], self.where[name] = unit, place()
-        self.dimensions[symbol] = self._unit(unit)
+        found = self._unit(unit)
+        self.dimensions[symbol] = found
+        if scale(unit) != 1:
+            si = "rad or -" if found == PURE else in_words(found)
+            refuse(f"{name!r} is in {unit}, and letters are in SI: write {si!r}; values in a case may have any unit")
 
     def _usable(self, name: str) -> None:
         if not name.isidentifier() or name.startswith("_"):
@@ -85,9 +90,13 @@ class Letters:
         try:
             expression = sympify(value)
         except (TypeError, ValueError, AttributeError) as error:
-            refuse(f"{what} = {value!r} is no expression ({error})")
+            refuse(f"{what} = {value!r} is no expression ({' '.join(str(error).split())})")
         if expression.has(nan, zoo, oo, -oo):
             refuse(f"{what} = {value} is not finite; something is divided by zero")
+        if expression.has(Float):
+            number = min(expression.atoms(Float), key=str)
+            why = f"{what} = {value} holds the floating-point number {number:.6g}, which would be rounded"
+            refuse(f"{why}; write Rational(1, 2), pi / 2, or make it a parameter")
         found = self.dimension(expression)
         if unit and found is not None and found != self._unit(unit):
             refuse(f"{what} = {value} is in {in_words(found)}, and must be in {unit}")

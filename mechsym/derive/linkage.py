@@ -28,6 +28,9 @@ class LinkPoint:
     u: Expr
     v: Expr
 
+    def __repr__(self) -> str:
+        return f"{self.link!r}.at({self.u}, {self.v})"
+
     @property
     def xy(self) -> Pair:
         """Where it is [m]."""
@@ -47,6 +50,9 @@ class LinkLine:
     v: Expr
     tilt: Expr
 
+    def __repr__(self) -> str:
+        return f"{self.link!r}.line({self.u}, {self.v}, angle={self.tilt})"
+
 
 @dataclass(eq=False)
 class Link:
@@ -63,6 +69,9 @@ class Link:
     where: str = ""
     turned: Symbol | None = None  # carrier of a gear's line of centres
     given: bool = field(default=False)
+
+    def __repr__(self) -> str:
+        return self.name
 
     def at(self, u: Any = 0, v: Any = 0) -> LinkPoint:
         """A point of the link, in its own axes [m]."""
@@ -177,7 +186,7 @@ class Linkage:
 
     def pin(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
         """Join two points (a link stands for its origin); `branch` 1 or -1 chooses the side of a dyad."""
-        self._join(Joint("pin", name, _point(first), _point(second), branch))
+        self._join(Joint("pin", name, point_of(first), point_of(second), branch))
 
     def slider(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
         """Let a line of the second slide on a line of the first (a link stands for its own u axis)."""
@@ -185,7 +194,7 @@ class Linkage:
 
     def slot(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
         """Hold a point of one link on a line of the other."""
-        pair = [s if isinstance(s, (LinkLine, LinkPoint)) else _point(s) for s in (first, second)]
+        pair = [s if isinstance(s, (LinkLine, LinkPoint)) else point_of(s) for s in (first, second)]
         if {type(s) for s in pair} != {LinkLine, LinkPoint}:
             refuse(
                 f"the slot {name!r} takes a line of one link and a point of the other; write rocker.line(), crank.at(r)"
@@ -196,7 +205,7 @@ class Linkage:
         """Let pitch circles of radii [m] about two points roll; `inside` puts the second within the first (a ring)."""
         m: Any = self
         sizes = tuple(m._checked(r, "m", f"pitch radius of {name}") for r in radii)
-        self._join(Joint("gear", name, _point(first), _point(second), radii=sizes, inside=inside))
+        self._join(Joint("gear", name, point_of(first), point_of(second), radii=sizes, inside=inside))
 
     def _join(self, joint: Joint) -> None:
         joint.where = place()
@@ -227,7 +236,8 @@ class Linkage:
         return joint.displacements
 
 
-def _point(part: Any) -> LinkPoint:
+def point_of(part: Any) -> LinkPoint:
+    """A point of a link; a link stands for its origin."""
     if isinstance(part, Link):
         return part.at()
     if not isinstance(part, LinkPoint):

@@ -4,6 +4,8 @@ from typing import Any
 
 from sympy import Expr, Symbol, sympify
 
+from mechsym.derive.refuse import refuse
+
 Declaration = Any  # the declaration, which imports this module
 
 
@@ -20,6 +22,8 @@ def output(m: Declaration, *symbols: Symbol, order: int = 0) -> None:
         Highest derivative, 0 to 2
     """
     for symbol in symbols:
+        if not isinstance(symbol, Symbol) or symbol not in {*m.tape.entries, *m.q}:
+            refuse(f"output takes names of the declaration, and {symbol} is none; name it: x = m.let('x', .., 'm')")
         found = [symbol]
         for _ in range(order):
             m.kinematic_outputs += found

@@ -7,10 +7,11 @@ teeth    tangential force                                  draw_*   lines, circl
 
 from typing import Any
 
-from sympy import Expr, Symbol, sympify
+from sympy import Expr, Symbol
 
+from mechsym.derive.linkage import point_of
 from mechsym.derive.outputs import output
-from mechsym.derive.refuse import refuse
+from mechsym.derive.refuse import place, refuse
 
 PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint")
 
@@ -23,7 +24,13 @@ class Roles:
     input_list: list[Symbol]
     parameter_list: list[Symbol]
     units: dict[str, str]
+    where: dict[str, str]
+    q: list[Symbol]
     name: str
+
+    def _checked(self, value: Any, unit: str, what: str) -> Expr:
+        """An expression in its unit (see `Letters`)."""
+        raise NotImplementedError
 
     def _start_roles(self) -> None:
         self.roles: dict[str, list[dict[str, Any]]] = {}
@@ -38,6 +45,7 @@ class Roles:
         if any(f["name"] == facts["name"] for f in self.roles.get(role, [])):
             refuse(f"the {role} {facts['name']!r} is declared twice in {self.name}; give one of them another name")
         self.roles.setdefault(role, []).append(facts)
+        self.where[f"{role} {facts['name']}"] = place()
 
     def _input(self, symbol: Any, role: str) -> str:
         if symbol not in self.input_list:
@@ -51,8 +59,8 @@ class Roles:
 
     def _shown(self, value: Any, name: str, unit: str, order: int) -> str:
         """An expression as a kinematic output with its derivatives."""
-        value = sympify(value)
-        symbol = value if value.is_Symbol else self.let(name, value, unit)
+        value = self._checked(value, unit, name)
+        symbol = value if value in {*self.tape.entries, *self.q} else self.let(name, value, unit)
         output(self, symbol, order=order)
         return symbol.name
 
@@ -74,6 +82,8 @@ class Roles:
     def rotor(self, name: str, *, angle: Any, load: Any = None, drive: Any = None, inertia: Any = None) -> None:
         """A rotor: its coordinate [rad], the input that takes a load, positive against the motion, one that drives it
         [N*m], and the parameter that a flywheel adds to [kg*m^2]."""
+        if angle not in self.q:
+            refuse(f"the rotor {name!r} turns by {angle}, which is no coordinate; there are {_all(self.q)}")
         taken = {"load": load, "drive": drive}
         kept = {} if inertia is None else {"inertia": self._parameter(inertia, "kg*m^2")}
         self._role("rotor", name=name, angle=str(angle), **{
@@ -83,10 +93,13 @@ class Roles:
     def bearing(self, name: str, *, reactions: tuple[Any, Any], turns: Any, radius: Any = None) -> None:
         """A pin or journal: its two reactions [N], the turn of one part in the other [rad], the radius [m]."""
         turned = self._shown(turns, f"turn_{name}", "rad", 1)
-        self._role(
-            "bearing", name=name, reactions=[str(r) for r in reactions], turns=turned,
-            radius=None if radius is None else str(radius),
-        )  # fmt: skip
+        pair = [str(r) for r in _listed(reactions)]
+        if len(pair) != 2:
+            refuse(f"the bearing {name!r} takes two reactions; write reactions=('R_x_A', 'R_y_A')")
+        if radius is not None and (radius not in self.parameter_list or self.units[radius.name] != "m"):
+            refuse(f"the radius {radius} of the bearing {name!r} is no parameter in m; declare one for it")
+        held = None if radius is None else radius.name
+        self._role("bearing", name=name, reactions=pair, turns=turned, radius=held)
 
     def guide(self, name: str, *, reaction: Any, travel: Any) -> None:
         """A guide or slot: its normal reaction [N] and the travel along it [m]."""
@@ -99,11 +112,11 @@ class Roles:
     def _point_names(self, points: tuple[Any, ...]) -> list[list[str]]:
         found = []
         for point in points:
-            pair = point if isinstance(point, tuple) else point.xy
+            pair = point if isinstance(point, tuple) else point_of(point).xy
             names = []
             for axis, value in zip("xy", pair, strict=True):
                 name = f"draw_{axis}{len(self.shape_points) // 2}"
-                self.shape_points[name] = self.tape.named(sympify(value))
+                self.shape_points[name] = self.tape.named(self._checked(value, "m", "point of the drawing"))
                 names.append(name)
             found.append(names)
         return found
@@ -128,10 +141,25 @@ class Roles:
 
     def _size(self, value: Any) -> str:
         name = f"draw_s{len(self.shape_points)}"
-        self.shape_points[name] = self.tape.named(sympify(value))
+        self.shape_points[name] = self.tape.named(self._checked(value, "m", "size in the drawing"))
         # an even count keeps the numbering of points
         self.shape_points[f"{name}_"] = self.shape_points[name]
         return name
+
+
+def require_reactions(m: Any) -> None:
+    """Refuse a role that names a reaction which no joint has; joints may be declared after it."""
+    known = {s.name for s in (*m.reaction_of.values(), *m.multiplier_of.values())} | {*m.dynamic_outputs}
+    for role, key in (("bearing", "reactions"), ("guide", "reaction"), ("teeth", "force"), ("piston", "loads")):
+        for facts in m.roles.get(role, []):
+            for wanted in _listed(facts.get(key, ())):
+                if wanted not in known:
+                    why = f"the {role} {facts['name']!r} takes {wanted}, which is the reaction of no joint"
+                    refuse(f"{why}; there are {', '.join(sorted(known)) or 'none'}", m.where[f"{role} {facts['name']}"])
+
+
+def _all(symbols: list[Symbol]) -> str:
+    return ", ".join(map(str, symbols)) or "none"
 
 
 def _listed(value: Any) -> tuple[Any, ...]:

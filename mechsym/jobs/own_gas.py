@@ -4,7 +4,7 @@ A cycle of one cylinder acts on every piston, each from its own firing dead cent
 engine share one gas, the first declared being the hot piston or the displacer.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -61,9 +61,27 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
         raise BadInput(f"{case.file}: [torque] stands in place of [cycle]; leave one of them out")
     with of(case):
         roles = piston_roles(case.mechanism)
+    for role in roles:
+        _require_force(case, mechanism, role)
     if kind_of(case.sections["cycle"]).given == "train":
         return _sharing(case, mechanism, roles)
     return [_piston(case, mechanism, role, number) for number, role in enumerate(roles)]
+
+
+def _require_force(case: Case, mechanism: Mechanism, role: Mapping[str, Any]) -> None:
+    """Refuse a piston whose force does not act along its travel: forgotten, or with its sign turned."""
+    dynamics = mechanism.functions["dynamics"]
+    at = dict.fromkeys(dynamics.name_in(), 0.0)
+    slope = travel_of(mechanism, role["travel"])
+    for angle in (0.7, 2.3, 4.1):
+        pose = at | {mechanism.coordinates[0]: angle}
+        without, pushed = (float(dynamics(**pose | {role["force"]: F})["generalized_force"]) for F in (0.0, 1.0))
+        wanted = float(slope(angle)[1])
+        if abs(pushed - without - wanted) > 1e-6 * max(1.0, abs(wanted), abs(without)):
+            raise BadInput(
+                f"{case.file}: the force {role['force']} of the piston {role['name']} does not act along its travel "
+                f"{role['travel']}; write m.force({role['force']}, along={role['travel']}), positive away from the head"
+            )
 
 
 def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int) -> Piston:

@@ -15,7 +15,6 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cycle.motion import slopes
-from mechsym.errors import BadInput
 from mechsym.forces.harmonics import orders
 from mechsym.jobs import own
 from mechsym.mechanisms.record import Mechanism
@@ -42,11 +41,6 @@ def friction(
     -------
     friction : dict or None
         `places` and `power` [W]; a `note` where the declaration names no place
-
-    Raises
-    ------
-    BadInput
-        A bearing whose radius is no parameter
     """
     asked = case.sections.get("friction")
     if asked is None:
@@ -69,12 +63,7 @@ def _radius(case: Case, bearing: Mapping[str, Any], asked: Any) -> float:
     letter = bearing["radius"]
     if letter is None:
         return float(asked.radius_crank_pin)
-    try:
-        return float(getattr(case.need("parameters"), letter))
-    except AttributeError:
-        raise BadInput(
-            f"{case.file}: radius {letter} of the bearing {bearing['name']} is no parameter of the mechanism"
-        ) from None
+    return float(getattr(case.need("parameters"), letter))
 
 
 def shaking(omega: float, phi: np.ndarray, rates: Mapping[str, np.ndarray]) -> dict[str, Any]:

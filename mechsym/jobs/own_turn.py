@@ -127,10 +127,19 @@ def summary(found: OwnTurn, case: Case) -> dict[str, Any]:
         "min": {n: float(v.min()) for n, v in found.columns.items()},
         "driving_torque_mean": float(found.columns["driving_torque"].mean()),
         "power_residual": found.power_residual,
+        "units": units(case),
         "reactions": told["reactions"],
         "friction": own_losses.friction(case, found.mechanism, found.omega, found.phi, found.columns),
         "shaking": own_losses.shaking(found.omega, found.phi, found.momentum) if found.momentum else None,
     }
+
+
+def units(case: Case) -> dict[str, str]:
+    """Units of angle, inputs, outputs, reactions and the driving torque."""
+    told = listing(case.mechanism)
+    # a joint reaction is a force, or a moment where its name says so
+    joints = {name: "N*m" if name.startswith("M_") else "N" for name in told["reactions"]}
+    return {"phi": "rad", "driving_torque": "N*m"} | dict(told["inputs"]) | joints | dict(told["outputs"])
 
 
 def write(found: OwnTurn, case: Case, folder: Path) -> list[Path]:
@@ -138,11 +147,7 @@ def write(found: OwnTurn, case: Case, folder: Path) -> list[Path]:
     from mechsym.mechanisms import plots
     from mechsym.style import svg
 
-    told = listing(case.mechanism)
-    # a joint reaction is a force, or a moment where its name says so
-    joints = {name: "N*m" if name.startswith("M_") else "N" for name in told["reactions"]}
-    units = {"phi": "rad", "driving_torque": "N*m"} | joints | dict(told["outputs"])
-    files = [write_quantities(folder / "forces.csv", {"phi": found.phi, **found.columns}, units)]
+    files = [write_quantities(folder / "forces.csv", {"phi": found.phi, **found.columns}, units(case))]
     shapes = own_drawing.drawn(found.mechanism, listing(case.mechanism))
     if shapes is not None:
         files.append(write_text(folder / "mechanism.svg", svg(plots.figure_of(shapes, np.pi / 3))))

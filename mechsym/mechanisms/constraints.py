@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, listing, velocities
 from mechsym.quantities import record
 
@@ -47,17 +48,31 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
     guesses = mechanism.dependents
     position = np.array([float(values.get(n, guesses.get(n, 0.0))) for n in q])
     free = [i for i, n in enumerate(q) if n not in values and (not guesses or n in guesses)]
+    if not _closed(mechanism, position, free) and guesses:
+        # the guesses are meant for where the others start
+        kept = {n: float(values.get(n, 0.0)) for i, n in enumerate(q) if i not in free}
+        found = loops.followed(mechanism, kept, guesses)
+        position = position if found is None else found
+        _closed(mechanism, position, free)
+    gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(q)))
+    if not np.abs(gap).max() <= _TOLERANCE * max(1.0, np.abs(position).max()):
+        given = ", ".join(n for n in q if n in values) or "none"
+        gapped = f" (gap {np.abs(gap).max():.3g})" if np.isfinite(gap).all() else ""
+        raise BadInput(f"{mechanism.name}: the loop does not close with {given} given{gapped}; give another pose")
+    rates = _rates(mechanism, jacobian, [values.get(n) for n in u])
+    return dict(values) | dict(zip(q, position, strict=True)) | dict(zip(u, rates, strict=True))
+
+
+def _closed(mechanism: Mechanism, position: np.ndarray, free: list[int]) -> bool:
+    """Close the loop by Newton's method in place; whether it came to an end."""
     for _ in range(50):
-        gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(q)))
+        gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(position)))
+        if not (np.isfinite(gap).all() and np.isfinite(jacobian).all()):
+            return False
         if not free or np.abs(gap).max() <= 1e-14 * max(1.0, np.abs(position).max()):
             break
         position[free] -= np.linalg.lstsq(jacobian[:, free], gap, rcond=None)[0]
-    gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(q)))
-    if np.abs(gap).max() > _TOLERANCE * max(1.0, np.abs(position).max()):
-        given = ", ".join(n for n in q if n in values) or "none"
-        raise BadInput(f"{mechanism.name}: the loop does not close with {given} given (gap {np.abs(gap).max():.3g})")
-    rates = _rates(mechanism, jacobian, [values.get(n) for n in u])
-    return dict(values) | dict(zip(q, position, strict=True)) | dict(zip(u, rates, strict=True))
+    return bool(np.abs(gap).max() <= _TOLERANCE * max(1.0, np.abs(position).max()))
 
 
 def _rates(mechanism: Mechanism, jacobian: np.ndarray, given: list[float | None]) -> np.ndarray:

@@ -20,6 +20,7 @@ from mechsym.mechanisms.record import Mechanism, accelerations, velocities
 
 _STEPS = 3  # of Newton's method from a guess
 _CLOSED = 1e-12  # relative to the size of the coordinates
+_STRIDE = 0.02  # of what is given, from pose to pose [rad] or [m]
 
 
 def split(mechanism: Mechanism, dependents: Sequence[str]) -> tuple[list[int], list[int]]:
@@ -89,6 +90,8 @@ def close(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str
     constraints = mechanism.functions["constraints"]
     for _ in range(50):
         gap, jacobian, _ = (np.asarray(v) for v in constraints.call([*q, *([0.0] * len(q))]))
+        if not (np.isfinite(gap).all() and np.isfinite(jacobian).all()):
+            return None  # a loop in closed form within it is open there
         step = np.linalg.lstsq(jacobian[:, held], gap.ravel(), rcond=None)[0]
         # far from the pose a whole step may leap to another branch
         q[held] -= step * min(1.0, 0.5 / max(float(np.abs(step).max()), 1e-300))
@@ -96,6 +99,30 @@ def close(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str
             break
     gap = np.asarray(constraints.call([*q, *([0.0] * len(q))])[0])
     return q if np.abs(gap).max() <= 1e-10 * max(1.0, np.abs(q).max()) else None
+
+
+def followed(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str, float]) -> np.ndarray | None:
+    """Coordinates that close the loop with some given, followed from where these are 0; None where it opens on the way.
+
+    Parameters
+    ----------
+    given, guesses : mapping of str to float
+        Coordinates that are kept, and near which the others are looked for at the start [rad] or [m]
+
+    Returns
+    -------
+    q : ndarray, shape (n,)
+        Coordinates [rad] or [m]
+    """
+    steps = max(1, round(max(abs(v) for v in given.values()) / _STRIDE)) if given else 1
+    near: Mapping[str, float] = guesses
+    found = close(mechanism, dict.fromkeys(given, 0.0), near)
+    for k in range(1, steps + 1):
+        if found is None:
+            return None
+        near = dict(zip(mechanism.coordinates, found, strict=True))
+        found = close(mechanism, {n: v * k / steps for n, v in given.items()}, near)
+    return found
 
 
 def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple[np.ndarray, int]:

@@ -7,7 +7,7 @@ from mechsym.derive.files import chosen
 from mechsym.errors import BadInput
 
 HEAD = """from sympy import Symbol
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, cos, output, sin
 
 
 def bad():
@@ -41,6 +41,34 @@ CASES = {
     "not finite": ('    m.body("b", mass=M, at=(r * cos(phi) / 0, 0))\n', 10, "is not finite"),
     "leaves": ("    raise SystemExit(3)\n", 10, "SystemExit: 3"),
     "any error": ("    1 / 0\n", 10, "ZeroDivisionError"),
+    "millimetres": ('    m.parameters("k", "mm")\n', 10, "'k' is in mm, and letters are in SI: write 'm'"),
+    "degrees": ('    m.coordinates("psi", "deg")\n', 10, "letters are in SI: write 'rad or -'"),
+    "no room": ('    m.parameters("k", "m", above=2, below=1)\n', 10, "nothing is above 2 and below 1"),
+    "default outside": ('    m.parameters("k", "m", above=0, default=-1)\n', 10, "is outside its bounds"),
+    "rounded": ('    m.body("b", mass=M, at=(r * cos(phi) / 2.5, 0))\n', 10, "holds the floating-point number 0.4"),
+    "no name put out": (LINK + "    output(m, crank.at(r).x)\n", 12, "output takes names of the declaration"),
+    "a text put out": ('    output(m, "x")\n', 10, "output takes names of the declaration, and x is none"),
+    "name taken": ('    m.let("x", r)\n    m.let("x", l)\n', 11, "'x' is taken (first at bad.py:10)"),
+    "force along a point": (LINK + "    m.force(M, along=crank.at(r))\n", 12, "crank.at(r, 0) is no expression"),
+    "reaction of no joint": (
+        LINK + '    m.guide("s", reaction="R_n_G", travel=r * sin(phi))\n',
+        12,
+        "no joint; there are R_x_O",
+    ),
+    "one reaction": (LINK + '    m.bearing("O", reactions="R_x_O", turns=phi)\n', 12, "takes two reactions"),
+    "radius of what": (
+        LINK + '    m.bearing("O", reactions=("R_x_O", "R_y_O"), turns=phi, radius=2 * r)\n',
+        12,
+        "no parameter in m",
+    ),
+    "turns by what": ('    m.rotor("s", angle=2 * phi)\n', 10, "turns by 2*phi, which is no coordinate; there are phi"),
+    "travel is an angle": (
+        '    F = m.inputs("F", "N"); m.piston("p", travel=phi, force=F)\n',
+        10,
+        "is in -, and must be in m",
+    ),
+    "drawn by what": ('    m.draw_circle((r, 0), "x")\n', 10, "the letter 'x' is not declared"),
+    "drawn where": ("    m.draw_line((r, 0), phi)\n", 10, "phi is no link and no point of one"),
 }
 
 

@@ -17,6 +17,7 @@ from mechsym.jobs.flywheel import flywheel
 from mechsym.jobs.indicated import common_gas, indicated
 from mechsym.jobs.loop import loop
 from mechsym.jobs.machine import machine
+from mechsym.jobs.report.parts import part
 from mechsym.jobs.size import size
 from mechsym.jobs.unlike import _together
 from mechsym.jobs.whole_engine import cylinders
@@ -326,3 +327,86 @@ def test_the_torque_of_a_star_tells_no_pressure(folder):
     text = '[parameters]\nr = "26 mm"\nl = "90 mm"\nm_p = 0.25\nI = 0.002\n' + shipped("nunes-slider-crank")
     with pytest.raises(BadInput, match="3 cylinders fire one after the other"):
         common_gas(written(folder, "star", RADIAL, f'mechanism = "./star.py"\n{text}'))
+
+
+OPPOSED = """from mechsym.derive import Mechanism, pi
+
+
+def opposed():
+    m = Mechanism("opposed")
+    phi = m.coordinates("phi")
+    r, l = m.parameters("r l", "m", above=0)
+    m_p = m.parameters("m_p", "kg", low=0)
+    I = m.parameters("I", "kg*m^2", above=0)
+    F, M_r = m.inputs("F", "N"), m.inputs("M_r", "N*m")
+    apart = 0
+    for name, side, turn in (("left", -1, phi), ("right", 1, pi - phi)):
+        crank = m.link(f"crank_{name}", turns=turn, inertia=I / 2)
+        rod, piston = m.link(f"rod_{name}"), m.link(f"piston_{name}", mass=m_p)
+        m.pin(f"O_{name}", m.frame.at(side * (r + l), 0), crank)
+        m.pin(f"A_{name}", crank.at(r), rod)
+        m.slider(f"G_{name}", m.frame.line(), piston)
+        m.pin(f"B_{name}", rod.at(l), piston, branch=-side)
+        apart += side * piston.at().x
+    x = m.let("x", apart, "m")
+    m.force(F, along=x)
+    m.torque(-M_r, along=phi)
+    m.piston("chamber", travel=x, force=F)
+    m.rotor("crank", angle=phi, load=M_r)
+    return m
+"""
+COMPRESSOR = """[parameters]
+r = "26 mm"
+l = "90 mm"
+m_p = 0.25
+I = 0.002
+[operation]
+speed = "1000 rpm"
+[cycle]
+kind = "compressor"
+bore = "50 mm"
+compression_ratio = 12
+p_suction = "1 bar"
+p_delivery = "5 bar"
+n_c = 1.3
+n_e = 1.25
+"""
+
+
+@pytest.mark.slow
+def test_opposed_pistons_share_a_chamber_as_one_travel(folder):
+    both, one = (
+        written(folder, name, text, f'mechanism = "./{name}.py"\n{COMPRESSOR}')
+        for name, text in (("opposed", OPPOSED), ("single", SLIDER.replace("TILT", "0").replace("slider", "single", 1)))
+    )
+    pair, alone = own_turn.turn(both), own_turn.turn(one)
+    np.testing.assert_allclose(pair.columns["x"], 2 * alone.columns["x"], atol=1e-15)
+    # the same pressure at the same angle, on two pistons of the same motion
+    np.testing.assert_allclose(pair.columns["F"], alone.columns["F"], rtol=1e-9, atol=1e-6)
+    torque, half = pair.columns["driving_torque"], alone.columns["driving_torque"]
+    np.testing.assert_allclose(torque, 2 * half, atol=1e-9 * np.abs(half).max())
+    # each guide bears what the guide of one piston bears
+    force = np.abs(alone.columns["R_n_G"])
+    for name in ("left", "right"):
+        np.testing.assert_allclose(np.abs(pair.columns[f"R_n_G_{name}"]), force, atol=1e-9 * force.max())
+    assert cycle(both)["torque_avg"][0] == pytest.approx(2 * cycle(one)["torque_avg"][0], rel=1e-9)
+
+
+@pytest.mark.parametrize("change", [("    m.force(F, along=x)\n", ""), ("m.force(F, ", "m.force(-F, ")])
+def test_a_piston_that_its_force_does_not_push_is_refused(folder, change):
+    name = f"slack{len(change[1])}"
+    declaration = SLIDER.replace("TILT", "0").replace(*change)
+    case = written(folder, name, declaration, f'mechanism = "./{name}.py"\n{COMPRESSOR}')
+    with pytest.raises(BadInput, match="the force F of the piston p does not act along its travel x; write m.force"):
+        own_turn.turn(case)
+
+
+def test_the_report_has_the_forces_of_a_mechanism_from_a_file(folder):
+    case = written(folder, "told", SLIDER.replace("TILT", "0"), f'mechanism = "./told.py"\n{COMPRESSOR}')
+    found = part("forces", case)
+    assert found.state == "done" and "driving torque" in found.verdict
+    rows = {row[0]: row for row in found.grids[0].rows}
+    assert rows["R n G"][3] == "frame on piston, slider G" and rows["R n G"][1].endswith(" N")
+    assert rows["M G"][1].endswith("N*m") and rows["driving torque"][1].endswith("N*m")
+    assert found.numbers["max"]["R_n_G"] == own_turn.turn(case).columns["R_n_G"].max()
+    assert [picture.draw().axes != [] for picture in found.view.pictures] == [True, True]

@@ -73,7 +73,7 @@ def test_the_shaking_force_has_one_order_and_half_of_it_turns_with_the_crank(tol
 def test_friction_without_a_place_says_so(told):
     lost = told("")["friction"]
     assert lost["power"] == 0 and "declare m.bearing" in lost["note"]
-    with pytest.raises(BadInput, match="radius 2\\*r of the bearing shaft is no parameter"):
+    with pytest.raises(BadInput, match="radius 2\\*r of the bearing 'shaft' is no parameter"):
         told(ROLES.format(radius=", radius=2 * r"))
 
 

@@ -2,11 +2,14 @@
 
 import json
 
+import casadi as ca
 import pytest
 from click.testing import CliRunner
 
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.mechanisms import constraints, loops
+from mechsym.mechanisms.record import Mechanism
 
 
 def run(*words):
@@ -59,3 +62,27 @@ def test_what_the_rank_leaves_open_is_null():
 def test_an_unknown_letter_is_named():
     with pytest.raises(BadInput, match="--set phu: crosshead has no such letter; letters are phi, F"):
         run("crosshead", "--case", "zotov-89", *sets(phu=1))
+
+
+def nested():
+    """theta is one more than phi; with theta below phi a loop in closed form within it is open."""
+    names = ["phi", "theta", "phid", "thetad"]
+    letters = [ca.SX.sym(n) for n in names]
+    q = ca.vertcat(*letters[:2])
+    gap = ca.sqrt(q[1] - q[0]) - 1
+    jacobian = ca.jacobian(gap, q)
+    closing = ca.Function("constraints", letters, [gap, jacobian, ca.SX(1, 1)], names, ["gap", "jacobian", "bias"])
+    return Mechanism(
+        name="nested", coordinates=("phi", "theta"), inputs=(), parameters={}, functions={"constraints": closing},
+        dependents={"theta": 1.2},
+    )  # fmt: skip
+
+
+def test_a_pose_far_from_the_guess_is_followed_from_the_start():
+    assert constraints.close(nested(), {"phi": 3.0})["theta"] == pytest.approx(4.0, abs=1e-12)
+    assert loops.close(nested(), {"phi": 3.0}, {"theta": 1.2}) is None  # no number comes of it
+
+
+def test_a_loop_that_does_not_close_is_refused_without_a_number():
+    with pytest.raises(BadInput, match="nested: the loop does not close with phi, theta given; give another pose"):
+        constraints.close(nested(), {"phi": 3.0, "theta": 2.0})

@@ -19,6 +19,7 @@ from mechsym.jobs.judged import of_cycle, of_forces, of_gas
 from mechsym.jobs.measured import measured_combustion, summary
 from mechsym.jobs.own import is_own
 from mechsym.jobs.report.force_part import force_part
+from mechsym.jobs.report.own_force_part import own_force_part
 from mechsym.jobs.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.jobs.run import run
 from mechsym.jobs.shown import tightest
@@ -131,7 +132,7 @@ def _per_cent(share: float | None) -> str:
 
 def _forces(case: Case) -> ReportPart:
     if is_own(case.mechanism):
-        raise BadInput(f"{case.file}: forces of a mechanism from a file are not in the report; use 'mechsym forces'")
+        return own_force_part(TITLES["forces"], case)
     found = forces(case)
     return force_part(TITLES["forces"], case, found, of_forces(case, found))
 
@@ -145,7 +146,7 @@ def _size(case: Case) -> ReportPart:
              f"{figure(row['wanted'], 3)}" for row in tightest(found)[:3]]  # fmt: skip
     bad = bool(found.failing) or not found.converged
     state = f"{len(found.failing)} of {len(checks)} safety factors are too low" if found.failing else \
-        f"All {len(checks)} safety factors hold"  # fmt: skip
+        f"All {len(checks)} safety factors hold" if checks else "Loads only: no rule sizes its parts"  # fmt: skip
     shown = ["component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", ""]
     return ReportPart(
         name="size", title=TITLES["size"], view=found.view, state=INFEASIBLE if bad else DONE, verdict=f"{state}.",
