@@ -140,7 +140,16 @@ def _lives(process: int) -> bool:
         return False
     except OSError:
         return True
-    return True
+    return not _only_waited_for(process)
+
+
+def _only_waited_for(process: int) -> bool:
+    """Whether a process has ended and nobody has asked yet how, as in a container whose first process reaps late."""
+    try:
+        stat = Path(f"/proc/{process}/stat").read_text(encoding="latin-1")
+    except OSError:
+        return False
+    return stat.rpartition(")")[2].split()[0] in "ZX"
 
 
 def _about(connection: Any, name: str) -> str:

@@ -127,6 +127,18 @@ def test_two_may_not_write_one_store(tmp_path):
     assert sweep(PLAN, means=Means(folder=tmp_path)).kept == 0
 
 
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the state of a process is read from /proc")
+def test_a_dead_writer_that_nobody_has_waited_for_holds_nothing(tmp_path):
+    sweep(PLAN, means=Means(folder=tmp_path))
+    with subprocess.Popen([sys.executable, "-c", ""]) as writer:
+        while Path(f"/proc/{writer.pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z":
+            time.sleep(0.01)
+        with sqlite3.connect(tmp_path / store.NAME) as connection:
+            name = f"{store.socket.gethostname()} {writer.pid}"
+            connection.execute("insert or replace into about values ('writer', ?)", (name,))
+        assert sweep(PLAN, means=Means(folder=tmp_path)).kept == 5
+
+
 ORDER = work.SweepOrder(case="zotov-89", overrides={}, analysis="cycle", show=())
 
 
