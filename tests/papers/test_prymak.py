@@ -10,6 +10,7 @@ from small_machines import machine, smooth_gas, turn_of
 from mechsym.forces.loads import loads
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
 from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.papers.sources import sources
 
 M = 1.1  # reciprocating mass of a rod journal; two journals on each axis
 LINK = RodlessParameters(r=0.03, I1=0.1, u1=0.0, m_link=0.7, I_link=1e-3, m_a=2 * M, m_b=2 * M)
@@ -61,3 +62,13 @@ def test_conclusion_2_the_side_force_goes_from_the_pistons_to_the_guides():
             max(np.abs(found.guides[f"side_force_{axis}"]).max() for axis in "ab")
             > 0.1 * np.abs(one.inputs["F_a"]).max()
         )
+
+
+def test_the_reason_for_another_scheme_has_a_number_and_the_scheme_has_none():
+    (source,) = sources("prymak")
+    said = {r["item"]: r for r in source.rows() if r["item"].startswith("introduction")}
+    (force,) = (r for item, r in said.items() if "10 um" in item)
+    # crank and guides in series: 1e8 N/m and, in any position, 2e8 N/m
+    assert force["computed"] == pytest.approx(10e-6 / (1 / 1e8 + 1 / 2e8), rel=1e-9)
+    assert "; 0 N with as much radial play" in force["note"]
+    assert len(said) == 3 and all(r["verdict"] == "not computable" for r in said.values())

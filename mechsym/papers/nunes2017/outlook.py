@@ -32,8 +32,8 @@ _RIPPLE = 0.02  # of the flywheel [-]
 
 
 def rows() -> list[dict[str, Any]]:
-    """Sentences of sections 6.1 and 6.2."""
-    return [*_improvements(), _height(), _breathing(), _friction(), _flywheel(), *_left()]
+    """Sentences of sections 6.1 and 6.2, and of 4.7 on the belt."""
+    return [*_improvements(), _height(), _breathing(), _friction(), _flywheel(), _belt(), *_left()]
 
 
 def _claim(item: str, published: str, computed: float | None, holds: bool, note: str) -> dict[str, Any]:
@@ -143,13 +143,24 @@ def _flywheel() -> dict[str, Any]:
     )  # fmt: skip
 
 
+def _belt() -> dict[str, Any]:
+    found = _figures()
+    return row(
+        SOURCE.stem, "section 4.7: largest torque that the belt carries from one shaft to the other [N*m]",
+        "no study was done regarding the appropriate belt", float(found["torque_max"][0]), NOT_COMPUTABLE,
+        f"that of one crank, in the mean {float(found['torque_avg'][0]) / 2:.1f} N*m; no pulley, tension or belt is "
+        "printed, so its pull is not computable",
+    )  # fmt: skip
+
+
 def _left() -> list[dict[str, Any]]:
     missing = "the text names it and gives no dimension, load or speed ratio"
+    valves = "the text gives ideal angles of opening and closing, and neither size, lift, mass nor spring"
     return [
-        row(SOURCE.stem, f"section 6.2: {item}", words, None, NOT_COMPUTABLE, missing)
-        for item, words in (
-            ("valve system and camshaft", "needs to be studied and designed"),
-            ("timing belt between pistons and valve system", "must be designed"),
-            ("fuel and ignition systems", "would have to be chosen and designed"),
+        row(SOURCE.stem, f"section 6.2: {item}", words, None, NOT_COMPUTABLE, note)
+        for item, words, note in (
+            ("valve system and camshaft", "needs to be studied and designed", valves),
+            ("timing belt between pistons and valve system", "must be designed", missing),
+            ("fuel and ignition systems", "would have to be chosen and designed", missing),
         )
     ]

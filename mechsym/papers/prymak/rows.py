@@ -8,19 +8,22 @@ from typing import Any
 import numpy as np
 
 from mechsym import mechanisms
+from mechsym.cases import load
 from mechsym.mechanisms import constraints
 from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.rodless_clearance import Clearances, redundant_force
 from mechsym.papers.prymak import SOURCE
 from mechsym.papers.prymak.computed import MASS, PARAMETERS, RADIUS, SPEED, inertia_resultant
 from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, row
 
 _ROUNDING = 1e-12
+_CASE, _ERROR = "balandin", 10e-6  # sizes assumed there, and a small error of a crank's radius [m]
 
 
 def rows() -> list[dict[str, Any]]:
     """Every number and claim of the source."""
     alpha = np.linspace(0, 2 * np.pi, 721)
-    return [*_resultant_rows(alpha), *_reaction_rows(), *_claims_without_data()]
+    return [*_resultant_rows(alpha), *_reaction_rows(), *_accuracy_rows(), *_claims_without_data()]
 
 
 def _row(item: str, published: str | None, computed: float | None, verdict: str, note: str = "") -> dict[str, Any]:
@@ -72,6 +75,35 @@ def _reaction_rows() -> list[dict[str, Any]]:
             "the guides of the sliders take the side force instead, so its size on the piston depends on clearances",
         ),
     ]  # fmt: skip
+
+
+def _accuracy_rows() -> list[dict[str, Any]]:
+    """What the introduction says of accuracy, the reason for another kinematic scheme, and of that scheme."""
+    closing = load(_CASE).need("closing")
+    play, tight = (_radial_force(closing, gap) for gap in (_ERROR, 0.0))
+    return [
+        _row(
+            "introduction: pin force of a crank 10 um too long, case balandin without play [N]",
+            "high accuracy cannot be reached", tight, NOT_COMPUTABLE,
+            f"no tolerance, size or stiffness is printed; with stiffnesses assumed, all positions alike; {play:.0f} N "
+            "with as much radial play of the pin",
+        ),
+        _row(
+            "introduction: kinematic scheme that A. Vul proposed in place of Balandin's", "changed", None,
+            NOT_COMPUTABLE, "the text says that it was changed and why, and neither draws nor describes it",
+        ),
+        _row(
+            "introduction: experimental engines built under A. Vul", "surpass those that exist", None, NOT_COMPUTABLE,
+            "no engine and no figure of one is printed",
+        ),
+    ]  # fmt: skip
+
+
+def _radial_force(closing: Any, play: float) -> float:
+    """Largest radial force on the pin, with a crank too long by the error and no load [N]."""
+    rule = Clearances(k_a=closing.k_a, k_b=closing.k_b, k_c=closing.k_c, gap_c=play, radius_error=_ERROR)
+    angles = np.linspace(0, 2 * np.pi, 73)
+    return max(float(redundant_force(rule, 0.0, 0.0, float(np.sin(a)), float(np.cos(a)))) for a in angles)
 
 
 def _rank(mechanism: Mechanism) -> tuple[int, int]:
