@@ -1,5 +1,6 @@
 """Numbers by name against the ranges of their kind; what a case accepts is told apart from what is doubted."""
 
+import functools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -94,8 +95,8 @@ def results(report: Any) -> tuple[Doubt, ...]:
     """Numbers of a report, wherever they stand in it, against the usual ranges of results; `a.b` is a b."""
     worst: dict[tuple[str, str], Doubt] = {}
     for name, value in _numbers(report):
-        for kind in RESULTS:
-            if name.rpartition(".")[2] in kind.keys and not kind.low <= value <= kind.high:
+        for kind in _kinds(name):
+            if not kind.low <= value <= kind.high:
                 known = worst.get((kind.code, name))
                 if known is None or abs(value) > abs(known.value):
                     worst[kind.code, name] = _doubt(name, value, kind)
@@ -117,16 +118,27 @@ def _within(doubt: Doubt, acceptance: Acceptance) -> bool:
     return doubt.value >= acceptance.up_to - slack if low_side else abs(doubt.value) <= abs(acceptance.up_to) + slack
 
 
+@functools.lru_cache(maxsize=4096)
+def _kinds(name: str) -> tuple[Usual, ...]:
+    """Usual ranges of a result."""
+    last = name.rpartition(".")[2]
+    return tuple(kind for kind in RESULTS if last in kind.keys)
+
+
 def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
+    """Numbers of which a usual range is known."""
     if isinstance(report, Mapping):
         for key, value in report.items():
             yield from _numbers(value, str(key))
     elif hasattr(report, "tolist"):
         yield from _numbers(report.tolist(), name)
     elif isinstance(report, (list, tuple)):
+        # a map has millions, most of them nothing that is looked for
+        known = bool(_kinds(name))
         for value in report:
-            yield from _numbers(value, name)
-    elif isinstance(report, (int, float)) and not isinstance(report, bool) and math.isfinite(report):
+            if known or type(value) is not float:
+                yield from _numbers(value, name)
+    elif isinstance(report, (int, float)) and not isinstance(report, bool) and math.isfinite(report) and _kinds(name):
         yield name, float(report)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_quantities, write_with
-from mechsym.sweep.outcomes import WORDS, Gap, asked
+from mechsym.sweep.outcomes import Gap, asked
 from mechsym.sweep.run import Sweep
 from mechsym.sweep.units import unit_of
 
@@ -45,9 +45,7 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
     columns : dict of str to ndarray, shape (n,)
         Not a number in a gap, an empty text for words [SI, or as the name says]
     """
-    rows = [{} if isinstance(o, Gap) else o for o in result.outcomes]
-    gaps = {name: "" if name in WORDS else math.nan for row in rows for name in row}
-    return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
+    return dict(result.by_name)
 
 
 def main_results(result: Sweep) -> dict[str, np.ndarray]:

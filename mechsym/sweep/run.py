@@ -2,11 +2,15 @@
 
 import contextlib
 import dataclasses
+import functools
+import math
 import os
 import threading
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from mechsym import cases
 from mechsym.errors import BadInput, suggest
@@ -14,7 +18,7 @@ from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST
 from mechsym.sweep import cluster, store, work
 from mechsym.sweep.axes import Axis, override, parse_axis, points, saltelli, split
-from mechsym.sweep.outcomes import Gap, Outcome, asked, kept
+from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
 from mechsym.sweep.stopping import asked_to_stop
 from mechsym.sweep.ties import Ties, ties
@@ -74,6 +78,14 @@ class Sweep:
     sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
     interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
     kept: int = 0  #: Points that were finished before, in the store of the same sweep
+
+    @functools.cached_property
+    def by_name(self) -> dict[str, np.ndarray]:
+        """Results by name, one for each point; see `data.columns` [SI, or as the name says]."""
+        rows = [{} if isinstance(o, Gap) else o for o in self.outcomes]
+        names = dict.fromkeys(name for keys in dict.fromkeys(map(tuple, rows)) for name in keys)
+        gaps = {name: "" if name in WORDS else math.nan for name in names}
+        return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
 
 
 @record
