@@ -1,6 +1,7 @@
 """The papers: every formula as printed, and every published number and figure beside what the models give.
 
 sources.py   the papers by name; a paper is a folder here, and nothing else lists it
+entries.py   what a paper prints, from its data
 record.py    the recorded verdicts and values; a finding is a result, only a changed one is a failure
 rows.py      a row of a reproduction: published, computed, verdict, note
 page.py      CSV, HTML and pictures of a run
@@ -8,7 +9,7 @@ page.py      CSV, HTML and pictures of a run
 A paper's folder:
 
 __init__.py  SOURCE: stem, name, title, tolerance of its record
-printed.py   ENTRIES: its formulas and claims in the order of the text, for the auditor
+printed.toml its formulas and claims in the order of the text, for the auditor
 claims.py    what decides a claim, and what a misprint costs
 computed.py  what the models give for it
 rows.py      rows(): published numbers beside the computed ones

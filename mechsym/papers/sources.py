@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from mechsym.errors import BadInput
+from mechsym.papers.entries import entries
 from mechsym.papers.rows import number
 from mechsym.quantities import load, record
 
@@ -25,7 +26,7 @@ class Source:
     @property
     def entries(self) -> "tuple[Entry, ...]":
         """What is audited, in the order of the text."""
-        return load(f"mechsym.papers.{self.name}.printed:ENTRIES")
+        return entries(self.name)
 
     def rows(self) -> list[dict[str, Any]]:
         """Its published numbers beside the computed ones.

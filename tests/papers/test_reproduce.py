@@ -115,11 +115,11 @@ def test_files(tmp_path):
 
 
 PAPER = {
-    "__init__": "from mechsym.papers import Source\n"
+    "__init__.py": "from mechsym.papers import Source\n"
     "SOURCE = Source(stem='009_f', name='doe1999', title='Doe (1999): Cranks')\n",
-    "printed": "ENTRIES = ()\n",
-    "rows": "from mechsym.papers import row\ndef rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
-    "figures": "def figures():\n    return {}\n",
+    "printed.toml": "entry = []\n",
+    "rows.py": "from mechsym.papers import row\ndef rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
+    "figures.py": "def figures():\n    return {}\n",
 }
 
 
@@ -127,7 +127,7 @@ def test_a_paper_is_its_folder(tmp_path, monkeypatch):
     folder = tmp_path / "doe1999"
     folder.mkdir()
     for name, text in PAPER.items():
-        (folder / f"{name}.py").write_text(text)
+        (folder / name).write_text(text)
     monkeypatch.setattr(papers, "__path__", [*papers.__path__, str(tmp_path)])
     assert [s.name for s in sources()][-1] == "doe1999" and not sources("009")[0].entries
     result = run("doe1999", "--out", str(tmp_path / "out"))
