@@ -7,7 +7,7 @@ become letters. What then vanishes as a polynomial vanishes everywhere. A failur
 
 import random
 from collections.abc import Sequence
-from functools import reduce
+from functools import cache, reduce
 
 import mpmath
 import sympy
@@ -124,19 +124,26 @@ def _without_roots(expression: Expr, letters: dict[Expr, Dummy]) -> Expr:
 def _root(base: Expr, degree: int, letters: dict[Expr, Dummy]) -> Expr:
     if degree != 2:
         return letters.setdefault(Pow(base, Rational(1, degree), evaluate=False), Dummy("R", positive=True))
+    content, outside, inside, below = _square_free(base)
+    return outside * _letter_of(content, letters) * _letter_of(inside, letters) / below
+
+
+@cache
+def _square_free(base: Expr) -> tuple[Expr, Expr, Expr, Expr]:
+    # content * outside^2 * inside/below^2, what is outside and below positive; the same radicands come often
     above, below = sympy.fraction(sympy.together(base))
     if not below.is_positive:
         # a denominator that may be negative stays in the radicand
-        return _letter_of(sympy.together(_lower_cosines(sympy.expand(base))), letters)
+        return Integer(1), Integer(1), sympy.together(_lower_cosines(sympy.expand(base))), Integer(1)
     content, factors = sympy.sqf_list(_lower_cosines(sympy.expand(above * below)))
-    outside, inside = _letter_of(content, letters), Integer(1)
+    outside, inside = Integer(1), Integer(1)
     for factor, power in factors:
         if factor.is_positive:
             outside *= factor ** (power // 2)
             inside *= factor ** (power % 2)
         else:
             inside *= factor**power
-    return outside * _letter_of(sympy.expand(inside), letters) / below
+    return content, outside, sympy.expand(inside), below
 
 
 def _letter_of(square: Expr, letters: dict[Expr, Dummy]) -> Expr:

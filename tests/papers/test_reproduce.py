@@ -118,7 +118,8 @@ PAPER = {
     "__init__.py": "from mechsym.papers import Source\n"
     "SOURCE = Source(stem='009_f', name='doe1999', title='Doe (1999): Cranks')\n",
     "printed.toml": "entry = []\n",
-    "rows.py": "from mechsym.papers import row\ndef rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
+    "rows.py": "from mechsym.papers import row\n"
+    "def rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
     "figures.py": "def figures():\n    return {}\n",
 }
 

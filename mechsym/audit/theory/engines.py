@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import sympy
-from sympy import Symbol, integrate, pi, solve
+from sympy import Symbol, diff, integrate, pi
 
 from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.guides import generic
@@ -129,7 +129,8 @@ def cylinder(values: Mapping[str, float], data: str) -> Theory:
     P2, gamma, P1, V1, V2 = Symbol("P2", positive=True), s["gamma"], s["P1"], s["V1"], s["V2"]
     heat = s["Q_R"] - s["Q_L"] - s["Q_vap"]
     # internal energy of a perfect gas is p V/(gamma - 1); the work is that of the mean pressure
-    (after,) = solve(heat - (P2 * V2 - P1 * V1) / (gamma - 1) - (P1 + P2) / 2 * (V2 - V1), P2)
+    balance = heat - (P2 * V2 - P1 * V1) / (gamma - 1) - (P1 + P2) / 2 * (V2 - V1)
+    after = -balance.subs(P2, 0) / diff(balance, P2)  # the balance is linear in it
     rev = s["N"] / 60  # revolutions per second
     power, omega = s["W_c"] * rev / s["n_R"], 2 * pi * rev
     flow = s["m_fuel"] * rev / s["n_R"]

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import sympy
-from sympy import Expr, Symbol, integrate, pi, sin, solve, sqrt
+from sympy import Expr, Symbol, integrate, pi, sin, sqrt
 
 from mechsym.audit.theory.conversion import tape_of
 from mechsym.audit.theory.record import Letter, Theory
@@ -64,8 +64,8 @@ def _cylinder(s: Letters) -> dict[str, Expr]:
     ring = integrate(s["p_w"] * a * a * sin(_u), (_u, 0, pi))
     gap = s["V_C"] / s["A_piston"]
     return {
-        "head_strength": sqrt(6 * sympy.Abs(bend) / s["sigma_t"]).simplify(),
-        "head_heat": solve(drop - (s["T_C"] - s["T_E"]), _t)[0],
+        "head_strength": sqrt(6 * sympy.Abs(bend) / s["sigma_t"]),
+        "head_heat": _linear(drop - (s["T_C"] - s["T_E"]), _t),
         "rod_diameter": _positive(F - s["sigma_f"] * pi * _d**2 / 4),
         "ring_thickness": sqrt(6 * ring / s["sigma_ring"]),
         "wall_thickness": p * B / 2 / s["sigma_c"] + s["C_reboring"],
@@ -101,10 +101,15 @@ def _mesh(s: Letters) -> dict[str, Expr]:
     w, rho = Symbol("line_load", positive=True), Symbol("rho", positive=True)
     softness = sum((1 - s[f"nu_{m}"] ** 2) / s[f"E_{m}"] for m in ("pinion", "gear"))
     pressure = 2 * w / (pi * sqrt(4 * w * rho * softness / pi))
-    return {"mesh_speed": speed, "Z_E": sympy.simplify(pressure / sqrt(w / rho))}
+    return {"mesh_speed": speed, "Z_E": pressure / sqrt(w / rho)}
 
 
 def _positive(balance: Expr) -> Expr:
     power = 2 if balance.has(_d**2) else 3
-    (value,) = solve(sympy.together(balance).as_numer_denom()[0].subs(_d, _u ** sympy.Rational(1, power)), _u)
-    return value ** sympy.Rational(1, power)
+    return _linear(balance.subs(_d, _u ** sympy.Rational(1, power)), _u) ** sympy.Rational(1, power)
+
+
+def _linear(balance: Expr, unknown: Symbol) -> Expr:
+    # the numerator of the balance is linear in the unknown
+    numerator = sympy.fraction(sympy.together(balance))[0]
+    return -numerator.subs(unknown, 0) / sympy.diff(numerator, unknown)

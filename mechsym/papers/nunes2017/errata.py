@@ -4,6 +4,7 @@ Each function gives one erratum's figures by name; `errata` gives all of them un
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -62,7 +63,7 @@ def unburnt_share() -> dict[str, float]:
     figures : dict of str to float
         Shares of the fuel's energy over the speeds [-]
     """
-    machine, result, found = _marched("nunes-slider-crank")
+    (machine, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     fuel = result.fuel * machine.cycle.heating_value
     share = 1 - result.heat_released.sum(axis=0) / fuel
     excess = found.unburnt - share
@@ -86,7 +87,7 @@ def vapour_energy() -> dict[str, float]:
     latent = {"cycle.latent_heat": f"{4e5 - _CV * _T0} J/kg"}
     found = {}
     for name in ("slider-crank", "hypocycloid"):
-        before, after = _marched(f"nunes-{name}")[2], _marched(f"nunes-{name}", latent)[2]
+        before, after = _figures(f"nunes-{name}"), _figures(f"nunes-{name}", latent)
         found[f"p_max_mpa {name}"] = float(after.p_max.max() / 1e6)
         found[f"torque_max_change {name}"] = float(after.torque_max.max() / before.torque_max.max() - 1)
         found[f"torque_avg_change {name}"] = float(np.abs(after.torque_avg / before.torque_avg - 1)[199:].max())
@@ -101,7 +102,7 @@ def lost_burn() -> dict[str, float]:
     figures : dict of str to float
         Largest loss [-], period of the saw-tooth [rpm], end of burn at the published maxima [deg]
     """
-    machine, result, _ = _marched("nunes-slider-crank")
+    machine, result = _marched("nunes-slider-crank")
     complete = 1 - np.exp(-machine.cycle.wiebe_a)
     efficiency = 0.9 * (-1.6082 + 4.6509 - 2.0764)
     burnt = result.heat_released.sum(axis=0) / (result.fuel * machine.cycle.heating_value)
@@ -121,7 +122,7 @@ def averages() -> dict[str, float]:
     figures : dict of str to float
         Relative differences [-]
     """
-    machine, result, found = _marched("nunes-slider-crank")
+    (machine, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     work = np.sum((result.p[1:] + result.p[:-1]) / 2 * np.diff(result.v)[:, None], axis=0)
     from_torque = found.torque_avg * 721 / 720 * 4 * np.pi
     return {
@@ -139,7 +140,7 @@ def engine_torque() -> dict[str, float]:
         Largest torque of both pistons, which run in phase [N*m]
     """
     return {
-        f"torque_max {name}": float(2 * _marched(f"nunes-{name}")[2].torque_max.max())
+        f"torque_max {name}": float(2 * _figures(f"nunes-{name}").torque_max.max())
         for name in ("slider-crank", "hypocycloid")
     }
 
@@ -152,11 +153,11 @@ def rod_length() -> dict[str, float]:
     figures : dict of str to float
         Crossover speeds [rpm]
     """
-    other = _marched("nunes-hypocycloid")[2]
+    other = _figures("nunes-hypocycloid")
     figures = {}
     for rod in (90, 74):
         half = f"{rod / 2} mm"
-        own = _marched("nunes-slider-crank", {"parameters.l1": half, "parameters.l2": half})[2]
+        own = _figures("nunes-slider-crank", {"parameters.l1": half, "parameters.l2": half})
         speed = own.omega / RPM
         figures[f"crossover_rpm {rod} mm"] = float(crossovers(speed, own.torque_avg, other.torque_avg)[-1])
     return figures
@@ -172,7 +173,7 @@ def reciprocating_mass() -> dict[str, float]:
     """
     figures = {"mass_kg": _RECIPROCATING}
     for label, mass in (("as printed", 0.250), ("own parts", _RECIPROCATING)):
-        machine, result, _ = _marched("nunes-hypocycloid", {"parameters.m3": f"{mass} kg"})
+        machine, result = _marched("nunes-hypocycloid", {"parameters.m3": f"{mass} kg"})
         room = chamber(machine.chamber, machine.motion)
         phi = np.radians(result.theta_deg - 360.0)
         force = piston_force(room, phi, result.omega[-1], result.p[:, -1])
@@ -194,7 +195,7 @@ def back_pressure() -> dict[str, float]:
     machine = _engine("nunes-slider-crank")
     figures = {"surplus_force": 101325 * np.pi / 4 * machine.chamber.bore**2}
     for name in ("slider-crank", "hypocycloid"):
-        found = _marched(f"nunes-{name}", {"chamber.back_pressure": "101325 Pa"})[2]
+        found = _figures(f"nunes-{name}", {"chamber.back_pressure": "101325 Pa"})
         figures[f"torque_max {name}"] = float(found.torque_max.max())
     return figures
 
@@ -203,13 +204,21 @@ def _engine(case: str, changes: dict[str, str] | None = None) -> ClosedEngine:
     return engine(load(case, {**_PRINTED, **(changes or {})}))
 
 
-def _marched(case: str, changes: dict[str, str] | None = None) -> tuple[ClosedEngine, March, Performance]:
-    return _marched_once(case, tuple((changes or {}).items()))
+def _marched(case: str, changes: dict[str, str] | None = None) -> tuple[ClosedEngine, March]:
+    machine = _engine(case, changes)
+    return machine, marched(machine, _speeds(case))
+
+
+def _figures(case: str, changes: dict[str, str] | None = None) -> Performance:
+    return _figures_once(case, tuple((changes or {}).items()))
 
 
 @cache
-def _marched_once(case: str, changes: tuple[tuple[str, str], ...]) -> tuple[ClosedEngine, March, Performance]:
-    # several claims ask for the same run
+def _figures_once(case: str, changes: tuple[tuple[str, str], ...]) -> Performance:
+    # several claims ask for the same run, and none for the loads of joints
     machine = _engine(case, dict(changes))
-    omega = speed_range(load(case).need("speeds"))
-    return machine, marched(machine, omega), over_speeds(machine, omega)
+    return over_speeds(replace(machine, motion=replace(machine.motion, loads=None)), _speeds(case))
+
+
+def _speeds(case: str) -> np.ndarray:
+    return speed_range(load(case).need("speeds"))
