@@ -1,11 +1,12 @@
 """Formulas out of program text: the assignments of one function or model, its own variables put in.
 
 Python is read by its own parser; C, Java, JavaScript, MATLAB and Modelica by their statements. Loops, branches and
-arrays are not followed: a variable that is assigned in one keeps its name, and is unknown where it is used.
+arrays are not followed: what is assigned in one is unknown where it is used, or a letter where it has no other formula.
 """
 
 import ast
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 from mechsym.errors import BadInput
@@ -13,19 +14,26 @@ from mechsym.files import read_text
 from mechsym.quantities import record
 
 LONGEST = 5000  # of a formula with everything put in
+UNFOLLOWED = "unfollowed_"  # before the name of what a loop or a branch assigns, or what is changed in place
 _NAME = r"[A-Za-z_]\w*"
 _ASSIGNED = re.compile(
     rf"^(?:[\w.:<>,\[\]\s*&]*?[\s*&])?(?P<name>{_NAME})\s*(?P<text>\"[^\"]*\")?\s*:?=(?!=)\s*(?P<value>.+)$", re.DOTALL
 )
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _DECLARED = re.compile(rf"(?P<name>{_NAME})\s*(?:\([^()]*\))?\s*\"(?P<about>[^\"]+)\"\s*$", re.DOTALL)
 _SPELLED = (
     (re.compile(r"\b(?:Modelica\.Constants\.pi|Math\.PI|M_PI|math\.pi|np\.pi|numpy\.pi|std::numbers::pi)\b"), "pi"),
     (re.compile(r"\b(?:Math|std|Modelica\.Math|math|np|numpy)\s*(?:\.|::)\s*(?=[a-zA-Z])"), ""),
+    (re.compile(r"\b(a?(?:sin|cos|tan)|atan2|sqrt|pow|exp|log|fabs|hypot|cbrt|fmax|fmin)[fl](?=\s*\()"), r"\1"),
     (re.compile(r"\.([*/^])"), r"\1"),
     (re.compile(r"(?<=[\d.])[fFlLdD]\b"), ""),
     (re.compile(r"\b(?:self|this|obj|params?|cfg|p|s)(?:\.|->)(?=[A-Za-z_])"), ""),
     (re.compile(r"\((?:double|float|real|Real)\)"), ""),
 )
+_CHANGED = re.compile(rf"({_NAME})\s*(?:[-+*/]?=(?!=)|\+\+|--)")
+_OPENS = re.compile(r"^\s*(?:if|for|while|when|switch|else|do|try)\b")
+# a letter that is only told in another unit keeps its name
+_UNITS = re.compile(r"radians|deg2rad|180|[*/]\s*(?:60|1000|100|1e-?\d+)\b")
 _ENDS = {".mo": ";", ".c": ";", ".h": ";", ".cpp": ";", ".cc": ";", ".hpp": ";", ".java": ";", ".js": ";", ".ts": ";",
          ".cs": ";", ".m": ";"}  # fmt: skip
 
@@ -39,8 +47,14 @@ class Assigned:
     about: str  #: What a comment or a description says of it
 
 
-def read_code(place: str) -> list[Assigned]:
-    """The assignments of `FILE::FUNCTION`, each with the function's own variables put in."""
+def read_code(place: str, letters: Collection[str] = ()) -> list[Assigned]:
+    """The assignments of `FILE::FUNCTION`, each with the function's own variables put in.
+
+    Parameters
+    ----------
+    letters : collection of str
+        Names that stay letters where the program gives them a number
+    """
     file, mark, function = place.rpartition("::")
     if not mark or not file or not function:
         raise BadInput(f"--code {place!r} is not FILE::FUNCTION, as engine.c::piston_speed")
@@ -52,9 +66,10 @@ def read_code(place: str) -> list[Assigned]:
         found = _statements(_body(text, function, file, path.suffix), path.suffix)
     else:
         raise BadInput(f"--code {file}: files that are read end in .py, {', '.join(_ENDS)}")
-    if not found:
+    kept = _inlined([a for a in found if not (a.name in letters and _NUMBER.fullmatch(a.text))])
+    if not kept:
         raise BadInput(f"--code {place}: there is no assignment and no return of arithmetic in {function}")
-    return _inlined(found)
+    return kept
 
 
 def _python(text: str, function: str, file: str) -> list[Assigned]:
@@ -67,7 +82,8 @@ def _python(text: str, function: str, file: str) -> list[Assigned]:
         n for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef)) and n.name == function
     ]
     if not bodies:
-        raise BadInput(f"--code {file}: there is no function {function}")
+        names = ", ".join(dict.fromkeys(n.name for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)))
+        raise BadInput(f"--code {file}: there is no function {function}; there are {names or 'none'}")
     found = []
     for node in bodies[0].body:
         about = lines[node.lineno - 1].partition("#")[2].strip()
@@ -75,6 +91,17 @@ def _python(text: str, function: str, file: str) -> list[Assigned]:
             found.append(Assigned(name="return", text=_spelled(ast.unparse(node.value)), about=about or function))
         elif isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
             found.append(Assigned(name=node.targets[0].id, text=_spelled(ast.unparse(node.value)), about=about))
+        else:
+            found += _unfollowed(ast.unparse(node))
+    return found
+
+
+def _unfollowed(statement: str) -> list[Assigned]:
+    # without a text what is assigned without regard to its value before
+    found = []
+    for name in dict.fromkeys(_CHANGED.findall(statement)):
+        again = rf"\b{name}\s*(?:[-+*/]=|\+\+|--)|\b{name}\s*=(?!=)[^;\n]*\b{name}\b"
+        found.append(Assigned(name=name, text=UNFOLLOWED + name if re.search(again, statement) else "", about=""))
     return found
 
 
@@ -118,8 +145,14 @@ def _statements(body: str, suffix: str) -> list[Assigned]:
     # a comment behind a statement belongs to it
     body = re.sub(rf";[ \t]*{comment}([^\n]*)", lambda m: f"; \x01{m[1].strip()}\x02", body)
     body = re.sub(rf"{comment}[^\n]*", " ", body)
+    # what opens and closes a block is a statement of its own
+    if suffix in (".m", ".mo"):
+        body = re.sub(r"(?m)^(\s*(?:end\b|(?:for|while|if|switch)\b(?=[^\n;]*$))[^\n;]*)", r";\1;", body)
+    else:
+        body = re.sub(r"([{}])", r";\1;", body)
     if suffix == ".mo":
         body = re.sub(r"\b(?:initial\s+)?(?:equation|algorithm)\b", ";", body)
+    depth = 0
     for statement in body.split(";"):
         behind = re.match(r"\s*\x01(.*?)\x02", statement)
         if behind is not None:
@@ -130,10 +163,23 @@ def _statements(body: str, suffix: str) -> list[Assigned]:
         if suffix == ".mo" and (declared := _DECLARED.search(statement)) and "=" not in statement:
             abouts[declared["name"]] = declared["about"]
             continue
+        inside, depth = depth, max(0, depth + _opened(statement, suffix))
+        if inside or depth or _OPENS.match(statement) or re.search(r"[-+*/]=|\+\+|--", statement):
+            found += _unfollowed(statement)
+            continue
         for part in _declarators(statement):
             if assigned := _assigned(part, suffix):
                 found.append(assigned)
     return [Assigned(name=a.name, text=a.text, about=abouts.get(a.name, a.about)) for a in found]
+
+
+def _opened(statement: str, suffix: str) -> int:
+    # by how many blocks the statements behind are deeper
+    if suffix not in (".m", ".mo"):
+        return statement.count("{") - statement.count("}")
+    lines = statement.splitlines()
+    opened = sum(bool(re.match(r"\s*(?:for|while|when|if|switch|try)\b", line)) for line in lines)
+    return opened - sum(bool(re.match(r"\s*end\b", line)) for line in lines)
 
 
 def _declarators(statement: str) -> list[str]:
@@ -164,10 +210,17 @@ def _inlined(found: list[Assigned]) -> list[Assigned]:
     known: dict[str, str] = {}
     done = []
     for assigned in found:
+        if not assigned.text and assigned.name not in known:
+            continue  # a letter
+        if not assigned.text or assigned.text.startswith(UNFOLLOWED):
+            known[assigned.name] = UNFOLLOWED + assigned.name
+            done.append(Assigned(name=assigned.name, text=known[assigned.name], about=assigned.about))
+            continue
         text = re.sub(rf"(?<![\w.]){_NAME}", lambda m: f"({known[m[0]]})" if m[0] in known else m[0], assigned.text)
         if len(text) > LONGEST:
             text = assigned.text
         done.append(Assigned(name=assigned.name, text=text, about=assigned.about))
-        if assigned.name != "return" and re.search(rf"(?<![\w.]){re.escape(assigned.name)}\b", text) is None:
+        again = re.search(rf"(?<![\w.]){re.escape(assigned.name)}\b", text)
+        if assigned.name != "return" and not (again and _UNITS.search(assigned.text)):
             known[assigned.name] = text
     return done

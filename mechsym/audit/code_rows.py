@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from mechsym.audit.code import Assigned, read_code
+from mechsym.audit.code import UNFOLLOWED, Assigned, read_code
 from mechsym.audit.code_numbers import candidates, nearest
 from mechsym.audit.findings import Row, unread_row
 from mechsym.audit.formula import Asked, answer
@@ -28,12 +28,19 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
     asked : Asked
         Letters, assumptions and the rest, for every formula
     """
-    found = read_code(place)
     theory, quantity = parted(against)
+    found = read_code(place, _letters_of(theory or against.strip(), asked))
     pairs = list(_one(found, against.strip(), quantity) if theory else _every(found, against.strip(), asked))
     if not pairs and not theory:
         return _by_numbers(place, found, against.strip(), asked)
     return _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+
+
+def _letters_of(theory: str, asked: Asked) -> set[str]:
+    # what the theory and the author call letters stays one, although the program gives it a number
+    given = letter_pairs(asked.letters) if isinstance(asked.letters, str) else dict(asked.letters)
+    about = theory or (Path(asked.theory).stem if asked.theory else "")
+    return {*given, *(named(about, asked.case, asked.theory).letters if about else ())}
 
 
 def _by_numbers(place: str, found: list[Assigned], theory: str, asked: Asked) -> list[Row]:
@@ -74,6 +81,11 @@ def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
         f"{assigned.name} ({assigned.about})" if assigned.about and assigned.about != assigned.name else assigned.name
     )
     try:
+        if unfollowed := re.search(rf"\b{UNFOLLOWED}(\w+)", assigned.text):
+            raise BadInput(
+                f"{unfollowed[1]} is assigned in a loop or a branch, or changed in place, which is not followed; "
+                "ask for a variable before it, or write the formula for --formula"
+            )
         letters = _letters(assigned.text, target, asked)
         note = ", ".join(f"{k} taken for {v}" for k, v in letters.items() if k not in str(asked.letters))
         row = answer(
@@ -124,12 +136,14 @@ def _every(found: list[Assigned], theory: str, asked: Asked) -> Iterator[tuple[A
 def _theories(asked: Asked) -> Iterator[Theory]:
     if asked.theory:
         yield named(Path(asked.theory).stem, asked.case, asked.theory)
-    for name in shipped():
+    for name in () if asked.theory else shipped():
         yield named(name)
 
 
 def _is_called(assigned: Assigned, quantity: str) -> bool:
     wanted = _words(quantity)
+    if len(quantity) == 1 and len(assigned.name) == 1:
+        return assigned.name == quantity
     return _words(assigned.name) == wanted or len(wanted) > 1 and set(wanted) <= set(_words(assigned.about))
 
 

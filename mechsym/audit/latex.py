@@ -51,7 +51,7 @@ def read_latex(text: str) -> tuple[Node, dict[str, str]]:
     cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent])
     tree = _sum(cursor)
     if cursor.peek():
-        raise BadInput(f"LaTeX: {cursor.peek()!r} does not fit {place(cursor)}")
+        raise BadInput(f"LaTeX: {cursor.peek()!r} does not fit {place(cursor)}; take it away or open its bracket")
     return tree, cursor.spelled
 
 
@@ -281,7 +281,7 @@ def _run(cursor: Cursor, function: str) -> Node:
             _ask(cursor, function, "the power")
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:
-        raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}")
+        raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}; write it as in \\sin\\varphi")
     if cursor.peek() in _OVER and cursor.peek(1)[:1].isdecimal():
         _ask(cursor, function, f"{cursor.peek()}{cursor.peek(1)}")
     return tree

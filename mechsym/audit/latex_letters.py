@@ -13,6 +13,7 @@ _GREEK = {
     "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
 }  # fmt: skip
 _DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
+_PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}
 WORDS = {"\\mathrm", "\\text", "\\mbox", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
 
 
@@ -41,7 +42,8 @@ class Cursor:
         """
         token = self.peek()
         if wanted and token != wanted:
-            raise BadInput(f"LaTeX: {wanted!r} is missing {place(self)}")
+            way = f"close what is open, as in {_PAIRS[wanted]}" if wanted in _PAIRS else f"write {wanted} there"
+            raise BadInput(f"LaTeX: {wanted!r} is missing {place(self)}; {way}")
         self.position += 1
         return token
 
@@ -126,8 +128,9 @@ def _base(cursor: Cursor) -> str:
     if len(token) == 1 and token.isalpha():
         return token
     cursor.position -= 1
-    what = repr(token) if token else "an end"
-    raise BadInput(f"LaTeX: {what} is not read {place(cursor)}; use fractions, roots, powers, letters and functions")
+    if not token:
+        raise BadInput(f"LaTeX: the formula ends {place(cursor)}; write what belongs there, a letter or a bracket")
+    raise BadInput(f"LaTeX: {token!r} is not read {place(cursor)}; use fractions, roots, powers, letters and functions")
 
 
 def _is_letter(token: str) -> bool:
@@ -148,7 +151,7 @@ def _subscript(cursor: Cursor) -> str:
             return text
         if token not in WORDS:
             text += token
-    raise BadInput("LaTeX: a subscript's closing brace is missing")
+    raise BadInput(f"LaTeX: the subscript's closing brace is missing {place(cursor)}; write it as in m_{{rod}}")
 
 
 def derivative(cursor: Cursor) -> str | None:

@@ -81,7 +81,7 @@ def _argument(asked: Bench, function: str, wish: Any) -> Any:
     functions = asked.algebra.functions
     inverse = {"exp": "log", "log": "exp", "asin": "sin", "acos": "cos", "atan": "tan"}
     if function == "sqrt":
-        return wish * wish
+        return np.where(_floats(wish) >= 0, wish * wish, _nan(asked))  # no root is negative
     return functions[inverse[function]](wish) if function in inverse else None
 
 

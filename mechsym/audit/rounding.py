@@ -2,15 +2,16 @@
 
 import ast
 from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from mechsym.audit.bench import part_values
+from mechsym.audit.bench import part_values, peak, value
 from mechsym.audit.edits import places
 from mechsym.audit.repair import Examination, search_bench
 from mechsym.audit.required import required
-from mechsym.audit.tree import Node
+from mechsym.audit.tree import Node, Path, number, replace
 
 _SAME = 1e-9
 
@@ -28,9 +29,17 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
     for place in places(tree):
         if isinstance(place.node, ast.Constant) and place.path in wishes:
             wish = _constant(wishes[place.path])
-            if wish is not None and _rounds_to(wish, place.node.value):
+            if wish is not None and _rounds_to(wish, place.node.value) and _mended(exam, tree, place.path, wish):
                 return f"the constant {place.node.value!r} is {wish:.9g} rounded"
     return ""
+
+
+def _mended(exam: Examination, tree: Node, path: Path, wish: float) -> bool:
+    asked = exam.judged.quick
+    found = value(asked, replace(tree, path, number(Fraction(wish))))
+    with np.errstate(all="ignore"):
+        away = np.abs(found - asked.expected) / peak(asked.expected)
+    return bool(np.all(away[np.isfinite(asked.expected)] < _SAME))
 
 
 def _constant(values: Any) -> float | None:

@@ -97,6 +97,8 @@ def _searched(exam: Examination) -> Decision:
     met = agreement(exam.judged, tree)
     if found.verdict in ("wrong", "nearer") and 2 * met.valued <= met.expected:
         return _verdict(exam, "untestable", start, note=_without_value(met))
+    if not met.valued:
+        note = "; ".join(n for n in (note, "as printed it has no real value anywhere") if n)
     return _verdict(exam, found.verdict, start, repairs=found.repairs, nearer=found.nearer, note=note)
 
 

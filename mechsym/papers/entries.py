@@ -42,7 +42,7 @@ def _entry(room: str, said: Mapping[str, Any], content: Mapping[str, Any]) -> "E
 
 
 def _table(said: Any, shared: Mapping[str, Any]) -> dict[str, Any]:
-    found = {}
+    found: dict[str, Any] = {}
     for one in said if isinstance(said, list) else [said]:
         found |= shared[one] if isinstance(one, str) else one
     return found

@@ -1,5 +1,7 @@
 """Formulas of programs: a mean piston speed in Modelica, a rod's angular acceleration in C, Python and MATLAB."""
 
+from dataclasses import replace
+
 import pytest
 
 from mechsym.audit.code import read_code
@@ -109,3 +111,40 @@ def test_numbers_of_another_dimension_are_no_match(tmp_path):
     place = write(tmp_path / "p.py", "def f(r, l, phi):\n    return r*l*np.sin(phi)/r**3\n") + "::f"
     with pytest.raises(BadInput, match="near to one in its numbers; name one with"):
         check_code(place, "slider_crank", NONE)
+
+
+ROD = """
+double rod_acc(double phi, double phid, double phidd, double r, double l, double e) {
+    double s = (r*sinf(phi) - e)/l, cb = sqrtf(1.0 - s*s);
+    double bd = r*phid*cosf(phi)/(l*cb);
+    return (r*phidd*cosf(phi) - r*phid*phid*sinf(phi) %s l*bd*bd*s)/(l*cb);
+}
+"""
+
+
+@pytest.mark.parametrize(("sign", "verdict"), [("+", "exact"), ("-", "misprint")])
+def test_a_slip_beside_a_root_that_would_have_to_be_negative_is_no_rounded_constant(tmp_path, sign, verdict):
+    place = write(tmp_path / "r.c", ROD % sign) + "::rod_acc"
+    (row,) = check_code(place, "offset_slider_crank.rod_acceleration", replace(NONE, letters="e=offset"))
+    assert row["verdict"] == verdict and (sign == "+") == (row["correction"] is None)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "text"),
+    [
+        ("py", "def f(x):\n    for i in range(3):\n        x = x*2\n    return x\n"),
+        ("py", "def f(r, phi):\n    x = r*(1 - cos(phi))\n    x += r\n    return x\n"),
+        ("c", "double f(double r, double phi) { double x = r; if (r > 0) { x = x*2; } return x; }"),
+        ("m", "function y = f(x)\nwhile x < 3\n x = x + 1;\nend\ny = x;\n"),
+    ],
+)
+def test_what_a_loop_or_a_branch_changes_is_not_read_as_it_was(tmp_path, suffix, text):
+    (row,) = check_code(write(tmp_path / f"l.{suffix}", text) + "::f", "cylinder_volume.s", NONE)
+    assert row["verdict"] == "untestable" and "x is assigned in a loop or a branch" in row["note"]
+
+
+def test_letters_of_a_theory_of_ones_own_stay_letters_and_no_other_theory_is_asked(tmp_path):
+    theory = write(tmp_path / "cam.toml", 'angle = "th"\n[letters]\nh = "8 mm"\n[define]\nlift = "h*sin(th)"\n')
+    text = "model Cam\n  parameter Real h = 0.008, beta = 1.2;\nequation\n  lift = h*cos(th);\nend Cam;\n"
+    (row,) = check_code(write(tmp_path / "c.mo", text) + "::Cam", "", replace(NONE, theory=theory))
+    assert (row["verdict"], row["correction"]) == ("misprint", "h*sin(th)")

@@ -67,9 +67,10 @@ REFUSED = [
     (r"\cos\varphi l_2", "does l belong"), (r"\sin\varphi/2", "does /2 belong"),
     (r"\sin\varphi\frac{1}{2}", "belong to the argument"), (r"\int F dx", r"'\\\\int' is not read"),
     (r"\varphi'", "primes are not read"), (r"\sin", "no argument"),
-    (r"\frac{1}", "an end"),
+    (r"\frac{1}", "the formula ends"),
     (r"\frac{1}{2", "missing"), ("\\", "not read"), ("{" * 2000, "nested more"), ("\\frac" * 1000, "nested more"),
-    ("2^{" * 400, "nested more"), ("x_{" * 500, "closing brace"), ("\\mathrm{" * 50, "missing"), (r"r\cdot", "an end"),
+    ("2^{" * 400, "nested more"), ("x_{" * 500, "closing brace"), ("\\mathrm{" * 50, "missing"),
+    (r"r\cdot", "the formula ends"),
     (r"\begin{equation} r \end{equation}", "not read"), ("$r$ $q$", "unknown letter"),
 ]  # fmt: skip
 

@@ -21,6 +21,8 @@ from mechsym.errors import BadInput
 
 _ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "ln": "log"}
 _MOST = 40  # terms of a sum
+_EXAMPLE = "'2*r*(1 - cos(phi))'"
+_WORDS = "d(e, phi), dt(e), root, curve, sum(e, k, 1, 4) and piecewise(a < b, e, f)"
 
 
 def define(own: str, text: str, tape: TheoryTape) -> Entry:
@@ -37,7 +39,15 @@ def _parsed(text: str) -> ast.expr:
     try:
         return ast.parse(from_greek(text).replace("^", "**").strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise BadInput(f"{text.strip()[:60]!r} cannot be read: {getattr(error, 'msg', 'nested too deep')}") from None
+        raise BadInput(_unread(text.strip(), error)) from None
+
+
+def _unread(text: str, error: Exception) -> str:
+    if not text:
+        return "the definition is empty; write an expression, as 'r*sin(phi)'"
+    why, place = getattr(error, "msg", "nested too deep"), getattr(error, "offset", None)
+    near = f" near {text[max(0, place - 8) : place + 4]!r}" if place else ""
+    return f"{text[:60]!r} cannot be read: {why}{near}; write a * between factors, and brackets in pairs, as {_EXAMPLE}"
 
 
 def _check(tree: Node, tape: TheoryTape, also: tuple[str, ...]) -> None:
@@ -80,7 +90,9 @@ def _expanded(node: ast.expr, tape: TheoryTape) -> Node:
         return _of_curve(node, tape)
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
         return _called(node.func.id, node, tape)
-    raise BadInput(f"{ast.unparse(node)[:60]!r} is not read in a definition")
+    raise BadInput(
+        f"{ast.unparse(node)[:60]!r} is not read in a definition; it is arithmetic of letters with functions, {_WORDS}"
+    )
 
 
 def _called(function: str, node: ast.Call, tape: TheoryTape) -> Node:

@@ -122,7 +122,7 @@ def averages() -> dict[str, float]:
     figures : dict of str to float
         Relative differences [-]
     """
-    (machine, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
+    (_, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     work = np.sum((result.p[1:] + result.p[:-1]) / 2 * np.diff(result.v)[:, None], axis=0)
     from_torque = found.torque_avg * 721 / 720 * 4 * np.pi
     return {
