@@ -11,7 +11,7 @@ _ROWS = 16  # shown on the terminal
 
 
 def show(case: Any, file: str | None, noise: str | None, output: tuple[bool, Path | None]) -> None:
-    """Print what a measured torque tells of the pressure, and write its table.
+    """Print what a measured torque tells of the pressure, and write its table and picture.
 
     Parameters
     ----------
@@ -21,7 +21,8 @@ def show(case: Any, file: str | None, noise: str | None, output: tuple[bool, Pat
         Standard deviation of each torque, as it was typed
     """
     from mechsym.files import write_quantities
-    from mechsym.jobs.indicated import columns, indicated, summary
+    from mechsym.forces.plots_indicated import pressure_picture
+    from mechsym.jobs.indicated import columns, indicated, period_of, summary
     from mechsym.quantities import parse
 
     as_json, out = output
@@ -31,7 +32,10 @@ def show(case: Any, file: str | None, noise: str | None, output: tuple[bool, Pat
         raise BadInput("--torque needs --noise, the standard deviation of each torque, such as --noise '2 N*m'")
     measured, found = indicated(case, file, parse(noise, "N*m", "--noise"))
     told = summary(case, measured, found)
-    files = [write_quantities(out / "pressure.csv", columns(found))] if out else []
+    files = []
+    if out:
+        files = [write_quantities(out / "pressure.csv", columns(found)),
+                 pressure_picture(out / "pressure.svg", found, period_of(found))]  # fmt: skip
     emit(told, as_json, lambda: "\n".join([_text(told), *(f"written: {name}" for name in files)]))
 
 

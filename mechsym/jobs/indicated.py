@@ -125,10 +125,14 @@ def columns(found: IndicatedPressure) -> dict[str, Any]:
     return {"phi_deg": np.degrees(found.phi[at]), "p_pa": p, "p_low_pa": p - half, "p_high_pa": p + half}
 
 
+def period_of(found: IndicatedPressure) -> float:
+    """One turn or two, as far as the angles go [rad]."""
+    return 4 * math.pi if np.ptp(found.phi) > 2 * math.pi + _SAME else 2 * math.pi
+
+
 def summary(case: Case, measured: CrankTorque, found: IndicatedPressure) -> dict[str, Any]:
     """What the torque tells, in numbers."""
-    period = 4 * math.pi if np.ptp(found.phi) > 2 * math.pi + _SAME else 2 * math.pi
-    done, error = work(measured, found, period)
+    done, error = work(measured, found, period_of(found))
     return {
         "case": case.name,
         "speed_rpm": measured.omega / RPM,

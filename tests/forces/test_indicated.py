@@ -120,6 +120,8 @@ def test_the_command_tells_and_writes_the_pressure(tmp_path):
     assert list(columns) == ["phi_deg", "p_pa", "p_low_pa", "p_high_pa"]
     assert columns["p_pa"] == pytest.approx(told["pressure"]["p_pa"], rel=1e-9)
     assert np.all(columns["p_low_pa"] < columns["p_high_pa"]) and len(columns["p_pa"]) == told["told"]
+    picture = (tmp_path / "pressure.svg").read_text()
+    assert "absolute pressure [" in picture and "95 %" in picture and "crank angle [" in picture
     text = run(*words, "20 N*m").output
     assert "not told" in text and "rows scatter more than --noise says" in text
 

@@ -38,6 +38,7 @@ def bearing_reaction(F: float, d_force: float, d_bearing: float) -> float:
     Notes
     -----
     Source: Nunes (2017), eq. 4.31. Print: F = 27410 N has two digits exchanged; it is 27140 N, R = 13570 N.
+    Valid: two bearings, each free to tilt, all loads in one plane.
 
     Examples
     --------
@@ -100,7 +101,7 @@ def web_width(d_pin: float) -> float:
 
     Notes
     -----
-    Source: Nunes (2017), eq. 4.33.
+    Source: Nunes (2017), eq. 4.33. Valid: a start for small forged crankshafts; the stress decides (`web_stress`).
 
     Examples
     --------
@@ -136,6 +137,7 @@ def web_stress(R: float, arm: float, l_pin: float, t: float, w: float) -> float:
     -----
     Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65 mm; the printed mass of the
     crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm.
+    Valid: crank at dead centre, rectangular web, fillets without effect.
 
     Examples
     --------
@@ -168,6 +170,7 @@ def shaft_diameter(T: float, tau: float) -> float:
     Notes
     -----
     Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m and 1250/1.5 MPa give; 78.2 N.m would.
+    Valid: round solid shaft, torsion alone, elastic.
 
     Examples
     --------
@@ -198,7 +201,7 @@ def bending_stress(M: Any, d: float) -> Any:
 
     Notes
     -----
-    Source: beam theory; eq. 4.32 of Nunes (2017) solved for the stress.
+    Source: beam theory; eq. 4.32 of Nunes (2017) solved for the stress. Valid: round solid section, elastic.
 
     Examples
     --------
@@ -229,6 +232,7 @@ def torsion_stress(T: Any, d: float) -> Any:
     Notes
     -----
     Source: eq. 4.35 of Nunes (2017) solved for the stress: his 8 mm shaft has 2423 MPa against 1250 MPa ultimate.
+    Valid: round solid section, elastic.
 
     Examples
     --------
@@ -256,7 +260,7 @@ def equivalent_stress(sigma: Any, tau: Any) -> Any:
 
     Notes
     -----
-    Source: von Mises; Shigley, eq. 5-15.
+    Source: von Mises; Shigley, eq. 5-15. Valid: ductile material, bending and torsion at one point.
 
     Examples
     --------

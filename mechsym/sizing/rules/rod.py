@@ -28,6 +28,7 @@ def rod_diameter(F: float, sigma: float) -> float:
     Notes
     -----
     Source: Nunes (2017), eq. 4.5. Print: the text allows 60 MPa (24.00 mm); the printed 26.29 mm needs 75/1.5 = 50 MPa.
+    Valid: short rod, loaded along its axis; a long one buckles first (`rod_buckling_load`).
 
     Examples
     --------
@@ -63,7 +64,8 @@ def rod_buckling_load(d: float, length: float, E: float, yield_strength: float) 
 
     Notes
     -----
-    Source: Shigley, eqs. 4-42 and 4-43 (Euler and J. B. Johnson columns).
+    Source: Shigley, eqs. 4-42 and 4-43 (Euler and J. B. Johnson columns). Valid: straight round rod, ends free to turn,
+    load along its axis.
 
     Examples
     --------
@@ -108,6 +110,7 @@ def rod_length(reach: float, e: float, d_TDC: float, t_H: float, ID_cap: float) 
     Notes
     -----
     Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm (`cylinder.tdc_gap`).
+    Valid: the opposed pistons of the thesis, each at its top dead centre.
 
     Examples
     --------
