@@ -1,5 +1,6 @@
 """What is wrong with a figure: texts on each other or out of the paper, as matplotlib's renderer places them; ids."""
 
+import functools
 import itertools
 import re
 from collections import Counter
@@ -15,6 +16,7 @@ def drawn(monkeypatch):
     """All figures that become SVG from here on."""
     found, plain = [], FigureCanvasSVG.print_svg
 
+    @functools.wraps(plain)  # matplotlib asks which options it takes
     def keep(canvas, *args, **options):
         if all(canvas.figure is not figure for figure in found):  # print_svg calls itself
             found.append(canvas.figure)

@@ -35,7 +35,7 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     result |= {"pareto": [_point(p, section) for p in front]} if front else {}
     result |= {"chosen": dict(done.chosen), "choices": list(done.choices)} if done.choices else {}
     units = dict(done.units)
-    files = _write(out, result, section) if out else []
+    files = _write(out, result, section, units) if out else []
     emit(result, as_json, lambda: "\n".join([_text(result, units), *(f"written: {file}" for file in files)]))
     if any(point.status != "optimal" for point in (found, *front)):
         sys.exit(1)
@@ -57,14 +57,17 @@ def _text(result: dict[str, Any], units: dict[str, str]) -> str:
         best = " (best)" if all(row[key] == word for key, word in result["chosen"].items()) else ""
         lines.append(f"{words}: {row['status']}, {result['objective_name']} = {row['objective']:.6g}{best}")
     lines += ["active limits:" if result["active"] else "no limit is active"]
-    lines += [f"  {row['name']} {row['side']} {row['limit']:.6g}: {row['meaning']}" for row in result["active"]]
+    lines += [
+        f"  {row['name']} {row['side']} {quantity_text(row['limit'], row['unit'], 6)}: {row['meaning']}"
+        for row in result["active"]
+    ]
     if "pareto" in result:
         rows = [{k: v for k, v in p.items() if k != "variables"} | p["variables"] for p in result["pareto"]]
         lines += ["Pareto front:", table(rows, list(rows[0]), units)]
     return "\n".join(lines)
 
 
-def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
+def _write(out: Path, result: dict[str, Any], section: Any, units: dict[str, str]) -> list[Path]:
     from mechsym.files import to_json, write_quantities, write_text
 
     files = [write_text(out / "optimum.json", to_json(result) + "\n")]
@@ -74,6 +77,6 @@ def _write(out: Path, result: dict[str, Any], section: Any) -> list[Path]:
         points = result["pareto"]
         columns = {name: [p[name] for p in points] for name in (section.objective, section.against)}
         columns |= {name: [p["variables"][name] for p in points] for name in points[0]["variables"]}
-        files.append(write_quantities(out / "pareto.csv", columns))
-        files.append(pareto_picture(out / "pareto.svg", columns, section.objective, section.against))
+        files.append(write_quantities(out / "pareto.csv", columns, units))
+        files.append(pareto_picture(out / "pareto.svg", columns, section.objective, section.against, units))
     return files

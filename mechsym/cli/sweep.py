@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import emit, in_rows, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.swept import INTERRUPTED, judge, kept_or_short, picture_of, place, report_of, rows_of, write
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
@@ -93,7 +93,14 @@ def _text(found: Any, report: dict[str, Any]) -> str:
     lines += [f"{found.kept} points kept from before"] if found.kept else []
     if rows:
         spread = ["mean", "std"] if sampled else []
-        lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]), ""]
+        lines += [
+            "",
+            table(
+                in_rows(rows, ("min", "max", "mean", "std")),
+                ["name", "unit", "min", "at min", "max", "at max", *spread],
+            ),
+            "",
+        ]
         lines += [f"{len(report['data']) - len(rows)} more results with --json or --out" + _more(found)]
     lines += _indices(report["sobol"])
     lines += [f"failed at {place(found, f['index'])}: {f['reason']}" for f in report["failed"][:5]]

@@ -86,20 +86,22 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
     return write_picture(path, figure)
 
 
-def pareto_picture(path: Path, columns: Mapping[str, Any], objective: str, against: str) -> Path:
+def pareto_picture(
+    path: Path, columns: Mapping[str, Any], objective: str, against: str, units: Mapping[str, str]
+) -> Path:
     """Front of two figures, and the design along it.
 
     Parameters
     ----------
     columns : mapping of str to sequence
-        Both figures and the design variables, point by point
+        Both figures and the design variables, point by point, in SI [units]
     """
     variables = [name for name in columns if name not in (objective, against)]
     names = [objective, *variables]
     figure, axes = panels(3.2 * len(names), 3.2, 1, len(names), f"Front of {objective} against {against}")
-    across, values = display.heading(against, columns[against])
+    across, values = display.heading(against, columns[against], unit=units.get(against))
     for axis, name in zip(axes, names, strict=True):
-        up, shown = display.heading(name, columns[name])
+        up, shown = display.heading(name, columns[name], unit=units.get(name))
         axis.plot(values, shown, "o-", color=BLUE, markersize=4)
         axis.set(xlabel=unit_words(across), ylabel=unit_words(up))
     return write_picture(path, figure)

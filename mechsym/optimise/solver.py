@@ -16,6 +16,7 @@ from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.model import ClosedEngine, at_design
 from mechsym.optimise.problem import Limit, Programme
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
 
 _STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
 _ACTIVE = 1e-6  # a limit counts as met this closely, in units of its own size or range
@@ -202,8 +203,9 @@ def active_limit(
     for side, bound in (("low", limit.low), ("high", limit.high)):
         if abs(value - bound) < _ACTIVE * scale:
             cost, step = costs[limit.name], abs(bound) / 100 or scale / 100
-            unit = "" if limit.unit == "-" else f" {limit.unit}"
-            meaning = f"{step:.4g}{unit} more there (1 %) would change {objective} by {cost * step:+.4g}"
+            meaning = (
+                f"{quantity_text(step, limit.unit, 4)} more there (1 %) would change {objective} by {cost * step:+.4g}"
+            )
             name = "equal" if limit.low == limit.high else side
             row = {"name": limit.name, "side": name, "limit": bound, "unit": limit.unit}
             return row | {"multiplier": cost, "meaning": meaning}

@@ -11,6 +11,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.identify import identify
+from mechsym.optimise.trace import read_trace
 
 TRUTH = {"I2": 0.58, "k1": 400.0, "c1": 2.0, "friction.constant": 0.4}
 GIVEN = {"drive.torque": 6.0, "drive.time": 0.0, "k1": 330.0, "I2": 0.5, "c1": 1.0}
@@ -140,6 +141,13 @@ def test_bad_traces_are_refused_with_the_reason(tmp_path, content, words):
     file.write_text(content)
     with pytest.raises(BadInput, match=words):
         found_in(str(file))
+
+
+def test_a_trace_that_is_finer_at_its_end_has_no_gap(tmp_path):
+    times = [*np.arange(0, 2, 0.005), *np.arange(2, 2.5, 0.00025)]
+    file = tmp_path / "fine.csv"
+    file.write_text("t_s,phi0d [rad/s]\n" + "".join(f"{t:.5f},{t * t}\n" for t in times))
+    assert len(read_trace(str(file), ("phi0d",), {}).t) == len(times)
 
 
 @pytest.mark.parametrize("free", [("J9",), ("I2", "I2"), ()])

@@ -7,11 +7,13 @@ import casadi as ca
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from pictures import drawn, faults
 
 from mechsym.cases import load, text
 from mechsym.cli.optimise import optimise
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.plots import pareto_picture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.optimise.problem import Optimise, problem
@@ -19,6 +21,7 @@ from mechsym.optimise.solver import pareto, solve
 from mechsym.quantities import RPM
 
 NAMES = ["omega", "cycle.ignition", "chamber.compression_ratio", "parameters.e", "chamber.bore"]
+UNITS = {"efficiency": "-", "p_max": "Pa", "cycle.ignition": "rad"}
 POINT = np.array([4000 * RPM, np.radians(-9.07), 10.0, 0.013, 0.06])
 
 
@@ -135,6 +138,15 @@ def test_bad_problems_are_refused(machine, section, reason):
         problem(machine, 4000 * RPM, Optimise(**section))
 
 
+def test_a_front_is_drawn_in_units_for_people_without_texts_on_each_other(tmp_path, monkeypatch):
+    found = drawn(monkeypatch)
+    columns = {"efficiency": [0.40, 0.44, 0.47], "p_max": [4.85e6, 5.9e6, 8e6], "cycle.ignition": [0.0, 0.0, -0.078]}
+    pareto_picture(tmp_path / "f.svg", columns, "efficiency", "p_max", UNITS)
+    assert "p_max [MPa]" in (tmp_path / "f.svg").read_text(encoding="utf-8")
+    assert [axis.get_ylabel() for axis in found[0].axes] == ["efficiency [-]", "cycle.ignition [deg]"]
+    assert not faults(found[0])
+
+
 @pytest.mark.slow
 def test_command(tmp_path):
     arguments = ["nunes-hypocycloid", "--set", "optimise.against=p_max", "--set", "optimise.points=3"]
@@ -143,6 +155,8 @@ def test_command(tmp_path):
     assert result.exit_code == 0 and found["status"] == "optimal" and len(found["pareto"]) == 3
     assert found.keys() >= {"variables", "objective", "active", "multipliers", "status"}
     assert {p.name for p in tmp_path.iterdir()} == {"optimum.json", "pareto.csv", "pareto.svg", "summary.json"}
+    head = (tmp_path / "pareto.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert "p_max [Pa]" in head and "cycle.ignition [rad]" in head
 
 
 @pytest.mark.slow

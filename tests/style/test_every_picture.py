@@ -7,6 +7,7 @@ from pictures import colours, drawn, faults, ids
 
 from mechsym import style
 from mechsym.cli import mechsym
+from mechsym.papers.sources import sources
 
 CASES = (
     "alpha-stirling balandin chmielewski generator generator-breathing moroianu nunes-hypocycloid nunes-slider-crank "
@@ -82,3 +83,23 @@ def test_new_engines(name, command, tmp_path, monkeypatch):
 )
 def test_other_pictures(words, tmp_path, monkeypatch):
     look(monkeypatch, tmp_path / "out", words)
+
+
+@pytest.mark.slow
+def test_the_sheet_of_a_guide(tmp_path, monkeypatch):
+    found = drawn(monkeypatch)
+    done = CliRunner().invoke(mechsym, ["guide", "zotov-89", "--sheet", str(tmp_path / "sheet.svg")])
+    assert done.exit_code == 0 and len(found) == 1, done.output
+    assert not faults(found[0])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("source", sources(None), ids=lambda s: s.name)
+def test_the_figures_of_a_paper(source):
+    if not DATA:
+        pytest.skip("MECHSYM_TEST_DATA is not set: the measured diagrams are not here")
+    figures = source.figures()
+    assert {name: faults(figure) for name, figure in figures.items() if faults(figure)} == {}
+    axes = [axis for figure in figures.values() for axis in figure.axes if axis.get_visible() and axis.axison]
+    bare = [text for axis in axes for text in (axis.get_xlabel(), axis.get_ylabel()) if text and "[" not in text]
+    assert not bare

@@ -12,11 +12,18 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
+from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil
 from mechsym.jobs.guide import Workshop
 from mechsym.out.cad.curve import Groove, hermite
 from mechsym.quantities import RPM
+from mechsym.quantities.display import quantity_text
 from mechsym.sizing.rules.bearings import equivalent_load, required_rating
 
+_SPRINGS = {
+    AirAbsolute: "air, its absolute pressure on the polytrope",
+    AirGauge: "air, its excess pressure on the polytrope",
+    Coil: "coil spring",
+}
 _MM = 1e3
 _EVERY = 10  # degrees between the rows of the table
 _LIFE = 20_000.0  # hours that the rollers are asked for
@@ -68,7 +75,9 @@ def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     axis.plot(hole * np.cos(theta), hole * np.sin(theta), "-", color="black", linewidth=1.3)
     start, r = _MM * track.centre.points[0], _MM * track.roller_radius
     axis.plot(start[0] + r * np.cos(theta), start[1] + r * np.sin(theta), "-", color="#2f7d4f", linewidth=1.0)
-    axis.annotate(f"roller ⌀{2 * r:.6g}", start, (start[0], start[1] + 2.2 * r), arrowprops={"arrowstyle": "->"})
+    axis.annotate(
+        f"roller ⌀{2 * r:.6g}", start, (start[0] + 1.2 * r, start[1] + 2.2 * r), arrowprops={"arrowstyle": "->"}
+    )
     axis.annotate(f"bore ⌀{_MM * bore:.6g}", (0, 0), (0.6 * r, -1.5 * r), arrowprops={"arrowstyle": "->"})
     reach = 1.15 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
     axis.plot([-reach, reach], [0, 0], "-.", [0, 0], [-reach, reach], "-.", color="#8a8f98", linewidth=0.7)
@@ -76,7 +85,9 @@ def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     for rho, angle, word in ((low, at_low, "smallest"), (high, at_high, "largest")):
         end = _MM * rho * np.array([math.cos(angle), math.sin(angle)])
         axis.annotate("", end, (0, 0), arrowprops={"arrowstyle": "<->", "color": "#b5342b"})
-        axis.text(*(0.3 * end), f"{word} rho {_MM * rho:.4f} mm\nat {math.degrees(angle):.3f}°", color="#b5342b")
+        told = f"{word} rho {_MM * rho:.4f} mm\nat {math.degrees(angle):.3f}°"
+        # beside the arrow, not on it
+        axis.annotate(told, 0.22 * end, (8, 8), textcoords="offset points", va="bottom", color="#b5342b")
 
 
 def _dense(curve: Any) -> np.ndarray:
@@ -123,8 +134,8 @@ def _notes(shop: Workshop) -> list[str]:
 def spring_text(spring: Any) -> str:
     """A spring in words: its kind and its numbers with units."""
     fields = dataclasses.fields(spring)
-    numbers = [f"{f.name} = {getattr(spring, f.name):.6g} {f.metadata['unit']}".removesuffix(" -") for f in fields]
-    return f"{type(spring).__name__}, {', '.join(numbers)}"
+    numbers = [f"{f.name} = {quantity_text(getattr(spring, f.name), f.metadata['unit'], 6)}" for f in fields]
+    return f"{_SPRINGS[type(spring)]}, {', '.join(numbers)}"
 
 
 def _share(value: float | None) -> str:

@@ -28,7 +28,7 @@ _COLORS = (BLUE, RED, GREEN, ORANGE)
 _ENGINES = {"OPSCE": "nunes-slider-crank", "OPGHE": "nunes-hypocycloid"}
 _PERFORMANCE = (
     ("torque_avg", "average torque [N m]"), ("power_kw", "power [kW]"), ("sfc_g_kwh", "consumption [g/kWh]"),
-    ("mep_kpa", "mean effective pressure [kPa]"), ("", "share of the fuel's energy"),
+    ("mep_kpa", "mean effective pressure [kPa]"), ("", "share of the fuel's energy [-]"),
     ("efficiency_percent", "thermal efficiency [%]"),
 )  # fmt: skip
 _SHARES = ("heat", "work", "exhaust", "unburnt")

@@ -20,7 +20,7 @@ def figures() -> dict[str, Figure]:
         left.text(1.08 * at[0] + 0.1, 1.08 * at[1] + 0.1, label, color=color)
     left.plot([x[k], x[k], 0], [0, y[k], y[k]], ":", color=INK, linewidth=0.8)
     left.set_aspect("equal")
-    left.set(xlabel="along axis a", ylabel="along axis b", xlim=(-5, 6.2), ylim=(-5, 5.4))
+    left.set(xlabel="along axis a [-]", ylabel="along axis b [-]", xlim=(-5, 6.2), ylim=(-5, 5.4))
     left.set_title("Fig. 3, inertia forces at one angle, over $m r \\omega^2$", fontsize=10)
     right.plot(np.degrees(alpha), x, color=BLUE, label="rod a")
     right.plot(np.degrees(alpha), y, color=RED, ls="--", label="rod b")
