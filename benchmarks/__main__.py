@@ -1,4 +1,4 @@
-"""python -m benchmarks [--out FOLDER] [P1 P2 P3 P4 P5]"""
+"""python -m benchmarks [--out FOLDER] [P1 P2 P3 P4 P5 P6]"""
 
 import importlib
 import sys
@@ -7,7 +7,8 @@ from pathlib import Path
 
 from benchmarks.report import table, write
 
-_PROBLEMS = {"P1": "p1_derive", "P2": "p2_evaluate", "P3": "p3_simulate", "P4": "p4_optimise", "P5": "p5_cycle"}
+_PROBLEMS = {"P1": "p1_derive", "P2": "p2_evaluate", "P3": "p3_simulate", "P4": "p4_optimise", "P5": "p5_cycle",
+             "P6": "p6_jobs"}  # fmt: skip
 
 
 def main(arguments: list[str]) -> int:
