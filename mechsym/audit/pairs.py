@@ -6,6 +6,7 @@ states; what was left out is found as for one slip, for all parts at once.
 """
 
 import ast
+import time
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
@@ -28,6 +29,7 @@ from mechsym.quantities import record
 MAX_PARTS = 90
 MIN_LEAVES = 5  # two edits make anything of less
 MAX_FIRST = 700
+MAX_SECONDS = 20.0  # of the processor, after which no further first slip is tried
 _MET = 1e-7
 
 
@@ -42,15 +44,19 @@ class _Known:
     solve: np.ndarray  #: shape (words + 1, states): Exponents of words from logarithms [-]
 
 
-def paired_repair(exam: Examination, start: Repair) -> Repair | None:
-    """The simplest pair of edits after which a formula is the derived quantity; None where it is too large."""
+def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]:
+    """The simplest pair of edits after which a formula is the derived quantity, and a note where not all were tried."""
     count = sum(1 for _ in walk(start.tree))
     if count > MAX_PARTS or sum(not children(node) for _, node in walk(start.tree)) < MIN_LEAVES:
-        return None
+        return None, ""
     known = _prepare(exam, start.tree)
     found: list[tuple[tuple[int, int], Edit, Edit]] = []
+    firsts, end, note = known.listed[:MAX_FIRST], time.process_time() + MAX_SECONDS, ""
     with np.errstate(all="ignore"):
-        for first in known.listed[:MAX_FIRST]:
+        for tried, first in enumerate(firsts):
+            if time.process_time() > end:
+                note = f"of two slips at once only the first {tried} of {len(firsts)} were tried, in {MAX_SECONDS:g} s"
+                break
             tree = apply(start.tree, first)
             with scratch(known.asked):
                 seconds = list(_seconds(known, first, tree))
@@ -60,8 +66,8 @@ def paired_repair(exam: Examination, start: Repair) -> Repair | None:
     for _, first, second in sorted(found, key=lambda f: f[0])[:60]:
         tree = apply(apply(start.tree, first), second)
         if is_exact(exam.judged, tree):
-            return standing(exam, tree, (*start.edits, first, second))
-    return None
+            return standing(exam, tree, (*start.edits, first, second)), ""
+    return None, note
 
 
 def _prepare(exam: Examination, tree: Node) -> _Known:

@@ -68,11 +68,12 @@ def search(exam: Examination, start: Repair) -> Found:
         return Found(verdict="misprint", repairs=tuple(mended))
     if mixed:
         return Found(verdict="mixed", note=mixed)
-    if pair := paired_repair(exam, start):
+    pair, cut = paired_repair(exam, start)
+    if pair is not None:
         return Found(verdict="misprint", repairs=(pair,))
     if raised:
-        return Found(verdict="nearer", nearer=raised[0])
-    return Found(verdict="wrong")
+        return Found(verdict="nearer", nearer=raised[0], note=cut)
+    return Found(verdict="wrong", note=cut)
 
 
 def _raising(exam: Examination, start: Repair) -> tuple[list[Repair], list[Repair]]:

@@ -1,7 +1,10 @@
 """Formulas against a mechanism from a file: all names of its declaration are quantities."""
 
+import re
+
 import pytest
 
+from mechsym.audit import pairs
 from mechsym.audit.code_rows import check_code
 from mechsym.audit.formula import Asked, check_file, check_formula
 from mechsym.errors import BadInput
@@ -67,6 +70,14 @@ def test_angles_of_links_and_names_that_nothing_is_put_out_of(folder):
         assert row["verdict"] == "exact" and row["max_rel_error"] < 1e-12
     with pytest.raises(BadInput, match="has no quantity 'angle_conrod'; it has .*angle_rod"):
         check_formula("phi", "./slider.py:angle_conrod")
+
+
+@pytest.mark.slow
+def test_the_search_for_two_slips_ends_and_says_so(folder, monkeypatch):
+    formula = "r*cos(phi) + l*sin(phi)**2 - 2*r/l + phi*r"
+    monkeypatch.setattr(pairs, "MAX_SECONDS", -1.0)
+    row = check_formula(formula, "./slider.py:x")
+    assert row["verdict"] == "wrong" and re.search(r"only the first 0 of \d+ were tried", row["note"])
 
 
 def test_a_slip_is_found_and_repaired(folder):
