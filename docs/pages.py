@@ -32,6 +32,7 @@ EXAMPLES = {
     "forces": "forces moroianu",
     "guide": "guide zotov-89 --dxf guide.dxf",
     "hinge": "hinge zotov-89",
+    "identify": "identify chmielewski --trace run/series.csv --free I2,k1",
     "mechanisms": "mechanisms",
     "native": "native --info",
     "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
@@ -45,6 +46,10 @@ EXAMPLES = {
     "sweep": 'sweep zotov-89 --of hinge --over "spring.p0=4..6 MPa:3"',
     "simulate": "simulate alpha-stirling --set simulation.turns=3",
     "size": "size nunes-hypocycloid",
+}
+# what has to have run before, in the same folder
+BEFORE = {
+    "identify": 'simulate chmielewski --set "simulation.t_end=3 s" --set "simulation.window=1 s" --out run',
 }
 ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
@@ -75,32 +80,35 @@ def commands(kept: Path) -> str:
     for name in sorted(COMMANDS):
         parts.append(f"## {name}\n\n{_block(_printed(kept, package, f'{name} --help'))}\n")
         if name in EXAMPLES:
-            parts.append(_block(f"$ mechsym {EXAMPLES[name]}\n{_printed(kept, package, EXAMPLES[name])}"))
+            lines = [line for line in (BEFORE.get(name), EXAMPLES[name]) if line]
+            shown = "\n".join(f"$ mechsym {line}" for line in lines)
+            parts.append(_block(f"{shown}\n{_printed(kept, package, *lines)}"))
     return "\n".join(parts) + "\n"
 
 
-def _printed(kept: Path, package: str, line: str) -> str:
-    """What a command prints, from the last time where neither it nor the program has changed."""
-    file = kept / f"{hashlib.sha256(line.encode()).hexdigest()[:16]}.txt"
+def _printed(kept: Path, package: str, *lines: str) -> str:
+    """What the last of some commands prints, from the last time where neither it nor the program has changed."""
+    file = kept / f"{hashlib.sha256(repr(lines).encode()).hexdigest()[:16]}.txt"
     if file.exists() and file.read_text(encoding="utf-8").startswith(f"{package}\n"):
         return file.read_text(encoding="utf-8").partition("\n")[2]
-    text = _run(line)
+    text = _run(*lines)
     file.write_text(f"{package}\n{text}", encoding="utf-8")
     return text
 
 
-def _run(line: str) -> str:
+def _run(*lines: str) -> str:
     import shlex
 
     here = os.getcwd()
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         try:
-            done = CliRunner().invoke(mechsym, shlex.split(line), prog_name="mechsym", catch_exceptions=False)
+            for line in lines:
+                done = CliRunner().invoke(mechsym, shlex.split(line), prog_name="mechsym", catch_exceptions=False)
+                if done.exit_code not in (0, 1):
+                    raise RuntimeError(f"mechsym {line} ended with {done.exit_code}: {done.output}")
         finally:
             os.chdir(here)
-    if done.exit_code not in (0, 1):
-        raise RuntimeError(f"mechsym {line} ended with {done.exit_code}: {done.output}")
     return str(done.output).rstrip().replace(str(Path.home()), "~")
 
 
