@@ -114,16 +114,23 @@ def _one(text: str, option: str) -> float:
     return parse(text.strip(), "-", option)
 
 
+def _percent(share: float | None) -> str | None:
+    return None if share is None else f"{100 * share:.4g}"
+
+
 def _text(numbers: dict[str, Any], files: list[Path]) -> str:
+    from mechsym.codesign.summary import prices
+
     bound, found, lost = numbers["bound"], numbers["verified"], numbers["losses"]
     names = ["p0"] if len(numbers["p0"]) == 1 else [f"p0 {s + 1}" for s in range(len(numbers["p0"]))]
     rows = [
         {"speed": n * RPM, "mep": load, **{name: p[k] for name, p in zip(names, numbers["p0"], strict=True)},
-         "ripple": numbers["speed_ripple"][k], "steady": found["steady_ripple"][k], "in time": found["time_ripple"][k],
-         "with losses": numbers["losses"]["speed_ripple"][k],
-         "losses": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
+         "ripple [%]": numbers["speed_ripple"][k], "steady [%]": found["steady_ripple"][k],
+         "in time [%]": found["time_ripple"][k], "with losses [%]": numbers["losses"]["speed_ripple"][k],
+         "losses [%]": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
         for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
     ]  # fmt: skip
+    rows = [{key: _percent(v) if key.endswith("[%]") else v for key, v in row.items()} for row in rows]
     floors = ", ".join(f"{r + 1}: {_inertia(j)}" for r, j in enumerate(bound["flywheel"]))
     pays = bound["springs_that_pay"]
     lines = [
@@ -138,8 +145,7 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
         "",
         table(rows, list(rows[0]), _UNITS),
         "",
-        *(f"{a['limit'].replace('_', ' ')}: {figure(a['multiplier'], 4)} kg*m^2 for one {a['unit']} more"
-          for a in numbers["active"]),
+        *(f"{what}: flywheel {worth}" for what, worth in prices(numbers)),
         *(f"limit passed: {words}" for words in found["broken"]),
     ]  # fmt: skip
     if numbers["pareto"]:

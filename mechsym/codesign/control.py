@@ -43,8 +43,7 @@ def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
     phi, omega = turn.phi, turn.omega
     load = np.asarray(load_torque(machine.load, omega))
     mean = np.trapezoid(load, phi) / np.ptp(phi)
-    steps = (load[1:] + load[:-1]) / 2 - mean
-    taken = np.concatenate([[0.0], np.cumsum(steps * np.diff(phi))])
+    taken = _integral(load - mean, phi)
     square = np.trapezoid(omega**2, phi) / np.ptp(phi)
     seen = -running.inertia(machine, phi) * (omega**2 - square) / 2 - taken
     columns = [_by_pressure(machine, s, phi) for s in range(len(machine.tracks))]
@@ -98,4 +97,11 @@ def _designed(machine: Running, phi: np.ndarray) -> np.ndarray:
     springs: Sequence = list(zip(machine.tracks, machine.pressures, strict=True))
     w = machine.point.work(phi) + sum(spring_energy(t, p0, phi) for t, p0 in springs)
     rollers = sum(running.added_inertia(t, phi) for t in machine.tracks)
-    return np.asarray(w + machine.point.omega**2 / 2 * rollers)
+    # of friction and heat, where they are designed for, the wave only: their mean is the regression's slope
+    given = 0.0 if machine.extra is None else _integral(machine.extra(phi), phi)
+    return np.asarray(w + machine.point.omega**2 / 2 * rollers - given)
+
+
+def _integral(torque: np.ndarray, phi: np.ndarray) -> np.ndarray:
+    """Work of a torque [N*m] from the first angle to each [J]."""
+    return np.concatenate([[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 * np.diff(phi))])

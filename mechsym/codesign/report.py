@@ -9,6 +9,7 @@ from mechsym.codesign import plots
 from mechsym.codesign.contact_block import contact_force, fine_path
 from mechsym.codesign.hardware import gas_pressure, outside
 from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.summary import prices
 from mechsym.codesign.task import Track
 from mechsym.files import to_json, write_quantities, write_text
 from mechsym.page import Grid, grid, page
@@ -59,7 +60,7 @@ def html(result: CoDesignResult, numbers: dict[str, Any], pictures: dict[str, st
     """The page as text."""
     return page(
         "codesign.html", result=result, numbers=numbers, figures=pictures, sizes=_SIZES,
-        points=_points(result, numbers), **_first_page(result),
+        points=_points(result, numbers), prices=prices(numbers), **_first_page(result),
     )  # fmt: skip
 
 
@@ -85,10 +86,11 @@ def _points(result: CoDesignResult, numbers: dict[str, Any]) -> Grid:
     rows = [
         {"speed": p.omega, "mean pressure": p.load,
          **{name: float(track.p0[k]) for name, track in zip(springs, tracks, strict=True)},
-         "ripple, programme": float(result.design.ripple[k]), "over the angle": float(checked.steady_ripple[k]),
-         "run in time": float(checked.time_ripple[k]),
+         "ripple, programme [%]": 100 * float(result.design.ripple[k]),
+         "over the angle [%]": 100 * float(checked.steady_ripple[k]),
+         "run in time [%]": 100 * float(checked.time_ripple[k]),
          "energy residual": ratio_text(float(checked.energy_residual[k]), 2),
-         "losses": float(numbers["losses"]["share"][k]), "after a misfire": numbers["misfire_speed_share"][k]}
+         "losses [%]": 100 * float(numbers["losses"]["share"][k]), "after a misfire": numbers["misfire_speed_share"][k]}
         for k, p in enumerate(result.design.task.points)
     ]  # fmt: skip
     units = {"speed": "rad/s", "mean pressure": "Pa", **dict.fromkeys(springs, "Pa")}

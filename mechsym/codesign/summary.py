@@ -13,6 +13,8 @@ from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import GuideLoads, Verified
 from mechsym.quantities import RPM
+from mechsym.quantities.display import figure, unit_for
+from mechsym.quantities.units import scale
 
 
 def summary(result: CoDesignResult) -> dict[str, Any]:
@@ -126,3 +128,13 @@ def peer(found: Rival) -> dict[str, Any]:
 
 def _numbers(values: np.ndarray) -> list[float | None]:
     return [float(v) if np.isfinite(v) else None for v in values]
+
+
+def prices(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+    """Each limit that is met with a unit of it for people, and what one such unit more changes the flywheel by."""
+    rows = []
+    for active in numbers["active"]:
+        unit = "%" if active["limit"] == "ripple" else unit_for(active["unit"], 1e3)
+        worth = active["multiplier"] * (0.01 if unit == "%" else scale(unit) / scale(active["unit"]))
+        rows.append((f"{active['limit'].replace('_', ' ')}, 1 {unit} more", f"{figure(worth, 4)} kg*m^2"))
+    return rows

@@ -8,6 +8,7 @@ import pytest
 from codesigns import design, task
 
 from mechsym.codesign import running
+from mechsym.codesign.control import hold
 from mechsym.codesign.loss import gas_turn, losses, machine_at, real
 from mechsym.codesign.programme import solve
 from mechsym.codesign.real import in_time, with_losses
@@ -79,6 +80,14 @@ def test_fast_and_slow_exchange_stand_in_the_programme(tau):
     assert verified.steady_ripple.max() == pytest.approx(0.02, rel=2e-2)
     index = gas_turn(found.tracks[0], found.tracks[0].p0[0], found.task.points[0], given).n_effective
     assert index == pytest.approx(small_stroke_index(tau * found.task.points[0].omega).real, abs=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", [0, 1])
+def test_a_controller_knows_what_is_lost(k):
+    held = hold(inside(), k, 0.10, turns=3)
+    assert held.pressure_error[0, 0] == pytest.approx(0.10)
+    assert np.abs(held.pressure_error[1:]).max() < 0.003
 
 
 def test_a_run_with_all_losses_closes_its_first_law():
