@@ -59,6 +59,15 @@ def _opposed(case: Case, data: Any) -> str | None:
     return "it acts on both ends of a slider" if "faces" in case.sections else None
 
 
+def _geared(case: Case, data: Any) -> str | None:
+    return None if _gearless(case, data) else "gears lead the piston: no side force"
+
+
+def _gearless(case: Case, data: Any) -> str | None:
+    # a pressure angle is what a mechanism with gears has among its letters
+    return None if hasattr(case.sections.get("parameters"), "alpha_n") else "there are no gears"
+
+
 def _measured(case: Case, data: Any) -> str | None:
     return "the cycle is measured" if isinstance(case.sections.get("cycle"), Diagram) else None
 
@@ -95,7 +104,9 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("rings", (), ("cycle",), _no_joints),
     ("parameters", _TURNING, ("cycle",), _not_reciprocating),
     ("parameters", ("m3", "m4", "m5"), ("cycle",), _measured),
-    ("parameters", ("I01", "I1", "I_link"), ("forces",), _said("the speed is held")),
+    ("parameters", ("I01", "I1", "I2", "I_link"), ("forces",), _said("the speed is held")),
+    ("friction", ("mu_guide",), ("forces",), _geared),
+    ("friction", ("mu_mesh", "module", "contact_ratio"), ("forces",), _gearless),
     ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
     ("chamber", ("back_pressure",), ("forces",), _opposed),
     ("shaking", ("limit",), ("forces",), _said("it only judges")),

@@ -29,7 +29,7 @@ def address():
                               stderr=subprocess.DEVNULL, env=OUTSIDE)  # fmt: skip
     where = f"http://127.0.0.1:{port}/"
     try:
-        for _ in range(300):
+        for _ in range(900):
             try:
                 urllib.request.urlopen(where, timeout=5).close()
                 break

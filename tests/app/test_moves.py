@@ -60,7 +60,13 @@ def test_each_slider_of_the_hinge_moves_it():
 
 @pytest.mark.slow
 @pytest.mark.heavy
-@pytest.mark.parametrize(("tab", "name"), [(tab, "zotov-89") for tab in ("cycle", "forces")])
+@pytest.mark.parametrize(
+    ("tab", "name"),
+    [
+        *(("cycle", name) for name in ("alpha-stirling", "balandin", "generator", "generator-breathing")),
+        *(("forces", name) for name in ("balandin", "generator", "generator-breathing", "nunes-hypocycloid")),
+    ],
+)
 def test_each_slider_of_a_run_moves_it(tab, name):
     held(tab, name)
 
@@ -72,3 +78,6 @@ def test_what_is_left_out_has_a_reason_that_follows_the_choice():
     assert "rollers.rolling_arm" not in other and "scavenging.warming" not in other
     assert "cycle.lhv" not in given and "cycle.lhv" in idle(cases.load("zotov-89"), "simulate")
     assert not idle(cases.load("nunes-slider-crank"), "size")
+    assert idle(cases.load("alpha-stirling"), "cycle")["stirling.wire"] == "kind is schmidt, without losses"
+    assert idle(cases.load("nunes-slider-crank"), "forces")["friction.module"] == "there are no gears"
+    assert "friction.mu_guide" in idle(cases.load("nunes-hypocycloid"), "forces")
