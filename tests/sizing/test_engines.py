@@ -154,3 +154,10 @@ def test_every_factor_holds_on_the_cases_own_grid():
     """All 800 speeds of the thesis, 10 to 8000 rpm in steps of 10."""
     found = size(load("nunes-hypocycloid", {"sizing.speed_step": "10 rpm"}))
     assert not found.failing and found.converged
+
+
+def test_a_pair_without_the_pitch_that_the_motion_wants_is_said():
+    gears = load("nunes-hypocycloid").need("part_gears")
+    assert hypocycloid_checks._check_pitch(gears, 13e-3) == []
+    (row,) = hypocycloid_checks._check_pitch(gears, 13.91e-3)
+    assert row.value == pytest.approx(0.91e-3) and row.safety_factor < 0.01 and "choose another e" in row.note

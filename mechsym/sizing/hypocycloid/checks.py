@@ -5,18 +5,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechsym.sizing.checks import Check, at_least, unsafe
+from mechsym.sizing.checks import Check, at_least, at_most, unsafe
 from mechsym.sizing.hypocycloid.engine import bending_moment, crank_loads, cylinder_loads, seats, spans, tooth_loads
 from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
 from mechsym.sizing.parts.bearing_design import Choice, check_bearing
 from mechsym.sizing.parts.crank_design import check_crank, check_output
 from mechsym.sizing.parts.gear_checks import check_gears
 from mechsym.sizing.parts.piston_design import check_cylinder, check_piston
+from mechsym.sizing.parts.records import GearPart
 from mechsym.sizing.rounding import at_speed
 from mechsym.sizing.rules.fatigue import endurance_limit
 from mechsym.sizing.rules.materials import get
 from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor
 from mechsym.sizing.wants import Wants
+
+_PLAY = 1e-6  # what a pitch radius may be off [m]
 
 
 def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
@@ -37,12 +40,22 @@ def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> l
         *check_piston(parts.piston, cylinder, wants, used["piston"]),
         *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
         *check_gears(parts.gears, teeth, wants, used["gears"]),
+        *_check_pitch(parts.gears, forces.e),
         *check_crank(parts.crank, crank, wants, used["crankshaft"]),
         *check_pinion_shaft(parts, forces, wants, stock),
         *check_output(parts.crank.output, crank, wants, used["shaft"]),
         *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
         _check_room(parts, wants, forces.e, places),
     ]
+
+
+def _check_pitch(gears: GearPart, e: float) -> list[Check]:
+    """The pinion rolls in the ring with the pitch radius e [m]; a row only where the pair has another."""
+    off = abs(gears.module * gears.teeth_pinion / 2 - e)
+    if off <= _PLAY:
+        return []
+    return [at_most("gears", "pitch radius of the pinion off e", off, _PLAY, "m", wanted=1.0, rule="pure rolling",
+                    source="geometry", note="no pair of the modules at hand fits; choose another e")]  # fmt: skip
 
 
 def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choice]) -> Check:
