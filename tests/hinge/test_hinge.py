@@ -193,7 +193,7 @@ def test_whole_cycle_leaves_nothing():
 
 
 def test_two_stroke_balances_are_the_same():
-    one, two = (balance.balance(built(), kind) for kind in balance.KINDS)
+    one, two = (balance.balance(built(), kind) for kind in balance.BALANCES)
     assert one.torque is two.torque
     assert dataclasses.replace(one, kind="every_turn", rest=two.rest, work=two.work) == two
 
