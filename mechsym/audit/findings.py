@@ -137,6 +137,8 @@ def _nearer(question: Question, verdict: Decision) -> str:
     if verdict.nearer is None:
         return ""
     text, error = write(question.formula, verdict.nearer.tree), verdict.nearer.max_rel_error
+    if verdict.nearer.exact:
+        return f"perhaps {text}"
     return f"nearer, and still not right: {text} (largest relative error {error:.3g})"
 
 

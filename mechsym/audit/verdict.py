@@ -21,6 +21,7 @@ from mechsym.quantities import record
 
 PASSED = ("exact", "truncation", "convention")  # exit status 0
 _NONE = 1e-9  # an error that is rounding only [-]
+_EITHER = "a term is too many, or one has lost a factor that the condition makes zero"
 OPEN = ("mixed", "untestable")  # exit status 3
 
 
@@ -89,6 +90,9 @@ def _searched(exam: Examination) -> Decision:
         other = examine(under(exam.question, condition))
         start = standing(other, tree)
         found = search(other, start)
+        if found.repairs and found.repairs[0].edits[-1].kind == "left out":
+            # a term to be taken away at constant speed may as well have lost what vanishes there
+            found = Found(verdict="nearer", nearer=found.repairs[0], note=_EITHER)
         note = "; ".join(n for n in (found.note, f"compared at {condition.told}") if n)
         exam = other
     else:

@@ -139,3 +139,10 @@ def test_a_letter_that_stands_for_itself_changes_nothing():
 
 def test_the_peak_of_nothing_is_zero_without_a_warning():
     assert peak([float("nan")] * 2) == 0 and peak([float("nan"), -3.0]) == 3
+
+
+def test_a_term_too_many_at_constant_speed_is_no_correction():
+    # it may as well have lost r*phidd
+    text = "sin(phi + beta)/cos(beta) + phid**2*r*(cos(phi + beta)/cos(beta) + lam*cos(phi)**2/cos(beta)**3)"
+    row = check_formula(text, "slider_crank.piston_acceleration")
+    assert (row["verdict"], row["correction"]) == ("nearer", None) and "lost a factor" in row["note"]

@@ -60,8 +60,7 @@ def doubles(each: int, seed: int) -> list[Spoiled]:
 
 def defined(forms: Mapping[str, Any], against: str) -> dict[str, str]:
     """Derived names that formulas of a theory may use."""
-    own = "crosshead" if against.startswith("crosshead.") else "common"
-    return dict(forms["define"][own])
+    return dict(forms["define"].get(against.partition(".")[0], forms["define"]["common"]))
 
 
 def _different(
