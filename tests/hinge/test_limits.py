@@ -187,3 +187,9 @@ def test_highest_point_lies_between_the_points():
     assert feasibility.highest(theta, np.cos(theta - 1.234)) == pytest.approx(1, abs=1e-5)
     assert feasibility.highest(theta, theta) == 2
     assert feasibility.highest(np.array([0.0, 1, 1, 2]), np.array([0.0, 3, 1, 0])) == 3
+
+
+def test_closing_is_a_share_of_the_spring_s_height():
+    found = verdict(spring={"H": 1.25})
+    (closing,) = (check for check in found.checks if check.name == "closing")
+    assert closing.text.startswith(f"closing z/H {found.z_max / 1.25:.4g} of")
