@@ -43,7 +43,10 @@ def repeating(
         if np.abs(rest).max() < settled:
             stable = all(np.abs(np.linalg.eigvals(slopes[:, :, k] + np.eye(n))).max() < 1 for k in range(lanes))
             return state if stable else None
-        move = np.stack([np.linalg.solve(slopes[:, :, k], -rest[:, k]) for k in range(lanes)], axis=1)
+        try:
+            move = np.stack([np.linalg.solve(slopes[:, :, k], -rest[:, k]) for k in range(lanes)], axis=1)
+        except np.linalg.LinAlgError:  # a state that no longer answers, as in a plenum of next to nothing
+            return None
         # no mass or energy may fall, or rise, by more than its half at once
         share = np.minimum(1.0, _WORTH / np.maximum(np.abs(move).max(axis=0), 1e-300))
         state = state + share * move * scale
