@@ -216,7 +216,9 @@ def _expressions(
     forces = list(totals.values())
     qdd = acceleration_function(mechanism)(*q, *u, *forces, *letters)
     outputs |= dict(zip(accelerations(mechanism), ca.vertsplit(qdd), strict=True)) | further
-    outputs |= _observed(mechanism, "kinematics", [*q, *letters])
+    seen = _observed(mechanism, "kinematics", [*q, *letters])
+    # a bearing or a guide may put a coordinate out, which is a state by its name
+    outputs |= {name: value for name, value in seen.items() if name not in mechanism.coordinates}
     if "reactions" in mechanism.functions:
         outputs |= _observed(mechanism, "reactions", [*q, *u, *ca.vertsplit(qdd), *forces, *letters])
     return ca.vertcat(*u, qdd), outputs

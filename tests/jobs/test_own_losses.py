@@ -11,6 +11,8 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs import own_turn
+from mechsym.jobs.export import ready
+from mechsym.out.laws import block_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 CASE = """mechanism = "./yoke.py"
@@ -83,3 +85,13 @@ def test_the_command_tells_it(tmp_path):
     assert json.loads(result.stdout)["friction"]["power"] > 0
     text = CliRunner().invoke(mechsym, ["forces", file]).stdout
     assert "friction takes" in text and "kg*m at 180 deg from the crank" in text
+
+
+def test_a_coordinate_that_a_bearing_puts_out_is_exported_once(tmp_path):
+    text = '[drive]\ntorque = "1 N*m"\ninput = "M_r"\n[simulation]\nt_end = "1 s"\n'
+    file = written(tmp_path, ROLES.format(radius=""))
+    with open(file, "a") as case:
+        case.write(text)
+    made = block_of("yoke", "", ready(cases.load(file)))
+    names = [port.name for port in (*made.states, *made.outputs)]
+    assert len(names) == len(set(names)) and "R_n_S" in names
