@@ -144,8 +144,11 @@ def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
 
 def _refuse(key: str, value: float, kind: Usual) -> None:
     if not kind.lowest <= value <= kind.highest:
-        unit = "" if kind.unit == "-" else f" {kind.unit}"
-        raise BadInput(f"{key} = {value:g}{unit}: possible is {_ends(kind.lowest, kind.highest)}{unit} ({kind.why})")
+        size, unit = (
+            (math.radians(1.0), " deg") if kind.unit == "rad" else (1.0, "" if kind.unit == "-" else f" {kind.unit}")
+        )
+        possible = _ends(kind.lowest / size, kind.highest / size)
+        raise BadInput(f"{key} = {value / size:g}{unit}: possible is {possible}{unit} ({kind.why})")
 
 
 def _doubt(key: str, value: float, kind: Usual) -> Doubt:
