@@ -76,6 +76,18 @@ def shaft_lines(
     Notes
     -----
     Source: derived here, from the equations of the mechanism. Valid at constant speed.
+
+    Examples
+    --------
+    A crank of 1 m, massless but for its rotor, and a long rod: at 90 degrees each newton on the piston is one newton
+    metre.
+
+    >>> from mechsym.mechanisms import bind
+    >>> letters = dict(r1=0.5, r2=0.5, l1=5e4, l2=5e4, m1=0, m2=0, m3=0, m4=0, m5=0, I01=1, IC2=0, g=0, axis_tilt=0)
+    >>> idle, lever = shaft_lines(bind("crosshead", letters), {"F": 1.0}, np.array([np.pi / 2]), 10.0,
+    ...                           {"M_r": 0.0, "M_h": 0.0})
+    >>> round(float(lever[0]), 4)
+    1.0
     """
     (q,) = mechanism.coordinates
     letters: dict[str, Any] = {q: phi, f"{q}d": np.full_like(phi, omega), **held}

@@ -60,6 +60,17 @@ def map_efficiency(points: Sequence[Sequence[float]], flow: np.ndarray, ratio: f
     ------
     BadInput
         A point outside the map: surge on its left, choke on its right
+
+    Notes
+    -----
+    Source: planes through each three neighbouring points of the map (Delaunay), flow and ratio by their largest. Valid
+    between the points that the maker measured.
+
+    Examples
+    --------
+    >>> points = ([0.1, 0.3, 0.1, 0.3], [1.0, 1.0, 3.0, 3.0], [0.6, 0.7, 0.6, 0.7])
+    >>> round(float(map_efficiency(points, np.array([0.2]), 2.0)[0]), 9)
+    0.65
     """
     flows, ratios, values = (np.asarray(p, float) for p in points)
     scale = np.array([flows.max(), ratios.max()])

@@ -97,6 +97,11 @@ def exchanger_capacity(spaces: FiveSpaces) -> Any:
 
     .. math:: K = V_h/T_h + V_r/T_r + V_k/T_k
 
+    Parameters
+    ----------
+    spaces : FiveSpaces
+        Volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler
+
     Returns
     -------
     K : float or CasADi expression
