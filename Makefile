@@ -51,7 +51,7 @@ test: | $(READY)
 test-slow: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "slow and not heavy"
 
-# what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids, 200 dead centres
+# what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids, 200 dead centres, intervals of fits
 test-heavy: | .venv/ready-all
 	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m heavy
 

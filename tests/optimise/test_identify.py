@@ -63,6 +63,7 @@ def test_one_speed_in_rpm_will_do(tmp_path, speeds):
     assert "residuals" in {doubt.code for doubt in found.doubts}
 
 
+@pytest.mark.heavy
 @pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say(tmp_path, speeds):
     records, held, noise = 60, 0, []
