@@ -9,7 +9,7 @@ import click
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
 
-_ROUND_OFF = 1e-14  # of quantities in SI: what trigonometry leaves of a zero
+_ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value with the same unit [-]
 
 
 @click.command("eval", short_help="Evaluate a mechanism at one state.")
@@ -83,11 +83,19 @@ def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
     flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
     units = {"kinetic_energy": "J", "potential_energy": "J", **listing["outputs"]}
     about = listing.get("reactions", {})
-    rows = ((key, _shown(value), units.get(key, ""), about.get(key, "")) for key, value in flat.items())
+    # an angle or a ratio is round-off beside 1; how small a length or an inertia may be, only its like can tell
+    largest = {unit: float(unit in ("rad", "rad/rad", "-")) for unit in units.values()}
+    for key, unit in units.items():
+        largest[unit] = max(largest[unit], abs(flat.get(key, 0.0)))
+    rows = (
+        (key, _shown(value, _ROUND_OFF * largest.get(units.get(key, ""), 0.0)), units.get(key, ""), about.get(key, ""))
+        for key, value in flat.items()
+    )
     return [f"{key:25s} {value:18s} {unit:12s} {who}".rstrip() for key, value, unit, who in rows]
 
 
-def _shown(value: Any) -> str:
+def _shown(value: Any, zero: float = 0.0) -> str:
+    """Ten digits of a number or a list; what is not above `zero` is 0 [unit of the value]."""
     if isinstance(value, list):
         return "[" + ", ".join(_shown(v) for v in value) + "]"
-    return f"{value:.10g}" if abs(value) > _ROUND_OFF else "0"
+    return f"{value:.10g}" if abs(value) > zero else "0"
