@@ -80,6 +80,8 @@ def sizing_view(found: Sizing) -> View:
     state = f"{len(found.failing)} of {len(checks)} too low" if found.failing else "all hold"
     about = f"{len(checks)} checks; masses and loads {'agree' if found.converged else 'do NOT agree'}"
     cards = [Card(name="safety factors", value=state, about=about, mark="no" if found.failing else "yes")]
+    if not checks and not found.failing:
+        cards = [Card(name="sizes", value="loads only", about="no rule sizes its parts")]
     for row in tightest(found)[:3]:
         wanted = f"factor; wanted {figure(row['wanted'])}"
         cards.append(Card(name=f"{row['component']}, {row['quantity']}", about=wanted,

@@ -66,8 +66,8 @@ def _cycle(case: Case) -> ReportPart:
     pictures = () if acting is None else acting.view.pictures
     power, rpm = float(found["power_kw"][0]), float(found["speed_rpm"][0])
     many = found.get("cylinders", 1)
-    verdict = f"{quantity_text(1e3 * power, 'W', 4)} at {figure(rpm, 4)} rpm" + (
-        f", {many} cylinders" if many > 1 else ""
+    verdict = f"The gas {'takes' if power < 0 else 'gives'} {quantity_text(1e3 * abs(power), 'W', 4)} at " + (
+        f"{figure(rpm, 4)} rpm" + (f", {many} cylinders" if many > 1 else "")
     )
     rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
     one = {k: v for k, v in (found.get("per_cylinder") or {}).items() if rubs or not k.startswith("brake")}
@@ -77,7 +77,7 @@ def _cycle(case: Case) -> ReportPart:
     given = kind_of(case.need("cycle")).given
     return ReportPart(
         name="cycle", title=TITLES["cycle"], view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
-        verdict=f"The gas gives {verdict}.", facts=facts,
+        verdict=f"{verdict}.", facts=facts,
         grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
         silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),),
         numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(case, acting)),
@@ -152,7 +152,8 @@ def _size(case: Case) -> ReportPart:
         name="size", title=TITLES["size"], view=found.view, state=INFEASIBLE if bad else DONE, verdict=f"{state}.",
         reason="" if not bad else state if found.failing else "masses and loads do not agree",
         grids=(grid("Sizes", sizes, ["component", "quantity", "value", "unit", "note"]), grid("Checks", checks, shown)),
-        limits=tuple(tight), numbers=found.rows, silent=("sizes follow standards; no finite elements",),
+        limits=tuple(tight), numbers=found.rows,
+        silent=("sizes follow standards; no finite elements",) if checks else (),
         decide=tuple(f"{c.component}: {c.quantity} is below the wanted factor" for c in found.failing),
     )  # fmt: skip
 
