@@ -10,9 +10,9 @@ from typing import Any
 from mechsym.audit import claims, conventions
 from mechsym.audit.assumptions import assumed
 from mechsym.audit.findings import Row, formula_row, unread_row
-from mechsym.audit.printer import to_python
 from mechsym.audit.question import Question
 from mechsym.audit.reader import AnyLetter, Formula, letter_pairs, read, read_expression
+from mechsym.audit.redefinition import refuse_left, refuse_letters
 from mechsym.audit.statement import Statement, statement
 from mechsym.audit.theory.catalogue import named, target
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
@@ -123,7 +123,8 @@ def question_of(asked: Asked, said: Statement) -> Question:
     text = said.right[0]
     formula = read(text, known(theory), pairs, theory.tape)
     if asked.hidden == "refused":
-        _refuse_redefinition(theory, formula)
+        refuse_letters(theory, formula)
+        refuse_left(theory, quantity, said.left, formula)
     check_sums(theory, formula.tree)
     under = assumed(theory, asked.assume, formula.letters)
     theory, quantity = _with_left(under.theory, quantity, said, formula)
@@ -133,17 +134,6 @@ def question_of(asked: Asked, said: Statement) -> Question:
     hold = {k: 0.0 for k in zero if k not in used} | dict(under.hold)
     note = "; ".join(n for n in (formula.note, said.note) if n)
     return Question(formula=replace(formula, note=note), theory=theory, quantity=quantity, hold=hold, where=under.where)
-
-
-def _refuse_redefinition(theory: Theory, formula: Formula) -> None:
-    for letter, meant in formula.letters.items():
-        # an author's F may be the derived total force and r his r1 + r2, but no datum may become another one
-        named_quantity = isinstance(meant, ast.Name) and (meant.id in theory.tape or meant.id == letter)
-        if letter in theory.letters and not named_quantity:
-            raise BadInput(
-                f"--letters '{letter}={to_python(meant)}': {letter} is a letter of {theory.name} already; write "
-                f"another letter for it in the formula, for example {letter}_own, and --letters '{letter}_own=..'"
-            )
 
 
 def _quantity(asked: Asked) -> tuple[Theory, str]:
@@ -165,7 +155,7 @@ def _with_left(theory: Theory, quantity: str, said: Statement, formula: Formula)
         if _is_name(said.left):
             return theory, quantity
         raise
-    if isinstance(left, ast.Name):
+    if isinstance(left, ast.Name) and isinstance(formula.letters.get(left.id, left), ast.Name):
         return theory, quantity
     meant = {m for n in letters_of(left) for m in letters_of(formula.letters.get(n, ast.Name(n, ast.Load())))}
     if not meant & {quantity, *dependencies(theory, [quantity])}:

@@ -17,7 +17,7 @@ from mechsym.audit.displayed import Displayed, displayed
 from mechsym.audit.findings import Row, unread_row
 from mechsym.audit.formula import Asked, answer, question_of
 from mechsym.audit.prover import agreement, judges
-from mechsym.audit.reader import is_latex, letter_pairs, read
+from mechsym.audit.reader import RESERVED, is_latex, letter_pairs, read
 from mechsym.audit.statement import Statement, statement
 from mechsym.audit.symbols import Symbols, left_letter, quantity_of, with_derivatives, without_argument
 from mechsym.audit.theory.catalogue import named
@@ -150,6 +150,8 @@ def _of_law(said: Statement, theory: Theory, symbols: Symbols) -> str:
 def _defined(
     equation: Displayed, name: str, left: str, said: Statement, theory: Theory, symbols: Symbols
 ) -> tuple[Theory, Row]:
+    if left in RESERVED:
+        raise BadInput(f"{left} is a constant or a function already and cannot be redefined")
     row = unread_row(name, f"{theory.name}.{left}", equation.text, "")
     row |= {"verdict": DEFINED} | _marks()
     if left in theory.letters or symbols.letter(left, theory):

@@ -29,6 +29,8 @@ _ALIASES = {
     "ln": "log",
     "Abs": "abs",
 }
+#: Names of constants and functions: no letter of an author can have one
+RESERVED = (*CONSTANTS, *limits.FUNCTIONS, *_ALIASES, *MEANINGS)
 # two operands without a sign between them: 2r, (a)b, r sin(phi); not the words of Python
 _PRODUCT = re.compile(
     r"(?<![\w.])\d+(?:\.\d+)?\s*[A-Za-z(]|\)\s*[A-Za-z0-9(]|"
@@ -145,7 +147,7 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
         tree = _author_letter(written)
         if not isinstance(tree, ast.Name):
             raise BadInput(f"{written!r} is not a letter; write for example R=r1+r2")
-        if tree.id in (*CONSTANTS, *limits.FUNCTIONS, *_ALIASES, *MEANINGS):
+        if tree.id in RESERVED:
             raise BadInput(f"--letters {written!r} cannot be a letter: {tree.id} has its meaning already; name another")
         found[tree.id] = value
     return found

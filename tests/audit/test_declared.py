@@ -99,6 +99,8 @@ def test_shipped_theories_have_values_everywhere(name):
         ("[letters]\nr = 'm'\n[define]\nx = 'curve(r, r).curvature'", "needs the angle"),
         ("[letters]\nr = 'm'\n[define]\nx = 'root(r, u, 1)'", "root is written"),
         ("[letters]\npi = 3.0\n[define]\nx = 'pi'", "not pi"),
+        ("[letters]\nsin = 3.0\n[define]\nx = 'sin'", "nor a function"),
+        ("[letters]\nr = 'm'\n[define]\nsin = 'r'", "no letter or function yet"),
     ],
 )
 def test_bad_declarations_name_the_place(text, reason):

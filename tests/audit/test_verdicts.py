@@ -103,6 +103,30 @@ def test_bad_words_are_refused_with_the_way_out(more, reason):
         check_formula("r", "slider_crank.x", **more)
 
 
+@pytest.mark.parametrize(
+    ("text", "letters", "told"),
+    [
+        ("r=2", "", "'r = ..': r is a letter of slider_crank already and cannot be redefined; write 'x = ..'"),
+        (r"\varphi = 2", "", "phi is a letter of slider_crank already"),
+        ("sin = 2", "", "sin is a constant or a function already"),
+        ("pi = 3", "", "pi is a constant or a function already"),
+        ("R = 2", "R=r", "R is r already, by --letters"),
+    ],
+)
+def test_a_left_side_redefines_nothing(text, letters, told):
+    with pytest.raises(BadInput) as refused:
+        check_formula(text, "slider_crank.x", letters)
+    assert told in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("left", "letters"), [("x", ""), ("s", "s=x"), ("s", ""), ("2*x/2", ""), ("S", "S=2*x/2"), (r"\xi", "")]
+)
+def test_a_left_side_may_name_the_quantity_or_be_a_law(left, letters):
+    text = f"{left} = r*(1 - cos(phi)) + l*(1 - cos(beta))"
+    assert check_formula(text, "slider_crank.x", letters)["verdict"] == "exact"
+
+
 def test_a_derived_name_may_be_told_again_in_data():
     row = check_formula("r*(1-cos(phi))+r**2/(4*l)*(1-cos(2*phi))", "crosshead.x", letters="r=r1+r2,l=l1+l2")
     assert row["verdict"] == "truncation"

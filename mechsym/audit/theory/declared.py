@@ -21,6 +21,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from mechsym.audit.reader import RESERVED
 from mechsym.audit.theory.language import define
 from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape
@@ -60,8 +61,8 @@ def _theory(content: Mapping[str, Any], name: str, where: str) -> Theory:
         letters |= {angle: Letter(unit="rad", value=1.0)}
     tape = TheoryTape({}, letters, angle)
     for own, text in _table(content, "define").items():
-        if not _NAME.fullmatch(own) or own in letters:
-            raise BadInput(f"define.{own}: a name of letters and digits that is no letter yet is needed")
+        if not _NAME.fullmatch(own) or own in (*letters, *RESERVED):
+            raise BadInput(f"define.{own}: a name of letters and digits that is no letter or function yet is needed")
         if not isinstance(text, (str, int, float)) or isinstance(text, bool):
             raise BadInput(f"define.{own} is a text in quotes, such as 'r*sin(phi)'")
         try:
@@ -107,8 +108,8 @@ def _among(found: Any, key: str, letters: Mapping[str, Letter]) -> tuple[str, ..
 def _letters(table: Mapping[str, Any], angle: str) -> dict[str, Letter]:
     found = {}
     for own, about in table.items():
-        if not _NAME.fullmatch(own) or own == "pi":
-            raise BadInput(f"letters.{own}: a letter is a name of letters and digits, and not pi")
+        if not _NAME.fullmatch(own) or own in RESERVED:
+            raise BadInput(f"letters.{own}: a letter is a name of letters and digits, and not pi nor a function")
         found[own] = _letter(own, about)
     rates = {f"{angle}d": Letter(unit="rad/s", value=10.0), f"{angle}dd": Letter(unit="rad/s^2", value=3.0)}
     return found | {k: v for k, v in rates.items() if angle and k not in found}
