@@ -13,6 +13,17 @@ from mechsym.sweep import cycles, guides, singles
 from mechsym.sweep.outcomes import Gap, Outcome, known
 
 ANALYSES = ("simulate", "hinge", "guides", "cycle", "forces", "size", "codesign")
+_SCIPY = ("scipy.interpolate", "scipy.optimize")
+#: What the points of an analysis read of the program; workers begin with it
+READS = {
+    "simulate": ("mechsym.jobs.loop", "mechsym.jobs.problem", "mechsym.simulate.many", "mechsym.torsion.twist", *_SCIPY),
+    "hinge": ("mechsym.hinge.summary", "mechsym.jobs.hinge", *_SCIPY),
+    "guides": ("mechsym.hinge.kernel", "mechsym.hinge.limits", "mechsym.jobs.machine", *_SCIPY),
+    "cycle": ("mechsym.cycle.closed.run", "mechsym.jobs.cycle", "mechsym.jobs.whole_engine", *_SCIPY),
+    "forces": ("mechsym.forces.summary", "mechsym.jobs.forces", *_SCIPY),
+    "size": ("mechsym.jobs.size", *_SCIPY),
+    "codesign": ("mechsym.codesign.summary", "mechsym.jobs.codesign", *_SCIPY),
+}
 # what one point takes, roughly [s]
 _SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
 # verdicts on a run whose numbers cannot be trusted
@@ -94,14 +105,25 @@ def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
 
 def _hinges(show: tuple[str, ...]) -> Callable[[Case], dict[str, Any]]:
     """Designs with what is shown; how they run is computed only where a name asks for it."""
-    from mechsym.hinge.summary import KEYS, QUICK, summary
-    from mechsym.jobs.hinge import hinge
+    if show:
+        _check_hinge_keys(show)
+
+    def one(case: Case) -> dict[str, Any]:
+        from mechsym.hinge.summary import KEYS, QUICK, summary
+        from mechsym.jobs.hinge import hinge
+
+        only = KEYS if "all" in show else {name.partition(".")[0] for name in show} or QUICK
+        return summary(hinge(case), only)
+
+    return one
+
+
+def _check_hinge_keys(show: tuple[str, ...]) -> None:
+    from mechsym.hinge.summary import KEYS
 
     for name in show:
         if name != "all" and name.partition(".")[0] not in KEYS:
             raise BadInput(f"--show {name} is no result here; {suggest(name, [*KEYS, 'all'])}")
-    only = KEYS if "all" in show else {name.partition(".")[0] for name in show} or QUICK
-    return lambda case: summary(hinge(case), only)
 
 
 def _maps(found: Sequence[Case]) -> list[Outcome]:

@@ -22,7 +22,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known
-from mechsym.sweep.points import Route, route
+from mechsym.sweep.points import READS, Route, route
 from mechsym.sweep.ties import ties
 
 Here = Mapping[str, Any]  # values of the axes at a point, as `--set` takes them
@@ -150,8 +150,17 @@ class _Worker:
     pipe: Any
 
 
+def _context(analysis: str) -> Any:
+    """Workers are forked by a process that has read the program once and has one thread, so that this is safe."""
+    if "forkserver" not in mp.get_all_start_methods():
+        return mp.get_context("spawn")
+    context = mp.get_context("forkserver")
+    context.set_forkserver_preload([__name__, *READS[analysis]])
+    return context
+
+
 def _started(order: SweepOrder) -> _Worker:
-    context = mp.get_context("spawn")
+    context = _context(order.analysis)
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, order), daemon=True, name="sweep")
     # two workers with two threads each would only wait for each other
