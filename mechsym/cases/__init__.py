@@ -16,7 +16,7 @@ from typing import Any
 
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
-from mechsym.cases.values import Place, convert, override, place, without_unit
+from mechsym.cases.values import Place, convert, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.files import read_text
 from mechsym.mechanisms import own
@@ -128,7 +128,7 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
 
 def _beside(found: Any, name: str) -> Any:
     """The record with its paths of files that lie beside the case file and not in the working folder."""
-    written = {f.name: getattr(found, f.name) for f in dataclasses.fields(found) if f.metadata.get("path")}
+    written = {name: getattr(found, name) for name in paths(found.__class__)}
     if not any(written.values()):
         return found
     folder = Path(str(_folder())) if name in names() else Path(name).parent

@@ -5,6 +5,7 @@ twist = { up_to = "2 rad", why = "the source's model; a real shaft breaks" }
 """
 
 import dataclasses
+import functools
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -62,11 +63,10 @@ def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
         Whether the mechanism is the user's own, whose letters may mean anything
     """
     values = {
-        f"{section}.{field.name}": value
+        key: value
         for section, record in sections.items()
-        if dataclasses.is_dataclass(record)
-        for field in dataclasses.fields(record)
-        if isinstance(value := getattr(record, field.name), float) and math.isfinite(value)
+        for key, name in _keys(section, record.__class__)
+        if isinstance(value := getattr(record, name), float) and math.isfinite(value)
     }
     if own:
         known = {key: value for key, value in values.items() if key.partition(".")[0] not in _LETTERS}
@@ -79,6 +79,13 @@ def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
     if guide is not None and stroke:
         found += proportion("guide_size", "guide.rho0 / stroke", guide / stroke)
     return found + scaled(_masses(sections, area), spring, area)
+
+
+@functools.lru_cache(maxsize=256)
+def _keys(section: str, kind: Any) -> tuple[tuple[str, str], ...]:
+    """Dotted keys and names of the values of a section."""
+    fields = dataclasses.fields(kind) if dataclasses.is_dataclass(kind) else ()
+    return tuple((f"{section}.{f.name}", f.name) for f in fields)
 
 
 def _piston_area(sections: Mapping[str, Any]) -> float | None:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import difflib
+import functools
 from collections.abc import Mapping
 from types import NoneType, UnionType
 from typing import Any, get_args, get_origin
@@ -157,3 +158,9 @@ def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:
         return known | {f.name for f in dataclasses.fields(schema.record(mechanism, section, table))}
     except (KeyError, BadInput):
         return known | set(table)
+
+
+@functools.lru_cache(maxsize=256)
+def paths(kind: Any) -> tuple[str, ...]:
+    """Names of the values that are paths of files."""
+    return tuple(f.name for f in dataclasses.fields(kind) if f.metadata.get("path"))

@@ -105,9 +105,11 @@ def rows_of(found: Any) -> list[dict[str, Any]]:
 def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
     import numpy as np
 
-    low, high = int(np.nanargmin(column)), int(np.nanargmax(column))
+    ends = np.nanmin(column), np.nanmax(column)
+    # of points that differ by round-off the first
+    low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-12 * np.abs(end))[0]) for end in ends)
     return {
-        "name": name, "min": float(column[low]), "at min": place(found, low), "max": float(column[high]),
+        "name": name, "min": float(ends[0]), "at min": place(found, low), "max": float(ends[1]),
         "at max": place(found, high), "mean": float(np.nanmean(column)), "std": float(np.nanstd(column)),
     }  # fmt: skip
 

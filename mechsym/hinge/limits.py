@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.hinge.choices import Limits
+from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
 from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, Spring, closing, path
 from mechsym.hinge.rollers import RollerParameters
@@ -70,9 +70,15 @@ def judge(guide: Guide, rollers: RollerParameters, limits: Limits) -> Verdict:
     if guide.rho is None:
         failed = LimitCheck(name="spring", text=guide.reason, kept=False, margin=-1.0)
         return Verdict(feasible=False, reason=guide.reason, margin=-1.0, checks=(failed,))
-    contact = at_pieces(guide, rollers)
-    numbers = _numbers(guide, contact)
-    checks = (*_spring_checks(numbers, guide.spring, limits), *_track_checks(guide, numbers, rollers, limits))
+    return verdict(_numbers(guide, at_pieces(guide, rollers)), guide.spring, guide.parameters, rollers, limits)
+
+
+def verdict(
+    numbers: dict[str, Any], spring: Spring, parameters: GuideParameters, rollers: RollerParameters, limits: Limits
+) -> Verdict:
+    """What the numbers of a guide say of the limits, by the names of `Verdict`."""
+    track = _track_checks(numbers, spring, parameters, rollers, limits)
+    checks = (*_spring_checks(numbers, spring, limits), *track)
     return Verdict(
         feasible=all(c.kept for c in checks),
         reason=_reason(checks),
@@ -185,20 +191,22 @@ def _spring_checks(numbers: dict[str, Any], spring: Spring, limits: Limits) -> l
     return checks
 
 
-def _track_checks(guide: Guide, numbers: dict[str, Any], rollers: RollerParameters, limits: Limits) -> list[LimitCheck]:
+def _track_checks(
+    numbers: dict[str, Any], spring: Spring, parameters: GuideParameters, rollers: RollerParameters, limits: Limits
+) -> list[LimitCheck]:
     angle, stress = math.degrees(numbers["pressure_angle_max"]), numbers["hertz_stress_max"]
     reaction = numbers["roller_reaction_max"] / 1e3
     checks = [
         _at_most("pressure_angle", "pressure angle", angle, math.degrees(limits.pressure_angle), "deg"),
         _undercut_check(numbers["undercut_radius"], rollers.radius, limits.profile_radius),
         _at_most("roller_reaction", "roller reaction", reaction, limits.roller_reaction / 1e3, "kN"),
-        _closure_check(guide.closure, _CLOSURE * guide.parameters.rho0),
+        _closure_check(numbers["closure"], _CLOSURE * parameters.rho0),
         _at_most("centre", "roller radius in the smallest rho", rollers.radius, numbers["rho_min"], "m"),
     ]
     if math.isfinite(stress):
         checks.append(_at_most("hertz_stress", "contact pressure", stress / 1e6, limits.hertz_stress / 1e6, "MPa"))
-    if guide.rollers == 2 and not isinstance(guide.spring, Coil):
-        checks.append(_room_check(guide.parameters.rho0, guide.spring.H, rollers.radius))
+    if ROLLERS[parameters.arrangement] == 2 and not isinstance(spring, Coil):
+        checks.append(_room_check(parameters.rho0, spring.H, rollers.radius))
     return checks
 
 

@@ -41,6 +41,20 @@ class AtLoad:
 
 
 @record
+class JudgedHinge:
+    """What is known of a hinge before its guide is cut."""
+
+    machine: Machine
+    hinge: Hinge
+    verdict: Verdict
+
+    @property
+    def flywheels(self) -> Flywheels:
+        """What the hinge saves; the same for every guide of one engine."""
+        return steady.flywheels(self.machine, self.hinge)
+
+
+@record
 class Origin:
     """What a design was made from, for its report."""
 

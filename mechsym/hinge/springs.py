@@ -52,7 +52,10 @@ class Coil:
 
 @record
 class SpringLaw:
-    """Functions of one spring. They take floats and arrays; `force` on a float stays plain Python and is fast."""
+    """Functions of one spring, or of springs whose values are arrays of shape (n,), element by element.
+
+    They take floats and arrays; `force` on a float stays plain Python and is fast.
+    """
 
     force: Callable[[Any], Any]  #: Closing z [m] to force, positive outwards [N]
     energy: Callable[[Any], Any]  #: Closing z [m] to stored energy, 0 at z = 0 [J]
@@ -68,13 +71,7 @@ class SpringLaw:
 
 def law(spring: AirGauge | AirAbsolute | Coil) -> SpringLaw:
     """The functions of a spring."""
-    match spring:
-        case AirGauge():
-            return air_gauge(spring)
-        case AirAbsolute():
-            return air_absolute(spring)
-        case Coil():
-            return coil(spring)
+    return LAWS[type(spring)](spring)
 
 
 def gauge_pressure(z: Any, H: Any, p0: Any, n: Any) -> Any:
@@ -191,7 +188,7 @@ def air_gauge(spring: AirGauge) -> SpringLaw:
         pressure=lambda z: gauge_pressure(z, H, p0, n),
         z_low=-math.inf,
         z_high=H,
-        energy_low=-full / (n - 1) if n > 1 else -math.inf,
+        energy_low=-_inverse(full, n - 1),
         energy_high=math.inf,
     )
 
@@ -216,7 +213,7 @@ def air_absolute(spring: AirAbsolute) -> SpringLaw:
     """
     A, H, p0, n, pa = spring.A, spring.H, spring.p0, spring.n, spring.pa
     full = A * (p0 + pa) * H
-    s_low = -math.log1p(p0 / pa) / n
+    s_low: Any = -np.log1p(p0 / pa) / n
 
     def energy_of(s: Any) -> Any:
         return full * _power_integral(s, n - 1) + A * pa * H * np.expm1(-s)
@@ -241,9 +238,9 @@ def air_absolute(spring: AirAbsolute) -> SpringLaw:
         energy=lambda z: energy_of(-np.log1p(-np.asarray(z) / H)),
         closing=closing,
         pressure=lambda z: absolute_pressure(z, H, p0, n, pa),
-        z_low=-H * math.expm1(-s_low),
+        z_low=-H * np.expm1(-s_low),
         z_high=H,
-        energy_low=float(energy_of(s_low)),
+        energy_low=energy_of(s_low),
         energy_high=math.inf,
     )
 
@@ -263,7 +260,9 @@ def coil(spring: Coil) -> SpringLaw:
     def closing(U: Any) -> Any:
         # 2 U / (F0 + root) keeps its digits where (root - F0) / k would lose them; at F0 = U = 0 both are 0
         root = np.sqrt(F0**2 + 2 * k * np.asarray(U))
-        return (root - F0) / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
+        if np.ndim(F0) == 0:
+            return (root - F0) / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
+        return np.where(F0 == 0, root / k, 2 * np.asarray(U) / np.where(F0 == 0, 1.0, F0 + root))
 
     return SpringLaw(
         force=lambda z: coil_force(z, k, F0),
@@ -277,10 +276,26 @@ def coil(spring: Coil) -> SpringLaw:
     )
 
 
-def _power_integral(s: Any, e: float) -> Any:
+def _power_integral(s: Any, e: Any) -> Any:
     """Integral of exp(e s) from 0 to s: (exp(e s) - 1) / e, and s at e = 0."""
+    if np.ndim(e):
+        safe = np.where(e > 0, e, 1.0)
+        return np.where(e > 0, np.expm1(safe * s) / safe, s)
     return np.expm1(e * s) / e if e > 0 else s
 
 
-def _inverse_power_integral(q: Any, e: float) -> Any:
+def _inverse_power_integral(q: Any, e: Any) -> Any:
+    if np.ndim(e):
+        safe = np.where(e > 0, e, 1.0)
+        return np.where(e > 0, np.log1p(safe * q) / safe, q)
     return np.log1p(e * q) / e if e > 0 else q
+
+
+def _inverse(full: Any, e: Any) -> Any:
+    """full / e, infinite at e = 0."""
+    if np.ndim(e):
+        return np.where(e > 0, full / np.where(e > 0, e, 1.0), math.inf)
+    return full / e if e > 0 else math.inf
+
+
+LAWS: dict[type, Callable[[Any], SpringLaw]] = {AirGauge: air_gauge, AirAbsolute: air_absolute, Coil: coil}

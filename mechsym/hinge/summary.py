@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.hinge.contact import Contact, at_angles
-from mechsym.hinge.result import AtLoad, Design
+from mechsym.hinge.result import AtLoad, Design, JudgedHinge
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.steady import RIPPLE
 from mechsym.hinge.ways import Offer
@@ -15,11 +15,13 @@ from mechsym.machine.record import gas_of
 from mechsym.quantities import RPM
 
 
-def summary(design: Design, only: Collection[str] | None = None) -> dict[str, Any]:
+def summary(design: Design | JudgedHinge, only: Collection[str] | None = None) -> dict[str, Any]:
     """Results of a design by name, in SI unless a key names another unit.
 
     Parameters
     ----------
+    design : Design or JudgedHinge
+        The second has what `QUICK` asks for
     only : collection of str, optional
         Keys that are wanted; what the others need is not computed
 
@@ -31,7 +33,7 @@ def summary(design: Design, only: Collection[str] | None = None) -> dict[str, An
     return {key: value(design) for key, value in _VALUES.items() if only is None or key in only}
 
 
-def _guide(design: Design) -> dict[str, Any]:
+def _guide(design: Design | JudgedHinge) -> dict[str, Any]:
     verdict = design.verdict
     numbers = (
         "rho_min", "rho_max", "z_min", "z_max", "pressure_angle_max", "curvature_radius_min", "roller_reaction_max",
@@ -187,7 +189,7 @@ def guide_columns(design: Design, contact: Contact) -> dict[str, np.ndarray]:
     return columns | ({} if contact.pressure is None else {"spring_excess_pressure": contact.pressure})
 
 
-_VALUES: dict[str, Callable[[Design], Any]] = {
+_VALUES: dict[str, Callable[[Any], Any]] = {
     "speed_rpm": lambda d: d.machine.omega / RPM,
     "p_max_bar": lambda d: gas_of(d.machine).pressure.p_max / 1e5 if gas_of(d.machine).has_pressure else None,
     "mep_bar": lambda d: gas_of(d.machine).pressure.mean_indicated / 1e5 if gas_of(d.machine).has_pressure else None,

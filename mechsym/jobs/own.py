@@ -19,6 +19,7 @@ from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_
 from mechsym.jobs.starts import guesses
 from mechsym.machine.loads import PropellerLoad, settle
 from mechsym.mechanisms import loops
+from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.record import Mechanism, listing
 from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.simulate.engine import load_value
@@ -53,7 +54,12 @@ def constants(case: Case) -> dict[str, float]:
 
 def roles(case: Case, kind: str) -> list[dict[str, Any]]:
     """Parts of a kind in the declaration: `piston`, `rotor`, `bearing`, .."""
-    return list(mechanisms.listing(case.mechanism).get("roles", {}).get(kind, []))
+    known = mechanisms.listing(case.mechanism) if is_file(case.mechanism) else _listing(case.mechanism)
+    return list(known.get("roles", {}).get(kind, []))
+
+
+# the points of a sweep ask again and again; a file of the user's own may have changed since
+_listing = lru_cache(maxsize=16)(mechanisms.listing)
 
 
 def driving_input(case: Case) -> str:

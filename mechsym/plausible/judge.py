@@ -58,12 +58,17 @@ def inputs(values: Mapping[str, float]) -> tuple[Doubt, ...]:
     """
     found = []
     for key, value in values.items():
-        section, _, name = key.rpartition(".")
-        for kind in INPUTS:
-            if name in kind.keys and kind.section in ("", section):
-                _refuse(key, value, kind)
-                found += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
+        for kind in _kinds_of_input(key):
+            _refuse(key, value, kind)
+            found += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
     return tuple(found)
+
+
+# the points of a sweep have the same keys
+@functools.lru_cache(maxsize=4096)
+def _kinds_of_input(key: str) -> tuple[Usual, ...]:
+    section, _, name = key.rpartition(".")
+    return tuple(kind for kind in INPUTS if name in kind.keys and kind.section in ("", section))
 
 
 def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:

@@ -15,6 +15,7 @@ cluster.py   chunks on a dask cluster
 store.py     finished points in a file: the same command goes on where it stopped
 stopping.py  Ctrl-C and SIGTERM
 points.py    how a chunk is computed: simulations, hinges, cycles; singles.py has the other commands
+hinges.py    hinges whose guides are judged side by side
 guides.py    which guides can be built, many at once
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason

@@ -1,7 +1,7 @@
 """What comes out at a point of a sweep: results by name, or a gap with a reason."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,8 @@ from mechsym.quantities import record
 WORDS = ("status", "end", "guide.reason")
 # the clock tells nothing of the machine, and an event is told by its parts
 _NO_RESULT = ("wall_s", "event")
+# what impossible values run into where no record refuses them; anything else is a mistake of the program
+ARITHMETIC = (ArithmeticError, ValueError, RuntimeError)
 
 
 @record
@@ -38,6 +40,20 @@ def known(error: Exception) -> Gap:
     if isinstance(error, BadInput):
         return Gap(reason=words, of_input=True)
     return Gap(reason=f"{type(error).__name__}: {words}")
+
+
+def guarded(one: Callable[[Any], Any], case: Any) -> Any:
+    """What a function gives, or the gap that its error leaves.
+
+    Parameters
+    ----------
+    one : callable
+        Of the case, or of whatever stands for it
+    """
+    try:
+        return one(case)
+    except ARITHMETIC as error:
+        return known(error)
 
 
 def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:

@@ -5,19 +5,25 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mechsym.cases import Case
-from mechsym.errors import BadInput, suggest
+from mechsym.errors import BadInput
 from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.traits import is_train
 from mechsym.quantities import record
-from mechsym.sweep import cycles, guides, singles
-from mechsym.sweep.outcomes import Gap, Outcome, known
+from mechsym.sweep import cycles, guides, hinges, singles
+from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded, known
 
 ANALYSES = ("simulate", "hinge", "guides", "cycle", "forces", "size", "codesign")
 _SCIPY = ("scipy.interpolate", "scipy.optimize")
 #: What the points of an analysis read of the program; workers begin with it
 READS = {
-    "simulate": ("mechsym.jobs.loop", "mechsym.jobs.problem", "mechsym.simulate.many", "mechsym.torsion.twist", *_SCIPY),
-    "hinge": ("mechsym.hinge.summary", "mechsym.jobs.hinge", *_SCIPY),
+    "simulate": (
+        "mechsym.jobs.loop",
+        "mechsym.jobs.problem",
+        "mechsym.simulate.many",
+        "mechsym.torsion.twist",
+        *_SCIPY,
+    ),
+    "hinge": ("mechsym.hinge.side_by_side", "mechsym.hinge.summary", "mechsym.jobs.hinge", *_SCIPY),
     "guides": ("mechsym.hinge.kernel", "mechsym.hinge.limits", "mechsym.jobs.machine", *_SCIPY),
     "cycle": ("mechsym.cycle.closed.run", "mechsym.jobs.cycle", "mechsym.jobs.whole_engine", *_SCIPY),
     "forces": ("mechsym.forces.summary", "mechsym.jobs.forces", *_SCIPY),
@@ -28,8 +34,6 @@ READS = {
 _SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
 # verdicts on a run whose numbers cannot be trusted
 _BAD = ("failed", "not converged", "chaotic")
-# what impossible values run into where no record refuses them; anything else is a mistake of the program
-_ARITHMETIC = (ArithmeticError, ValueError, RuntimeError)
 _LANES = 16  # runs that the compiled integrator takes side by side
 
 
@@ -65,9 +69,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
         # one block of lanes: what runs beside a point is the same on any machine
         return Route(analysis=analysis, run=_simulated, together=_LANES, seconds=0.03)
     if analysis == "hinge":
-        runs = bool(show) and not all(name.startswith("guide") for name in show)
-        return Route(analysis=analysis, run=_each(_hinges(show)), together=1 if runs else 16,
-                     seconds=0.5 if runs else 0.006)  # fmt: skip
+        return _hinges(show)
     if analysis == "guides":
         return Route(analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.001,
                      at=guides.guides)  # fmt: skip
@@ -77,6 +79,14 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     if cycles.mapped(case):
         return Route(analysis=analysis, run=_maps, together=cycles.BLOCK, seconds=0.002)
     return Route(analysis=analysis, run=_each(cycles.single), together=1, seconds=0.01)
+
+
+def _hinges(show: tuple[str, ...]) -> Route:
+    if show:
+        hinges.check_keys(show)
+        if hinges.runs(show):
+            return Route(analysis="hinge", run=_each(hinges.designed(show)), together=1, seconds=0.5)
+    return Route(analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.001)
 
 
 def _meant(case: Case) -> str:
@@ -93,37 +103,7 @@ def _meant(case: Case) -> str:
 
 
 def _each(one: Callable[[Case], dict[str, Any]]) -> Callable[[Sequence[Case]], list[Outcome]]:
-    return lambda found: [_guarded(one, case) for case in found]
-
-
-def _guarded(one: Callable[[Any], Any], case: Any) -> Any:
-    try:
-        return one(case)
-    except _ARITHMETIC as error:
-        return known(error)
-
-
-def _hinges(show: tuple[str, ...]) -> Callable[[Case], dict[str, Any]]:
-    """Designs with what is shown; how they run is computed only where a name asks for it."""
-    if show:
-        _check_hinge_keys(show)
-
-    def one(case: Case) -> dict[str, Any]:
-        from mechsym.hinge.summary import KEYS, QUICK, summary
-        from mechsym.jobs.hinge import hinge
-
-        only = KEYS if "all" in show else {name.partition(".")[0] for name in show} or QUICK
-        return summary(hinge(case), only)
-
-    return one
-
-
-def _check_hinge_keys(show: tuple[str, ...]) -> None:
-    from mechsym.hinge.summary import KEYS
-
-    for name in show:
-        if name != "all" and name.partition(".")[0] not in KEYS:
-            raise BadInput(f"--show {name} is no result here; {suggest(name, [*KEYS, 'all'])}")
+    return lambda found: [guarded(one, case) for case in found]
 
 
 def _maps(found: Sequence[Case]) -> list[Outcome]:
@@ -137,7 +117,7 @@ def _bisected(family: list[Case]) -> list[Outcome]:
     """A map refuses all of its points where one is impossible: halves find out which."""
     try:
         return list(cycles.map_of(family))
-    except _ARITHMETIC as error:
+    except ARITHMETIC as error:
         if len(family) == 1:
             return [known(error)]
     middle = len(family) // 2
@@ -149,9 +129,9 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
     from mechsym.jobs.problem import problem_of, settings_of
 
     looped = [i for i, case in enumerate(found) if in_loop(case)]
-    problems = {i: _guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
+    problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
-    outcomes |= {i: _guarded(_in_loop, found[i]) for i in looped}
+    outcomes |= {i: guarded(_in_loop, found[i]) for i in looped}
     groups: dict[Any, list[int]] = {}
     for i in (i for i in problems if i not in outcomes):
         groups.setdefault(settings_of(found[i]), []).append(i)
@@ -174,9 +154,9 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
 
     try:
         return simulate_many(problems, settings)
-    except _ARITHMETIC:
+    except ARITHMETIC:
         # one of them upset the others
-        return [_guarded(lambda problem: simulate(problem, settings), p) for p in problems]
+        return [guarded(lambda problem: simulate(problem, settings), p) for p in problems]
 
 
 def _verdict(case: Case, problem: Any, result: Any) -> Outcome:

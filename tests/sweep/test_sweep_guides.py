@@ -25,8 +25,8 @@ def test_the_same_verdicts_as_the_hinge():
     np.testing.assert_allclose(fast["margin"], full["guide.margin"], atol=1e-4)
     judged = fast["judged"] == 1
     assert judged.any() and not judged.all()
-    # numbers of `judge` are its own, to the last digit
-    np.testing.assert_array_equal(fast["margin"][judged], full["guide.margin"][judged])
+    # numbers of `judge` are its own; the order of sums may differ beside other guides
+    np.testing.assert_allclose(fast["margin"][judged], full["guide.margin"][judged], rtol=1e-12, atol=1e-14)
     assert "margins.roller_reaction" in fast and "margins.spring_force" not in fast
 
 

@@ -18,15 +18,8 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import scipy
-from numpy.polynomial import chebyshev
 
-from mechsym.errors import BadInput
-
-_DEGREE = 9
-_FIRST_PIECES = 12  # evenly over the period, so that no narrow feature hides between the first check points
-_LEVELS = 44  # halvings of a piece; beyond that the angle itself is not resolved
-_OPEN = 4096  # pieces open at once; a kink opens a few, only noise opens them all
-_NOISE = 1e-9  # of the largest value: rounding that the function may bring itself
+from mechsym.periodic.halving import DEGREE, first_edges, halved
 
 
 def even_angles(period: float, count: int = 4096) -> np.ndarray:
@@ -76,26 +69,8 @@ def fit(
     Degree 9 through Chebyshev nodes; none lies on a break, so a jump at a break does no harm. The error is measured at
     other points than the nodes. Where the function is rounded more coarsely than `tol`, halving stops at its noise.
     """
-    edges = _first_edges(breaks, period)
-    left, width = edges[:-1], np.diff(edges)
-    done, scale = [], 0.0
-    for _ in range(_LEVELS):
-        values = _sampled(function, left, width)
-        scale = max(scale, float(np.abs(values).max()))
-        # two steps: one product of both matrices would lose five digits to its large entries
-        rows = np.tensordot(_TO_POWERS, np.tensordot(_TO_CHEBYSHEV, values[_NODES], 1), 1)
-        error = np.abs(np.tensordot(_CHECK_POWERS, rows, 1) - values[_CHECKS])
-        good = error.max(axis=(0, *range(2, error.ndim))) <= (tol if left.size < _OPEN else max(tol, _NOISE)) * scale
-        done.append((left[good], width[good], rows[:, good]))
-        if good.all():
-            return _assembled(done, period)
-        if left.size >= _OPEN and np.mean(good) < 0.5:
-            raise BadInput(
-                f"the function is noise of {error.max() / scale:.2g} of its peak near {left[0]:.9g} rad; smooth it"
-            )
-        half = width[~good] / 2
-        left, width = np.concatenate([left[~good], left[~good] + half]), np.concatenate([half, half])
-    raise BadInput(f"the function jumps near {left[0]:.9g} rad: list that angle among the kinks, or smooth it")
+    _, left, width, rows = halved(lambda phi, who: function(phi), first_edges(breaks, period), 1, tol)
+    return _assembled(left, width, rows, period)
 
 
 def mean(poly: "scipy.interpolate.PPoly") -> float:
@@ -209,57 +184,9 @@ def piece_values(poly: "scipy.interpolate.PPoly", phi: np.ndarray) -> np.ndarray
     return values
 
 
-_CHEBYSHEV = (1 + np.cos(math.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))) / 2
-_BETWEEN = (1 + np.cos(math.pi * np.arange(_DEGREE + 2) / (_DEGREE + 1))) / 2
-# the outermost check points stay off the breaks, where the function may have two values
-_POINTS = np.concatenate([_CHEBYSHEV, np.clip(_BETWEEN, 1e-3, 1 - 1e-3)])
-_NODES, _CHECKS = slice(0, _DEGREE + 1), slice(_DEGREE + 1, None)
-
-
-def _to_chebyshev() -> np.ndarray:
-    n = _DEGREE + 1
-    matrix = 2 / n * np.cos(math.pi * np.arange(n)[:, None] * (np.arange(n) + 0.5) / n)
-    matrix[0] /= 2
-    return matrix
-
-
-def _to_powers() -> np.ndarray:
-    # columns: powers of u in [0, 1], highest first, of the shifted Chebyshev polynomials; whole numbers, so exact
-    matrix = np.zeros((_DEGREE + 1, _DEGREE + 1))
-    for k in range(_DEGREE + 1):
-        basis = chebyshev.Chebyshev.basis(k, domain=[0, 1]).convert(kind=np.polynomial.Polynomial)
-        matrix[_DEGREE - k :, k] = np.round(basis.coef[::-1])
-    return matrix
-
-
-_TO_CHEBYSHEV, _TO_POWERS = _to_chebyshev(), _to_powers()
-_CHECK_POWERS = np.vander(_POINTS[_CHECKS], _DEGREE + 1)
-
-
-def _first_edges(breaks: Iterable[float], period: float) -> np.ndarray:
-    even = np.linspace(0, period, _FIRST_PIECES + 1)
-    kinks = np.unique([b % period for b in breaks])
-    near = period / _FIRST_PIECES / 4
-    # an even edge beside a kink would only make a short piece
-    free = [e for e in even[1:-1] if kinks.size == 0 or np.abs(kinks - e).min() > near]
-    edges = np.unique(np.concatenate([[0.0, period], kinks, free]))
-    return edges[np.concatenate([np.diff(edges) > 1e-12 * period, [True]])]
-
-
-def _sampled(function: Callable[[np.ndarray], np.ndarray], left: np.ndarray, width: np.ndarray) -> np.ndarray:
-    phi = left + width * _POINTS[:, None]
-    values = np.asarray(function(phi.ravel()), dtype=float)
-    if not np.isfinite(values).all():
-        bad = phi.ravel()[~np.isfinite(values).reshape(-1, phi.size).all(axis=0)][0]
-        raise BadInput(f"the function is not finite at {bad:.9g} rad; it must have a value at every angle")
-    return np.moveaxis(values.reshape(*values.shape[:-1], *phi.shape), (-2, -1), (0, 1))
-
-
-def _assembled(done: list[tuple[np.ndarray, np.ndarray, np.ndarray]], period: float) -> "scipy.interpolate.PPoly":
-    left, width = (np.concatenate([d[i] for d in done]) for i in (0, 1))
-    rows = np.concatenate([d[2] for d in done], axis=1)
+def _assembled(left: np.ndarray, width: np.ndarray, rows: np.ndarray, period: float) -> "scipy.interpolate.PPoly":
     # PPoly counts from the left break in radians, not in shares of the piece
-    scale = width ** np.arange(_DEGREE, -1, -1)[:, None]
+    scale = width ** np.arange(DEGREE, -1, -1)[:, None]
     rows = rows / scale.reshape(scale.shape + (1,) * (rows.ndim - 2))
     order = np.argsort(left)
     return scipy.interpolate.PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
