@@ -49,13 +49,7 @@ class _Tracks:
 
 
 def verdicts(wanted: Balance, designs: Sequence[GuideDesign]) -> list[Verdict | None]:
-    """Verdicts on guides for one torque; None where no guide can be cut, `judge` of `cut` says why.
-
-    Parameters
-    ----------
-    designs : sequence of GuideDesign
-        In any order
-    """
+    """Verdicts on guides for one torque; None where no guide can be cut, `judge` of `cut` says why."""
     groups: dict[Any, list[int]] = {}
     for i, d in enumerate(designs):
         key = type(d.spring), d.choices.arrangement, d.choices.start, d.choices.shaft_ratio
