@@ -42,7 +42,7 @@ class GuideDesign:
 class _Tracks:
     """Pieces of the paths, those of one guide after those of the other, by the share of a piece."""
 
-    who: np.ndarray  #: shape (pieces,): Guide
+    who: np.ndarray  #: shape (pieces,): Which guide [-]
     theta: np.ndarray  #: shape (pieces, 65): Angles, as in `contact.at_pieces` [rad]
     values: tuple[np.ndarray, ...]  #: Path [m] and its two derivatives [m/rad], [m/rad^2] there
     closure: np.ndarray  #: shape (guides,): Gap of each path after a period, before it is closed [m]
