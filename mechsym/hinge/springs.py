@@ -52,10 +52,7 @@ class Coil:
 
 @record
 class SpringLaw:
-    """Functions of one spring, or of springs whose values are arrays of shape (n,), element by element.
-
-    They take floats and arrays; `force` on a float stays plain Python and is fast.
-    """
+    """Functions of one spring, or of many whose values are arrays; `force` on a float is plain Python and fast."""
 
     force: Callable[[Any], Any]  #: Closing z [m] to force, positive outwards [N]
     energy: Callable[[Any], Any]  #: Closing z [m] to stored energy, 0 at z = 0 [J]
