@@ -116,7 +116,7 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     try:
         accepted = acceptances(_tables(*_read(name)).get("doubts", {}))
         records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
-        found = judged(records, own.is_file(head["mechanism"]))
+        found = judged(records, head["mechanism"])
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     short = Path(name).stem if name not in names() else name

@@ -71,7 +71,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
             wrong, made = _section(mechanism or "", section, table)
             found += wrong
             records |= {section: made} if made is not None else {}
-    found += _whole(tables.get("doubts", {}), records, own.is_file(mechanism or ""))
+    found += _whole(tables.get("doubts", {}), records, mechanism or "")
     commands = lacking(mechanism or "", sections)
     return Checked(problems=tuple(found), commands=commands, skipped=skipped)
 
@@ -157,7 +157,7 @@ def takes(field: dataclasses.Field) -> str:
     return f"{kind(field)}{inside}" + (f", {bounds}" if bounds else "")
 
 
-def _whole(doubts: Any, records: Mapping[str, Any], own_letters: bool) -> list[CaseProblem]:
+def _whole(doubts: Any, records: Mapping[str, Any], mechanism: str) -> list[CaseProblem]:
     """What is wrong only when keys are seen together: doubts that are no doubts, nonsense."""
     found = []
     try:
@@ -165,7 +165,7 @@ def _whole(doubts: Any, records: Mapping[str, Any], own_letters: bool) -> list[C
     except BadInput as error:
         found.append(CaseProblem(key="doubts", why=str(error)))
     try:
-        judged(records, own_letters)
+        judged(records, mechanism)
     except BadInput as error:
         key, _, why = str(error).partition(" = ")
         found.append(CaseProblem(key=key if why and " " not in key else "", why=str(error)))

@@ -11,6 +11,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.mechanisms import own
+from mechsym.mechanisms.proportions import Proportions
+from mechsym.mechanisms.traits import traits_of
 from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, proportion, proportions, scaled
 from mechsym.quantities import parse
 
@@ -54,31 +57,42 @@ def _acceptance(code: str, row: Any) -> Acceptance:
     return Acceptance(code=code, up_to=parse(row["up_to"], _UNITS[code], f"doubts.{code}.up_to"), why=row["why"])
 
 
-def judged(sections: Mapping[str, Any], own: bool = False) -> tuple[Doubt, ...]:
+def judged(sections: Mapping[str, Any], mechanism: str) -> tuple[Doubt, ...]:
     """Doubts about the values of a case; nonsense is refused with its key.
 
-    Parameters
-    ----------
-    own : bool
-        Whether the mechanism is the user's own, whose letters may mean anything
+    The letters of a user's own mechanism may mean anything: they are left out.
     """
     values = {
         key: value
         for section, record in sections.items()
+        if not (section in _LETTERS and own.is_file(mechanism))
         for key, name in _keys(section, record.__class__)
         if isinstance(value := getattr(record, name), float) and math.isfinite(value)
     }
-    if own:
-        known = {key: value for key, value in values.items() if key.partition(".")[0] not in _LETTERS}
-        return inputs(known) + _run(sections)
     found = inputs(values) + _run(sections)
-    stroke, ratio = _crank(sections.get("parameters"))
-    area, spring = _piston_area(sections), getattr(sections.get("spring"), "A", None)
-    found += proportions(stroke, ratio, getattr(sections.get("operation"), "speed", None))
-    guide = getattr(sections.get("guide"), "rho0", None)
-    if guide is not None and stroke:
-        found += proportion("guide_size", "guide.rho0 / stroke", guide / stroke)
-    return found + scaled(_masses(sections, area), spring, area)
+    known = traits_of(mechanism)
+    if known is None or known.proportions is None or "parameters" not in sections:
+        return found
+    return found + _sizes(sections, known.proportions(sections["parameters"]))
+
+
+def _sizes(sections: Mapping[str, Any], sizes: Proportions) -> tuple[Doubt, ...]:
+    """Doubts about an engine by its stroke and the area of its pistons."""
+    found = proportions(sizes.stroke, sizes.rod_ratio, getattr(sections.get("operation"), "speed", None))
+    guide, spring = getattr(sections.get("guide"), "rho0", None), getattr(sections.get("spring"), "A", None)
+    if guide is not None and sizes.stroke:
+        found += proportion("guide_size", "guide.rho0 / stroke", guide / sizes.stroke)
+    areas = {part.letters: (part.mass, _driven(sections, part.axis)) for part in sizes.moving}
+    masses = {letters: (mass, area) for letters, (mass, area) in areas.items() if area}
+    return found + scaled(masses, spring, _piston_area(sections))
+
+
+def _driven(sections: Mapping[str, Any], axis: str) -> float | None:
+    """Area of the pistons on an axis; of the only one where the mechanism has no axes [m^2]."""
+    faces = sections.get("faces")
+    if faces is None:
+        return _piston_area(sections)
+    return sum(area for side, area in zip(faces.sides, faces.areas, strict=True) if side.startswith(axis))
 
 
 @functools.lru_cache(maxsize=256)
@@ -91,39 +105,6 @@ def _keys(section: str, kind: Any) -> tuple[tuple[str, str], ...]:
 def _piston_area(sections: Mapping[str, Any]) -> float | None:
     bores = [getattr(sections.get(name), "bore", None) for name in ("chamber", "cycle")]
     return next((math.pi / 4 * bore**2 for bore in bores if bore), None)
-
-
-def _masses(sections: Mapping[str, Any], area: float | None) -> dict[str, tuple[float, float]]:
-    """What moves to and fro with the piston, by the letters of the mechanisms, and the area of what drives it."""
-    parameters: Any = sections.get("parameters")
-    faces = sections.get("faces")
-    if faces is not None and hasattr(parameters, "m_link"):  # rodless: all pistons of an axis on one slider
-        sizes = {axis: sum(a for s, a in zip(faces.sides, faces.areas, strict=True) if s[0] == axis) for axis in "ab"}
-        return {f"m_{axis}": (getattr(parameters, f"m_{axis}"), size) for axis, size in sizes.items() if size}
-    if area is None:
-        return {}
-    if hasattr(parameters, "m_piston"):
-        masses = parameters.m_piston if isinstance(parameters.m_piston, tuple) else (parameters.m_piston,)
-        return {f"m_piston[{i}]" if masses[1:] else "m_piston": (m, area) for i, m in enumerate(masses)}
-    names = ("m3", "m4", "m5") if hasattr(parameters, "m5") else ("m3",) if hasattr(parameters, "alpha_n") else ()
-    return {" + ".join(names): (sum(getattr(parameters, name) for name in names), area)} if names else {}
-
-
-def _crank(parameters: Any) -> tuple[float | None, float | None]:
-    """Stroke and rod ratio by the letters that mechanisms use: r, or r1 + r2, or e; l, or l1 + l2."""
-
-    def letter(*names: str) -> float | None:
-        found = [getattr(parameters, name, None) for name in names]
-        numbers = [max(v) if isinstance(v, tuple) else v for v in found]
-        return sum(numbers) if all(isinstance(v, float) for v in numbers) else None  # type: ignore[arg-type]
-
-    if (throw := letter("e")) is not None:
-        return 4 * throw, None
-    if hasattr(parameters, "m_link"):  # rodless: the sliders move twice as far as a crank of that radius
-        return 4 * parameters.r, None
-    crank = letter("r") if hasattr(parameters, "r") else letter("r1", "r2")
-    rod = letter("l") if hasattr(parameters, "l") else letter("l1", "l2")
-    return (None if crank is None else 2 * crank), (rod / crank if crank and rod is not None else None)
 
 
 def _run(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:

@@ -9,6 +9,8 @@ from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.chain import CrankChain, Loads, SliderCrank, TurnSeen
 from mechsym.mechanisms.drawn_parts import Circle, Line, slider_crank
+from mechsym.mechanisms.proportions import Reciprocating
+from mechsym.mechanisms.proportions import slider_crank as crank_and_rod
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.slider_crank import rubbing, single
 from mechsym.mechanisms.traits import Traits
@@ -95,6 +97,7 @@ def _alone(parameters: CrankThrowParameters) -> tuple[str, CrankThrowParameters]
 TRAITS = Traits(
     parameters=CrankThrowParameters,
     drawing=_drawing,
+    proportions=lambda p: crank_and_rod(p.r, p.l1 + p.l2, (Reciprocating(letters="m_piston", mass=p.m_piston),)),
     chain=CrankChain(
         loads=_loads, rubbing=rubbing, letters=_letters, mass=lambda drive: drive.mechanism.parameters["m_piston"]
     ),

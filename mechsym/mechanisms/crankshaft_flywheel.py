@@ -6,6 +6,8 @@ from typing import Any
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.drawn_parts import Circle, Line, slider_crank
+from mechsym.mechanisms.proportions import Reciprocating
+from mechsym.mechanisms.proportions import slider_crank as crank_and_rod
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.traits import ElasticShaft, Traits
 from mechsym.quantities import quantity, record
@@ -60,5 +62,6 @@ def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle
 TRAITS = Traits(
     parameters=CrankshaftFlywheelParameters,
     drawing=_drawing,
+    proportions=lambda p: crank_and_rod(p.r, p.l, (Reciprocating(letters="m0", mass=p.m0),)),
     shaft=ElasticShaft(discs=lambda p: (p.I0, p.I2), springs=lambda p: ((p.k1,), (p.c1,)), start_up=True),
 )

@@ -11,6 +11,8 @@ from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms.chain import Alike, CrankChain, DriveSeen, Loads, Peer, SliderCrank, TurnSeen
 from mechsym.mechanisms.drawn_parts import Circle, Line, box, cylinder, piston
+from mechsym.mechanisms.proportions import Proportions, Reciprocating
+from mechsym.mechanisms.proportions import slider_crank as crank_and_rod
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.slider_crank import rubbing, single
 from mechsym.mechanisms.traits import Traits
@@ -103,6 +105,11 @@ def _letters(p: Mapping[str, float]) -> SliderCrank:
                        m_p=p["m3"] + p["m4"] + p["m5"], u_c=p["m1"] * p["r1"])  # fmt: skip
 
 
+def _proportions(p: CrossheadParameters) -> Proportions:
+    moving = Reciprocating(letters="m3 + m4 + m5", mass=p.m3 + p.m4 + p.m5)
+    return crank_and_rod(p.r1 + p.r2, p.l1 + p.l2, (moving,))
+
+
 def _peers(alike: Alike) -> tuple[Peer, ...]:
     """A slider crank without masses but the piston's."""
     l = alike.stroke / 2 / alike.lam
@@ -115,6 +122,7 @@ def _peers(alike: Alike) -> tuple[Peer, ...]:
 TRAITS = Traits(
     parameters=CrossheadParameters,
     drawing=_drawing,
+    proportions=_proportions,
     rules="slider crank",
     chain=CrankChain(loads=_loads, rubbing=rubbing, mass=_mass, letters=_letters, peers=_peers, hinged=True),
 )

@@ -13,6 +13,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.mechanisms.chain import Alike, CrankChain, Loads, Peer, Pin, Rubbing, TurnSeen
 from mechsym.mechanisms.drawn_parts import Circle, Line, cylinder, piston
+from mechsym.mechanisms.proportions import Proportions, Reciprocating
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.traits import Traits
 from mechsym.quantities import quantity, record
@@ -85,6 +86,7 @@ def _peers(alike: Alike) -> tuple[Peer, ...]:
 TRAITS = Traits(
     parameters=HypocycloidParameters,
     drawing=_drawing,
+    proportions=lambda p: Proportions(stroke=4 * p.e, moving=(Reciprocating(letters="m3", mass=p.m3),)),
     rules="planet",
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, peers=_peers, mass=lambda drive: float(drive.mechanism.parameters["m3"])

@@ -30,6 +30,7 @@ from mechsym.mechanisms.chain import (
 )
 from mechsym.mechanisms.drawn_parts import Circle, Line, cylinder, piston, turned
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
+from mechsym.mechanisms.proportions import Proportions, Reciprocating
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.rodless_clearance import Clearances, redundant_force
 from mechsym.mechanisms.rodless_faces import RodlessFaces, axis_forces, four_faces
@@ -284,6 +285,8 @@ def _alone(p: RodlessParameters) -> tuple[str, HypocycloidParameters]:
 TRAITS = Traits(
     parameters=RodlessParameters,
     drawing=drawing,
+    proportions=lambda p: Proportions(stroke=4 * p.r, moving=tuple(
+        Reciprocating(letters=f"m_{axis}", mass=mass, axis=axis) for axis, mass in (("a", p.m_a), ("b", p.m_b)))),
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, mass=_mass, rigid=_rigid, overconstrained=True, pushes=_pushes, faces=_faces,
         cylinders=_cylinders, areas=lambda drive: _faces_of(drive).areas, inertia=_inertia, advice=_advice,

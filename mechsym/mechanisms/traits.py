@@ -14,6 +14,7 @@ from typing import Any
 
 from mechsym.mechanisms.chain import CrankChain
 from mechsym.mechanisms.drawn_parts import Circle, Line
+from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import record
 
@@ -49,6 +50,7 @@ class Traits:
     #: Shapes at a crank angle [rad], with a bore [m] or None
     drawing: Callable[[Any, float, float | None], Iterable[Line | Circle]] | None = None
     chain: CrankChain | None = None  #: Of a mechanism with a crank and pistons
+    proportions: Callable[[Any], Proportions] | None = None  #: By its record
     assembled: Assembled | None = None
     shaft: ElasticShaft | None = None
     rules: str = ""  #: By which its parts are sized: `slider crank`, `planet`

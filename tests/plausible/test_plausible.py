@@ -202,8 +202,8 @@ def test_letters_of_an_own_mechanism_are_not_guessed_at():
     from mechsym.cases.doubts import judged
 
     sections = cases.load("moroianu", {"m5": 45000}).sections
-    assert [d.code for d in judged(sections)] == ["reciprocating_mass"]
-    assert judged(sections, own=True) == ()
+    assert [d.code for d in judged(sections, "crosshead")] == ["reciprocating_mass"]
+    assert judged(sections, "./mine.py") == ()
 
 
 def test_a_window_longer_than_the_run_is_doubted():

@@ -11,6 +11,8 @@ from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.assembly import build, build_driven, build_rigid, listing
 from mechsym.mechanisms.crank_train.firing import gas_forces, refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.proportions import Proportions, Reciprocating
+from mechsym.mechanisms.proportions import slider_crank as crank_and_rod
 from mechsym.mechanisms.train_drawing import crank_train
 from mechsym.mechanisms.traits import Assembled, ElasticShaft, Traits
 
@@ -108,9 +110,18 @@ def _alone(p: CrankTrainParameters) -> tuple[str, CrankThrowParameters]:
     return THROW.alone(CrankThrowParameters(**letters, I0=each(p, "I0")[0]))
 
 
+def _proportions(p: CrankTrainParameters) -> Proportions:
+    masses = p.m_piston if isinstance(p.m_piston, tuple) else (p.m_piston,)
+    named = ("m_piston",) if not masses[1:] else tuple(f"m_piston[{i}]" for i in range(len(masses)))
+    moving = tuple(Reciprocating(letters=letters, mass=mass) for letters, mass in zip(named, masses, strict=True))
+    r, l1, l2 = (max(each(p, letter)) for letter in ("r", "l1", "l2"))
+    return crank_and_rod(r, l1 + l2, moving)
+
+
 TRAITS = Traits(
     parameters=CrankTrainParameters,
     drawing=crank_train,
+    proportions=_proportions,
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, mass=lambda drive: float(each(drive.parameters, "m_piston")[0]),
         rigid=lambda parameters, closing: build_rigid(parameters), pushes=_pushes, faces=_faces, cylinders=_cylinders,
