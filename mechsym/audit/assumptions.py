@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from mechsym.audit.reader import CONSTANTS, read_expression
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import TheoryTape
+from mechsym.audit.theory.tape import retaped
 from mechsym.audit.tree import Node, letters, value_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -68,9 +68,8 @@ def _letter(theory: Theory, left: Node, own: Mapping[str, Node], part: str) -> s
 
 def _tied(theory: Theory, letter: str, tree: Node, part: str) -> Theory:
     free = {k: v for k, v in theory.letters.items() if k != letter}
-    tape = dict(theory.tape.base if isinstance(theory.tape, TheoryTape) else theory.tape)
-    unknown = [k for k in letters(tree) if k not in free and k not in tape and k not in CONSTANTS]
+    unknown = [k for k in letters(tree) if k not in free and k not in [*theory.tape] and k not in CONSTANTS]
     if letter in letters(tree) or unknown:
         raise BadInput(f"--assume {part!r}: {letter} must be given by the other letters of {theory.name}")
     units = {**theory.units, letter: theory.letters[letter].unit}
-    return replace(theory, letters=free, tape=TheoryTape({letter: tree, **tape}, free, theory.angle), units=units)
+    return replace(theory, letters=free, tape=retaped(theory.tape, {letter: tree}, free, theory.angle), units=units)

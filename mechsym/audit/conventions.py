@@ -11,7 +11,7 @@ from mechsym.audit.prover import agreement, judges
 from mechsym.audit.question import Question
 from mechsym.audit.reader import read_expression
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import TheoryTape
+from mechsym.audit.theory.tape import retaped
 from mechsym.audit.tree import Node, letters, name, negative, substitute
 from mechsym.errors import BadInput
 
@@ -79,8 +79,7 @@ def _quantity(theory: Theory, quantity: str, convention: str) -> tuple[Theory, s
     tree = negative(name(quantity)) if convention == "sign" else ast.BinOp(name(quantity), ast.Mult(), speed)
     if convention == "rate" and speed.id not in theory.letters:
         raise BadInput(f"--convention rate: {theory.name} has no speed")
-    base = theory.tape.base if isinstance(theory.tape, TheoryTape) else dict(theory.tape)
-    return replace(theory, tape=TheoryTape({**base, new: tree}, theory.letters, theory.angle)), new
+    return replace(theory, tape=retaped(theory.tape, {new: tree}, theory.letters, theory.angle)), new
 
 
 def also_exact(question: Question) -> str:

@@ -16,7 +16,7 @@ from mechsym.audit.redefinition import refuse_left, refuse_letters
 from mechsym.audit.statement import Statement, statement
 from mechsym.audit.theory.catalogue import named, target
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
-from mechsym.audit.theory.tape import TheoryTape
+from mechsym.audit.theory.tape import TheoryTape, retaped
 from mechsym.audit.tree import letters as letters_of
 from mechsym.audit.verdict import PASSED, Decision, decide
 from mechsym.errors import BadInput
@@ -162,7 +162,9 @@ def _with_left(theory: Theory, quantity: str, said: Statement, formula: Formula)
         raise BadInput(f"the left side {said.left[:40]!r} has nothing of {quantity}; write '{quantity} = expression'")
     tape = theory.tape.base if isinstance(theory.tape, TheoryTape) else dict(theory.tape)
     full = {k: t for k, t in formula.letters.items() if k not in theory.letters and k not in tape}
-    return replace(theory, tape=TheoryTape({**tape, **full, _IDENTITY: left}, theory.letters, theory.angle)), _IDENTITY
+    return replace(
+        theory, tape=retaped(theory.tape, {**full, _IDENTITY: left}, theory.letters, theory.angle)
+    ), _IDENTITY
 
 
 def _is_name(text: str) -> bool:

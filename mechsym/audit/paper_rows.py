@@ -23,7 +23,7 @@ from mechsym.audit.symbols import Symbols, left_letter, quantity_of, with_deriva
 from mechsym.audit.theory.catalogue import named
 from mechsym.audit.theory.declared import read_theory
 from mechsym.audit.theory.record import Theory, dependencies, known
-from mechsym.audit.theory.tape import TheoryTape
+from mechsym.audit.theory.tape import retaped
 from mechsym.audit.tree import Node, letters, substitute
 from mechsym.errors import BadInput
 from mechsym.files import read_text
@@ -193,9 +193,8 @@ def _carried(row: Row, quantity: str, theory: Theory, seen: Asked, wrong: Sequen
 
 
 def _with(theory: Theory, name: str, tree: Node) -> Theory:
-    base = theory.tape.base if isinstance(theory.tape, TheoryTape) else dict(theory.tape)
     results = theory.results if name in theory.results else (*theory.results, name)
-    return replace(theory, tape=TheoryTape({**base, name: tree}, theory.letters, theory.angle), results=results)
+    return replace(theory, tape=retaped(theory.tape, {name: tree}, theory.letters, theory.angle), results=results)
 
 
 def _in_theory(seen: Asked, theory: Theory, symbols: Symbols) -> Node:

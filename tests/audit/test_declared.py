@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mechsym.audit.algebra import FLOATS
-from mechsym.audit.formula import check_formula
+from mechsym.audit.formula import Asked, answer, check_formula
 from mechsym.audit.theory.catalogue import shipped, theory
 from mechsym.audit.theory.declared import theory_of
 from mechsym.audit.theory.record import complete
@@ -106,3 +106,34 @@ def test_shipped_theories_have_values_everywhere(name):
 def test_bad_declarations_name_the_place(text, reason):
     with pytest.raises(BadInput, match=reason):
         theory_of(text, "mine", "mine.toml")
+
+
+def test_a_name_that_is_called_like_a_derivative_is_none():
+    # the displacement V_d of a cylinder is no rate of its volume V
+    rate = check_formula("A_piston*r*w*sin(phi + b)/cos(b)", "cylinder_volume.V_rate", "w=phid, b=asin(r*sin(phi)/l)")
+    assert rate["verdict"] == "exact"
+    assert check_formula("pi/4*B**2*2*r", "cylinder_volume.V_d")["verdict"] == "exact"
+
+
+def test_derivatives_of_names_beside_names_like_derivatives():
+    text = """
+angle = "phi"
+[letters]
+r = "1 m"
+x_d = "2 m"
+[define]
+x = "r*sin(phi) + x_d"
+dx_dphi = "r*(3 + phi)"
+v = "dt(x)"
+a = "dt(v)"
+s = "d(x, phi, 2)"
+q = "d(dx_dphi, phi)"
+"""
+    own = theory_of(text, "own", "own.toml")
+    right = {
+        "v": "r*cos(phi)*phid", "a": "r*cos(phi)*phidd - r*sin(phi)*phid**2",
+        "x_dd": "r*cos(phi)*phidd - r*sin(phi)*phid**2",
+        "s": "-r*sin(phi)", "d2x_dphi2": "-r*sin(phi)", "q": "r",
+    }  # fmt: skip
+    for quantity, formula in right.items():
+        assert answer(Asked(text=formula, against=f"own.{quantity}", given=own))["verdict"] == "exact", quantity

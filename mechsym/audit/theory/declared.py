@@ -59,7 +59,7 @@ def _theory(content: Mapping[str, Any], name: str, where: str) -> Theory:
     letters = _letters(_table(content, "letters"), angle)
     if angle and angle not in letters:
         letters |= {angle: Letter(unit="rad", value=1.0)}
-    tape = TheoryTape({}, letters, angle)
+    tape = TheoryTape({}, letters, angle, declared=True)
     for own, text in _table(content, "define").items():
         if not _NAME.fullmatch(own) or own in (*letters, *RESERVED):
             raise BadInput(f"define.{own}: a name of letters and digits that is no letter or function yet is needed")

@@ -15,7 +15,7 @@ from mechsym.audit import limits
 from mechsym.audit.calculus import derivative, minus, over, plus, times
 from mechsym.audit.functions import meaning
 from mechsym.audit.spelling import from_greek
-from mechsym.audit.theory.tape import Entry, Root, TheoryTape, slope_name
+from mechsym.audit.theory.tape import Entry, Root, TheoryTape
 from mechsym.audit.tree import Node, binary, call, letters, name, number, substitute, value_of
 from mechsym.errors import BadInput
 
@@ -62,7 +62,7 @@ def _root(own: str, tree: ast.Call, tape: TheoryTape) -> Root:
     if len(tree.args) != 3 or not isinstance(tree.args[0], ast.Constant) or not isinstance(tree.args[1], ast.Name):
         raise BadInput('root is written root("equation that vanishes", unknown, start near the root)')
     unknown = tree.args[1].id
-    free = TheoryTape({**tape.base, unknown: number(0)}, tape.free, tape.angle)
+    free = tape.like({**tape.base, unknown: number(0)}, tape.free)
     renamed = substitute(
         _expanded(_parsed(str(tree.args[0].value)), free),
         lambda n: name(own) if isinstance(n, ast.Name) and n.id == unknown else None,
@@ -125,12 +125,12 @@ def _derived(function: str, node: ast.Call, tape: TheoryTape) -> Node:
 
 def by_letter(tree: Node, by: str, tape: TheoryTape) -> Node:
     """Derivative of an expression by a letter; names on the tape change with it."""
-    return derivative(tree, lambda k: number(1) if k == by else tape.rate_name(k, slope_name(k, by)))
+    return derivative(tree, lambda k: number(1) if k == by else tape.slope_of(k, by))
 
 
 def in_time(tree: Node, tape: TheoryTape) -> Node:
     """Derivative of an expression in time."""
-    return derivative(tree, lambda k: name(f"{k}d") if f"{k}d" in tape.free else tape.rate_name(k, f"{k}_d"))
+    return derivative(tree, lambda k: name(f"{k}d") if f"{k}d" in tape.free else tape.rate_of(k))
 
 
 def _sum(node: ast.Call, tape: TheoryTape) -> Node:
@@ -140,7 +140,7 @@ def _sum(node: ast.Call, tape: TheoryTape) -> Node:
     if first is None or last is None or not 0 <= last - first < _MOST:
         raise BadInput(f"a sum runs between whole numbers and has at most {_MOST} terms")
     index, found = node.args[1].id, number(0)
-    inner = TheoryTape(tape.base, {**tape.free, index: None}, tape.angle)
+    inner = tape.like(tape.base, {**tape.free, index: None})
     body = _expanded(node.args[0], inner)
     for k in range(int(first), int(last) + 1):
         put = number(k)

@@ -2,10 +2,11 @@
 
 `dx_dphi`, `d2x_dphi2` by any letter, `x_d`, `x_dd` in time (the letter phi has the rates phid, phidd), `x_mean`,
 `x_cos2`, `x_sin2` over a turn of the angle. Each is made when it is first asked for, and its own parts are names again.
+Where a declaration calls something else so (a volume V beside a displacement V_d), the derivative goes by `V_d_`.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from mechsym.audit.calculus import Rate, derivative, is_zero, over
 from mechsym.audit.tree import Node, letters, name, negative, number
@@ -41,9 +42,17 @@ _HARMONIC = re.compile(r"(?P<of>\w+?)_(?:mean|(?P<kind>cos|sin)(?P<order>[1-9]\d
 class TheoryTape(Mapping[str, Entry]):
     """Entries by name; the derived ones are made on demand and do not show in iteration."""
 
-    def __init__(self, base: Mapping[str, Entry], free: Mapping[str, object], angle: str) -> None:
+    def __init__(
+        self, base: Mapping[str, Entry], free: Mapping[str, object], angle: str, declared: bool = False
+    ) -> None:
         self.base, self.free, self.angle = dict(base), dict(free), angle
+        #: Whether the names are an author's, so that none of them is a derivative because it is called like one
+        self.declared = declared
         self.made: dict[str, Entry | None] = {}
+
+    def like(self, base: Mapping[str, Entry], free: Mapping[str, object]) -> "TheoryTape":
+        """A tape of other names and letters, whose author and angle are the same."""
+        return TheoryTape(base, free, self.angle, self.declared)
 
     def __getitem__(self, key: str) -> Entry:
         if key in self.base:
@@ -65,28 +74,46 @@ class TheoryTape(Mapping[str, Entry]):
         return len(self.base)
 
     def _derived(self, key: str) -> Entry | None:
+        if key.endswith("_") and self._taken(key[:-1]):
+            key = key[:-1]
         for by in self.free:
             if (of := _integrated(key, by)) and of in self:
-                return self.slope(of, by)
+                return self.slope(self._unlike(of) if key[1:2].isdigit() else of, by)
         if (match := _TIMED.match(key)) and match["of"] in self:
-            return self.timed(match["of"] + match["dots"][:-1].replace("d", "_d", 1))
+            less = match["dots"][:-1]
+            return self.timed(self._unlike(f"{match['of']}_{less}") if less else match["of"])
         if (match := _HARMONIC.match(key)) and self.angle and match["of"] in self:
             order, sine = int(match["order"] or 0), match["kind"] == "sin"
             return Harmonic(of=match["of"], angle=self.angle, order=order, free=frozenset(self.free), sine=sine)
         return None
 
+    def _taken(self, derived: str) -> bool:
+        return derived in self.free or self._is_authors(derived)
+
+    def _is_authors(self, key: str) -> bool:
+        return self.declared and key in self.base
+
+    def _unlike(self, key: str) -> str:
+        # the derivative itself, where something else is called so
+        match = _TIMED.match(key)
+        of = match["of"] if match else _sloped(key, self.free)
+        return f"{key}_" if of in self.base and self._taken(key) else key
+
     def slope(self, of: str, by: str) -> Node | None:
         """Derivative of a name by a letter; None where it has none."""
-        return self._rate(of, lambda k: number(1) if k == by else self.rate_name(k, slope_name(k, by)))
+        return self._rate(of, lambda k: number(1) if k == by else self.slope_of(k, by))
 
     def timed(self, of: str) -> Node | None:
         """Derivative of a name in time; None where nothing turns."""
-        return self._rate(
-            of,
-            lambda k: (
-                name(f"{k}d") if f"{k}d" in self.free else self.rate_name(k, f"{k}d" if _TIMED.match(k) else f"{k}_d")
-            ),
-        )
+        return self._rate(of, lambda k: name(f"{k}d") if f"{k}d" in self.free else self.rate_of(k))
+
+    def slope_of(self, of: str, by: str) -> Node:
+        """Name of the derivative of a name by a letter, or 0."""
+        return self.rate_name(of, f"d{of}_d{by}" if self._is_authors(of) else slope_name(of, by))
+
+    def rate_of(self, of: str) -> Node:
+        """Name of the derivative of a name in time, or 0."""
+        return self.rate_name(of, f"{of}d" if _TIMED.match(of) and not self._is_authors(of) else f"{of}_d")
 
     def _rate(self, of: str, rate: Rate) -> Node | None:
         entry = self[of]
@@ -102,10 +129,18 @@ class TheoryTape(Mapping[str, Entry]):
         """Name of a derivative; the number 0 where it vanishes, or where `of` is a letter."""
         if of in self.free or of == "pi" or of not in self.made and of not in self:
             return number(0)
+        derived = f"{derived}_" if self._taken(derived) else derived
         entry = self.get(derived)
         if entry is None:
             raise BadInput(f"{of} has no derivative {derived}")
         return number(0) if not isinstance(entry, (tuple, Root, Harmonic)) and is_zero(entry) else name(derived)
+
+
+def retaped(tape: Mapping[str, Entry], more: Mapping[str, Entry], free: Mapping[str, object], angle: str) -> TheoryTape:
+    """A tape with more names, by the same author."""
+    if isinstance(tape, TheoryTape):
+        return tape.like({**tape.base, **more}, free)
+    return TheoryTape({**tape, **more}, free, angle)
 
 
 def needed(entry: Entry) -> list[str]:
@@ -124,6 +159,12 @@ def slope_name(of: str, by: str) -> str:
         return f"d{of}_d{by}"
     order = int(match[1] or 1) + 1
     return f"d{order}{match[2]}_d{by}{order}"
+
+
+def _sloped(key: str, free: Iterable[str]) -> str:
+    # the name that a slope by any letter belongs to
+    found = (re.fullmatch(rf"d\d?(\w+?)_d{re.escape(by)}\d?", key) for by in free)
+    return next((match[1] for match in found if match), "")
 
 
 def _integrated(key: str, by: str) -> str:
