@@ -226,11 +226,14 @@ def _cells(values: Sequence[float] | np.ndarray) -> list[Any]:
     return [_cell(v) for v in values]
 
 
+_FLOATS = (float, np.floating)
+
+
 def _cell(value: Any) -> Any:
-    if not isinstance(value, float | np.floating):
+    if not isinstance(value, _FLOATS):
         return value
-    # a gap is an empty cell
-    return "" if np.isnan(value) else f"{value:.12g}"
+    # a gap is an empty cell; only what is not a number differs from itself
+    return "" if value != value else format(value, ".12g")
 
 
 def to_json(value: Any) -> str:

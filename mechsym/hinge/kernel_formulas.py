@@ -12,40 +12,85 @@ from mechsym.hinge.springs import AirGauge, Coil, absolute_pressure, coil_force,
 
 track: Any = _rollers  # its formulas take symbols too
 _STRAIGHT = 1e-5  # least n - 1: nearer to the isotherm its energy would lose digits and the margins would not change
-_NEWTON = 3  # steps from a start that is a per cent off
+_HALLEY = 3  # steps, each with three times the digits of the last, from a start that is a thousandth off
 
 
 def coordinate(kind: type[LawSpring], s: SimpleNamespace) -> SimpleNamespace:
     """Force and energy over the coordinate in which the energy is nearly straight: z of a coil, -ln(1 - z/H) of gas."""
-    if kind is Coil:
+    return _coil(s) if kind is Coil else _gas(s, kind is AirGauge)
 
-        def closed(U: Any) -> Any:
-            return 2 * U / (s.F0 + np.sqrt(s.F0**2 + 2 * s.k * U))
 
-        return SimpleNamespace(
-            z=lambda x: x, of_closing=lambda z: z, energy=lambda x: s.F0 * x + s.k * x**2 / 2, at=closed,
-            force=lambda z: coil_force(z, s.k, s.F0), pressure=None,
-        )  # fmt: skip
-    pa, e = 0.0 if kind is AirGauge else s.pa, np.maximum(s.n - 1, _STRAIGHT)
+def _coil(s: SimpleNamespace) -> SimpleNamespace:
+    def at(U: Any) -> Any:
+        return 2 * U / (s.F0 + np.sqrt(s.F0**2 + 2 * s.k * U))
+
+    def along(U: Any) -> tuple[Any, Any, Any]:
+        return at(U), coil_force(at(U), s.k, s.F0), s.k
+
+    return SimpleNamespace(
+        z=lambda x: x, of_closing=lambda z: z, energy=lambda x: s.F0 * x + s.k * x**2 / 2, at=at, along=along,
+        force=lambda z: coil_force(z, s.k, s.F0), pressure=None,
+    )  # fmt: skip
+
+
+def _gas(s: SimpleNamespace, gauge: bool) -> SimpleNamespace:
+    pa, e = 0.0 if gauge else s.pa, np.maximum(s.n - 1, _STRAIGHT)
     full, outside = s.A * (s.p0 + pa) * s.H, s.A * pa * s.H
+    # products with these are cheaper than quotients, and the kernel computes them once
+    per_e, per_H = 1 / e, 1 / s.H
+    near, step = _inverse(full, outside, e)
 
     def energy(x: Any) -> Any:
         # exp - 1 and not expm1, which would be computed one design at a time
-        return full * (np.exp(e * x) - 1) / e + outside * (np.exp(-x) - 1)
+        return full * (np.exp(e * x) - 1) * per_e + outside * (np.exp(-x) - 1)
 
     def at(U: Any) -> Any:
-        x = np.log(1 + e * (U + outside) / full) / e
-        for _ in range(0 if kind is AirGauge else _NEWTON):
-            x = x - (energy(x) - U) / (full * np.exp(e * x) - outside * np.exp(-x))
+        x = np.log(near(U)) * per_e
+        for _ in range(0 if gauge else _HALLEY):
+            x = x + step(np.exp(e * x), np.exp(-x), U)
         return x
 
+    def along(U: Any) -> tuple[Any, Any, Any]:
+        """Closing, force and its slope: the exponentials are computed once and follow two steps by their series."""
+        E = near(U)
+        V = np.exp(-per_e * np.log(E))
+        for _ in range(0 if gauge else 2):
+            d = step(E, V, U)
+            E, V = E * _exp(e * d), V * _exp(-d)
+        per_V = 1 / V
+        pressed = (full * per_H) * E * per_V
+        return s.H * (1 - V), pressed - outside * per_H, (s.n * per_H) * pressed * per_V
+
     def pressure(z: Any) -> Any:
-        return gauge_pressure(z, s.H, s.p0, s.n) if kind is AirGauge else absolute_pressure(z, s.H, s.p0, s.n, s.pa)
+        return gauge_pressure(z, s.H, s.p0, s.n) if gauge else absolute_pressure(z, s.H, s.p0, s.n, s.pa)
 
     return SimpleNamespace(
-        z=lambda x: s.H * (1 - np.exp(-x)), of_closing=lambda z: -np.log(1 - z / s.H), at=at, pressure=pressure,
-        energy=energy, force=lambda z: s.A * pressure(z),
+        z=lambda x: s.H * (1 - np.exp(-x)), of_closing=lambda z: -np.log(1 - z / s.H), at=at, along=along,
+        pressure=pressure, energy=energy, force=lambda z: s.A * pressure(z),
     )  # fmt: skip
+
+
+def _inverse(full: Any, outside: Any, e: Any) -> tuple[Any, Any]:
+    """From the energy U to x: nearly exp(e x), and a step of Halley from where exp(e x) is E and exp(-x) is V."""
+    per_e, per_full = 1 / e, 1 / full
+
+    def near(U: Any) -> Any:
+        # what the outside takes of the energy, by the force that the free spring has
+        D = full - outside + U / 2
+        share = D**2 / (D**2 + D * U + U**2 / 2)
+        return 1 + (e * per_full) * (U + outside * (1 - share))
+
+    def step(E: Any, V: Any, U: Any) -> Any:
+        over = (full * per_e) * (E - 1) + outside * (V - 1) - U
+        slope, bend = full * E - outside * V, e * full * E + outside * V
+        return -2 * over * slope / (2 * slope**2 - over * bend)
+
+    return near, step
+
+
+def _exp(d: Any) -> Any:
+    """Series of exp(d) for small d."""
+    return 1 + d * (1 + d * (1 / 2 + d * (1 / 6 + d / 24)))
 
 
 def over_the_turn(
@@ -53,16 +98,14 @@ def over_the_turn(
 ) -> list[Any]:
     """What has its largest value somewhere around the turn."""
     M, dM, W = stage[0], stage[1], stage[2]
-    z, at = ca.SX.sym("z"), air.z(air.at(at_start - W))
-    law = air.force(z)
-    F, F_z = (ca.substitute(of, z, at) for of in (law, ca.gradient(law, z)))
-    rho, drho = letters["guide"].rho0 - at / c, M / (c * F)
+    z, F, F_z = air.along(at_start - W)
+    rho, drho = letters["guide"].rho0 - z / c, M / (c * F)
     d2rho = dM / (c * F) + M * F_z * drho / F**2
     rollers: Any = letters["rollers"]
     kappa = track.curvature(rho, drho, d2rho)
     inertia = rollers.moving_mass * track.inertia_force(rho, d2rho, letters["torque"].omega)
     N = track.reaction(F + inertia, rho, drho)
-    return [np.abs(drho) / rho, -kappa, N, track.hertz_stress(N, kappa, rollers)]
+    return [np.abs(drho / rho), -kappa, N, track.hertz_stress(N, kappa, rollers)]
 
 
 def of_limits(

@@ -72,7 +72,8 @@ def curvature(rho: np.ndarray, drho: np.ndarray, d2rho: np.ndarray) -> np.ndarra
     kappa : ndarray, shape (n,)
         Positive around the shaft axis, negative where the path bends inwards [1/m]
     """
-    return (rho**2 + 2 * drho**2 - rho * d2rho) / (rho**2 + drho**2) ** 1.5
+    square = rho**2 + drho**2
+    return (square + drho**2 - rho * d2rho) / (square * _root(square))
 
 
 def parallel(rho: np.ndarray, drho: np.ndarray, theta: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
@@ -123,6 +124,10 @@ def profile_curvature(kappa: np.ndarray, radius: float) -> np.ndarray:
     return kappa / (1 + radius * kappa)
 
 
+def _root(value: Any) -> Any:
+    return ca.sqrt(value) if isinstance(value, ca.SX | ca.MX) else np.sqrt(value)
+
+
 def length(a: Any, b: Any) -> Any:
     """Root of the sum of squares, for numbers, arrays and CasADi symbols alike [unit of a]."""
     symbols = isinstance(a, ca.SX | ca.MX) or isinstance(b, ca.SX | ca.MX)
@@ -150,7 +155,7 @@ def reaction(force: Any, rho: Any, drho: Any) -> Any:
     -----
     Virtual work: the tangential part N sin(alpha) at the radius rho is F drho/dtheta for each roller.
     """
-    return force * length(1, drho / rho)
+    return force * _root(1 + (drho / rho) ** 2)
 
 
 def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) -> np.ndarray:

@@ -37,7 +37,8 @@ def guides(case: str, overrides: Mapping[str, Any], heres: Sequence[Mapping[str,
     Returns
     -------
     outcomes : list of dict or Gap
-        `feasible`, `margin` (the smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), `margins` [-]
+        `feasible`, `margin` (the smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), and
+        `margins.limit` of each [-]
     """
     places = {key: cases.locate(case, key, overrides) for key in heres[0]}
     numbers = {key: place for key, place in places.items() if _is_number(place)}
@@ -117,8 +118,9 @@ def _judged(wanted: Any, design: Mapping[str, Any], limits: Sequence[str]) -> Ou
     from mechsym.hinge.limits import judge
 
     verdict = judge(cut(wanted, design["spring"], design["guide"]), design["rollers"], design["limits"])
-    margins = {c.name: math.nan if c.margin is None else c.margin for c in verdict.checks if c.name in limits}
-    return {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0, "margins": margins}
+    margins = {f"margins.{c.name}": math.nan if c.margin is None else c.margin for c in verdict.checks}
+    known = {f"margins.{name}": margins[f"margins.{name}"] for name in limits if f"margins.{name}" in margins}
+    return {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0, **known}
 
 
 def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> list[Outcome]:

@@ -45,7 +45,8 @@ class Route:
     run: Callable[[Sequence[Case]], list[Outcome]]  #: Cases to outcomes, in the same order
     together: int  #: Most cases in one call; an interrupt loses one call
     seconds: float  #: What one takes, roughly [s]
-    #: In place of `run`, where cases need not be read one by one: case, overrides and values of the axes to outcomes
+    #: In place of `run`, where cases need not be read one by one: case, overrides and values of the axes to outcomes,
+    #: each of numbers by dotted names already
     at: Callable[[str, Mapping[str, Any], Sequence[Mapping[str, Any]]], list[Outcome]] | None = None
 
 

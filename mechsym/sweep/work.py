@@ -93,7 +93,7 @@ def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcom
 def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:
     """Results of points by name, or why there are none."""
     if chosen.at is not None:
-        return [o if isinstance(o, Gap) else flat(o) for o in chosen.at(order.case, order.overrides, heres)]
+        return chosen.at(order.case, order.overrides, heres)
     outcomes: dict[int, Outcome] = {}
     loaded = {}
     for i, here in enumerate(heres):

@@ -19,11 +19,15 @@ pytestmark = pytest.mark.slow
 
 SPRING = ("spring.p0", "spring.A", "spring.H")
 COIL = {"spring.law": "coil", "spring.k": "600 kN/m", "spring.F0": "90 kN", "spring.H": "1 m"}
+LOW = {"spring.p0": "0.5 bar", "spring.A": "4 m^2", "spring.H": "1.6 m", "guide.rho0": "2.5 m",
+       "limits.closing_share": "0.25"}  # fmt: skip
 # case, what is set, what is free
 CASES = {
     "absolute": ("zotov-89", {}, (*SPRING, "spring.n", "guide.rho0", "guide.z_margin", "rollers.radius")),
     "gauge": ("zotov-142", {"spring.law": "air_gauge"}, (*SPRING, "rollers.width", "limits.closing_share")),
     "coil": ("zotov-89", COIL, ("spring.k", "spring.F0", "guide.rho0", "limits.pressure_angle")),
+    # the atmosphere outside is a large part of the force
+    "low pressure": ("zotov-89", LOW, (*SPRING, "spring.n")),
     "slow shaft": ("generator", {}, (*SPRING, "guide.rho0", "rollers.width")),
     "every turn": ("generator", {"guide.balance": "every_turn", "guide.shaft_ratio": "1"}, (*SPRING, "guide.rho0")),
 }
@@ -92,20 +96,27 @@ def test_margins_of_a_thousand_designs(setting):
 def test_gradients_are_those_of_differences(setting):
     wanted, given, free, base, kernel = setting
     values = drawn(free, base, 40)
-    margins, gradients, seen = kernel.margins(values), kernel.gradients(values), 0
+    margins, gradients = kernel.margins(values), kernel.gradients(values)
+    seen = there = broken = 0
     for k, size in enumerate(base):
         shift = np.zeros(len(base))
         shift[k] = 1e-4 * size
         around = [kernel.margins(values + j * shift) for j in (-2, -1, 1, 2)]
-        # where the largest value changes its place or a limit begins to hold there is no derivative
+        # where a limit begins to hold there is no derivative
         smooth = np.all([np.isfinite(m) & (m > -1) for m in (*around, margins)], axis=0)
         with np.errstate(invalid="ignore"):
             slope = (around[0] - 8 * around[1] + 8 * around[2] - around[3]) / (12e-4)
-            wide = (around[3] - around[0]) / 4e-4
-        smooth &= np.abs(slope - wide) < 1e-3 * (1 + np.abs(slope))
+            slopes = np.diff([around[0], around[1], margins, around[2], around[3]], axis=0) / 1e-4
+            # where another angle, or another point beside it, becomes the highest, the margin has a kink or a step
+            # of 1e-8: its own slopes say so, whatever the gradient is
+            bends = np.abs(np.diff(slopes, 2, axis=0)).max(axis=0) > 1e-6 * (1 + np.abs(slope))
+        there += int(smooth.sum())
+        broken += int((smooth & bends).sum())
+        smooth &= ~bends
         difference = np.abs(slope - gradients[..., k] * size)[smooth]
         seen += int((np.abs(slope[smooth]) > 1e-6).sum())
-        assert np.quantile(difference, 0.98) < 1e-6
+        assert difference.max(initial=0.0) < 1e-6
+    assert broken < 0.02 * there
     assert seen > 100
 
 
