@@ -7,8 +7,9 @@ the right; a reaction R_j is the force of the first body on the second along the
 """
 
 import dataclasses
+import functools
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
 from typing import Any
@@ -40,6 +41,31 @@ class Mechanism:
 
     # a mechanism is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
+
+
+class BoundFunctions(Mapping[str, ca.Function]):
+    """The functions of a generated module for given parameters, each built when it is first asked for."""
+
+    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Any]) -> None:
+        self.module, self.values_bound = module, values
+        self._letters = letters
+        self._built: dict[str, ca.Function] = {}
+
+    def __getitem__(self, name: str) -> ca.Function:
+        if name not in self._built:
+            if name not in self.module.FUNCTIONS:
+                raise KeyError(name)
+            self._built[name] = casadi_function(self.module, name, self._letters[name], self.values_bound)
+        return self._built[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.module.FUNCTIONS  # without building it
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.module.FUNCTIONS)
+
+    def __len__(self) -> int:
+        return len(self.module.FUNCTIONS)
 
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
@@ -89,7 +115,17 @@ def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
     mechanism : Mechanism
         Functions with scalar inputs; a row vector (1, n) maps over its columns
     """
-    return dataclasses.replace(bind_module(generated(name), parameters), name=name)
+    module = generated(name)
+    values = tuple((p, parameters[p]) for p in module.PARAMETERS if p in parameters)
+    if len(values) == len(module.PARAMETERS) and all(isinstance(v, float) for _, v in values):
+        return _bound(module, name, values, repr(values))
+    return dataclasses.replace(bind_module(module, parameters), name=name)
+
+
+# points of a sweep, and trials of one engine, ask for the same mechanism again; the text tells 0 from -0
+@functools.lru_cache(maxsize=64)
+def _bound(module: ModuleType, name: str, values: tuple[tuple[str, float], ...], text: str) -> Mechanism:
+    return dataclasses.replace(bind_module(module, dict(values)), name=name)
 
 
 def bind_module(module: ModuleType, parameters: Mapping[str, Any]) -> Mechanism:
@@ -109,10 +145,11 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Any]) -> Mechanism:
         "constraints": (*q, *u),
         "drawing": q,
     }
-    functions = {f: casadi_function(module, f, letters[f], values) for f in module.FUNCTIONS}
+    functions: Mapping[str, ca.Function] = BoundFunctions(module, letters, values)
     dependents = getattr(module, "DEPENDENTS", {})
     if dependents and "reactions" in functions:
-        functions["reactions"] = with_multipliers(functions, module.MULTIPLIERS, tuple(dependents))
+        closed = with_multipliers(functions, module.MULTIPLIERS, tuple(dependents))
+        functions = {**functions, "reactions": closed}
     return Mechanism(
         name=name, coordinates=q, inputs=module.INPUTS, parameters=values, functions=functions, dependents=dependents
     )

@@ -98,7 +98,8 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
 def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     count = len(batch.start)
     lanes, together = _shape(batch, method, count)
-    texts = [_text(p, method, lanes) for p in batch.programs]
+    followed = tuple(sorted({t.state for t in batch.runs.tables})) if method == "dop853" else ()
+    texts = [_text(p, method, lanes, *([followed] if followed else [])) for p in batch.programs]
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
     blocks = _blocks(texts if len(texts) > 1 else texts * count, together)
     result = _empty(count, batch.start.shape[1], batch.times.shape[1])
@@ -182,8 +183,8 @@ def _spread(runs: Runs, mode: str) -> _Batch:
 
 
 @functools.lru_cache(maxsize=256)
-def _text(of: Program, method: str, lanes: int) -> str:
-    return getattr(integrators, method)(of, lanes)
+def _text(of: Program, method: str, lanes: int, *followed: tuple[int, ...]) -> str:
+    return getattr(integrators, method)(of, lanes, *followed)
 
 
 def _side_by_side(angles: list[np.ndarray]) -> np.ndarray:
@@ -201,7 +202,8 @@ def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
 
 def _empty(count: int, n: int, times: int) -> dict[str, np.ndarray]:
     whole = {name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "met", "status")}
-    samples = np.full((count, times, n), np.nan)
+    # each state of a run lies in one piece, as it is looked at
+    samples = np.empty((count, n, times)).swapaxes(1, 2)
     return {**whole, "t": np.zeros(count), "y": np.zeros((count, n)), "samples": samples, "last_step": np.zeros(count)}
 
 
@@ -209,18 +211,20 @@ def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, resu
     # an incomplete block is filled up with copies of its last run
     chosen = np.array(members + [members[-1]] * (lanes - len(members)))
     arrays = _arrays(batch, chosen)
+    arrays["samples"] = np.array([result["samples"][run].ctypes.data for run in chosen], dtype=np.uintp)
     structure, alive = _structure(batch.runs, arrays, chosen)
     advance(ctypes.byref(structure))
     del alive
     used = slice(0, len(members))
     result["y"][members] = arrays["y"].T[used]
-    result["samples"][members] = np.moveaxis(arrays["samples"], 2, 0)[used]
+    for run, count in zip(members, arrays["sampled"], strict=False):
+        result["samples"][run, count:] = np.nan
     for name in ("t", "last_step", "steps", "rejected", "met", "status"):
         result[name][members] = arrays[name][used]
 
 
 def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
-    lanes, n, times = len(chosen), batch.start.shape[1], batch.times.shape[1]
+    lanes = len(chosen)
     constants = batch.constants if len(batch.constants) > 1 else batch.constants * len(batch.start)
     # a value for each kink
     periods = np.array([k.period for k in batch.runs.kinks for _ in range(np.shape(k.angles)[-1])])
@@ -231,15 +235,14 @@ def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
         "constants": np.stack([constants[c] for c in chosen], axis=1),
         "until": batch.until[chosen].T,
         "held": np.moveaxis(batch.held[chosen], 0, 2),
-        "grid": batch.times[chosen].T,
+        "grid": batch.times[chosen],
         "kink_angles": np.mod(batch.kinks[chosen].T, periods[:, None]),
         "kink_periods": periods,
         "t": np.full(lanes, float(batch.runs.t)),
         "y": batch.start[chosen].T,
-        "samples": np.full((times, n, lanes), np.nan),
         "last_step": np.zeros(lanes),
     }
-    # always a copy: the runs are written into t, y and samples
+    # always a copy: the runs are written into t and y
     return {name: np.array(a, dtype=float, order="C") for name, a in floats.items()} | counters
 
 
@@ -250,7 +253,7 @@ def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) ->
     surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
     alive += [tables, surfaces]
     structure = _Run(
-        segments=len(arrays["until"]), times=len(arrays["grid"]), tables=len(runs.tables),
+        segments=len(arrays["until"]), times=arrays["grid"].shape[1], tables=len(runs.tables),
         surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kinked=len(arrays["kinked_states"]),
         max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
         table=ctypes.addressof(tables), surface=ctypes.addressof(surfaces),

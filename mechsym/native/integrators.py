@@ -31,9 +31,24 @@ def sizes(program: Program) -> tuple[int, int]:
     return n, len(program.tape.inputs) - 1 - n
 
 
-def dop853(program: Program, lanes: int) -> str:
-    """A file that exports `ms_dop853`, see `c/run.h` for its argument."""
-    return "\n".join([system(program, lanes), dop853_numbers(), header("dop853.h"), header("advance.h")])
+def dop853(program: Program, lanes: int, followed: tuple[int, ...] = ()) -> str:
+    """A file that exports `ms_dop853`, see `c/run.h` for its argument.
+
+    Parameters
+    ----------
+    followed : tuple of int
+        States that tables are read at
+    """
+    parts = [system(program, lanes), _read_states(program, followed), dop853_numbers()]
+    return "\n".join([*parts, header("dop853.h"), header("advance.h")])
+
+
+def _read_states(program: Program, followed: tuple[int, ...]) -> str:
+    """Loop up to the last state that the rates read: works and losses, which nothing reads, stand behind it."""
+    n, _ = sizes(program)
+    used = {args[0] for op, args in program.tape.nodes if op == "input"} | {1 + i for i in followed}
+    last = max((i for i in used if i <= n), default=0)
+    return f"#define MS_READ_STATES for (int i = 0; i < {last}; i++) MS_EACH"
 
 
 def system(program: Program, lanes: int) -> str:

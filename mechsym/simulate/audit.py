@@ -1,11 +1,13 @@
 """Two checks of every run: does the energy balance, and does a tighter tolerance say the same."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
+from mechsym.native.evaluate import Compiled
 from mechsym.quantities.display import ratio_text
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import Periodic, Problem
@@ -15,13 +17,17 @@ from mechsym.simulate.result import Energy
 _GOOD_ENERGY = 1e-6
 
 
-def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+def energies(
+    mechanism: Mechanism, q: np.ndarray, u: np.ndarray, letters: tuple[float, ...] = ()
+) -> tuple[np.ndarray, np.ndarray] | None:
     """Kinetic and potential energy along a run.
 
     Parameters
     ----------
     q, u : ndarray, shape (n, m)
         Coordinates and velocities, one row each [rad, rad/s]
+    letters : tuple of float
+        Parameters that the mechanism of a family leaves open [SI]
 
     Returns
     -------
@@ -30,8 +36,13 @@ def energies(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.nda
     """
     if "energy" not in mechanism.functions:
         return None
-    kinetic, potential = compiled(mechanism.functions["energy"]).batch(*q, *u)
+    kinetic, potential = _energy(mechanism).batch(*q, *u, *letters)
     return kinetic, potential
+
+
+@lru_cache(maxsize=64)
+def _energy(mechanism: Mechanism) -> Compiled:
+    return compiled(mechanism.functions["energy"])
 
 
 def energies_beside(problem: Problem, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

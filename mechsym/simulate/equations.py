@@ -31,13 +31,22 @@ class System:
     values: tuple[Steps | Periodic | Callable[..., float], ...]  #: What gives each entry of w
     size: int
     audited: bool  #: Whether the mechanism has energies; without them dissipation stays 0
+    #: Last entries of w, the same at all times: what the rates take of parameters that differ in a family [SI]
+    fixed: tuple[float, ...] = ()
+    shared: Mechanism | None = None  #: Of a family; its functions take `letters` behind their own inputs
+    letters: tuple[float, ...] = ()  #: Parameters that differ in the family [SI]
 
 
-def system(problem: Problem) -> System:
+def system(problem: Problem, letters: Sequence[Any] = ()) -> System:
     r"""The equations of a problem, with the power balance beside the motion.
 
     .. math:: \dot W_j = w_j\, v_j,\quad v_j = \sum_i \frac{\partial Q_i}{\partial w_j} u_i,\qquad
               \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
+
+    Parameters
+    ----------
+    letters : sequence of casadi.SX
+        Parameters that the mechanism leaves open; they become the last inputs of the function
 
     Raises
     ------
@@ -58,13 +67,13 @@ def system(problem: Problem) -> System:
     along = (u, _curves(problem, w), ca.vertsplit(y[len(columns) - len(problem.states) :]))
     values = part_values(problem, t, q, u, w, along)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
-    qdd = _carrying(problem, q, u, w, acceleration_function(mechanism)(*q, *u, *inputs))
-    rates, loss = power(mechanism, q, u)
+    qdd = _carrying(problem, q, u, w, acceleration_function(mechanism)(*q, *u, *inputs, *letters))
+    rates, loss = power(mechanism, q, u, letters)
     powers = [value * rates[part.input] for part, value in values]
     inner = [s.rate.function(*along) for s in problem.states]
     found = ca.vertcat(*u, qdd, *powers, loss, *inner)
     return System(
-        function=ca.Function("system", [t, y, w], [found], ["t", "y", "w"], ["ydot"]),
+        function=ca.Function("system", [t, y, ca.vertcat(w, *letters)], [found], ["t", "y", "w"], ["ydot"]),
         columns=columns,
         units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1) + tuple(s.unit for s in problem.states),
         values=outer,
@@ -125,15 +134,17 @@ def _carrying(problem: Problem, q: Sequence[Any], u: Sequence[Any], w: Any, qdd:
     return (own * qdd - w[-1] * u[0] ** 2 / 2) / (own + w[-2])
 
 
-def power(mechanism: Mechanism, q: Sequence[Any], u: Sequence[Any]) -> tuple[dict[str, Any], Any]:
+def power(
+    mechanism: Mechanism, q: Sequence[Any], u: Sequence[Any], letters: Sequence[Any] = ()
+) -> tuple[dict[str, Any], Any]:
     """The speed conjugate to each input, and the power that is lost inside the mechanism."""
     inputs = ca.SX.sym("inputs", len(mechanism.inputs))
-    force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs))[2]
+    force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs), *letters)[2]
     speeds = ca.jacobian(force, inputs).T @ ca.vertcat(*u)
     rates = dict(zip(mechanism.inputs, ca.vertsplit(speeds), strict=True))
     if "energy" not in mechanism.functions:
         return rates, ca.SX(0)
-    potential = mechanism.functions["energy"](*q, *u)[1]
+    potential = mechanism.functions["energy"](*q, *u, *letters)[1]
     passive = ca.substitute(force, inputs, ca.SX.zeros(inputs.shape))
     return rates, -ca.dot(ca.vertcat(*u), passive + ca.gradient(potential, ca.vertcat(*q)))
 
@@ -151,7 +162,8 @@ def held(system: System, t: float) -> np.ndarray:
     w : ndarray, shape (k,)
         In the units of the inputs [N*m or N]
     """
-    return np.array([_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values], dtype=float)
+    now = [_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values]
+    return np.array([*now, *system.fixed], dtype=float)
 
 
 def _step(steps: Steps, t: float) -> float:

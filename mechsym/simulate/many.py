@@ -17,7 +17,8 @@ from mechsym.native.integrate import integrate
 from mechsym.native.runs import Breaks, Level, Runs, Table
 from mechsym.simulate import native_backend
 from mechsym.simulate.backends import NATIVE
-from mechsym.simulate.equations import System, system
+from mechsym.simulate.equations import System
+from mechsym.simulate.family import systems
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Result
@@ -64,27 +65,27 @@ def _groups(problems: Sequence[Problem], settings: Settings) -> list[list[int]]:
 
 
 def _together(problems: list[Problem], settings: Settings) -> list[Result]:
-    systems = [system(p) for p in problems]
+    equations = systems(problems)
     begin = time.perf_counter()
-    raws = _raws(problems, systems, settings)
+    raws = _raws(problems, equations, settings)
     wall = (time.perf_counter() - begin) / len(problems)
-    results = [result_of(p, s, r, wall) for p, s, r in zip(problems, systems, raws, strict=True)]
+    results = [result_of(p, s, r, wall) for p, s, r in zip(problems, equations, raws, strict=True)]
     if settings.check == "none":
         return results
-    checks = _raws(problems, systems, tighter(settings))
+    checks = _raws(problems, equations, tighter(settings))
     return [
         r if r.status == "failed" else checked(p.mechanism, r, result_of(p, s, c, 0.0), settings)
-        for p, s, r, c in zip(problems, systems, results, checks, strict=True)
+        for p, s, r, c in zip(problems, equations, results, checks, strict=True)
     ]
 
 
-def _raws(problems: list[Problem], systems: list[System], settings: Settings) -> list[Raw]:
+def _raws(problems: list[Problem], equations: list[System], settings: Settings) -> list[Raw]:
     times = [wanted_times(p) for p in problems]
     single = [
-        native_backend.runs(p, s, settings, t, ends_of(p)) for p, s, t in zip(problems, systems, times, strict=True)
+        native_backend.runs(p, s, settings, t, ends_of(p)) for p, s, t in zip(problems, equations, times, strict=True)
     ]
-    outcome = integrate(_joined(single, [s.function for s in systems]))
-    parts = zip(problems, systems, times, range(len(problems)), strict=True)
+    outcome = integrate(_joined(single, [s.function for s in equations]))
+    parts = zip(problems, equations, times, range(len(problems)), strict=True)
     return [native_backend.raw(p, s, t, outcome, i) for p, s, t, i in parts]
 
 
@@ -93,7 +94,7 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
     times = [np.pad(r.times, (0, most - len(r.times)), constant_values=np.inf) for r in single]
     return replace(
         first,
-        rhs=functions,
+        rhs=functions[0] if all(f is functions[0] for f in functions) else functions,
         start=np.array([r.start for r in single]),
         until=np.array([r.until for r in single]),
         held=np.array([r.held for r in single]),

@@ -1,7 +1,6 @@
 """A whole run in compiled C: jumps, kinks and stops are handled inside, so one call takes the place of all phases."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from mechsym.simulate.equations import System, fitted, held, start_of
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Steps
 from mechsym.simulate.settings import Settings
-from mechsym.simulate.watch import Watch, watch
+from mechsym.simulate.watch import ends_watched
 
 _DONE, _MET, _TOO_MANY = 0, 1, 2
 
@@ -62,7 +61,8 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
         times=times,
         tables=tuple(_table(equations, i, v) for i, v in enumerate(equations.values) if isinstance(v, Periodic)),
         surfaces=tuple(
-            Level(state=s.state, level=s.level, direction=s.direction) for s in _ends(problem, equations).surfaces
+            Level(state=s.state, level=s.level, direction=s.direction)
+            for s in ends_watched(problem, equations.columns).surfaces
         ),
         kinks=_kinks(problem, equations),
         rtol=settings.tolerance,
@@ -87,20 +87,16 @@ def raw(problem: Problem, equations: System, times: np.ndarray, outcome: Outcome
     t_end, status = float(outcome.t[index]), int(outcome.status[index])
     reached = times[times <= t_end]
     t = np.concatenate([[problem.t_start], reached])
-    y = np.vstack([start_of(problem, equations), outcome.samples[index, : len(reached)]])
+    y = np.empty((len(equations.columns), len(t))).T  # each column in one piece
+    y[0], y[1:] = start_of(problem, equations), outcome.samples[index, : len(reached)]
     if t[-1] < t_end:
         t, y = np.append(t, t_end), np.vstack([y, outcome.y[index]])
     failure = "" if status in (_DONE, _MET) else f"stopped at t = {t_end:.6g} s: {STATUS[status]}"
     if status == _TOO_MANY:
         failure = f"stopped at t = {t_end:.6g} s: {int(outcome.steps[index])} steps were not enough"
-    names = (*_ends(problem, equations).ends, "margin")  # see constrained.py
+    names = (*ends_watched(problem, equations.columns).ends, "margin")  # see constrained.py
     end = names[int(outcome.met[index])] if status == _MET else "t_end"
     return Raw(t=t, y=y, steps=int(outcome.steps[index]), end="failure" if failure else end, failure=failure)
-
-
-def _ends(problem: Problem, equations: System) -> Watch:
-    # kinks are the integrator's own business
-    return watch(replace(problem, kinks=()), equations.columns, np.zeros(len(equations.columns)))
 
 
 def _table(equations: System, index: int, value: Periodic) -> Table:

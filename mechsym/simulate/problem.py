@@ -146,6 +146,31 @@ class Problem:
         _outputs(self.output)
 
 
+def times_of(output: tuple[float, ...]) -> np.ndarray:
+    """Wanted times as an array that is made once for runs that share them.
+
+    Parameters
+    ----------
+    output : tuple of float
+        Ascending [s]
+
+    Returns
+    -------
+    times : ndarray, shape (n,)
+        Not to be written into [s]
+    """
+    kept = _KEPT.get(id(output))
+    if kept is None:
+        if len(_KEPT) > 8:
+            _KEPT.clear()
+        kept = _KEPT[id(output)] = output, np.array(output, dtype=float)  # what is kept keeps its id
+        kept[1].flags.writeable = False
+    return kept[1]
+
+
+_KEPT: dict[int, tuple[tuple[float, ...], np.ndarray]] = {}
+
+
 def period_of(problem: Problem) -> float:
     """Period of what acts over a coordinate; a turn where nothing does [rad]."""
     return max((p.value.period for p in problem.parts if isinstance(p.value, Periodic)), default=2 * np.pi)
@@ -158,6 +183,6 @@ def _known(what: str, names: list[str], allowed: tuple[str, ...]) -> None:
 
 
 def _outputs(output: float | tuple[float, ...]) -> None:
-    wanted = np.atleast_1d(output) if isinstance(output, (int, float)) else np.diff(output)
+    wanted = np.atleast_1d(output) if isinstance(output, (int, float)) else np.diff(times_of(output))
     if not np.all(wanted > 0):
         raise BadInput("output must be a positive spacing in s, or ascending times in s")

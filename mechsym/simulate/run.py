@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from mechsym.simulate.equations import System, held, start_of, system
 from mechsym.simulate.forecast import TRIAL, refuse_endless, shorter
 from mechsym.simulate.opening import ended, posed
 from mechsym.simulate.phase import Phase, Raw, Surface
-from mechsym.simulate.problem import Problem, Steps
+from mechsym.simulate.problem import Problem, Steps, times_of
 from mechsym.simulate.result import Event, Result
 from mechsym.simulate.settings import Settings
 from mechsym.simulate.watch import watch
@@ -90,7 +91,7 @@ def checked(mechanism: Mechanism, result: Result, check: Result, settings: Setti
     if check.end != result.end:
         why = f"ends by {result.end!r}, at the tighter tolerance by {check.end!r}; use a smaller tolerance"
         return replace(result, status="not converged", reason=why)
-    t, here, there = np.intersect1d(result.t, check.t, return_indices=True)
+    t, here, there = _common(result.t, check.t)
     speeds = [f"{q}d" for q in mechanism.coordinates if q not in mechanism.dependents]  # the others follow them
     difference = speed_difference(
         {v: result.columns[v][here] for v in speeds}, {v: check.columns[v][there] for v in speeds}
@@ -98,6 +99,11 @@ def checked(mechanism: Mechanism, result: Result, check: Result, settings: Setti
     residuals = (result.energy.residual, check.energy.residual)
     status, reason = verdict(t, difference, settings.difference_allowed, residuals)
     return replace(result, status=status, reason=reason, tolerance_difference=float(np.max(difference)))
+
+
+def _common(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, Any, Any]:
+    """Times that two runs share, and where they stand in each."""
+    return (a, slice(None), slice(None)) if np.array_equal(a, b) else np.intersect1d(a, b, return_indices=True)
 
 
 def _integrate(problem: Problem, equations: System, settings: Settings) -> Raw:
@@ -169,7 +175,7 @@ def wanted_times(problem: Problem) -> np.ndarray:
         After the start, ascending [s]
     """
     if not isinstance(problem.output, (int, float)):
-        return np.asarray(problem.output, dtype=float)
+        return times_of(problem.output)
     count = int(np.floor((problem.t_end - problem.t_start) / problem.output * (1 + 1e-12)))
     return np.minimum(problem.t_start + problem.output * np.arange(1, count + 1), problem.t_end)
 
@@ -199,7 +205,8 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
     raw = posed(problem.mechanism, whole)
     columns = dict(zip(equations.columns, raw.y.T, strict=True))
     units = dict(zip(equations.columns, equations.units, strict=True))
-    known = energies(problem.mechanism, raw.y[:, :n].T, raw.y[:, n : 2 * n].T)
+    shared = equations.shared or problem.mechanism
+    known = energies(shared, raw.y[:, :n].T, raw.y[:, n : 2 * n].T, equations.letters)
     if known is not None:
         columns |= dict(zip(("kinetic_energy", "potential_energy"), known, strict=True))
         units |= {"kinetic_energy": "J", "potential_energy": "J"}

@@ -37,14 +37,8 @@ def watch(problem: Problem, columns: tuple[str, ...], y: np.ndarray) -> Watch:
     watch : Watch
         Surfaces, their meanings, and the intervals between kinks
     """
-    surfaces = [
-        Surface(state=columns.index(s.of), level=s.level, direction=_DIRECTION[s.direction]) for s in problem.stops
-    ]
-    ends = [s.name for s in problem.stops]
-    if problem.turns is not None:
-        surfaces.append(Surface(state=0, level=problem.q0[0] + 2 * np.pi * problem.turns, direction=1))
-        ends.append("turns")
-    spans = []
+    always = ends_watched(problem, columns)
+    surfaces, ends, spans = list(always.surfaces), list(always.ends), []
     for kinks in (k for k in problem.kinks if k.angles):
         state = columns.index(kinks.coordinate)
         low, high = _between(kinks, float(y[state]))
@@ -54,6 +48,18 @@ def watch(problem: Problem, columns: tuple[str, ...], y: np.ndarray) -> Watch:
         spans.append(Span(state=state, low=low + margin, high=high - margin))
         ends += ["", ""]
     return Watch(surfaces=tuple(surfaces), ends=tuple(ends), spans=tuple(spans))
+
+
+def ends_watched(problem: Problem, columns: tuple[str, ...]) -> Watch:
+    """What ends a run wherever it stands: stops, and the wanted number of turns."""
+    surfaces = [
+        Surface(state=columns.index(s.of), level=s.level, direction=_DIRECTION[s.direction]) for s in problem.stops
+    ]
+    ends = [s.name for s in problem.stops]
+    if problem.turns is not None:
+        surfaces.append(Surface(state=0, level=problem.q0[0] + 2 * np.pi * problem.turns, direction=1))
+        ends.append("turns")
+    return Watch(surfaces=tuple(surfaces), ends=tuple(ends), spans=())
 
 
 def _between(kinks: Kinks, angle: float) -> tuple[float, float]:

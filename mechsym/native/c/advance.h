@@ -21,7 +21,7 @@ static int ms_enter(const ms_run *run, ms_work *w, int l)
 
 static void ms_look_ahead(const ms_run *run, ms_work *w, int l)
 {
-    w->due[l] = run->sampled[l] < run->times ? run->grid[run->sampled[l] * MS_L + l] : INFINITY;
+    w->due[l] = run->sampled[l] < run->times ? run->grid[l * run->times + run->sampled[l]] : INFINITY;
 }
 
 /* x^(-1/p), p = 2^n, to two hundredths below: enough for a step size, and without four roots in a row. The bits of a
@@ -153,9 +153,9 @@ static void ms_sample(const ms_run *run, ms_work *w, int l, double end)
 {
     for (; w->due[l] <= end; ms_look_ahead(run, w, l)) {
         const double u = (w->due[l] - w->t[l]) / w->step[l];
-        double *to = run->samples + run->sampled[l] * MS_N * MS_L + l;
+        double *to = run->samples[l] + run->sampled[l];
         for (int i = 0; i < MS_N; i++)
-            to[i * MS_L] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
+            to[i * run->times] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
         run->sampled[l]++;
     }
 }
@@ -207,13 +207,46 @@ static double ms_end(const ms_work *w, int l)
     return w->step[l] == until - w->t[l] || end > until ? until : end;
 }
 
+/* Lanes whose step is good and holds a wanted time. */
+static long ms_due(const ms_work *w, int *due)
+{
+    long any = 0;
+    MS_EACH due[l] = w->active[l] & (w->error[l] <= 1.0) & (w->due[l] <= w->t[l] + w->step[l]);
+    for (int l = 0; l < MS_L; l++)
+        any |= due[l];
+    return any;
+}
+
+/* As `ms_sample`, in all lanes at once. */
+static void ms_sample_all(const ms_run *run, ms_work *w)
+{
+    int due[MS_L];
+    ms_row share, value[MS_N];
+    if (!ms_due(w, due))
+        return;
+    for (ms_make_dense(run, w); ms_due(w, due);) {
+        MS_EACH share[l] = (w->due[l] - w->t[l]) / w->step[l];
+        ms_inside_all(w, share, value);
+        for (int l = 0; l < MS_L; l++) {
+            if (!due[l])
+                continue;
+            double *to = run->samples[l] + run->sampled[l];
+            for (int i = 0; i < MS_N; i++)
+                to[i * run->times] = share[l] < 1.0 ? value[i][l] : w->next[i][l];
+            run->sampled[l]++;
+            ms_look_ahead(run, w, l);
+        }
+    }
+}
+
 /* After a try in which no lane meets anything: accept or reject in all lanes at once. Returns 0 if one does. */
 static int ms_settle_plain(const ms_run *run, ms_work *w)
 {
     long special = run->surfaces | run->kinks;
-    MS_EACH special |= w->active[l] & (ms_fmin(w->due[l], w->until[l]) <= w->t[l] + 1.001 * w->step[l]);
+    MS_EACH special |= w->active[l] & (w->until[l] <= w->t[l] + 1.001 * w->step[l]);
     if (special)
         return 0;
+    ms_sample_all(run, w);
     ms_row taken;
     MS_EACH
     {

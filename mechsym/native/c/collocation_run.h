@@ -15,12 +15,12 @@ static int ms_sample(const ms_run *run, ms_work *w, double end)
 {
     double next[MS_N], rest[MS_N];
     memcpy(next, w->next, sizeof next), memcpy(rest, w->rest, sizeof rest);
-    for (; run->sampled[0] < run->times && run->grid[run->sampled[0] * MS_L] <= end; ++*run->sampled) {
-        const double due = run->grid[run->sampled[0] * MS_L];
+    for (; run->sampled[0] < run->times && run->grid[run->sampled[0]] <= end; ++*run->sampled) {
+        const double due = run->grid[run->sampled[0]];
         if (due < end && !ms_inside(run, w, due - w->t))
             return 0;
         for (int i = 0; i < MS_N; i++)
-            run->samples[(run->sampled[0] * MS_N + i) * MS_L] = due < end ? w->next[i] : next[i];
+            run->samples[0][i * run->times + run->sampled[0]] = due < end ? w->next[i] : next[i];
     }
     memcpy(w->next, next, sizeof next), memcpy(w->rest, rest, sizeof rest);
     return 1;

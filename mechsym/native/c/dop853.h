@@ -15,7 +15,7 @@ typedef struct {
 
 #define MS_Q(j) w->q[j - 1][i][l]
 #define MS_STAGE(stage, node, sum)                                                                                    \
-    MS_STATES w->x[1 + i][l] = w->y[i][l] + w->step[l] * (sum);                                                       \
+    MS_READ_STATES w->x[1 + i][l] = w->y[i][l] + w->step[l] * (sum);                                                  \
     MS_EACH w->x[0][l] = w->t[l] + node * w->step[l];                                                                 \
     ms_rates(run, &w->window, w->x, w->q[stage - 1]);
 
@@ -65,6 +65,17 @@ static double ms_inside(const ms_work *w, int i, int l, double u)
     for (int j = 6; j >= 1; j--)
         y = w->dense[j][i][l] + (j % 2 ? 1.0 - u : u) * y;
     return w->dense[0][i][l] + u * y;
+}
+
+/* The same in all lanes, each at a share u of its own. */
+static void ms_inside_all(const ms_work *w, const double *u, ms_row *value)
+{
+    memcpy(value, w->dense[7], sizeof w->dense[7]);
+    for (int j = 6; j >= 0; j--) {
+        ms_row by;
+        MS_EACH by[l] = j % 2 ? 1.0 - u[l] : u[l];
+        MS_STATES value[i][l] = w->dense[j][i][l] + by[l] * value[i][l];
+    }
 }
 
 /* Share of the step at which a state passes a level, by bisection of the dense output. */

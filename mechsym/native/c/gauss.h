@@ -93,20 +93,23 @@ static int ms_stretch(const ms_run *run, ms_work *w, double from, double to)
 
 static int ms_all(const ms_run *run, ms_work *w, double *t)
 {
-    for (long segment = 0, sample = 0; segment < run->segments; segment++) {
+    long *const sample = run->sampled;
+    for (long segment = 0; segment < run->segments; segment++) {
         const double until = run->until[segment * MS_L];
         for (int l = 0; l < MS_L; l++)
             for (int j = 0; j < MS_P; j++)
                 w->x[1 + MS_N + j][l] = run->held[(segment * MS_P + j) * MS_L + l];
         while (*t < until) {
-            const int wanted = sample < run->times && run->grid[sample * MS_L] <= until;
-            const double end = wanted ? run->grid[sample * MS_L] : until;
+            const int wanted = *sample < run->times && run->grid[*sample] <= until;
+            const double end = wanted ? run->grid[*sample] : until;
             const int status = ms_stretch(run, w, *t, end);
             if (status != MS_DONE)
                 return status;
             *t = end;
-            if (wanted)
-                memcpy(run->samples + sample++ * MS_N * MS_L, w->y, sizeof w->y);
+            for (int i = 0; i < MS_N && wanted; i++)
+                for (int l = 0; l < MS_L; l++)
+                    run->samples[l][i * run->times + *sample] = w->y[i][l];
+            *sample += wanted;
         }
     }
     return MS_DONE;
@@ -120,12 +123,13 @@ MS_EXPORT void ms_gauss(const ms_run *run)
     ms_open(&w->window);
     memcpy(w->y, run->y, sizeof w->y);
     for (int l = 0; l < MS_L; l++)
-        run->steps[l] = run->rejected[l] = 0, run->met[l] = -1;
+        run->steps[l] = run->rejected[l] = run->sampled[l] = 0, run->met[l] = -1;
     const int status = ms_all(run, w, &t);
     memcpy(run->y, w->y, sizeof w->y);
     for (int l = 0; l < MS_L; l++) {
         run->t[l] = t;
         run->status[l] = status;
+        run->sampled[l] = run->sampled[0];
         run->last_step[l] = w->h;
     }
 }

@@ -27,7 +27,7 @@ typedef struct {
     const double *constants;   /* [constant][lane] */
     const double *until;       /* [segment][lane] */
     const double *held;        /* [segment][held value][lane] */
-    const double *grid;        /* [time][lane], ascending, after the start */
+    const double *grid;        /* [lane][time], ascending, after the start */
     const double *kink_angles; /* [kink][lane], in [0, period) */
     const double *kink_periods; /* [kink] */
     const long *kink_states;   /* [kink] */
@@ -35,7 +35,7 @@ typedef struct {
     const ms_table *table;     /* [table][lane] */
     const ms_surface *surface;
     double *t, *y;       /* [lane], [state][lane]: the start, then the end */
-    double *samples;     /* [time][state][lane] */
+    double *const *samples; /* [lane]: [state][time] of its run */
     double *last_step;   /* [lane] */
     long *steps, *rejected, *sampled, *met, *status; /* [lane] */
 } ms_run;
