@@ -36,7 +36,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses
     these or guides, forces, size, codesign.
     With --out: sweep.csv, sweep.nc (where xarray is installed) and sweep.svg; sweep.db takes the points as they come,
-    and the same command goes on where it stopped, whatever stopped it.
+    and the same command goes on where it stopped, whatever stopped it; another sweep sets it aside.
 
     Of a hinge only torque, guide, verdict and flywheel are computed; --show check.speed_ripple runs it too, and
     --show retune, --show losses, --show all cost a hundred times as much. --of guides asks only which guides can be
@@ -91,6 +91,7 @@ def _text(found: Any, report: dict[str, Any]) -> str:
     dims = " x ".join(f"{size} {name}" for name, size in found.dims.items())
     lines = [f"{found.analysis} of {found.case} over {dims}: {len(report['failed'])} of {len(found.points)} failed"]
     lines += [f"{found.kept} points kept from before"] if found.kept else []
+    lines += [f"the folder's points of another sweep are set aside in {found.aside}"] if found.aside else []
     if rows:
         spread = ["mean", "std"] if sampled else []
         lines += [

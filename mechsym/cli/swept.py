@@ -90,6 +90,7 @@ def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
         "sobol": [vars(row) for row in indices(found)] if found.sobol else [],
         "interrupted": found.interrupted,
         "kept": found.kept,
+        "set_aside": found.aside or None,
         "files": [str(f) for f in files],
     }
 

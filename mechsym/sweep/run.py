@@ -78,6 +78,7 @@ class Sweep:
     sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
     interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
     kept: int = 0  #: Points that were finished before, in the store of the same sweep
+    aside: str = ""  #: Where the folder's points of another sweep went
 
     @functools.cached_property
     def by_name(self) -> dict[str, np.ndarray]:
@@ -209,7 +210,7 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
         outcomes=tuple(outcomes), show=plan.show, sobol=plan.sobol or 0,
-        interrupted=interrupted, kept=len(before),
+        interrupted=interrupted, kept=len(before), aside=str((kept_in and kept_in.aside) or ""),
     )  # fmt: skip
 
 

@@ -3,7 +3,8 @@
     OUT/sweep.db    SQLite    point: i, row (JSON), seconds, host    about: what was swept, and who is writing
 
 A store belongs to one sweep: case text, values, axes, columns and program. Another sweep into the same folder begins
-anew. Chunks of points are written whole, so that what is computed later is computed as in one go.
+anew and sets the store aside as `sweep-<first digits of its key>.db`, where it is found when its turn comes again.
+Chunks of points are written whole, so that what is computed later is computed as in one go.
 """
 
 import contextlib
@@ -36,6 +37,7 @@ class Store:
 
     path: Path
     connection: Any  #: sqlite3.Connection
+    aside: Path | None = None  #: Where the store of another sweep went that was in the way
 
 
 @contextlib.contextmanager
@@ -45,7 +47,9 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
     Parameters
     ----------
     key : str
-        What is swept, see `identity`; a store of anything else is emptied, with `fresh` any
+        What is swept, see `identity`; a store of anything else is set aside
+    fresh : bool
+        Forget what is kept of this sweep
 
     Raises
     ------
@@ -54,20 +58,58 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
     """
     path = folder / NAME
     with _told(path):
-        connection = sqlite3.connect(path, isolation_level=None)
+        moved = None
+        connection = _connected(path)
         try:
-            connection.execute("pragma journal_mode = wal")
-            connection.execute("pragma synchronous = normal")
-            connection.executescript(_TABLES)
-            _taken(connection, path)
+            if _about(connection, "key") not in ("", key):
+                moved = _set_aside(connection, path)
+                connection = _connected(_brought_back(path, key))
             with connection:
-                if fresh or _about(connection, "key") != key:
+                if fresh:
                     connection.execute("delete from point")
                 _note(connection, "key", key)
-            yield Store(path=path, connection=connection)
+            yield Store(path=path, connection=connection, aside=moved)
             connection.execute("delete from about where name = 'writer'")
         finally:
             connection.close()
+
+
+def _connected(path: Path) -> Any:
+    """A store that this process alone writes."""
+    connection = sqlite3.connect(path, isolation_level=None)
+    try:
+        connection.execute("pragma journal_mode = wal")
+        connection.execute("pragma synchronous = normal")
+        connection.executescript(_TABLES)
+        _taken(connection, path)
+    except BaseException:
+        connection.close()
+        raise
+    return connection
+
+
+def _set_aside(connection: Any, path: Path) -> Path | None:
+    """Close the store of another sweep and give it a name of its own; nothing is lost of hours of work."""
+    other, (count,) = _about(connection, "key"), connection.execute("select count(*) from point").fetchone()
+    connection.execute("delete from about where name = 'writer'")
+    connection.execute("pragma wal_checkpoint(truncate)")  # a reader would keep the file beside it
+    connection.close()
+    aside = _aside(path, other)
+    path.replace(aside)
+    if count:
+        return aside
+    aside.unlink()
+    return None
+
+
+def _brought_back(path: Path, key: str) -> Path:
+    if _aside(path, key).exists():
+        _aside(path, key).replace(path)
+    return path
+
+
+def _aside(path: Path, key: str) -> Path:
+    return path.with_stem(f"{path.stem}-{key[:8]}")
 
 
 def known(store: Store) -> dict[int, Outcome]:

@@ -1,5 +1,6 @@
 """Sweeps that end, whatever happens: points kept in a file, processes that die, the same command again."""
 
+import contextlib
 import json
 import multiprocessing
 import os
@@ -84,6 +85,20 @@ def test_another_sweep_begins_anew(tmp_path, other):
     assert sweep(Plan(**given), means=Means(folder=tmp_path)).kept == 0
 
 
+def test_the_points_of_another_sweep_are_set_aside_and_found_again(tmp_path):
+    first, other = PLAN, Plan(case=PLAN.case, over=("spring.p0=3..8 MPa:6",), analysis="cycle")
+    whole = sweep(first, means=Means(folder=tmp_path))
+    moved = sweep(other, means=Means(folder=tmp_path))
+    assert (whole.aside, moved.kept) == ("", 0)
+    with contextlib.closing(sqlite3.connect(moved.aside)) as connection:
+        assert connection.execute("select count(*) from point").fetchone() == (5,)
+    again = sweep(first, means=Means(folder=tmp_path))
+    assert again.kept == 5 and not Path(moved.aside).exists()
+    np.testing.assert_equal(again.outcomes, whole.outcomes)
+    assert sweep(other, means=Means(folder=tmp_path, fresh=True)).kept == 0
+    assert sorted(p.name for p in tmp_path.iterdir()) == [Path(moved.aside).name, store.NAME]
+
+
 def test_a_changed_file_begins_anew(tmp_path):
     case = tmp_path / "mine.toml"
     case.write_text(cases.text("zotov-89"), encoding="utf-8")
@@ -124,7 +139,7 @@ def test_two_may_not_write_one_store(tmp_path):
         connection.execute(
             "insert or replace into about values ('writer', ?)", (f"{store.socket.gethostname()} 4194999",)
         )
-    assert sweep(PLAN, means=Means(folder=tmp_path)).kept == 0
+    assert sweep(PLAN, means=Means(folder=tmp_path)).kept == 5
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the state of a process is read from /proc")
