@@ -96,8 +96,9 @@ def evaluation(programs: Sequence[Program]) -> str:
             header("entries.h"),
             "#undef MS_NAME\n#undef MS_NX\n#undef MS_NY",
         ]
-    methods = ", ".join(f"&{p.tape.name}_method" for p in programs)
-    parts += [f"#ifdef MS_PYTHON\nstatic PyMethodDef *const ms_methods[] = {{{methods}}};\n#endif", header("module.h")]
+    methods, batched = (", ".join(f"&{p.tape.name}_{kind}" for p in programs) for kind in ("method", "batched"))
+    tables = f"*const ms_methods[] = {{{methods}}}, *const ms_batched[] = {{{batched}}}"
+    parts += [f"#ifdef MS_PYTHON\nstatic PyMethodDef {tables};\n#endif", header("module.h")]
     return "\n".join(parts)
 
 

@@ -14,7 +14,7 @@ MS_EXPORT int MS_(_batch)(long n, const double *k, const double *const *x, const
     if (!held)
         return -1;
     for (int i = 0; i < MS_NX; i++)
-        for (int p = 0; p < chunk && !moving[i]; p++)
+        for (long p = 0; p < chunk && p < n && !moving[i]; p++)
             held[i * chunk + p] = *x[i];
     for (long start = 0; start < n; start += chunk) {
         for (int i = 0; i < MS_NX; i++)
@@ -44,5 +44,53 @@ static PyObject *MS_(_call)(PyObject *self, PyObject *const *arguments, Py_ssize
     return ms_floats(y, MS_NY);
 }
 
+/* Called with a function that makes arrays, an array for the result or None, and MS_NX columns or numbers; returns
+ * None where these are not all plain. */
+static PyObject *MS_(_columns)(PyObject *self, PyObject *const *arguments, Py_ssize_t count)
+{
+    enum { nx = MS_NX > 0 ? MS_NX : 1 };
+    Py_buffer views[nx], target = {.obj = NULL};
+    double numbers[nx], *y[MS_NY];
+    const double *x[nx];
+    _Bool moving[nx];
+    Py_ssize_t sizes[nx], n = 1, seen = 0;
+    int plain = count == MS_NX + 2, failed = 0;
+    for (; plain && seen < MS_NX; seen++) {
+        sizes[seen] = ms_column(arguments[2 + seen], views + seen, numbers + seen, x + seen);
+        n = sizes[seen] > n ? sizes[seen] : n;
+        plain = sizes[seen] > 0;
+    }
+    for (int i = 0; plain && i < MS_NX; i++) {
+        moving[i] = sizes[i] > 1;
+        plain = sizes[i] == 1 || sizes[i] == n;
+    }
+    PyObject *result = NULL;
+    if (plain && arguments[1] == Py_None)
+        result = PyObject_CallFunction(arguments[0], "((in))", MS_NY, n);
+    else if (plain)
+        result = Py_NewRef(arguments[1]);
+    if (result && ms_writable(result, &target, MS_NY, n)) {
+        for (int i = 0; i < MS_NY; i++)
+            y[i] = (double *)target.buf + i * n;
+        Py_BEGIN_ALLOW_THREADS
+        failed = MS_(_batch)(n, (const double *)PyBytes_AS_STRING(self), x, moving, y);
+        Py_END_ALLOW_THREADS
+    } else {
+        Py_CLEAR(result);
+    }
+    for (int i = 0; i < seen; i++)
+        if (views[i].obj)
+            PyBuffer_Release(views + i);
+    if (target.obj)
+        PyBuffer_Release(&target);
+    if (!result || failed) {
+        PyErr_Clear();
+        Py_XDECREF(result);
+        Py_RETURN_NONE;
+    }
+    return result;
+}
+
+static PyMethodDef MS_(_batched) = {MS_TEXT, (PyCFunction)(void (*)(void))MS_(_columns), METH_FASTCALL, NULL};
 static PyMethodDef MS_(_method) = {MS_TEXT, (PyCFunction)(void (*)(void))MS_(_call), METH_FASTCALL, NULL};
 #endif

@@ -1,15 +1,16 @@
-/* The file as a Python module `mechsym_native`: bind(number, constants) gives a function of floats. */
+/* The file as a Python module `mechsym_native`: bind(number, constants, several) gives a function of floats,
+ * or of columns. */
 #ifdef MS_PYTHON
 static PyObject *ms_bind(PyObject *module, PyObject *arguments)
 {
     (void)module;
-    int number;
+    int number, several;
     PyObject *constants;
-    if (!PyArg_ParseTuple(arguments, "iS", &number, &constants))
+    if (!PyArg_ParseTuple(arguments, "iSp", &number, &constants, &several))
         return NULL;
     if (number < 0 || number >= (int)(sizeof ms_methods / sizeof *ms_methods))
         return PyErr_Format(PyExc_IndexError, "no function %d", number);
-    return PyCFunction_New(ms_methods[number], constants);
+    return PyCFunction_New((several ? ms_batched : ms_methods)[number], constants);
 }
 
 static PyMethodDef ms_module_methods[] = {{"bind", ms_bind, METH_VARARGS, NULL}, {NULL, NULL, 0, NULL}};

@@ -23,4 +23,27 @@ static PyObject *ms_floats(const double *y, int count)
     }
     return tuple;
 }
+
+/* A number, or a buffer of doubles in one piece. Returns how many numbers, or 0 for anything else. */
+static Py_ssize_t ms_column(PyObject *value, Py_buffer *view, double *number, const double **x)
+{
+    view->obj = NULL;
+    *x = number;
+    if (PyFloat_Check(value) || PyLong_CheckExact(value)) {
+        *number = PyFloat_AsDouble(value);
+        return *number == -1.0 && PyErr_Occurred() ? 0 : 1;
+    }
+    if (PyObject_GetBuffer(value, view, PyBUF_FORMAT | PyBUF_C_CONTIGUOUS))
+        return 0;
+    *x = view->buf;
+    return view->format && !strcmp(view->format, "d") ? view->len / (Py_ssize_t)sizeof(double) : 0;
+}
+
+/* The buffer of an array (count, n) of doubles that may be written into. */
+static int ms_writable(PyObject *array, Py_buffer *view, Py_ssize_t count, Py_ssize_t n)
+{
+    if (PyObject_GetBuffer(array, view, PyBUF_FORMAT | PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE))
+        return view->obj = NULL, 0;
+    return view->ndim == 2 && view->shape[0] == count && view->shape[1] == n && !strcmp(view->format, "d");
+}
 #endif
