@@ -7,7 +7,7 @@
     x ** c                   becomes  exp(c * log(x)) for a constant c that is no multiple of one half
 
 The quotients cost one or two more roundings, the power |c log x| units of the last place, so only the mode `fast` does
-this.
+this. The mode `strict` leaves every operation as it is.
 """
 
 import collections
@@ -24,6 +24,18 @@ class _Work:
     nodes: list[tuple[str, tuple]] = dataclasses.field(default_factory=list)
     known: dict[tuple[str, tuple], int] = dataclasses.field(default_factory=dict)
     place: dict[int, int] = dataclasses.field(default_factory=dict)
+
+
+def marked(tape: Tape) -> Tape:
+    """The same program with powers whose exponent is a broken constant told apart: they can be vector code.
+
+    Returns
+    -------
+    tape : Tape
+        With the operator `pow_broken`, the same to the last digit
+    """
+    nodes = [("pow_broken", args) if op == "pow" and _broken(tape, args[1]) else (op, args) for op, args in tape.nodes]
+    return dataclasses.replace(tape, nodes=tuple(nodes))
 
 
 def cheaper(tape: Tape) -> Tape:

@@ -10,7 +10,7 @@ import casadi
 from mechsym.native import emit
 from mechsym.native.factor import factored
 from mechsym.native.kernels import Kernel, kernels
-from mechsym.native.rewrite import cheaper
+from mechsym.native.rewrite import cheaper, marked
 from mechsym.native.tape import Tape, read
 
 
@@ -67,7 +67,7 @@ def prepared(function: casadi.Function, mode: str) -> Tape:
         Function of scalars or small vectors
     """
     tape = read(function)
-    return factored(cheaper(tape)) if mode == "fast" else tape
+    return factored(cheaper(tape)) if mode == "fast" else marked(tape)
 
 
 @functools.cache

@@ -23,6 +23,7 @@ def _source() -> str:
     bodies = {name: f"y[i] = ms_{name}(x[i]);" for name in ("tan", "exp", "log", "asin")}
     bodies["hypot"] = "y[i] = ms_hypot(x[i], z[i]);"
     bodies["pow"] = "y[i] = ms_pow(x[i], z[i]);"
+    bodies["pow_broken"] = "y[i] = ms_pow_broken(x[i], z[i]);"
     bodies["sin"] = "{ double s, c; ms_sincos(x[i], &s, &c); y[i] = s; }"
     bodies["cos"] = "{ double s, c; ms_sincos(x[i], &s, &c); y[i] = c; }"
     loops = "".join('__attribute__((visibility("default"))) ' + loop.format(n, b) for n, b in bodies.items())
@@ -106,6 +107,11 @@ def test_edges_of_powers(mode):
     kept = ~(np.isneginf(x) & (y != np.round(y))) & ~(np.isnan(x) & (y == 0))
     with np.errstate(all="ignore"):
         np.testing.assert_allclose(_call(mode, "pow", x, y)[kept], np.power(x, y)[kept], rtol=1e-14)
+
+
+def test_a_broken_power_is_the_power_to_the_last_digit():
+    x, y = (a.ravel() for a in np.meshgrid(np.concatenate([EDGES, 10 ** _random(-300, 300)]), [1.3, -0.7, 0.25, 90.1]))
+    np.testing.assert_array_equal(_call("strict", "pow_broken", x, y), _call("strict", "pow", x, y))
 
 
 @pytest.mark.parametrize("mode", ["strict", "fast"])

@@ -1,6 +1,7 @@
 """Emitted functions against CasADi's interpreter: generated mechanisms, Jacobians, every operator, every route."""
 
 import shutil
+import sys
 
 import casadi as ca
 import numpy as np
@@ -101,6 +102,46 @@ def test_vectors_matrices_and_sparse_outputs_go_by_columns(route, request):
     wanted = (0.0, 1.0, 0.0, np.sin(0.5), 6.0)
     assert made.scalar(2.0, 0.5) == pytest.approx(wanted, rel=1e-15)
     np.testing.assert_allclose(made.batch([2.0, 2.0], 0.5).T, [wanted, wanted], rtol=1e-15)
+
+
+@needs_compiler
+def test_columns_that_are_not_plain_give_what_plain_ones_give():
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    made = native.compiled(ca.Function("sum", [x, y], [x + 2 * y, x]))
+    plain = np.linspace(0.0, 1.0, 6)
+    wanted = np.array([3 * plain, plain])
+    backwards = np.ascontiguousarray(plain[::-1])[::-1]
+    odd = [plain.tolist(), plain.astype(">f8"), plain.astype(np.float32).astype(object), backwards, plain.reshape(2, 3)]
+    for column in odd:
+        np.testing.assert_allclose(made.batch(column, plain), wanted, rtol=1e-6)
+        np.testing.assert_allclose(made.batch(plain, column), wanted, rtol=1e-6)
+    for number in (np.float64(0.5), 0.5, np.array(0.5), np.array([0.5]), [0.5]):
+        np.testing.assert_array_equal(made.batch(plain, number), [plain + 1.0, plain])
+    read_only = plain.copy()
+    read_only.flags.writeable = False
+    np.testing.assert_array_equal(made.batch(read_only, read_only), wanted)
+    np.testing.assert_array_equal(made.batch(1, True), [[3.0], [1.0]])
+    assert made.batch(1.0, 2.0).shape == (2, 1)
+    for target in (read_only.reshape(2, 3), np.empty((2, 6), dtype=np.float32), np.empty((6, 2)), np.empty(12)):
+        with pytest.raises((BadInput, ValueError)):
+            made.batch(plain, plain, out=target)
+    with pytest.raises((TypeError, ValueError)):
+        made.batch(plain, "two")
+
+
+@needs_compiler
+def test_buffers_are_let_go_of():
+    x = ca.SX.sym("x")
+    made, column, out = native.compiled(ca.Function("twice", [x], [2 * x])), np.ones(3), np.empty((1, 3))
+    before = sys.getrefcount(column), sys.getrefcount(out)
+    for _ in range(5):
+        made.batch(column)
+        made.batch(column, out=out)
+        with pytest.raises(BadInput):
+            made.batch(column, column)
+        with pytest.raises(BadInput):
+            made.batch(column, out=out.T)
+    assert (sys.getrefcount(column), sys.getrefcount(out)) == before
 
 
 def test_numbers_and_arrays_mix_and_lengths_are_checked():

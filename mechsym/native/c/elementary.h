@@ -126,23 +126,35 @@ MS_INLINE double ms_hypot(double x, double y)
     return sum != sum ? sum : finite;
 }
 
-/* log(x) as high + low with about 60 bits, then exp of y times that. */
-MS_INLINE double ms_pow(double x, double y)
+/* log(x) as high + low with about 60 bits, for x > 0. */
+MS_INLINE void ms_log_long(double x, double *high, double *low)
 {
     double k, f;
-    const double a = fabs(x);
-    ms_split(a, &k, &f);
+    ms_split(x, &k, &f);
     const double g = 1.0 / (2.0 + f), s = f * g;
     const double s_low = g * fma(-s, f, fma(-2.0, s, f));
-    const double high = fma(k, 0x1.62e42feep-1, 2.0 * s);
-    const double lost = 2.0 * s - fma(-k, 0x1.62e42feep-1, high);
-    const double low = lost + fma(k, 0x1.a39ef35793c76p-33, 2.0 * s_low + s * ms_log_series(s * s));
-    const double product = y * high, full = y * (high + low);
+    *high = fma(k, 0x1.62e42feep-1, 2.0 * s);
+    const double lost = 2.0 * s - fma(-k, 0x1.62e42feep-1, *high);
+    *low = lost + fma(k, 0x1.a39ef35793c76p-33, 2.0 * s_low + s * ms_log_series(s * s));
+}
+
+/* exp(y (high + low)), where full = y (high + low) to one rounding, or infinite. */
+MS_INLINE double ms_exp_long(double y, double high, double low, double full)
+{
+    const double product = y * high;
     const double upper = full > 750.0 ? 750.0 : full, clamped = upper < -750.0 ? -750.0 : upper;
     const double n = rint(clamped * 0x1.71547652b82fep+0);
     const double rest = fma(y, low, fma(y, high, -product));
     const double r = fma(-n, 0x1.a39ef35793c76p-33, fma(-n, 0x1.62e42feep-1, product)) + rest;
-    const double inside = ms_exp_scaled(n, clamped == full ? r : 0.0);
+    return ms_exp_scaled(n, clamped == full ? r : 0.0);
+}
+
+MS_INLINE double ms_pow(double x, double y)
+{
+    double high, low;
+    const double a = fabs(x);
+    ms_log_long(a, &high, &low);
+    const double inside = ms_exp_long(y, high, low, y * (high + low));
     /* what depends on the exponent alone is a number, not a condition: it may be the same for all points of a loop */
     const double at_zero = y > 0.0 ? 0.0 : y < 0.0 ? INFINITY : 1.0, at_infinity = 1.0 / at_zero;
     const double whole = rint(y), broken = whole == y ? 1.0 : NAN;
@@ -150,6 +162,17 @@ MS_INLINE double ms_pow(double x, double y)
     const double usual = a == 0.0 ? at_zero : inside, size = a == INFINITY ? at_infinity : usual;
     const double value = copysign(1.0, x) < 0.0 ? flip * size : size, real = x < 0.0 ? broken * value : value;
     return x != x ? x : real;
+}
+
+/* The same for an exponent that is finite and not whole: no condition asks for it, so a loop that shares it becomes
+ * vector code. */
+MS_INLINE double ms_pow_broken(double x, double y)
+{
+    double high, low;
+    ms_log_long(x, &high, &low);
+    const double finite = x > 0.0 ? high + low : x == 0.0 ? -INFINITY : NAN;
+    const double inside = ms_exp_long(y, high, low, y * (x == INFINITY ? x : finite));
+    return x >= 0.0 ? inside : NAN;
 }
 
 /* fdlibm's rational function on [0, 1/2]; beyond it asin x = pi/2 - 2 asin sqrt((1 - x)/2). */
