@@ -13,7 +13,7 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import appear, to_json, together, try_folder, write_summary
 from mechsym.plausible import Doubt, results, sifted
-from mechsym.quantities.display import choose, figure, heading, shown_in
+from mechsym.quantities.display import choose, column_text, heading, shown_in
 
 _CASES, DOUBTED, _RUN = "mechsym.cases", "mechsym.doubted", "mechsym.run"
 
@@ -185,7 +185,8 @@ def table(rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, st
         Header line and one line a row
     """
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
-    cells = [[name for name, _ in headed], *([_cell(values[i]) for _, values in headed] for i in range(len(rows)))]
+    shown = [column_text(values) for _, values in headed]
+    cells = [[name for name, _ in headed], *([column[i] for column in shown] for i in range(len(rows)))]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
 
@@ -207,13 +208,3 @@ def in_rows(rows: list[dict[str, Any]], keys: tuple[str, ...], unit: str = "unit
         )
         found.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
     return found
-
-
-def _cell(value: Any) -> str:
-    if value is None or value != value:
-        return "-"
-    if isinstance(value, float):
-        return figure(value, 6)
-    if isinstance(value, (list, tuple)):
-        return ", ".join(str(v) for v in value)
-    return str(value)

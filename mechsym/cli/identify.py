@@ -8,7 +8,7 @@ import click
 
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
-from mechsym.quantities.display import figure
+from mechsym.quantities.display import SMALLEST, figure
 
 
 @click.command(short_help="Parameters of a machine out of measured speeds.")
@@ -65,7 +65,15 @@ def _text(found: Any) -> str:
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
         lines.append(f"{e.name} = {figure(e.value)}{unit}, 95 %: {_shown(e.low)} to {_shown(e.high)}")
-    return "\n".join([*lines, f"left over: {figure(found.noise)} rad/s, Durbin-Watson {found.durbin_watson:.2f}"])
+    return "\n".join([*lines, f"left over: {_left_over(found)}"])
+
+
+def _left_over(found: Any) -> str:
+    """Noise, and whether it comes in runs; the record of a simulation leaves round-off only."""
+    largest = max(float(abs(values).max()) for values in found.measured.values())
+    if found.noise < SMALLEST * largest:
+        return f"0 (below {SMALLEST:.0e}".replace("e-09", "e-9") + " of the largest speed)"
+    return f"{figure(found.noise, 3)} rad/s rms, Durbin-Watson {found.durbin_watson:.2f}"
 
 
 def _write(out: Path, found: Any) -> list[Path]:

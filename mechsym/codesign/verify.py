@@ -147,7 +147,7 @@ def _asked(c: GuideLoads, track: Track, found: CoDesign) -> list[tuple[str, str,
         ("pressure_angle", "pressure angle", np.degrees(c.pressure_angle_max), np.degrees(b.pressure_angle), "deg"),
         ("roller_reaction", "roller reaction", c.reaction_max.max() / 1e3, b.roller_reaction / 1e3, "kN"),
         ("hertz_stress", "contact pressure", c.hertz_max.max() / 1e6, b.hertz_stress / 1e6, "MPa"),
-        ("", "roller radius in the smallest rho", h.radius, c.rho_min, "m"),
+        ("", "roller radius beside the path's smallest radius", 1e3 * h.radius, 1e3 * c.rho_min, "mm"),
         ("profile_radius", "bend inwards", -c.curvature_min * (h.radius + b.profile_radius), 1.0,
          "of what the roller allows"),
     ]  # fmt: skip

@@ -27,8 +27,9 @@ def _cards(found: Forces) -> tuple[Card, ...]:
         fitting = {k: abs(v).max() for k, v in found.columns.items() if k.startswith(start) and k.endswith(end)}
         if fitting:
             most = max(fitting, key=lambda k: float(fitting[k]))
-            where = most.replace("_", " ")
-            cards.append(Card(name=name, value=quantity_text(float(fitting[most]), "N", 4), about=f"largest, {where}"))
+            where = most.replace("_load", "").replace("_", " ")
+            about = "largest" if where in name else f"largest, {where}"
+            cards.append(Card(name=name, value=quantity_text(float(fitting[most]), "N", 4), about=about))
     torque = found.turn.torque
     about = f"{quantity_text(float(torque.min()), 'N*m', 4)} to {quantity_text(float(torque.max()), 'N*m', 4)}"
     cards.append(Card(name="torque at the shaft", value=quantity_text(float(torque.mean()), "N*m", 4), about=about))

@@ -11,7 +11,7 @@ from mechsym.forces.loads import power_residual
 from mechsym.forces.result import Forces
 from mechsym.forces.shaking import Shaking
 from mechsym.forces.table import angle_of_largest, extremes
-from mechsym.forces.turn import Turn, chain_named
+from mechsym.forces.turn import Turn, chain_named, pushes
 from mechsym.mechanisms.traits import with_chain
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
@@ -99,6 +99,8 @@ def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
 def _facts(found: Forces) -> list[str]:
     gas, lost = found.turn.gas, found.losses
     facts = list(gas.pressure.facts) if gas else ["no gas acts: the case has no [cycle]"]
+    if gas and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons:
+        facts.append("loads, torque and friction are those of one piston with its crank; the engine has two of them")
     if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
         share = 100 * (1 - lost.mechanical_efficiency)
         facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")

@@ -195,13 +195,13 @@ def _track_checks(
     numbers: dict[str, Any], spring: Spring, parameters: GuideParameters, rollers: RollerParameters, limits: Limits
 ) -> list[LimitCheck]:
     angle, stress = math.degrees(numbers["pressure_angle_max"]), numbers["hertz_stress_max"]
-    reaction = numbers["roller_reaction_max"] / 1e3
+    reaction, centre = numbers["roller_reaction_max"] / 1e3, (1e3 * rollers.radius, 1e3 * numbers["rho_min"])
     checks = [
         _at_most("pressure_angle", "pressure angle", angle, math.degrees(limits.pressure_angle), "deg"),
         _undercut_check(numbers["undercut_radius"], rollers.radius, limits.profile_radius),
         _at_most("roller_reaction", "roller reaction", reaction, limits.roller_reaction / 1e3, "kN"),
         _closure_check(numbers["closure"], _CLOSURE * parameters.rho0),
-        _at_most("centre", "roller radius in the smallest rho", rollers.radius, numbers["rho_min"], "m"),
+        _at_most("centre", "roller radius beside the path's smallest radius", *centre, "mm"),
     ]
     if math.isfinite(stress):
         checks.append(_at_most("hertz_stress", "contact pressure", stress / 1e6, limits.hertz_stress / 1e6, "MPa"))
@@ -218,7 +218,7 @@ def _closure_check(gap: float, limit: float) -> LimitCheck:
 def _room_check(rho0: float, free_height: float, radius: float) -> LimitCheck:
     # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
     room = (2 * rho0 - free_height) / 2
-    kept = _at_most("room", "roller radius beside the gas column", radius, room, "m")
+    kept = _at_most("room", "roller radius beside the gas column", 1e3 * radius, 1e3 * room, "mm")
     if room > 0:
         return kept
     text = (

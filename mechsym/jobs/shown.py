@@ -38,7 +38,11 @@ def cycle_view(found: CycleFigures) -> View:
             cards.append(Card(name=name, value=quantity_text(factor * float(values.flat[k]), unit, 4), about=told))
     best = np.asarray(found.get("efficiency", np.nan), dtype=float)
     if np.isfinite(best).any():
-        about = "indicated, of the fuel's heating value; gas exchange and friction are not in it"
+        about = (
+            "indicated, of the heat from the hot side"
+            if "heat_in_j" in found
+            else "indicated, of the fuel's heating value; gas exchange and friction are not in it"
+        )
         cards.append(Card(name="efficiency", value=f"{figure(100 * float(np.nanmax(best)), 4)} %", about=about))
     drawn = (
         () if one else (Picture(name="speeds", see="Torque and power over the speed.", draw=lambda: _speeds(found)),)
@@ -131,8 +135,7 @@ def run_view(run: FinishedRun) -> View:
     good = told["status"] not in ("failed", "not converged", "chaotic")
     cards = [
         Card(name="run", value=told["status"], about=told["reason"], mark="" if good else "no"),
-        Card(name="mean speed", value=quantity_text(mean, "rad/s", 5),
-             about=f"{quantity_text(low, 'rad/s')} to {quantity_text(high, 'rad/s')} over the last period"),
+        Card(name="mean speed", value=quantity_text(mean, "rad/s", 4), about=f"{span(low, high)} over the last period"),
         Card(name="speed ripple", value=ratio_text((high - low) / mean) if mean else "–", about="of the last period"),
         Card(name="energy residual", value=ratio_text(told["energy_residual"], 2), about="of the work brought in"),
     ]  # fmt: skip
@@ -140,6 +143,18 @@ def run_view(run: FinishedRun) -> View:
               for s in run.twist]  # fmt: skip
     return View(title="Run in time", cards=tuple(cards), pictures=_run_pictures(run),
                 columns=lambda: {"t": run.result.t, **run.result.columns})  # fmt: skip
+
+
+def span(low: float, high: float) -> str:
+    """Least and greatest speed; one that stays is told once.
+
+    Parameters
+    ----------
+    low, high : float
+        Speeds [rad/s]
+    """
+    ends = [quantity_text(speed, "rad/s", 4) for speed in (low, high)]
+    return f"steady at {ends[0]}" if ends[0] == ends[1] else " to ".join(ends)
 
 
 def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:

@@ -4,7 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mechsym.quantities import record
-from mechsym.quantities.display import figure, heading
+from mechsym.quantities.display import column_text, heading
+
+_PHONE = 40  # characters of a row on a phone
 
 
 @record
@@ -15,6 +17,11 @@ class Grid:
     headings: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     numbers: tuple[bool, ...]  #: Columns that are set to the right
+
+    @property
+    def stacked(self) -> bool:
+        """Whether a phone shows each row as a block: where columns beside each other would be cut."""
+        return sum(max((len(row[i]) for row in self.rows), default=0) for i in range(len(self.headings))) > _PHONE
 
 
 def grid(
@@ -33,13 +40,8 @@ def grid(
     ('force [kN]',)
     """
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
-    cells = [[_cell(values[i]) for _, values in headed] for i in range(len(rows))]
+    shown = [["–" if text == "-" else text for text in column_text(values)] for _, values in headed]
+    cells = [tuple(column[i] for column in shown) for i in range(len(rows))]
     number = tuple(any(isinstance(v, (int, float)) for v in values) for _, values in headed)
     names = tuple(name.replace("_", " ") for name, _ in headed)
-    return Grid(title=title, headings=names, rows=tuple(tuple(row) for row in cells), numbers=number)
-
-
-def _cell(value: Any) -> str:
-    if value is None or value != value:
-        return "–"
-    return figure(value, 5) if isinstance(value, float) else str(value)
+    return Grid(title=title, headings=names, rows=tuple(cells), numbers=number)

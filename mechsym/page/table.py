@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import MissingExtra
-from mechsym.quantities.display import figure, shown_in
+from mechsym.quantities.display import column_text, shown_in
 from mechsym.quantities.names import stem_and_unit
 
 _FIRST = 8  # rows that a notebook shows
@@ -45,8 +45,8 @@ class ResultTable(Mapping[str, Any]):
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in self._columns)
-        body = "".join(f"<tr>{''.join(f'<td>{_cell(v, i)}</td>' for v in self._columns.values())}</tr>"
-                       for i in range(min(self._rows, _FIRST)))  # fmt: skip
+        cells = zip(*(_cells(v, min(self._rows, _FIRST)) for v in self._columns.values()), strict=True)
+        body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in cells)
         rest = f"<p>{_FIRST} of {self._rows} rows</p>" if self._rows > _FIRST else ""
         return f"<table><tr>{head}</tr>{body}</table>{rest}"
 
@@ -81,6 +81,7 @@ def _headed(name: str, values: Any) -> tuple[str, Any]:
     return f"{stem} [{found}]", shown
 
 
-def _cell(values: np.ndarray, row: int) -> str:
-    value = values[row] if row < len(values) else ""
-    return figure(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+def _cells(values: np.ndarray, rows: int) -> list[str]:
+    """The first cells of a column, empty where it is shorter."""
+    shown = column_text(list(values[:rows]) if values.ndim else [])
+    return shown + [""] * (rows - len(shown))

@@ -5,7 +5,8 @@ and energies with the prefix that suits their size. `choose("mm, bar, kN, kN*m, 
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,10 @@ _USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "
           "J/kg": "kJ/kg", "Pa*m/s": "MPa*m/s"}  # fmt: skip
 _LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J")}
 _LONG = 36e3  # a life is told in hours [s]
+_FAR = 100.0  # a height above the sea is told in metres [m]
 SMALLEST = 1e-9  #: A ratio below it is round-off [-]
+_TOLD = 1e-6  # of a ratio below it people want to know no more than that [-]
+_LEAST, _MOST = 4, 6  # digits in a table
 _chosen: dict[tuple[Any, ...], str] = {}
 
 
@@ -95,6 +99,8 @@ def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
         return _LADDERS[unit][abs(size) >= 1e3]
     if unit == "s":
         return "h" if abs(size) >= _LONG else "s"
+    if unit == "m" and abs(size) >= _FAR:
+        return unit
     return _USUAL.get(unit, unit)
 
 
@@ -170,12 +176,48 @@ def ratio_text(value: float | None, digits: int = 3) -> str:
 
     Examples
     --------
-    >>> ratio_text(7.1e-12), ratio_text(0.02)
-    ('0 (below 1e-9)', '0.02')
+    >>> ratio_text(7.1e-12), ratio_text(-4.9e-9), ratio_text(0.02)
+    ('0 (below 1e-9)', '0 (below 1e-8)', '0.02')
     """
-    if value is not None and abs(value) < SMALLEST:
-        return f"0 (below {SMALLEST:.0e})".replace("e-09", "e-9")
+    if value is not None and abs(value) < _TOLD:
+        power = math.floor(math.log10(max(abs(value), SMALLEST / 2))) + 1
+        return f"0 (below 1e{power})"
     return figure(value, digits)
+
+
+def column_text(values: Sequence[Any]) -> list[str]:
+    """Cells of a table's column: four digits, more where neighbours differ in them only; whole numbers as they are.
+
+    Parameters
+    ----------
+    values : sequence
+        Numbers in one unit, or text [unit]
+
+    Examples
+    --------
+    >>> column_text([31.02361, None, 194.99431, 12345.0, "yes"])
+    ['31.02', '-', '195', '12345', 'yes']
+    >>> column_text([100.01, 100.02])
+    ['100.01', '100.02']
+    """
+    numbers = [float(v) for v in values if isinstance(v, (float, np.floating)) and math.isfinite(v)]
+    digits = next((d for d in range(_LEAST, _MOST) if _parts(numbers, d) == _parts(numbers, _MOST)), _MOST)
+    return [_cell(value, digits) for value in values]
+
+
+def _parts(numbers: list[float], digits: int) -> list[bool]:
+    """Whether each number is another than the one before it, as it is printed."""
+    told = [figure(v, digits) for v in numbers]
+    return [a != b for a, b in pairwise(told)]
+
+
+def _cell(value: Any, digits: int) -> str:
+    if value is None or value != value:
+        return "-"
+    if not isinstance(value, (float, np.floating)):
+        return ", ".join(str(v) for v in value) if isinstance(value, (list, tuple)) else str(value)
+    whole = abs(value) < 10**_MOST and float(value).is_integer()
+    return figure(float(value), _MOST if whole else digits)
 
 
 def _times(value: Any, factor: float) -> Any:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 
 _LEAST = 1e-3  # of the speed: less is not drawn larger
+_PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
 def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Figure":
@@ -42,7 +43,7 @@ def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Fig
     if high - low < _LEAST * wanted * factor:  # round-off is no ripple
         whole.set_ylim(np.array([-0.5, 0.5]) * _LEAST * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
-    heading(whole, f"{coordinate}: ended by {result.end}")
+    heading(whole, f"speed of {coordinate}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
     legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)
     angle, unit = axis_unit("rad", period)

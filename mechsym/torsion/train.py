@@ -5,6 +5,7 @@ r"""Criticals of a crank train at its speed of operation, and what the linear sh
 M_i are torques of the sections of the elastic shaft, R_i those of a rigid one; V is the magnification of an order.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -13,7 +14,7 @@ from mechsym.mechanisms import crank_train, shaft
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.plausible import Doubt, proportion
 from mechsym.quantities import quantity, record
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import figure, quantity_text
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.twist import ShaftSection
 
@@ -168,17 +169,18 @@ def _limits(limits: ShaftLimits, stiffness: np.ndarray) -> np.ndarray:
 
 def words(found: TrainVibration) -> tuple[str, ...]:
     """What a reader of a crank train should know of its criticals."""
-    bare, full = (", ".join(f"{f:.3f}" for f in values) for values in (found.natural_bare, found.natural))
-    lines = [f"natural frequency {bare} rad/s bare, {full} rad/s with the mean reciprocating inertia"]
+    bare, full = (", ".join(figure(f / math.tau, 4) for f in values) for values in (found.natural_bare, found.natural))
+    lines = [f"natural frequency {bare} Hz bare, {full} Hz with the mean reciprocating inertia"]
     for c in found.criticals:
         side = "above" if c.away > 0 else "below"
-        carried = quantity_text(c.torque, "N*m", 4)
+        at, carried = quantity_text(c.speed, "rad/s"), quantity_text(c.torque, "N*m", 4)
         lines.append(
-            f"order {c.order:g} is critical at {c.speed:.2f} rad/s, {abs(100 * c.away):.1f} % {side} the speed of "
+            f"order {c.order:g} is critical at {at}, {abs(100 * c.away):.1f} % {side} the speed of "
             f"operation: there the shaft carries {carried} of it, {c.magnification:.3g} times a rigid one's"
         )
     if not found.criticals:
-        lines.append(f"no order is critical between {found.low:.2f} and {found.high:.2f} rad/s")
+        low, high = (quantity_text(speed, "rad/s") for speed in (found.low, found.high))
+        lines.append(f"no order is critical from {low} to {high}")
     return tuple(lines)
 
 
@@ -186,14 +188,13 @@ def twist_words(found: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[s
     """What a run says of the twist that the shaft can bear."""
     lines = []
     for section, limit in zip(twist, found.twist_limit, strict=True):
+        peak, most = (quantity_text(angle, "rad", 3) for angle in (section.twist_peak, limit))
         lines.append(
-            f"largest twist of {section.section} {section.twist_peak:.4f} rad ({np.degrees(section.twist_peak):.1f} "
-            f"deg), shaft torque {quantity_text(section.torque_peak, 'N*m', 4)}; the limit is {limit:.3g} rad"
+            f"largest twist of {section.section} {peak}, shaft torque {quantity_text(section.torque_peak, 'N*m', 4)}; "
+            f"the limit is {most}"
         )
         if section.twist_peak > limit:
-            lines.append(
-                f"the model does not hold: the twist is beyond {limit:.3g} rad, no linear spring nor a whole shaft"
-            )
+            lines.append(f"the model does not hold: the twist is beyond {most}, no linear spring nor a whole shaft")
     return tuple(lines)
 
 

@@ -19,8 +19,8 @@ from mechsym.jobs.optimise import optimise
 from mechsym.jobs.run import run
 from mechsym.jobs.size import size
 from mechsym.jobs.startup import startup
-from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, page, shows
-from mechsym.page.template import pretty
+from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, grid, page, shows
+from mechsym.page.template import _environment, pretty
 from mechsym.quantities import record
 from mechsym.quantities.display import choose
 from mechsym.simulate.loop.run import run_loop
@@ -122,3 +122,13 @@ def test_a_page_lacks_nothing_in_silence():
 
 def test_a_view_is_a_record():
     assert [f.name for f in dataclasses.fields(View)] == ["title", "cards", "pictures", "columns"]
+
+
+def test_a_wide_table_is_stacked_on_a_phone_and_repeats_its_head_in_print():
+    both = ("check", "value and limit")
+    wide = grid("Limits", [{"check": "closing", "value and limit": "closing z/H 0.4678 of at most 0.9 of it"}], both)
+    assert wide.stacked and not grid("Loads", [{"force": 2000.0}], ["force"]).stacked
+    template = "{% from 'parts.html' import grid %}{{ grid(table) }}"
+    text = _environment().from_string(template).render(table=wide)
+    assert '<table class="stack"><thead><tr><th>check</th>' in text
+    assert '<td data-name="value and limit">closing z/H 0.4678' in text

@@ -1,6 +1,7 @@
 """Numbers for people: units, digits, no round-off; what the user asks for; typed units."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.files import write_quantities
 from mechsym.quantities import parse
-from mechsym.quantities.display import choose, figure, heading, quantity_text, ratio_text, shown_in
+from mechsym.quantities.display import choose, column_text, figure, heading, quantity_text, ratio_text, shown_in
 
 
 @pytest.fixture(autouse=True)
@@ -47,9 +48,33 @@ def test_figures_keep_their_digits(value, sign):
     assert float(text) == pytest.approx(sign * value, rel=5e-5)
 
 
-@pytest.mark.parametrize("value", [7.1e-12, -2e-16, 0.0])
-def test_round_off_is_no_result(value):
-    assert ratio_text(value) == "0 (below 1e-9)"
+@pytest.mark.parametrize(("value", "told"), [
+    (7.1e-12, "1e-9"), (-2e-16, "1e-9"), (0.0, "1e-9"), (-1.0001e-9, "1e-8"), (4.9e-9, "1e-8"), (9.9e-7, "1e-6"),
+])  # fmt: skip
+def test_round_off_is_no_result(value, told):
+    assert ratio_text(value) == f"0 (below {told})" and abs(value) < float(told)
+    assert ratio_text(1e-6) == "1e-06"
+
+
+def test_a_column_has_four_digits_or_what_tells_neighbours_apart():
+    assert column_text([334.5786, 22.50021, None]) == ["334.6", "22.5", "-"]
+    assert column_text([7997.8, 7997.9]) == ["7997.8", "7997.9"]
+    assert column_text([100.0, 100.0000001, 2.0]) == ["100", "100", "2"]  # beyond six digits nothing is told
+    assert column_text([12345.0, 0.12345, 12, "no"]) == ["12345", "0.1235", "12", "no"]  # what is whole stays whole
+    assert column_text([np.float64("nan"), (1, 2)]) == ["-", "1, 2"]
+
+
+@given(st.lists(st.floats(-1e6, 1e6), max_size=8))
+def test_a_column_keeps_what_six_digits_tell(values):
+    told = column_text(values)
+    assert len(told) == len(values)
+    assert [float(text) for text in told] == pytest.approx(values, rel=5.1e-4, abs=1e-300)
+    full = [figure(v, 6) for v in values]
+    assert all((a != b) <= (told[i] != told[i + 1]) for i, (a, b) in enumerate(pairwise(full)))
+
+
+def test_a_height_above_the_sea_is_told_in_metres():
+    assert quantity_text(3000.0, "m") == "3000 m" and quantity_text(2.5, "m") == "2500 mm"
 
 
 @pytest.mark.parametrize(("text", "unit", "value"), [

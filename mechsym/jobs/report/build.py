@@ -76,7 +76,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
     """
     shown, number = [], 0
     for place, one in enumerate(reports, 1):
-        parts = []
+        parts, told = [], list[str]()
         for found in one.parts:
             if found.state in (LEFT_OUT, REFUSED) or found.view is None:
                 continue
@@ -87,7 +87,9 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
                 width, height = drawn.get_size_inches()
                 figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)),
                                 "narrow": len(drawn.axes) == 1 and height > 0.75 * width})  # fmt: skip
-            parts.append({"part": found, "figures": figures, "id": f"{found.name}-{place}"})
+            facts = [fact for fact in found.facts if fact not in told]
+            told += facts
+            parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})
         shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),

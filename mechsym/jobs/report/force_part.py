@@ -13,6 +13,8 @@ from mechsym.plausible import Doubt
 from mechsym.quantities.display import figure, quantity_text, shown_in
 from mechsym.torsion import train
 
+_LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}
+
 
 def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
@@ -20,11 +22,10 @@ def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...])
     doubts += train.doubts(shaking) if shaking else ()
     facts = tuple(train.words(shaking)) if shaking else ()
     reasons = tuple(numbers["balance"]["reasons"])
-    losses = found.losses
-    told = "without friction: the case has no [friction]" if losses is None else _friction(found)
+    told = _friction(found)
     return ReportPart(
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
-        verdict=f"Bearings and guides: {told}.", facts=(*numbers["facts"], *facts), grids=(_borne(numbers),),
+        verdict=f"{told}.", facts=(*numbers["facts"], *facts), grids=(_borne(numbers),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
         numbers=numbers | {"vibration": None if shaking is None else dataclasses.asdict(shaking)},
     )  # fmt: skip
@@ -32,17 +33,17 @@ def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...])
 
 def _friction(found: Forces) -> str:
     if found.losses is None:
-        return ""
-    share = found.losses.mechanical_efficiency
-    power = quantity_text(sum(found.losses.places.values()), "W", 4)
-    return f"friction takes {power}" + ("" if share is None else f", mechanical efficiency {figure(100 * share, 4)} %")
+        return "Bearings and guides are without friction: the case has no [friction]"
+    power, share = quantity_text(sum(found.losses.places.values()), "W", 4), found.losses.mechanical_efficiency
+    told = "" if share is None else f", mechanical efficiency {figure(100 * share, 4)} %"
+    return f"Friction of bearings and guides takes {power}{told}"
 
 
 def _borne(numbers: dict) -> Grid:
     rows = borne(numbers)
     several = any(row["of"] for row in rows)
     cells = [
-        (row["quantity"].replace("_", " "), *([row["of"]] if several else []), *_extremes(row), row["on"])
+        (_named(row), *([row["of"]] if several else []), *_extremes(row), row["on"])
         for row in rows
     ]  # fmt: skip
     headings = ("quantity", *(["of"] if several else []), "largest", "smallest", "on")
@@ -50,7 +51,13 @@ def _borne(numbers: dict) -> Grid:
     return Grid(title="What bears what", headings=headings, rows=tuple(cells), numbers=right)
 
 
+def _named(row: dict) -> str:
+    """A load's name as people say it; which cylinders it is of stands beside it."""
+    name = row["quantity"].replace("_", " ").replace("*", "").replace("  ", " ").strip()
+    return _LETTERS.get(name, name)
+
+
 def _extremes(row: dict) -> list[str]:
     """Largest and smallest in one unit, that of the larger."""
     values, unit = shown_in([row["max"], row["min"]], row["unit"])
-    return [figure(value) if unit in ("", "-") else f"{figure(value)} {unit}" for value in values]
+    return [figure(value, 4) if unit in ("", "-") else f"{figure(value, 4)} {unit}" for value in values]

@@ -57,7 +57,7 @@ def _borne(numbers: dict[str, Any]) -> Grid:
 
 def _row(numbers: dict[str, Any], name: str, who: str) -> tuple[str, ...]:
     values, unit = shown_in([numbers["max"][name], numbers["min"][name]], numbers["units"][name])
-    return name.replace("_", " "), *(f"{figure(value)} {unit}" for value in values), who
+    return name.replace("_", " "), *(f"{figure(value, 4)} {unit}" for value in values), who
 
 
 def _view(case: Case, found: own_turn.OwnTurn) -> View:

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from mechsym.jobs.report.force_part import force_part
 from mechsym.jobs.report.own_force_part import own_force_part
 from mechsym.jobs.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.jobs.run import run
-from mechsym.jobs.shown import tightest
+from mechsym.jobs.shown import span, tightest
 from mechsym.jobs.size import check_printed, size
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.traits import rules_of
@@ -102,7 +103,10 @@ def _hinge(case: Case) -> ReportPart:
     checks = sorted((c for c in verdict.checks if c.margin is not None), key=lambda c: c.margin or 0.0)
     rows = [{"check": c.name.replace("_", " "), "value and limit": c.text, "kept": "yes" if c.kept else "NO",
              "margin": _per_cent(c.shown_margin)} for c in verdict.checks]  # fmt: skip
-    runs = [{"run": t.about, "ripple": ratio_text(t.speed_ripple), "ends": t.result.end} for t in design.trials]
+    runs = [
+        {"run": t.about, "ripple": ratio_text(t.speed_ripple), "end": _ENDS.get(t.result.end, t.result.end)}
+        for t in design.trials
+    ]
     saved = quantity_text(numbers["flywheel_inertia_saved"], "kg*m^2", 4)
     decide, told = [], f"The hinge {'can' if verdict.feasible else 'CANNOT'} be built: {verdict.reason}."
     if not verdict.feasible:
@@ -120,7 +124,7 @@ def _hinge(case: Case) -> ReportPart:
         reason="" if verdict.feasible else verdict.reason,
         verdict=f"{told} It saves a flywheel of {saved}." if verdict.feasible else told,
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
-               grid("Runs in time", runs, ["run", "ripple", "ends"])),
+               grid("Runs in time", runs, ["run", "ripple", "end"])),
         limits=tuple(limits), decide=tuple(decide), numbers=numbers, doubts=of_gas(case, gas_of(design.machine)),
         silent=_HINGE,
     )  # fmt: skip
@@ -142,8 +146,7 @@ def _size(case: Case) -> ReportPart:
     found = check_printed(case) if printed else size(case)
     sizes = [_sized(row) for row in found.rows if row["limit"] is None]
     checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in found.rows if row["limit"] is not None]
-    tight = [f"{row['component']}, {row['quantity']}: factor {figure(row['safety_factor'], 3)}, wanted "
-             f"{figure(row['wanted'], 3)}" for row in tightest(found)[:3]]  # fmt: skip
+    tight = [_tight(row) for row in tightest(found)[:3]]
     bad = bool(found.failing) or not found.converged
     state = f"{len(found.failing)} of {len(checks)} safety factors are too low" if found.failing else \
         f"All {len(checks)} safety factors hold" if checks else "Loads only: no rule sizes its parts"  # fmt: skip
@@ -158,20 +161,28 @@ def _size(case: Case) -> ReportPart:
     )  # fmt: skip
 
 
-def _sized(row: Mapping[str, object]) -> dict[str, object]:
+def _sized(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row with value and limit in the unit that suits them."""
-    if not row["unit"]:
-        return dict(row)
+    if row["unit"] in ("", "-"):
+        return {**row, "unit": ""}
     values, unit = shown_in([row["value"], row["limit"]], str(row["unit"]))
     return {**row, "value": values[0], "limit": values[1], "unit": unit}
+
+
+def _tight(row: Mapping[str, Any]) -> str:
+    """A check with its limit, where that is more than the factor itself."""
+    factor = f"factor {figure(row['safety_factor'], 3)} of at least {figure(row['wanted'], 3)}"
+    shown = _sized(row)
+    value, limit = (figure(shown[key], 4) for key in ("value", "limit"))
+    beside = f"{value} beside a limit of {limit} {shown['unit']}, " if shown["unit"] else ""
+    return f"{row['component']}, {row['quantity']}: {beside}{factor}"
 
 
 def _simulate(case: Case) -> ReportPart:
     found = run(case)
     bad = found.summary["status"] in ("failed", "not converged", "chaotic")
     told = found.summary
-    low, high = (quantity_text(told[k], "rad/s") for k in ("speed_min", "speed_max"))
-    speed = f"the speed stays at {low}" if low == high else f"over the last period the speed is {low} to {high}"
+    speed = f"over the last period the speed is {span(told['speed_min'], told['speed_max'])}"
     numbers = {k: v for k, v in told.items() if k != "wall_s"}  # another each time
     end = f"{_ENDS.get(told['end'], 'ended by ' + told['end'])} in {figure(told['t_end'], 3)} s"
     stall = tuple(text for text in found.findings if text.startswith("the shaft stops"))
