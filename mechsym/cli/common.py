@@ -171,13 +171,17 @@ def progress(total: int, label: str) -> Any:
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 
-def table(rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, str] | None = None) -> str:
+def table(
+    rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, str] | None = None, digits: int = 4
+) -> str:
     """Rows as an aligned text table, units in the headings, each column in the unit that suits it.
 
     Parameters
     ----------
     units : mapping of str to str, optional
         SI unit of columns whose name does not tell it
+    digits : int
+        At least so many; more where neighbours differ in them only
 
     Returns
     -------
@@ -185,7 +189,7 @@ def table(rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, st
         Header line and one line a row
     """
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
-    shown = [column_text(values) for _, values in headed]
+    shown = [column_text(values, digits) for _, values in headed]
     cells = [[name for name, _ in headed], *([column[i] for column in shown] for i in range(len(rows)))]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)

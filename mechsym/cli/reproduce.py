@@ -54,7 +54,13 @@ def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[P
     for source in sources:
         own = found[source.stem]
         summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(own).items() if count)
-        lines += [f"{source.name}: {source.title}", table(_shown(own), [*_COLUMNS]), _notes(own), f"  {summed}", ""]
+        lines += [
+            f"{source.name}: {source.title}",
+            table(_shown(own), [*_COLUMNS], digits=6),
+            _notes(own),
+            f"  {summed}",
+            "",
+        ]
     lines += ["differs from the recorded outcome:", *changed] if changed else ["the outcome is the recorded one"]
     if files:
         lines.append(f"written: {len(files)} files, {files[0]} first")

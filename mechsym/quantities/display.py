@@ -185,13 +185,15 @@ def ratio_text(value: float | None, digits: int = 3) -> str:
     return figure(value, digits)
 
 
-def column_text(values: Sequence[Any]) -> list[str]:
+def column_text(values: Sequence[Any], least: int = _LEAST) -> list[str]:
     """Cells of a table's column: four digits, more where neighbours differ in them only; whole numbers as they are.
 
     Parameters
     ----------
     values : sequence
         Numbers in one unit, or text [unit]
+    least : int
+        Digits where no more are needed [-]
 
     Examples
     --------
@@ -201,7 +203,7 @@ def column_text(values: Sequence[Any]) -> list[str]:
     ['100.01', '100.02']
     """
     numbers = [float(v) for v in values if isinstance(v, (float, np.floating)) and math.isfinite(v)]
-    digits = next((d for d in range(_LEAST, _MOST) if _parts(numbers, d) == _parts(numbers, _MOST)), _MOST)
+    digits = next((d for d in range(least, _MOST) if _parts(numbers, d) == _parts(numbers, _MOST)), _MOST)
     return [_cell(value, digits) for value in values]
 
 
