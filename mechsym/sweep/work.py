@@ -11,9 +11,11 @@ import multiprocessing as mp
 import os
 import signal
 import socket
+import sys
 import threading
 import time
 import traceback
+import types
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from multiprocessing import connection
 from typing import Any
@@ -164,7 +166,7 @@ def _started(order: SweepOrder) -> _Worker:
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, order), daemon=True, name="sweep")
     # two workers with two threads each would only wait for each other
-    with _environment(dict.fromkeys(_ONE_THREAD, "1")), _no_interrupts():
+    with _environment(dict.fromkeys(_ONE_THREAD, "1")), _no_interrupts(), _no_main():
         process.start()
     theirs.close()  # so that the end of the worker is the end of the pipe
     return _Worker(process=process, pipe=ours)
@@ -255,6 +257,17 @@ def _no_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _no_main() -> Iterator[None]:
+    """A worker needs nothing of the script that sweeps, and would run it once more if it asks for no name."""
+    script = sys.modules["__main__"]
+    sys.modules["__main__"] = types.ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
 
 
 @contextlib.contextmanager

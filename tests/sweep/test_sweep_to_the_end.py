@@ -197,6 +197,18 @@ def test_a_worker_that_is_killed_once_leaves_no_trace():
 
 
 @pytest.mark.slow
+def test_a_script_that_asks_for_no_name_may_sweep(tmp_path):
+    script = tmp_path / "mine.py"
+    script.write_text("""
+from mechsym.sweep import Means, Plan, failures, sweep
+found = sweep(Plan(case="zotov-89", over=("spring.p0=3..8 MPa:70",)), means=Means(jobs=2))
+print(len(found.outcomes), failures(found))
+""")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
+    assert done.stdout == "70 {}\n"
+
+
+@pytest.mark.slow
 def test_a_mistake_in_a_worker_comes_back():
     with pytest.raises(TypeError, match="'int' object") as told:
         list(work.on_processes(ORDER, [work.Chunk(members=(0,), heres=(7,))], 1, threading.Event()))  # type: ignore
