@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from mechsym.cases.scales import by_shaft, by_size, by_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.proportions import Proportions
@@ -69,11 +70,14 @@ def judged(sections: Mapping[str, Any], mechanism: str) -> tuple[Doubt, ...]:
         for key, name in _keys(section, record.__class__)
         if isinstance(value := getattr(record, name), float) and math.isfinite(value)
     }
-    found = inputs(values) + _run(sections)
-    known = traits_of(mechanism)
-    if known is None or known.proportions is None or "parameters" not in sections:
+    found = inputs(values) + by_unit(sections, _LETTERS) + _run(sections)
+    known, parameters = traits_of(mechanism), sections.get("parameters")
+    if known is None or known.proportions is None or parameters is None:
         return found
-    return found + _sizes(sections, known.proportions(sections["parameters"]))
+    sizes, area = known.proportions(parameters), _piston_area(sections)
+    bore = None if area is None else math.sqrt(4 * area / math.pi)
+    found += _sizes(sections, sizes) + by_size(sections, sizes, bore)
+    return found + (() if known.shaft is None else by_shaft(known.shaft, parameters))
 
 
 def _sizes(sections: Mapping[str, Any], sizes: Proportions) -> tuple[Doubt, ...]:

@@ -2,12 +2,15 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
+
+if TYPE_CHECKING:
+    from mechsym.plausible import Doubt
 
 _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value with the same unit [-]
 
@@ -35,13 +38,14 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
 
         emit({"latex": equations(name).rows}, as_json, lambda: equations(name).latex)
         return
-    mechanism, values = _read(name, case_name, pairs(overrides))
+    mechanism, values, doubts = _read(name, case_name, pairs(overrides))
     found = state(mechanism, values)
-    emit(found, as_json, lambda: "\n".join(_lines(found, mechanisms.listing(name, mechanism))))
+    emit({**found, "doubts": doubts}, as_json, lambda: "\n".join(_lines(found, mechanisms.listing(name, mechanism))))
 
 
-def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float]]:
+def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float], tuple["Doubt", ...]]:
     from mechsym import mechanisms
+    from mechsym.plausible import letters as doubted
     from mechsym.quantities import parse
 
     cls, parameters = mechanisms.parameters_class(name), _case_parameters(name, case_name)
@@ -61,7 +65,9 @@ def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any,
             values[key] = parse(text, units[key], f"--set {key}")
         elif key not in letters:
             raise BadInput(f"--set {key}: {name} has no such letter; letters are {', '.join([*units, *letters])}")
-    return mechanism, values
+    told = {**{k: (v, letters[k]) for k, v in parameters.items() if isinstance(v, float)},
+            **{k: (v, units[k]) for k, v in values.items()}}  # fmt: skip
+    return mechanism, values, doubted(told)
 
 
 def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:

@@ -1,5 +1,6 @@
 """Case and results -> doubts that no single number tells: gas of a run, forces by its force, bound of efficiency."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,11 +13,13 @@ from mechsym.cycle.mixture import ConstantGamma
 from mechsym.forces.result import Forces
 from mechsym.jobs.gas import gas
 from mechsym.jobs.own import is_own
-from mechsym.plausible import Doubt, proportion, results
+from mechsym.mechanisms.traits import traits_of
+from mechsym.plausible import PROPORTIONS, Doubt, proportion, results
 
 # what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
 _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
             ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
+PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
 _COLD_AIR = 1.4  # no mixture of air, fuel and products has more
 
 
@@ -53,16 +56,23 @@ def of_limits(case: Case, columns: Mapping[str, Any]) -> tuple[Doubt, ...]:
     return tuple(doubts)
 
 
-def of_run(case: Case, length: float) -> tuple[Doubt, ...]:
+def of_run(case: Case, length: float, fastest: float = 0.0) -> tuple[Doubt, ...]:
     """Doubts of a run in time.
 
     Parameters
     ----------
     length : float
         How long it ran [s]
+    fastest : float
+        Highest speed of the crank in it [rad/s]
     """
-    wanted, known = case.sections.get("simulation"), "cycle" in case.sections and not is_own(case.mechanism)
-    found = of_gas(case, gas(case)) if known else ()
+    wanted, engine = case.sections.get("simulation"), "cycle" in case.sections and not is_own(case.mechanism)
+    found = of_gas(case, gas(case)) if engine else ()
+    known = traits_of(case.mechanism)
+    travel = known.proportions(case.need("parameters")).stroke if known and known.proportions else 0.0
+    # refused before a run, doubted as the outcome of one
+    speed = min(travel * abs(fastest) / math.pi, PISTON_SPEED)
+    found += proportion("piston_speed", "highest mean piston speed of the run", speed)
     if wanted is None or wanted.window is None or not length > 0:
         return found
     return found + proportion("window", "simulation.window / length of the run", wanted.window / length)

@@ -125,8 +125,8 @@ def _speed(case: Case, wanted: Simulation, engine: bool) -> float:
 
 def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float]:
     if wanted.t_end is not None:
-        count_times(case, wanted.t_end, wanted.output_step)
-        return wanted.t_end, wanted.output_step
+        count_times(case, wanted.t_end, wanted.step)
+        return wanted.t_end, wanted.step
     if speed <= 0 or wanted.turns is None:
         raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
     count_turns(case, wanted.turns)

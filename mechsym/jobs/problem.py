@@ -199,8 +199,8 @@ def _elastic(case: Case) -> Mechanism:
 
 
 def _wanted_times(case: Case, t_end: float, wanted: Simulation) -> tuple[float, ...]:
-    count_times(case, t_end, wanted.output_step)
-    return _times(t_end, wanted.output_step, wanted.window)
+    count_times(case, t_end, wanted.step)
+    return _times(t_end, wanted.step, wanted.window)
 
 
 def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:

@@ -90,7 +90,8 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
         vibration=train,
         settling=settles,
         engine=engine,
-        doubts=of_run(case, float(result.t[-1] - result.t[0])) + (doubts(train, twist) if train else ()),
+        doubts=of_run(case, float(result.t[-1] - result.t[0]), told.get("speed_max", 0.0))
+        + (doubts(train, twist) if train else ()),
         findings=(
             *remarks(case), *((*words(train), *twist_words(train, twist)) if train else ()),
             *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),

@@ -55,7 +55,8 @@ def count_loop(case: Case, turns: float, t_end: float, speed: float) -> None:
 
 def _count(case: Case, key: str, points: float, way_out: str) -> None:
     if points > MOST:
-        asked = f"{getattr(simulation_of(case), key):g}{'' if key == 'turns' else ' s'}"
+        found = simulation_of(case)
+        asked = f"{found.step if key == 'output_step' else getattr(found, key):g}{'' if key == 'turns' else ' s'}"
         raise BadInput(
             f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
         )

@@ -97,7 +97,15 @@ def _alone(parameters: CrankThrowParameters) -> tuple[str, CrankThrowParameters]
 TRAITS = Traits(
     parameters=CrankThrowParameters,
     drawing=_drawing,
-    proportions=lambda p: crank_and_rod(p.r, p.l1 + p.l2, (Reciprocating(letters="m_piston", mass=p.m_piston),)),
+    proportions=lambda p: crank_and_rod(
+        p.r,
+        p.l1 + p.l2,
+        (Reciprocating(letters="m_piston", mass=p.m_piston),),
+        mass=p.m0 + p.m_rod + p.m_piston,
+        shafts={"I0": p.I0},
+        parts={"I_rod": (p.I_rod, p.m_rod * (p.l1 + p.l2) ** 2)},
+        unbalances={"u0": p.u0},
+    ),
     chain=CrankChain(
         loads=_loads, rubbing=rubbing, letters=_letters, mass=lambda drive: drive.mechanism.parameters["m_piston"]
     ),

@@ -62,6 +62,8 @@ def _drawing(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle
 TRAITS = Traits(
     parameters=CrankshaftFlywheelParameters,
     drawing=_drawing,
-    proportions=lambda p: crank_and_rod(p.r, p.l, (Reciprocating(letters="m0", mass=p.m0),)),
+    proportions=lambda p: crank_and_rod(
+        p.r, p.l, (Reciprocating(letters="m0", mass=p.m0),), mass=p.m0, shafts={"I0": p.I0, "I2": p.I2}
+    ),
     shaft=ElasticShaft(discs=lambda p: (p.I0, p.I2), springs=lambda p: ((p.k1,), (p.c1,)), start_up=True),
 )

@@ -107,7 +107,11 @@ def _letters(p: Mapping[str, float]) -> SliderCrank:
 
 def _proportions(p: CrossheadParameters) -> Proportions:
     moving = Reciprocating(letters="m3 + m4 + m5", mass=p.m3 + p.m4 + p.m5)
-    return crank_and_rod(p.r1 + p.r2, p.l1 + p.l2, (moving,))
+    rod = p.l1 + p.l2
+    return crank_and_rod(
+        p.r1 + p.r2, rod, (moving,), mass=p.m1 + p.m2 + moving.mass, shafts={"I01": p.I01},
+        parts={"IC2": (p.IC2, p.m2 * rod**2)},
+    )  # fmt: skip
 
 
 def _peers(alike: Alike) -> tuple[Peer, ...]:

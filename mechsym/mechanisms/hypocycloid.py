@@ -86,7 +86,14 @@ def _peers(alike: Alike) -> tuple[Peer, ...]:
 TRAITS = Traits(
     parameters=HypocycloidParameters,
     drawing=_drawing,
-    proportions=lambda p: Proportions(stroke=4 * p.e, moving=(Reciprocating(letters="m3", mass=p.m3),)),
+    proportions=lambda p: Proportions(
+        stroke=4 * p.e,
+        moving=(Reciprocating(letters="m3", mass=p.m3),),
+        mass=p.m2 + p.m3,
+        shafts={"I1": p.I1},
+        parts={"I2": (p.I2, p.m2 * p.e**2)},
+        unbalances={"u1": p.u1},
+    ),
     rules="planet",
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, peers=_peers, mass=lambda drive: float(drive.mechanism.parameters["m3"])

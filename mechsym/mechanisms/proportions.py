@@ -1,5 +1,9 @@
 """The sizes of a mechanism by which it is judged whether its values can be those of a machine."""
 
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any
+
 from mechsym.quantities import quantity, record
 
 
@@ -20,8 +24,14 @@ class Proportions:
     #: Rod length over crank radius, None without a rod [-]
     rod_ratio: float | None = None
     moving: tuple[Reciprocating, ...] = ()
+    mass: float = quantity("kg", default=0.0, low=0, about="all that moves with crank and piston")
+    #: Inertia about a shaft's axis by its letter [kg*m^2]
+    shafts: Mapping[str, float] = field(default_factory=dict)
+    #: Inertia about a part's own centre by its letter, and the part's mass by its length squared [kg*m^2]
+    parts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    unbalances: Mapping[str, float] = field(default_factory=dict)  #: By their letter [kg*m]
 
 
-def slider_crank(r: float, l: float, moving: tuple[Reciprocating, ...] = ()) -> Proportions:  # noqa: E741
-    """Those of a crank and a rod, by their lengths [m]."""
-    return Proportions(stroke=2 * r, rod_ratio=l / r if r else None, moving=moving)
+def slider_crank(r: float, l: float, moving: tuple[Reciprocating, ...] = (), **more: Any) -> Proportions:  # noqa: E741
+    """Those of a crank and a rod, by their lengths [m]; more are other fields."""
+    return Proportions(stroke=2 * r, rod_ratio=l / r if r else None, moving=moving, **more)

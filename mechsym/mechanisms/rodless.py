@@ -286,7 +286,9 @@ TRAITS = Traits(
     parameters=RodlessParameters,
     drawing=drawing,
     proportions=lambda p: Proportions(stroke=4 * p.r, moving=tuple(
-        Reciprocating(letters=f"m_{axis}", mass=mass, axis=axis) for axis, mass in (("a", p.m_a), ("b", p.m_b)))),
+        Reciprocating(letters=f"m_{axis}", mass=mass, axis=axis) for axis, mass in (("a", p.m_a), ("b", p.m_b))),
+        mass=p.m_link + p.m_a + p.m_b, shafts={"I1": p.I1}, parts={"I_link": (p.I_link, 4 * p.m_link * p.r**2)},
+        unbalances={"u1": p.u1}),
     chain=CrankChain(
         loads=_loads, rubbing=_rubbing, mass=_mass, rigid=_rigid, overconstrained=True, pushes=_pushes, faces=_faces,
         cylinders=_cylinders, areas=lambda drive: _faces_of(drive).areas, inertia=_inertia, advice=_advice,

@@ -8,7 +8,7 @@ Takes numbers and names, so that case files and results are judged alike.
 """
 
 from mechsym.plausible.engine import proportions, scaled
-from mechsym.plausible.judge import Acceptance, Doubt, inputs, proportion, results, sifted
+from mechsym.plausible.judge import Acceptance, Doubt, inputs, letters, proportion, results, sifted
 from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "Doubt",
     "Usual",
     "inputs",
+    "letters",
     "proportion",
     "proportions",
     "results",

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
+from mechsym.plausible.ranges import INPUTS, LARGEST, PROPORTIONS, RESULTS, Usual
 from mechsym.quantities import record
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
@@ -94,6 +94,27 @@ def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
     kind = _BY_CODE[code]
     _refuse(quantity, value, kind)
     return () if kind.low <= value <= kind.high else (_doubt(quantity, value, kind),)
+
+
+def letters(values: Mapping[str, tuple[float, str]]) -> tuple[Doubt, ...]:
+    """Letters of any mechanism, whose meaning is not known, against the size of the largest machines.
+
+    Parameters
+    ----------
+    values : mapping of str to tuple of float and str
+        By letter, the value and its SI unit [SI]
+
+    Examples
+    --------
+    >>> [d.quantity for d in letters({"phid": (1e12, "rad/s"), "phi": (1.0, "rad")})]
+    ['phid']
+    """
+    why = _BY_CODE["magnitude"].why
+    return tuple(
+        Doubt(code="magnitude", quantity=name, value=value, usual=f"at most {LARGEST[unit]:g} {unit}", why=why)
+        for name, (value, unit) in values.items()
+        if abs(value) > LARGEST.get(unit, math.inf)
+    )
 
 
 def results(report: Any) -> tuple[Doubt, ...]:

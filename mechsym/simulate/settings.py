@@ -4,6 +4,8 @@ from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.simulate.backends import BACKENDS, DEFAULT
 
+_STEP = 0.01  # of results where none is given [s]
+
 
 @record
 class Settings:
@@ -33,8 +35,10 @@ class Simulation:
     #: Relative and absolute tolerance of a step [-]
     tolerance: float = quantity("-", default=1e-10, low=3e-14, high=1e-2, about="tolerance of a step")
     backend: str = choice(*BACKENDS, default=DEFAULT, about="integrator")
-    #: Spacing of the results in a run to t_end [s]
-    output_step: float = quantity("s", default=0.01, above=0, about="spacing of the results")
+    #: Spacing of the results in a run to t_end, None for 0.01 s; a run over turns has 360 results a turn [s]
+    output_step: float | None = quantity(
+        "s", default=None, above=0, about="spacing of the results, 0.01 s if not given"
+    )
     #: Stretch at the end over which speeds are summed up; None takes the last period of what drives (a turn, or two of
     #: a four-stroke engine), or all of a run to t_end [s]
     window: float | None = quantity("s", default=None, above=0, about="stretch at the end for the mean speed")
@@ -46,9 +50,17 @@ class Simulation:
     def __post_init__(self) -> None:
         if self.t_end is None and self.turns is None:
             raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
+        if self.t_end is None and self.output_step is not None:
+            told = f"output_step = {self.output_step:g} s is not used over turns, which give 360 results each"
+            raise BadInput(f"{told}; leave it out, or give t_end in s")
         if self.t_end is not None and self.turns is None:
-            self._inside("output_step", self.output_step, self.t_end)
+            self._inside("output_step", self.output_step or 0.0, self.t_end)
             self._inside("window", self.window or 0.0, self.t_end)
+
+    @property
+    def step(self) -> float:
+        """Spacing of the results in a run to t_end [s]."""
+        return _STEP if self.output_step is None else self.output_step
 
     @staticmethod
     def _inside(name: str, value: float, t_end: float) -> None:

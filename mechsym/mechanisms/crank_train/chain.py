@@ -114,8 +114,12 @@ def _proportions(p: CrankTrainParameters) -> Proportions:
     masses = p.m_piston if isinstance(p.m_piston, tuple) else (p.m_piston,)
     named = ("m_piston",) if not masses[1:] else tuple(f"m_piston[{i}]" for i in range(len(masses)))
     moving = tuple(Reciprocating(letters=letters, mass=mass) for letters, mass in zip(named, masses, strict=True))
-    r, l1, l2 = (max(each(p, letter)) for letter in ("r", "l1", "l2"))
-    return crank_and_rod(r, l1 + l2, moving)
+    r, l1, l2, m0, m_rod, piston = (max(each(p, letter)) for letter in ("r", "l1", "l2", "m0", "m_rod", "m_piston"))
+    return crank_and_rod(
+        r, l1 + l2, moving, mass=m0 + m_rod + piston, shafts={"I0": max(each(p, "I0")), "I_f": p.I_f},
+        parts={"I_rod": (max(each(p, "I_rod")), m_rod * (l1 + l2) ** 2)},
+        unbalances={"u0": max(each(p, "u0"), key=abs)},
+    )  # fmt: skip
 
 
 TRAITS = Traits(

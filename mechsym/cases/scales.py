@@ -1,0 +1,120 @@
+r"""Values of a case by the size of its own machine: bore, crank, and the mass that moves.
+
+.. math:: \frac{I}{m r^2}, \qquad \frac{I_C}{m_\mathrm{part}\,l^2}, \qquad \sqrt{k/I}, \qquad \frac{c}{2\sqrt{k I}}
+
+A value in the wrong unit, or with a slip of three decimals, is out of proportion to the machine that it belongs to; an
+absolute range wide enough for a model and a ship would let it pass. Zero leaves a part away and is never doubted.
+"""
+
+import dataclasses
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from mechsym.mechanisms.proportions import Proportions
+from mechsym.mechanisms.traits import ElasticShaft
+from mechsym.plausible import Doubt, letters, proportion
+
+# lengths by the bore: section, names of its fields (all lengths where none is named), kind
+_BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
+    ("friction", ("radius_piston_pin", "radius_crank_pin", "radius_main"), "bearing_size"),
+    ("losses", ("bearing_radius",), "bearing_size"),
+    ("rollers", ("radius", "width"), "roller_size"),
+    ("breathing", ("inlet_diameter", "inlet_lift", "exhaust_diameter", "exhaust_lift", "throttle_diameter",
+                   "tailpipe_diameter"), "valve_size"),
+    ("scavenging", ("port_width", "valve_diameter", "valve_lift"), "valve_size"),
+    ("sizing", ("ring_thickness", "reboring", "reach", "fillet", "carrier_wall"), "part_size"),
+    *((f"part_{name}", (), "part_size") for name in ("piston", "cylinder", "gears", "crank")),
+    ("part_crosshead", ("pin_diameter", "pin_length", "crank_pin_diameter", "crank_pin_length", "shoe_width",
+                        "shoe_length", "rod_diameter", "rod_length", "web_width", "web_thickness", "web_arm"),
+     "part_size"),
+)  # fmt: skip
+_Told = tuple[str, str, float]  # kind, what it is, value
+
+
+def by_size(sections: Mapping[str, Any], sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:
+    """What is out of proportion to the machine.
+
+    Parameters
+    ----------
+    bore : float or None
+        Of the piston; None where it is not known [m]
+    """
+    told = [
+        *_inertias(sections, sizes),
+        ("spring_height", "spring.H / stroke", _number(sections, "spring", "H") / sizes.stroke),
+    ]
+    if bore:
+        told += [*_lengths(sections, bore), *_volumes(sections, bore, sizes.stroke)]
+    else:  # with a bore the area of the piston tells it
+        told.append(("mass_density", "moving mass / stroke^3", sizes.mass / sizes.stroke**3))
+    return _doubts(told)
+
+
+def by_shaft(shaft: ElasticShaft, parameters: Any) -> tuple[Doubt, ...]:
+    """Stiffness and damping of an elastic shaft by its lightest disc."""
+    inertia = min(shaft.discs(parameters))
+    told: list[_Told] = []
+    for k, c in zip(*shaft.springs(parameters), strict=True):
+        told.append(("shaft_frequency", "sqrt(stiffness / least inertia), rad/s", math.sqrt(k / inertia)))
+        told.append(("shaft_damping", "damping / (2 sqrt(stiffness * inertia))", c / (2 * math.sqrt(k * inertia))))
+    return _doubts(told)
+
+
+def by_unit(sections: Mapping[str, Any], names: tuple[str, ...]) -> tuple[Doubt, ...]:
+    """What is beyond the largest machines, in sections of letters that may mean anything."""
+    found = {}
+    for section in names:
+        for field in _fields(sections.get(section)):
+            value = getattr(sections[section], field.name)
+            values = [v for v in (value if isinstance(value, tuple) else (value,)) if isinstance(v, float)]
+            found[f"{section}.{field.name}"] = (max(values, key=abs, default=0.0), field.metadata.get("unit", ""))
+    return letters(found)
+
+
+def _doubts(told: Iterable[_Told]) -> tuple[Doubt, ...]:
+    return tuple(d for code, name, value in told if value for d in proportion(code, name, value))
+
+
+def _fields(record: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(record) if dataclasses.is_dataclass(record) else ()
+
+
+def _number(sections: Mapping[str, Any], section: str, name: str) -> float:
+    return getattr(sections.get(section), name, None) or 0.0
+
+
+def _inertias(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told]:
+    for letter, (inertia, like) in sizes.parts.items():
+        if like > 0:
+            yield "part_inertia", f"parameters.{letter} / (mass * length^2)", inertia / like
+    scale = sizes.mass * (sizes.stroke / 2) ** 2
+    if scale <= 0:
+        return
+    about = "(moving mass * half stroke^2)"
+    for letter, inertia in sizes.shafts.items():
+        yield "inertia", f"parameters.{letter} / {about}", inertia / scale
+    for letter, moment in sizes.unbalances.items():
+        yield "unbalance", f"parameters.{letter} / (moving mass * half stroke)", abs(moment) * sizes.stroke / 2 / scale
+    kept = _number(sections, "flywheel", "inertia") / scale
+    if kept > 1:  # a small one is as good as none
+        yield "inertia", f"flywheel.inertia / {about}", kept
+
+
+def _lengths(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
+    for section, names, code in _BY_BORE:
+        fields = _fields(sections.get(section))
+        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m"]:
+            yield code, f"{section}.{name} / bore", _number(sections, section, name) / bore
+    for field in _fields(sections.get("part_masses")):
+        yield (
+            "mass_density",
+            f"part_masses.{field.name} / bore^3",
+            getattr(sections["part_masses"], field.name) / bore**3,
+        )
+
+
+def _volumes(sections: Mapping[str, Any], bore: float, stroke: float) -> Iterator[_Told]:
+    swept = math.pi / 4 * bore**2 * stroke
+    for name in ("dead_hot", "dead_cold", "dead_regenerator"):
+        yield "dead_volume", f"cycle.{name} / swept volume", _number(sections, "cycle", name) / swept
