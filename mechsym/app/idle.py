@@ -3,12 +3,13 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from mechsym import mechanisms
+from mechsym.app.letters import rubbing, unread
 from mechsym.cases import Case
 from mechsym.cycle.friction import MechanismFriction
 from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
+from mechsym.jobs.own import is_own
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -19,7 +20,10 @@ def idle(case: Case, tab: str) -> Mapping[str, str]:
         why = None if data is None or (tabs and tab not in tabs) else reason(case, data)
         if why is not None:
             found |= {f"{section}.{name}": why for name in names or vars(data) if name in vars(data)}
-    return found
+    if "friction" in case.sections and tab == "forces":
+        acting = rubbing(case)
+        found |= {f"friction.{n}": _NO_PLACE for n in vars(case.need("friction")) if n not in acting}
+    return found | {f"parameters.{name}": why for name, why in unread(case, tab).items()}
 
 
 def _unless(field: str, value: str) -> Callable[[Case, Any], str | None]:
@@ -41,6 +45,10 @@ def _fuel(case: Case, data: Any) -> str | None:
     return "the mean pressure is given: it tells temperatures and fuel only" if given else None
 
 
+def _own_fuel(case: Case, data: Any) -> str | None:
+    return _fuel(case, data) if is_own(case.mechanism) else None  # of others the facts tell the temperature
+
+
 def _no_friction(case: Case, data: Any) -> str | None:
     free = data.friction == "none" and "losses" not in case.sections
     return "the rollers have no friction" if free else None
@@ -59,15 +67,6 @@ def _opposed(case: Case, data: Any) -> str | None:
     return "it acts on both ends of a slider" if "faces" in case.sections else None
 
 
-def _geared(case: Case, data: Any) -> str | None:
-    return None if _gearless(case, data) else "gears lead the piston: no side force"
-
-
-def _gearless(case: Case, data: Any) -> str | None:
-    # a pressure angle is what a mechanism with gears has among its letters
-    return None if hasattr(case.sections.get("parameters"), "alpha_n") else "there are no gears"
-
-
 def _measured(case: Case, data: Any) -> str | None:
     return "the cycle is measured" if isinstance(case.sections.get("cycle"), Diagram) else None
 
@@ -78,14 +77,11 @@ def _no_joints(case: Case, data: Any) -> str | None:
     return None if isinstance(law, MechanismFriction) else "the cycle is without the friction of the joints"
 
 
-def _not_reciprocating(case: Case, data: Any) -> str | None:
-    held = case.mechanism in mechanisms.names() and _no_joints(case, data) is not None
-    return "of the masses only the reciprocating ones act here" if held else None
+def _own(case: Case, data: Any) -> str | None:
+    return "of a mechanism of one's own the roles tell where it rubs" if is_own(case.mechanism) else None
 
 
-# masses of the mechanisms that come with the package and do not move with a piston, and what goes with them
-_TURNING = ("m0", "m1", "m2", "m_link", "u0", "u1", "I1", "I2", "IC2", "I_link", "I01", "I0", "I_f", "g", "axis_tilt",
-            "alpha_n", "k", "c")  # fmt: skip
+_NO_PLACE = "the mechanism has no such place that rubs"
 
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
 _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any], str | None]], ...] = (
@@ -95,6 +91,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
     ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
+    ("cycle", ("c_v", "lhv", "R", "T_evc"), ("forces",), _own_fuel),
     ("cycle", ("p_back",), (), _scavenge),
     ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
     ("cycle", ("p_back",), ("cycle",), _measured),
@@ -102,11 +99,8 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("operation", ("speed",), ("cycle",), _measured),
     ("friction", (), ("cycle",), _no_joints),
     ("rings", (), ("cycle",), _no_joints),
-    ("parameters", _TURNING, ("cycle",), _not_reciprocating),
-    ("parameters", ("m3", "m4", "m5"), ("cycle",), _measured),
-    ("parameters", ("I01", "I1", "I2", "I_link"), ("forces",), _said("the speed is held")),
-    ("friction", ("mu_guide",), ("forces",), _geared),
-    ("friction", ("mu_mesh", "module", "contact_ratio"), ("forces",), _gearless),
+    ("rings", (), ("forces",), _own),
+    ("shaking", (), ("forces",), _own),
     ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
     ("chamber", ("back_pressure",), ("forces",), _opposed),
     ("shaking", ("limit",), ("forces",), _said("it only judges")),

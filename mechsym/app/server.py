@@ -17,6 +17,7 @@ from mechsym.errors import BadInput
 
 _HOST = "127.0.0.1"
 _WAIT = 60.0  # for the server in `check` [s]
+_LOADED = 60.0  # a page that a busy machine keeps waiting so long is still the same page, with its sliders [s]
 
 
 def serve(name: str, port: int, tell: Callable[[str], None] = lambda address: None) -> None:
@@ -33,7 +34,10 @@ def serve(name: str, port: int, tell: Callable[[str], None] = lambda address: No
         Page(name, dict(request.query_params)).build()
 
     tell(f"http://{_HOST}:{port}/")
-    ui.run(host=_HOST, port=port, title="mechsym", reload=False, show=False, show_welcome_message=False)
+    ui.run(
+        host=_HOST, port=port, title="mechsym", reload=False, show=False, show_welcome_message=False,
+        reconnect_timeout=_LOADED,
+    )  # fmt: skip
 
 
 def check(name: str, port: int) -> dict[str, Any]:

@@ -35,18 +35,22 @@ class Slider:
 
 def sliders(case: Case) -> tuple[Slider, ...]:
     """Every number that stands alone in the text of a case; whatever single slider is moved, the case can be read."""
-    given = tomllib.loads(cases.text(case.path))
     found = []
     for section, data in case.sections.items():
-        if not dataclasses.is_dataclass(data) or not isinstance(given.get(section), dict):
-            continue
-        for field in dataclasses.fields(data):
-            value = getattr(data, field.name)
-            stands = any(k == field.name or k.startswith(f"{field.name}_") for k in given[section])
-            if stands and "unit" in field.metadata and isinstance(value, (int, float)):
-                reach = _REACH * abs(float(value)) or _from_zero(data, field.metadata["unit"])
-                found.append(_slider(case, f"{section}.{field.name}", field, float(value), reach))
+        for field in numbers(case, section):
+            value = float(getattr(data, field.name))
+            reach = _REACH * abs(value) or _from_zero(data, field.metadata["unit"])
+            found.append(_slider(case, f"{section}.{field.name}", field, value, reach))
     return tuple(found)
+
+
+def numbers(case: Case, section: str) -> list[dataclasses.Field]:
+    """The fields of a section that stand in the text of the case as one number with a unit."""
+    given, data = tomllib.loads(cases.text(case.path)).get(section), case.sections[section]
+    if not dataclasses.is_dataclass(data) or not isinstance(given, dict):
+        return []
+    stand = [f for f in dataclasses.fields(data) if any(k == f.name or k.startswith(f"{f.name}_") for k in given)]
+    return [f for f in stand if "unit" in f.metadata and isinstance(getattr(data, f.name), (int, float))]
 
 
 def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 import json
 import time
+from collections.abc import Mapping
 from functools import partial
 from importlib import resources
 from typing import Any
@@ -50,7 +51,7 @@ class Page:
         self.tabs = (*commands.tabs(case), AUDIT)
         self.tab = self.tab if self.tab in self.tabs else self.tabs[0]
         self.knobs = {s.key: s for s in sliders(case)}
-        self.idle = {tab: idle(case, tab) for tab in self.tabs}
+        self.idle: dict[str, Mapping[str, str]] = {}
         self._head()
         ui.label(case.about).classes("opacity-70")
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
@@ -58,7 +59,7 @@ class Page:
                 self._sliders()
             with ui.column().classes("w-full grow min-w-0 order-1 md:order-2"):
                 self._views(case.mechanism)
-        self.opened()
+        ui.timer(0.0, self.opened, once=True)
 
     def _head(self) -> None:
         ui = self.ui
@@ -128,19 +129,24 @@ class Page:
                     kind = {"hinge": HingePanel, AUDIT: AuditPanel}.get(name, RunPanel)
                     self.panels[name] = kind(ui, name, self.path, mechanism)
 
-    def turn_to(self, tab: str) -> None:
+    async def turn_to(self, tab: str) -> None:
         """Another tab has been opened."""
         self.tab = tab
-        self.opened()
+        await self.opened()
 
-    def opened(self) -> None:
+    async def opened(self) -> None:
         """Show the sliders that can move what the open tab says, and what it says."""
+        from nicegui import run
+
+        tab = self.tab
+        if tab not in self.idle:
+            self.idle[tab] = await run.io_bound(lambda: idle(cases.load(self.path), tab)) or {}
         self._offer()
-        self.refresh()
+        await self.update()
 
     def _offer(self) -> None:
         """Show a slider only where it moves something; say of the others why it does not."""
-        still, read = self.idle[self.tab], commands.reads(self.tab)
+        still, read = self.idle.get(self.tab, {}), commands.reads(self.tab)
         here = [key for key in self.knobs if key.partition(".")[0] in read]
         for section, box in self.sections.items():
             box.visible = any(key.startswith(f"{section}.") and key not in still for key in here)

@@ -1,5 +1,7 @@
 """Each slider that a tab offers moves what the tab shows; each that it leaves out, with its reason, moves nothing."""
 
+from pathlib import Path
+
 import pytest
 from click.testing import CliRunner
 
@@ -9,6 +11,7 @@ from mechsym.app.commands import Run
 from mechsym.app.idle import idle
 from mechsym.cli import mechsym
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 _NOISE = ("wall", "seconds", "residual", "doubt")  # differs between two equal runs, is round-off, or is about the case
 
 
@@ -60,15 +63,15 @@ def test_each_slider_of_the_hinge_moves_it():
 
 @pytest.mark.slow
 @pytest.mark.heavy
-@pytest.mark.parametrize(
-    ("tab", "name"),
-    [
-        *(("cycle", name) for name in ("alpha-stirling", "balandin", "generator", "generator-breathing")),
-        *(("forces", name) for name in ("balandin", "generator", "generator-breathing", "nunes-hypocycloid")),
-    ],
-)
+@pytest.mark.parametrize(("tab", "name"), [(tab, n) for n in cases.names() for tab in commands.tabs(cases.load(n))])
 def test_each_slider_of_a_run_moves_it(tab, name):
     held(tab, name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tab", ["cycle", "forces"])
+def test_each_slider_of_an_own_mechanism_moves_it(tab):
+    held(tab, str(EXAMPLES / "compressor.toml"))
 
 
 def test_what_is_left_out_has_a_reason_that_follows_the_choice():
@@ -78,6 +81,47 @@ def test_what_is_left_out_has_a_reason_that_follows_the_choice():
     assert "rollers.rolling_arm" not in other and "scavenging.warming" not in other
     assert "cycle.lhv" not in given and "cycle.lhv" in idle(cases.load("zotov-89"), "simulate")
     assert not idle(cases.load("nunes-slider-crank"), "size")
-    assert idle(cases.load("alpha-stirling"), "cycle")["stirling.wire"] == "kind is schmidt, without losses"
-    assert idle(cases.load("nunes-slider-crank"), "forces")["friction.module"] == "there are no gears"
+    assert idle(cases.load("alpha-stirling"), "size")["stirling.wire"] == "kind is schmidt, without losses"
+    assert idle(cases.load("nunes-slider-crank"), "forces")["friction.module"].startswith("the mechanism has no")
     assert "friction.mu_guide" in idle(cases.load("nunes-hypocycloid"), "forces")
+
+
+def letters(tab, name):
+    return {k.removeprefix("parameters.") for k in idle(cases.load(name), tab) if k.startswith("parameters.")}
+
+
+def test_letters_that_enter_nothing_are_left_out_of_any_mechanism():
+    assert letters("cycle", str(EXAMPLES / "compressor.toml")) == {"I", "I_rod", "m_rod", "m_piston"}
+    assert not letters("forces", str(EXAMPLES / "compressor.toml"))  # its table has the inertia on the shaft
+    assert not letters("simulate", str(EXAMPLES / "compressor.toml"))
+    assert letters("forces", "nunes-hypocycloid") == {"I1", "I2"}  # the speed is held
+    assert {"m1", "m2", "I01"} <= letters("cycle", "zotov-89") and not letters("hinge", "zotov-89")
+
+
+ROLES = """    m.bearing("shaft", reactions=("R_x_O", "R_y_O"), turns=phi, radius=e)
+    m.guide("cylinder", reaction="R_n_G", travel=x)
+"""
+
+
+@pytest.mark.slow
+def test_friction_of_an_own_mechanism_is_offered_where_its_roles_say(tmp_path):
+    text = (EXAMPLES / "compressor.py").read_text(encoding="utf-8")
+    case = (EXAMPLES / "compressor.toml").read_text(encoding="utf-8") + FRICTION
+    (tmp_path / "compressor.toml").write_text(case, encoding="utf-8")
+    (tmp_path / "compressor.py").write_text(text, encoding="utf-8")
+    offered, _ = split("forces", str(tmp_path / "compressor.toml"))
+    assert not [s for s in offered if s.key.startswith("friction.")]
+    (tmp_path / "compressor.py").write_text(text.replace("    return m\n", ROLES + "    return m\n"), encoding="utf-8")
+    offered, _ = split("forces", str(tmp_path / "compressor.toml"))
+    assert {s.key for s in offered if s.key.startswith("friction.")} == {"friction.mu_pin", "friction.mu_guide"}
+
+
+FRICTION = """
+[friction]
+mu_guide = 0.05
+mu_pin = 0.01
+mu_main = 0.01
+radius_piston_pin = "10 mm"
+radius_crank_pin = "15 mm"
+radius_main = "20 mm"
+"""
