@@ -1,6 +1,7 @@
 """The command line: argument parsing and one call per command. Each command's module is imported only when it runs."""
 
 import contextlib
+import gc
 import os
 import sys
 from collections.abc import Iterator
@@ -178,6 +179,8 @@ def mechsym() -> None:
 
 def main() -> None:
     """Run the command line; bad input ends with one line and exit status 2, a failure of the system with 74."""
+    # what imports and figures leave is little: look for it rarely
+    gc.set_threshold(20_000)
     try:
         sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
     except BadInput as error:

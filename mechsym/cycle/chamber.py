@@ -22,6 +22,7 @@ import numpy as np
 
 from mechsym.cycle.values import Scalar, Value
 from mechsym.errors import BadInput
+from mechsym.mechanisms.arrays import over_arrays
 from mechsym.quantities import quantity, record
 
 
@@ -134,7 +135,10 @@ def travel(motion: Motion, phi: Value) -> tuple[Value, Value, Value]:
     if symbolic:
         return motion.function(phi, ca.vertcat(*parameters))
     angles = np.asarray(phi, float)
-    columns = motion.function(angles.reshape(1, -1), np.asarray(parameters, float).reshape(-1, 1))
+    if batch := over_arrays(motion.function, angles.size):
+        columns = batch(angles, *parameters)
+    else:
+        columns = motion.function(angles.reshape(1, -1), np.asarray(parameters, float).reshape(-1, 1))
     x, dx, d2x = (np.asarray(c).reshape(angles.shape) for c in columns)
     return (x, dx, d2x) if angles.ndim else (float(x), float(dx), float(d2x))
 

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.mechanisms.record import Mechanism, along
+from mechsym.mechanisms.arrays import along
+from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import quantity, record
 
 NORMAL_95 = 1.959963984540054  # half width of the 95 % interval of a normal distribution, in standard deviations [-]

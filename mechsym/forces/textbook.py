@@ -11,6 +11,7 @@ the centre of mass as well. Their error in the torque is (I_C2 - m_b a b) omega^
 """
 
 import dataclasses
+import functools
 import math
 
 import numpy as np
@@ -121,8 +122,7 @@ def errors(turn: Turn, approximate: Chain) -> dict[str, float]:
     errors : dict of str to float
         For N, Z, T, M and the loads of crank pin and main bearing: largest difference over the largest exact value [-]
     """
-    exact = _exact(with_weight(turn, 0.0))
-    return _shares(_approximate(turn, approximate), exact)
+    return _shares(_approximate(turn, approximate), _exact(turn, 0.0))
 
 
 def weight_shares(turn: Turn) -> dict[str, float]:
@@ -133,7 +133,7 @@ def weight_shares(turn: Turn) -> dict[str, float]:
     shares : dict of str to float
         For the same quantities as `errors`: largest change by the weights over the largest value without [-]
     """
-    return _shares(_exact(with_weight(turn, _FREE_FALL)), _exact(with_weight(turn, 0.0)))
+    return _shares(_exact(turn, _FREE_FALL), _exact(turn, 0.0))
 
 
 def with_weight(turn: Turn, g: float) -> Turn:
@@ -148,14 +148,17 @@ def with_weight(turn: Turn, g: float) -> Turn:
     return at(drive, turn.gas, turn.omega, turn.phi)
 
 
-def _exact(turn: Turn) -> dict[str, np.ndarray]:
-    found = loads(turn)
+# every chain is held against the same
+@functools.lru_cache(maxsize=4)
+def _exact(turn: Turn, g: float) -> dict[str, np.ndarray]:
+    weighted = with_weight(turn, g)
+    found = loads(weighted)
     pin = found.pins[0]
     return {
         "N": found.guides["side_force"],
         "Z": -radial(pin),
         "T": tangential(pin),
-        "M": turn.torque,
+        "M": weighted.torque,
         "crank_pin": np.hypot(pin.x, pin.y),
         "main_bearing": np.hypot(*found.bearings["main_bearing"]),
     }

@@ -16,8 +16,9 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.chain import CrankChain
-from mechsym.mechanisms.record import Mechanism, along
+from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.traits import traits_of, with_chain
 from mechsym.quantities import record
 
@@ -56,6 +57,9 @@ class Turn:
     momentum: Mapping[str, np.ndarray]
     torque: np.ndarray  #: shape (n,): Torque for the load, from the energies [N*m]
     gas_power: np.ndarray  #: shape (n,): Power of the gas forces [W]
+
+    # a turn is itself: what is computed of it is kept by identity
+    __hash__ = object.__hash__
 
 
 def turn(drive: CrankDrive, gas: "Gas | None", omega: float) -> Turn:

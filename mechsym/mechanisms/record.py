@@ -19,6 +19,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import own
+from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.multipliers import with_multipliers
 from mechsym.quantities import record
 
@@ -249,38 +250,6 @@ def evaluate(mechanism: Mechanism, group: str, **letters: Any) -> dict[str, np.n
     if group not in mechanism.functions:
         raise BadInput(f"{mechanism.name} has no {group!r}; it has {', '.join(mechanism.functions)}")
     return along(mechanism.functions[group], letters)
-
-
-def along(function: ca.Function, letters: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """A function of scalars at many points.
-
-    Parameters
-    ----------
-    letters : mapping of str to float or ndarray, shape (n,)
-        By input name; what is not named is 0 [SI]
-
-    Returns
-    -------
-    values : dict of str to ndarray, shape (n,) or (k, n) or (k, k, n)
-        By output name [SI]
-    """
-    names = function.name_in()
-    if unknown := sorted(set(letters) - set(names)):
-        raise BadInput(f"{function.name()} takes no {', '.join(unknown)}; it takes {', '.join(names)}")
-    rows = {n: np.atleast_1d(np.asarray(v, dtype=float))[None, :] for n, v in letters.items()}
-    count = max((row.shape[1] for row in rows.values()), default=1)
-    found = function.call([ca.DM(rows[n]) if n in rows else 0.0 for n in names])
-    sizes = [(function.size1_out(i), function.size2_out(i)) for i in range(function.n_out())]
-    shaped = [_angle_last(np.asarray(v), size, count) for v, size in zip(found, sizes, strict=True)]
-    return dict(zip(function.name_out(), shaped, strict=True))
-
-
-def _angle_last(values: np.ndarray, size: tuple[int, int], count: int) -> np.ndarray:
-    """What CasADi lays side by side, point by point, with the points as the last axis."""
-    rows, columns = size
-    points = values.reshape(rows, -1, columns).transpose(0, 2, 1)
-    shape = tuple(n for n in size if n > 1)
-    return np.broadcast_to(points, (*size, count)).reshape(*shape, count)
 
 
 def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:

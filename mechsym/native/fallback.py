@@ -1,5 +1,6 @@
 """Without a compiler: the same program as numpy text over chunks that fit the cache, and CasADi for single points."""
 
+import functools
 import threading
 from collections.abc import Callable
 from itertools import accumulate
@@ -10,9 +11,10 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.native.dialects import NUMPY, expression, unknown
-from mechsym.native.tape import Tape
+from mechsym.native.tape import Tape, read
 
 _CHUNK = 2048
+_LONGEST = 4000  # instructions; CasADi is sooner done with a longer program than numpy's text of it is compiled
 T = TypeVar("T")
 
 
@@ -130,6 +132,29 @@ def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
         return result
 
     return batch
+
+
+@functools.lru_cache(maxsize=256)
+def arrays(function: casadi.Function) -> Callable[..., np.ndarray] | None:
+    """A function over arrays as numpy text, made in the time that CasADi takes for 200 points.
+
+    No compiler and no cache decides about it, so equal data give equal digits on the first run and on every other.
+
+    Returns
+    -------
+    batch : callable or None
+        As `Compiled.batch`; None where CasADi has to do it: it calls other functions, or is too long
+
+    Examples
+    --------
+    >>> x = casadi.SX.sym("x")
+    >>> arrays(casadi.Function("square", [x], [x * x]))(np.array([1.0, 2.0, 3.0])).tolist()
+    [[1.0, 4.0, 9.0]]
+    """
+    if not function.is_a("SXFunction") or function.n_instructions() > _LONGEST:
+        return None
+    tape = read(function)
+    return None if unknown(tape, NUMPY) else _batch(function, tape)
 
 
 def _mapped(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
