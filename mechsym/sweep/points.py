@@ -72,7 +72,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     if analysis == "hinge":
         return _hinges(show)
     if analysis == "guides":
-        return Route(analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.001,
+        return Route(analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.0001,
                      at=guides.guides)  # fmt: skip
     if analysis in _SINGLES:
         single, seconds = _SINGLES[analysis]
@@ -87,7 +87,7 @@ def _hinges(show: tuple[str, ...]) -> Route:
         hinges.check_keys(show)
         if hinges.runs(show):
             return Route(analysis="hinge", run=_each(hinges.designed(show)), together=1, seconds=0.5)
-    return Route(analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.001)
+    return Route(analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.002)
 
 
 def _meant(case: Case) -> str:

@@ -125,7 +125,7 @@ def keep(store: Store, members: Sequence[int], found: Sequence[Outcome], seconds
     Parameters
     ----------
     seconds : float
-        What one of them took [s]
+        What one of them took of a processor [s]
     """
     rows = [(i, _text(outcome), seconds, host) for i, outcome in zip(members, found, strict=True)]
     with _told(store.path), store.connection:
