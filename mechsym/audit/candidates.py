@@ -4,6 +4,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
@@ -12,18 +13,19 @@ import numpy as np
 
 from mechsym.audit.algebra import evaluate
 from mechsym.audit.bench import Bench, names, part_values, scratch, shaped, used_names
-from mechsym.audit.edits import Edit, is_exponent, is_product, places, scaled, without_double_signs
-from mechsym.audit.insertion import candidate_words, is_unit, simple, vocabulary
+from mechsym.audit.edits import Edit, Spot, is_exponent, is_product, places, scaled, without_double_signs
+from mechsym.audit.insertion import candidate_words, is_unit, short, simple, vocabulary
 from mechsym.audit.printer import to_python
 from mechsym.audit.put_back import insertions
 from mechsym.audit.question import Question
 from mechsym.audit.required import Required, quotient, required
-from mechsym.audit.slips import CIRCULAR, in_degrees, single_edits
+from mechsym.audit.slips import CIRCULAR, INVERSE, in_degrees, single_edits
 from mechsym.audit.theory.record import dependencies, known
 from mechsym.audit.tree import (
     Node,
     Path,
     binary,
+    call,
     children,
     function_of,
     is_operation,
@@ -91,7 +93,9 @@ def repeated_edits(tree: Node) -> list[Edit]:
     distinct = {text: node for node, text in texts.items() if counts[text] > 1}
     found = []
     for text, node in distinct.items():
-        for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2))):
+        others = [f for kin in (CIRCULAR, INVERSE) if function_of(node) in kin for f in kin if f != function_of(node)]
+        again = [call(other, node.args[0]) for other in others]  # type: ignore[attr-defined]
+        for new in (negative(node), binary(ast.Mult, number(2), node), binary(ast.Div, node, number(2)), *again):
             changed = substitute(tree, partial(_instead, texts, text, new))
             about = f"{to_python(node)} becomes {to_python(new)} in {counts[text]} places"
             found.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed), about=about))
@@ -124,6 +128,7 @@ def confusable(question: Question, letter: str) -> list[str]:
         return []
     theory = question.theory
     needed = dependencies(theory, [question.quantity, *used_names(question.formula)])
+    needed |= {k for k in theory.tape if needed & {f"sin_{k}", f"cos_{k}"}}
     free = [k for k in theory.letters if k in needed]
     names = [k for k in known(theory) if k in theory.tape and k != question.quantity]
     derived = [k for k in names if k in needed and not _is_number(theory.tape[k])]
@@ -232,9 +237,18 @@ def _away(values: Any, wish: Any) -> np.ndarray:
 
 def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) -> Iterator[Edit]:
     for place in places(tree):
-        if place.path not in wishes or not is_product(place):
+        if place.path not in wishes:
             continue
-        factor = simple(np.asarray(quotient(asked, wishes[place.path], memo[place.node]), dtype=float))
+        if isinstance(place.node, ast.Constant):
+            right = short(np.asarray(wishes[place.path], dtype=float))
+            if right is not None and _misread(Fraction(str(place.node.value)), right):
+                yield Edit(kind="number", path=place.path, new=number(right, decimal=True))
+        if not is_product(place):
+            continue
+        factors = np.asarray(quotient(asked, wishes[place.path], memo[place.node]), dtype=float)
+        factor = simple(factors)
+        if factor is None:
+            yield from _turns(place, factors)
         if factor is None or factor == 1:
             continue
         if factor == -1:
@@ -246,3 +260,23 @@ def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) 
                     continue  # a unit is not hidden in a number that stands there for another reason
                 kind = "number"
             yield Edit(kind=kind, path=place.path, new=scaled(place.node, factor))
+
+
+def _misread(printed: Fraction, right: Fraction) -> bool:
+    # 0.651 for 0.615, 0.53 for 0.55, 0.6 for 0.06: digits exchanged, one of them wrong, the point moved
+    one, other = (f"{float(abs(v)):.6e}".partition("e")[0].replace(".", "").rstrip("0") for v in (printed, right))
+    if one == other or sorted(one) == sorted(other):
+        return True
+    same_size = len(one) == len(other) > 1 and float(right / printed) < 10 and float(printed / right) < 10
+    return same_size and sum(a != b for a, b in zip(one, other, strict=True)) == 1
+
+
+def _turns(place: Spot, factors: np.ndarray) -> Iterator[Edit]:
+    # 2 f for 2 pi f, B^2/4 for pi B^2/4
+    for power in (1, -1, 2, -2):
+        factor = simple(factors / np.pi**power)
+        if factor is not None and not is_unit(factor) and value_of(place.node) is None:
+            more = name("pi") if abs(power) == 1 else binary(ast.Pow, name("pi"), number(2))
+            node = scaled(negative(place.node) if factor < 0 else place.node, abs(factor))
+            operator = ast.Mult if power > 0 else ast.Div
+            yield Edit(kind="factor", path=place.path, new=binary(operator, node, more))

@@ -22,11 +22,20 @@ class Condition:
         return f"{self.words} ({', '.join(f'{k} = 0' for k in self.letters)})"
 
 
-def conditions(question: Question) -> Iterator[Condition]:
-    """Conditions under which the quantity loses letters that the formula does not have."""
+def conditions(question: Question, written: bool = False) -> Iterator[Condition]:
+    """Conditions under which the quantity loses letters that the formula does not have.
+
+    Parameters
+    ----------
+    written : bool
+        Whether only letters that stand in the formula count, and not those of a derived name: in a/omega^2 for the
+        second slope, a is the acceleration at constant speed
+    """
     theory = question.theory
-    used = dependencies(theory, used_names(question.formula))
-    needed = dependencies(theory, [question.quantity]) - set(question.hold)
+    used = set(used_names(question.formula))
+    used = used if written else dependencies(theory, used)
+    asked = [question.quantity, *used] if written else [question.quantity]
+    needed = dependencies(theory, asked) - set(question.hold)
     found = []
     for words, letters in taken_for_granted(theory).items():
         lost = tuple(k for k in letters if k in needed)

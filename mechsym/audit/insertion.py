@@ -13,10 +13,11 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.bench import Bench, value
+from mechsym.audit.bench import Bench, used_names, value
 from mechsym.audit.question import Question
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.tree import Node, binary, call, is_operation, letters, name, number, value_of, walk
+from mechsym.audit.units_of import NUMBER, kind_of_letter
 from mechsym.quantities import record
 
 MAX_WORDS = 26
@@ -25,6 +26,7 @@ MAX_EXPONENT = 4
 MAX_INTEGER = 24
 UNITS = (1000, 60, 3600, 360, 10**6, 100, 180)
 _CLOSE = 1e-5
+_SAME = 1e-7
 
 
 @record
@@ -51,9 +53,14 @@ def candidate_words(question: Question, tree: Node) -> list[Node]:
     multiples = [m for a in turning for m in (name(a), binary(ast.Mult, number(2), name(a)))]
     circular = [call(f, m) for m in multiples for f in ("sin", "cos")]
     authors = [name(k) for k, value in own.items() if needed & dependencies(theory, letters(value))]
-    free = [name(k) for k in theory.letters if k in needed and k not in own and k not in question.hold]
+    # what the formula's own names are made of may have been lost, too: v for v/omega
+    made = needed | dependencies(theory, used_names(question.formula))
+    free = [name(k) for k in theory.letters if k in made and k not in own and k not in question.hold]
     results = [name(k) for k in theory.results if k in needed and k != question.quantity and k not in own]
-    words = [*sorted([*printed, *circular], key=_complexity), *authors, *free, *results]
+    near = dict.fromkeys([*letters(tree), *own, *(k for k in theory.letters if k in needed)])
+    pure = [k for k in near if k != "pi" and kind_of_letter(question, k) == NUMBER]
+    ones = [binary(operator, number(1), name(k)) for k in pure for operator in (ast.Add, ast.Sub)]
+    words = [*sorted([*printed, *authors, *free, *circular], key=_complexity), *results, *ones]
     return _distinct(w for w in words if not (isinstance(w, ast.Name) and w.id in angles))
 
 
@@ -198,6 +205,21 @@ def simple(constants: np.ndarray) -> Fraction | None:
         if found and abs(found.numerator) <= MAX_INTEGER and abs(float(found * unit) / middle - 1) < _CLOSE:
             return found * unit
     return None
+
+
+def short(values: np.ndarray) -> Fraction | None:
+    """The number of at most four digits that all values are, if there is one.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        What a number would have to be at the states [-]
+    """
+    middle = float(np.median(values)) if np.size(values) else np.nan
+    if not np.isfinite(middle) or not middle or np.max(np.abs(values / middle - 1)) > _CLOSE:
+        return None
+    found = Fraction(f"{middle:.4g}")
+    return found if abs(float(found) / middle - 1) < _SAME else None
 
 
 def is_unit(factor: Fraction) -> bool:

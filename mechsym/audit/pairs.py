@@ -22,6 +22,7 @@ from mechsym.audit.put_back import lost_factor, lost_term
 from mechsym.audit.repair import Examination, Repair, search_bench, simplicity, slips, standing
 from mechsym.audit.required import required
 from mechsym.audit.slips import node_edits
+from mechsym.audit.tidy import tidy
 from mechsym.audit.tree import Node, Path, at, binary, children, letters, negative, number, replace, value_of, walk
 from mechsym.audit.units_of import ANGLE, kind_of_letter
 from mechsym.quantities import record
@@ -66,7 +67,7 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
     for _, first, second in sorted(found, key=lambda f: f[0])[:60]:
         tree = apply(apply(start.tree, first), second)
         if is_exact(exam.judged, tree):
-            return standing(exam, tree, (*start.edits, first, second)), ""
+            return standing(exam, tidy(tree, start.tree), (*start.edits, first, second)), ""
     return None, note
 
 

@@ -9,7 +9,7 @@ from mechsym.audit.bench import Bench
 from mechsym.audit.edits import Edit, Spot, is_product, is_term, places, scaled
 from mechsym.audit.insertion import Product, Vocabulary, Words, product, product_tree
 from mechsym.audit.required import Required, quotient
-from mechsym.audit.tree import Node, Path, binary, children, is_operation, negative, value_of
+from mechsym.audit.tree import Node, Path, binary, children, is_operation, negative, value_of, walk
 
 
 def insertions(
@@ -26,13 +26,18 @@ def insertions(
     most = sum(not children(p.node) for p in places(tree))
     nodes = {p.path: p.node for p in places(tree)}
     for place in places(tree):
-        if place.path not in wishes or value_of(place.node) is not None:
+        if place.path not in wishes or value_of(place.node) is not None and not _is_bare(place):
             continue
         wish, old = wishes[place.path], memo[place.node]
         if is_product(place):
             yield from lost_factor(nodes, place, product(asked, words, quotient(asked, wish, old)), most)
         if is_term(place):
             yield from lost_term(place, product(asked, words, wish - old), most)
+
+
+def _is_bare(place: Spot) -> bool:
+    # a number that is a term of its own may have lost a letter
+    return place.parent is not None and is_operation(place.parent, ast.Add, ast.Sub)
 
 
 def lost_factor(nodes: Mapping[Path, Node], place: Spot, found: Product | None, most: int) -> Iterator[Edit]:
@@ -48,7 +53,11 @@ def lost_term(place: Spot, found: Product | None, most: int) -> Iterator[Edit]:
 
 
 def _is_little(found: Product | None, most: int) -> TypeGuard[Product]:
-    return found is not None and 1 <= len(found[1]) <= most
+    return found is not None and 1 <= len(found[1]) and sum(_leaves(word) for word, _ in found[1]) <= most
+
+
+def _leaves(node: Node) -> int:
+    return sum(not children(below) for _, below in walk(node))
 
 
 def _cancels(nodes: Mapping[Path, Node], path: Path, used: Words) -> bool:

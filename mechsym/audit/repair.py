@@ -11,7 +11,7 @@ import numpy as np
 
 from mechsym.audit.algebra import DIGITS, FLOATS
 from mechsym.audit.bench import Bench, bench, max_rel_error, turn, value
-from mechsym.audit.candidates import listed_edits, matching_edits, repeated_edits
+from mechsym.audit.candidates import confusable, listed_edits, matching_edits, repeated_edits
 from mechsym.audit.dimensions import Rescaled, rescaled
 from mechsym.audit.edits import RANKS, Edit, apply
 from mechsym.audit.expansion import Expansion, expansions
@@ -20,7 +20,9 @@ from mechsym.audit.printer import to_python
 from mechsym.audit.prover import Judges, is_exact, judges
 from mechsym.audit.question import Question, digit_values, float_values, small_rods
 from mechsym.audit.states import drawn
+from mechsym.audit.tidy import tidy
 from mechsym.audit.tree import Node, digest, function_of, walk
+from mechsym.audit.wider import wider_edits
 from mechsym.quantities import record
 
 SEARCH_DIGITS = 80
@@ -96,7 +98,11 @@ def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repa
     for listed in [[]] if insert else slips(exam, start.tree):
         if exact := _exact(exam, start, listed, insert):
             return exact
-    return None
+    return None if insert else _exact(exam, start, _wider(exam, start.tree), insert)
+
+
+def _wider(exam: Examination, tree: Node) -> list[Edit]:
+    return wider_edits(exam.question, tree, lambda letter: confusable(exam.question, letter))
 
 
 def raising_repairs(exam: Examination, start: Repair) -> Iterator[list[Repair]]:
@@ -116,7 +122,7 @@ def _exact(exam: Examination, start: Repair, listed: list[Edit], insert: bool) -
     for edit in _by_simplicity(start.tree, found):
         tree = apply(start.tree, edit)
         if is_exact(exam.judged, tree):
-            return standing(exam, tree, (*start.edits, edit))
+            return standing(exam, tidy(tree, start.tree), (*start.edits, edit))
     return None
 
 

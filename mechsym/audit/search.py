@@ -9,14 +9,14 @@ from mechsym.audit.orders import EXACT
 from mechsym.audit.pairs import paired_repair
 from mechsym.audit.repair import Examination, Repair, exact_repair, raising_repairs
 from mechsym.audit.rounding import rounded_constant
-from mechsym.audit.tree import is_operation
+from mechsym.audit.tree import Node, is_operation, value_of, walk
 from mechsym.quantities import record
 
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
 # what makes a formula a truncation by taking its terms away does not repair it
 _TAKES_AWAY = {"left out"}
-_PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power"}
+_PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power", "degrees"}
 
 
 @record
@@ -56,7 +56,7 @@ def search(exam: Examination, start: Repair) -> Found:
     mixed = _mixed(exam, start)
     single = exact_repair(exam, start)
     # in an honest approximation, a bracket moved or a factor taken away is a coincidence
-    if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN):
+    if single is not None and not (mixed and single.edits[-1].kind not in _PLAIN and not _of_number(start.tree)):
         return Found(verdict="misprint", repairs=(single,))
     raised, mended = _raising(exam, start) if start.orders else ([], [])
     if mended and mended[0].edits[-1].kind in _PLAIN:
@@ -74,6 +74,11 @@ def search(exam: Examination, start: Repair) -> Found:
     if raised:
         return Found(verdict="nearer", nearer=raised[0], note=cut)
     return Found(verdict="wrong", note=cut)
+
+
+def _of_number(tree: Node) -> bool:
+    # nobody writes sqrt(1) - x: what the function is of has lost its bracket
+    return any(isinstance(n, ast.Call) and value_of(n.args[0]) is not None for _, n in walk(tree))
 
 
 def _raising(exam: Examination, start: Repair) -> tuple[list[Repair], list[Repair]]:

@@ -21,6 +21,7 @@ from mechsym.audit.tree import (
 FACTORS = tuple(Fraction(*f) for f in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4), (3, 2), (2, 3)))
 
 CIRCULAR = ("sin", "cos", "tan")
+INVERSE = ("asin", "acos", "atan")
 
 
 def single_edits(tree: Node, siblings: Callable[[str], Sequence[str]]) -> Iterator[Edit]:
@@ -50,9 +51,10 @@ def node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterato
         yield from (("letter", name(other)) for other in siblings(node.id))
     if isinstance(node, ast.Constant) and not is_exponent(place) and isinstance(node.value, int):
         yield from (("number", number(n)) for n in (node.value - 1, node.value + 1) if n > 0)
-    if function_of(node) in CIRCULAR:
-        others = [f for f in CIRCULAR if f != function_of(node)]
-        yield from (("sine and cosine", call(other, node.args[0])) for other in others)  # type: ignore[attr-defined]
+    for kin in (CIRCULAR, INVERSE):
+        if function_of(node) in kin:
+            others = [f for f in kin if f != function_of(node)]
+            yield from (("sine and cosine", call(other, node.args[0])) for other in others)  # type: ignore[attr-defined]
     if function_of(node) == "abs":
         yield "sign", node.args[0]  # type: ignore[attr-defined]
     yield from _powers(place)

@@ -7,7 +7,7 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.bench import names, value
+from mechsym.audit.bench import names, used_names, value
 from mechsym.audit.conditions import conditions, under
 from mechsym.audit.dimensions import is_consistent
 from mechsym.audit.orders import EXACT, lowest
@@ -22,6 +22,7 @@ from mechsym.quantities import record
 PASSED = ("exact", "truncation", "convention")  # exit status 0
 _NONE = 1e-9  # an error that is rounding only [-]
 _EITHER = "a term is too many, or one has lost a factor that the condition makes zero"
+_STATIC = "it has no speed at all, so that what it has lost may hold at any speed"
 OPEN = ("mixed", "untestable")  # exit status 3
 
 
@@ -51,7 +52,7 @@ def decide(question: Question) -> Decision:
     found = _plain(exam)
     if found is not None:
         return found
-    for condition in conditions(question):
+    for condition in (*conditions(question), *conditions(question, written=True)):
         judged = _plain(examine(under(question, condition)))
         if judged is not None and judged.verdict in ("exact", "truncation"):
             words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
@@ -93,6 +94,8 @@ def _searched(exam: Examination) -> Decision:
         if found.repairs and found.repairs[0].edits[-1].kind == "left out":
             # a term to be taken away at constant speed may as well have lost what vanishes there
             found = Found(verdict="nearer", nearer=found.repairs[0], note=_EITHER)
+        if found.repairs and _brings_rates(exam.question, found.repairs[0]):
+            found = Found(verdict="nearer", nearer=found.repairs[0], note=_STATIC)
         note = "; ".join(n for n in (found.note, f"compared at {condition.told}") if n)
         exam = other
     else:
@@ -104,6 +107,14 @@ def _searched(exam: Examination) -> Decision:
     if not met.valued:
         note = "; ".join(n for n in (note, "as printed it has no real value anywhere") if n)
     return _verdict(exam, found.verdict, start, repairs=found.repairs, nearer=found.nearer, note=note)
+
+
+def _brings_rates(question: Question, repair: Repair) -> bool:
+    # a term with the speed put back into a formula that has none is right at constant speed only by chance
+    rates = {k for k, letter in question.theory.letters.items() if letter.unit in ("rad/s", "rad/s^2")}
+    had = dependencies(question.theory, used_names(question.formula))
+    new = [n for edit in repair.edits if edit.kind == "put back" for n in letters(edit.new)]
+    return not rates & had and bool(rates & dependencies(question.theory, new))
 
 
 def _without_value(met: Agreement) -> str:
