@@ -26,7 +26,8 @@ _SPELLED = (
     (re.compile(r"\b(?:Math|std|Modelica\.Math|math|np|numpy)\s*(?:\.|::)\s*(?=[a-zA-Z])"), ""),
     (re.compile(r"\b(a?(?:sin|cos|tan)|atan2|sqrt|pow|exp|log|fabs|hypot|cbrt|fmax|fmin)[fl](?=\s*\()"), r"\1"),
     (re.compile(r"\.([*/^])"), r"\1"),
-    (re.compile(r"(?<=[\d.])[fFlLdD]\b"), ""),
+    # 1.0f; and not the l of self.l
+    (re.compile(r"(?<![\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)[fFlLdD]\b"), r"\1"),
     (re.compile(r"\b(?:self|this|obj|params?|cfg|p|s)(?:\.|->)(?=[A-Za-z_])"), ""),
     (re.compile(r"\((?:double|float|real|Real)\)"), ""),
 )
@@ -45,6 +46,7 @@ class Assigned:
     name: str  #: `return` for what a function gives back
     text: str
     about: str  #: What a comment or a description says of it
+    inner: bool = False  #: Whether a later formula is made of it
 
 
 def read_code(place: str, letters: Collection[str] = ()) -> list[Assigned]:
@@ -209,7 +211,7 @@ def _spelled(text: str) -> str:
 def _inlined(found: list[Assigned]) -> list[Assigned]:
     known: dict[str, str] = {}
     done = []
-    for assigned in found:
+    for i, assigned in enumerate(found):
         if not assigned.text and assigned.name not in known:
             continue  # a letter
         if not assigned.text or assigned.text.startswith(UNFOLLOWED):
@@ -219,7 +221,8 @@ def _inlined(found: list[Assigned]) -> list[Assigned]:
         text = re.sub(rf"(?<![\w.]){_NAME}", lambda m: f"({known[m[0]]})" if m[0] in known else m[0], assigned.text)
         if len(text) > LONGEST:
             text = assigned.text
-        done.append(Assigned(name=assigned.name, text=text, about=assigned.about))
+        inner = any(re.search(rf"(?<![\w.]){assigned.name}\b", later.text) for later in found[i + 1 :])
+        done.append(Assigned(name=assigned.name, text=text, about=assigned.about, inner=inner))
         again = re.search(rf"(?<![\w.]){re.escape(assigned.name)}\b", text)
         if assigned.name != "return" and not (again and _UNITS.search(assigned.text)):
             known[assigned.name] = text

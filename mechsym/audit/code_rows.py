@@ -33,7 +33,26 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
     pairs = list(_one(found, against.strip(), quantity) if theory else _every(found, against.strip(), asked))
     if not pairs and not theory:
         return _by_numbers(place, found, against.strip(), asked)
-    return _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+    rows = _answered([(assigned.name, _row(assigned, target, asked)) for assigned, target in pairs])
+    if theory:
+        return rows
+    named_rows = {assigned.name for assigned, _ in pairs}
+    rest = [a for a in candidates(found) if a.name not in named_rows]
+    more = _liked(place, rest, against.strip(), asked) if against.strip() else []
+    return _with_unmatched([*rows, *more], found, {*named_rows, *_names_of(more)})
+
+
+def _names_of(rows: list[Row]) -> set[str]:
+    return {row["equation"].partition(" (")[0] for row in rows}
+
+
+def _with_unmatched(rows: list[Row], found: list[Assigned], matched: set[str]) -> list[Row]:
+    # what was read and says nothing must not be taken for right
+    silent = [k for k in dict.fromkeys(a.name for a in found) if k not in matched]
+    told = f"read, and no quantity by name or numbers: {', '.join(silent)}"
+    notes = [row["note"] for row in rows]
+    last = "; ".join(n for n in (notes[-1], told) if n) if silent else notes[-1]
+    return [row | {"unmatched": silent, "note": n} for row, n in zip(rows, [*notes[:-1], last], strict=True)]
 
 
 def _letters_of(theory: str, asked: Asked) -> set[str]:
@@ -45,11 +64,24 @@ def _letters_of(theory: str, asked: Asked) -> set[str]:
 
 def _by_numbers(place: str, found: list[Assigned], theory: str, asked: Asked) -> list[Row]:
     # neither a name nor a comment says what it is
+    rows = _liked(place, candidates(found), theory, asked)
+    if not rows:
+        names = ", ".join(dict.fromkeys(a.name for a in found))
+        raise BadInput(
+            f"--code {place}: none of {names} is called as a quantity or near to one in its numbers; name one with "
+            "--against THEORY.QUANTITY, and letters of your own with --letters"
+        )
+    return _with_unmatched(rows, found, _names_of(rows))
+
+
+def _liked(place: str, asked_for: list[Assigned], theory: str, asked: Asked) -> list[Row]:
     rows: list[Row] = []
     theories = [named(theory, asked.case, asked.theory)] if theory else [*_theories(asked), named("slider_crank")]
-    for assigned in candidates(found):
+    for assigned in asked_for:
         likes = [(nearest(assigned.text, t, _own_letters(assigned.text, t, asked)), t) for t in theories]
         known = sorted(((k, t) for k, t in likes if k is not None), key=lambda pair: pair[0].away)
+        if known and assigned.inner and known[0][0].away > _SAME:
+            continue  # a step on the way to another variable is not meant to be a quantity
         if len(known) > 1 and known[0][0].away > _SAME:
             near = ", ".join(f"{t.name}.{like.quantity}" for like, t in known[:4])
             raise BadInput(
@@ -60,12 +92,6 @@ def _by_numbers(place: str, found: list[Assigned], theory: str, asked: Asked) ->
             row = _row(assigned, f"{other.name}.{like.quantity}", asked)
             told = f"taken for {like.quantity} by its numbers; if it is another, name it with --against"
             rows.append(row | {"note": "; ".join(n for n in (row["note"], told) if n)})
-    if not rows:
-        names = ", ".join(dict.fromkeys(a.name for a in found))
-        raise BadInput(
-            f"--code {place}: none of {names} is called as a quantity or near to one in its numbers; name one with "
-            "--against THEORY.QUANTITY, and letters of your own with --letters"
-        )
     return rows
 
 

@@ -148,3 +148,45 @@ def test_letters_of_a_theory_of_ones_own_stay_letters_and_no_other_theory_is_ask
     text = "model Cam\n  parameter Real h = 0.008, beta = 1.2;\nequation\n  lift = h*cos(th);\nend Cam;\n"
     (row,) = check_code(write(tmp_path / "c.mo", text) + "::Cam", "", replace(NONE, theory=theory))
     assert (row["verdict"], row["correction"]) == ("misprint", "h*sin(th)")
+
+
+WIEBE = """
+model Wiebe
+  Real theta "crank angle";
+  Real xb "burned fraction";
+  Real dxb "rate of burned fraction";
+  Real y;
+equation
+  y = (theta - theta_s)/dur;
+  xb = 1 - exp(-a*y^(m + 1));
+  dxb = a*(m + 1)*y^m*exp(-a*y^(m + 1));
+end Wiebe;
+"""
+
+
+def test_a_step_on_the_way_is_no_quantity_and_what_matches_nothing_is_told(tmp_path):
+    asked = Asked(text="", against="", letters="dur=duration")
+    rows = check_code(write(tmp_path / "w.mo", WIEBE) + "::Wiebe", "wiebe", asked)
+    assert [(r["equation"].partition(" ")[0], r["verdict"]) for r in rows] == [("xb", "exact"), ("dxb", "misprint")]
+    assert all(r["unmatched"] == ["y"] for r in rows)
+    assert "read, and no quantity by name or numbers: y" in rows[-1]["note"]
+
+
+def test_outputs_without_a_telling_name_are_matched_beside_those_with_one(tmp_path):
+    text = (
+        "function [x, v] = slider(r, l, th, w)\nlam = r/l;\n"
+        "x = r*((1 - cos(th)) + 1/lam*(1 - sqrt(1 - lam^2*sin(th).^2)));\n"
+        "v = r*w*(sin(th) + lam*sin(2*th)/(2*sqrt(1 - lam^2*sin(th)^2)));\nend\n"
+    )
+    asked = Asked(text="", against="", letters="th=phi,w=phid")
+    rows = check_code(write(tmp_path / "s.m", text) + "::slider", "slider_crank", asked)
+    assert {r["claim"]: r["verdict"] for r in rows if r["equation"] in "xv"} == {
+        "slider_crank.x": "exact", "slider_crank.x_d": "exact",
+    }  # fmt: skip
+
+
+def test_the_l_of_self_is_a_letter(tmp_path):
+    text = "def s(self, t):\n    return self.r*cos(t) + 1.0*sqrt(self.l**2 - self.r**2*sin(t)**2)\n"
+    asked = Asked(text="", against="", letters="t=phi")
+    (row,) = check_code(write(tmp_path / "s.py", text) + "::s", "cylinder_volume.s", asked)
+    assert row["verdict"] == "exact"
