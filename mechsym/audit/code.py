@@ -1,7 +1,8 @@
 """Formulas out of program text: the assignments of one function or model, its own variables put in.
 
-Python is read by its own parser; C, Java, JavaScript, MATLAB and Modelica by their statements. Loops, branches and
-arrays are not followed: what is assigned in one is unknown where it is used, or a letter where it has no other formula.
+Python is read by its own parser; C, Java, JavaScript, MATLAB, Julia, Fortran and Modelica by their statements. Loops,
+branches and arrays are not followed: what is assigned in one is unknown where it is used, or a letter where it has no
+other formula.
 """
 
 import ast
@@ -9,6 +10,7 @@ import re
 from collections.abc import Collection
 from pathlib import Path
 
+from mechsym.audit.code_lines import COMMENTS, lined_body
 from mechsym.errors import BadInput
 from mechsym.files import read_text
 from mechsym.quantities import record
@@ -36,7 +38,7 @@ _OPENS = re.compile(r"^\s*(?:if|for|while|when|switch|else|do|try)\b")
 # a letter that is only told in another unit keeps its name
 _UNITS = re.compile(r"radians|deg2rad|180|[*/]\s*(?:60|1000|100|1e-?\d+)\b")
 _ENDS = {".mo": ";", ".c": ";", ".h": ";", ".cpp": ";", ".cc": ";", ".hpp": ";", ".java": ";", ".js": ";", ".ts": ";",
-         ".cs": ";", ".m": ";"}  # fmt: skip
+         ".cs": ";"} | dict.fromkeys(COMMENTS, "\n")  # fmt: skip
 
 
 @record
@@ -65,7 +67,7 @@ def read_code(place: str, letters: Collection[str] = ()) -> list[Assigned]:
     if path.suffix == ".py":
         found = _python(text, function, file)
     elif path.suffix in _ENDS:
-        found = _statements(_body(text, function, file, path.suffix), path.suffix)
+        found = _statements(_body(text, function, file, path.suffix), ".m" if path.suffix in COMMENTS else path.suffix)
     else:
         raise BadInput(f"--code {file}: files that are read end in .py, {', '.join(_ENDS)}")
     kept = _inlined([a for a in found if not (a.name in letters and _NUMBER.fullmatch(a.text))])
@@ -115,13 +117,8 @@ def _body(text: str, function: str, file: str, suffix: str) -> str:
             re.DOTALL,
         )
         body = match[1] if match else None
-    elif suffix == ".m":
-        match = re.search(
-            rf"^\s*function\b[^\n]*\b{re.escape(function)}\b[^\n]*\n(.*?)(?=^\s*function\b|\Z)",
-            text,
-            re.DOTALL | re.MULTILINE,
-        )
-        body = match[1] if match else None
+    elif suffix in COMMENTS:
+        body = lined_body(text, function, suffix)
     else:
         body = _braced(text, function)
     if body is None:

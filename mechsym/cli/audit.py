@@ -26,7 +26,9 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.option(
     "--theory", default="", metavar="FILE", help="TOML file of your own quantities; for a paper also a theory's name."
 )
-@click.option("--code", metavar="FILE::FUNCTION", help="A function or model in Python, C, Java, MATLAB or Modelica.")
+@click.option(
+    "--code", metavar="FILE::FUNCTION", help="A function in Python, C, Java, MATLAB, Julia, Fortran, Modelica."
+)
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
 @click.option(
     "--certificate", type=click.Path(path_type=Path, dir_okay=False), help="Write what is exact as a Coq script FILE.v."

@@ -190,3 +190,58 @@ def test_the_l_of_self_is_a_letter(tmp_path):
     asked = Asked(text="", against="", letters="t=phi")
     (row,) = check_code(write(tmp_path / "s.py", text) + "::s", "cylinder_volume.s", asked)
     assert row["verdict"] == "exact"
+
+
+JULIA = """
+# slider crank
+function piston_velocity(r, l, t, w)
+    n = l / r  # rod ratio
+    r * w * sin(t) * (1 {sign} cos(t) /
+        sqrt(n^2 - sin(t)^2))
+end
+rod_rate(r, l, t, w) = w*r*cos(t)/(l*sqrt(1 - (r*sin(t)/l)^2))
+"""
+LINES = """function v = f(r, l, t, w)
+q = sqrt((l/r)^2 ...
+    - sin(t)^2) % root
+v = r*w*sin(t)*(1 {sign} cos(t)/q)
+end
+"""
+FORTRAN = """
+real(8) function piston_velocity(r, l, t, w) result(v)
+  implicit none
+  real(8), intent(in) :: r, l, t, w
+  real(8) :: n, q
+  n = l / r
+  q = SQRT(n**2 - sin(t)**2) ! root
+  if (t > 9.0d0) q = 1.0d0
+  v = r*w*sin(t)*(1.0d0 {sign} &
+      cos(t)/{q})
+end function piston_velocity
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "function"),
+    [
+        ("v.jl", JULIA, "piston_velocity"),
+        ("v.f90", FORTRAN.replace("{q}", "sqrt(n**2 - sin(t)**2)"), "piston_velocity"),
+        ("v.m", LINES, "f"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize(("sign", "verdict"), [("+", "exact"), ("-", "misprint")])
+def test_languages_whose_statements_end_with_the_line(tmp_path, name, text, function, sign, verdict):
+    file = write(tmp_path / name, text.replace("{sign}", sign))
+    (row,) = [r for r in check_code(f"{file}::{function}", "slider_crank", LETTERS) if r["claim"].endswith("x_d")]
+    assert row["verdict"] == verdict
+
+
+def test_a_julia_function_of_one_line(tmp_path):
+    (row,) = check_code(write(tmp_path / "v.jl", JULIA) + "::rod_rate", "slider_crank.beta_d", LETTERS)
+    assert row["verdict"] == "exact"
+
+
+def test_what_a_branch_of_fortran_sets_is_not_followed(tmp_path):
+    file = write(tmp_path / "v.f90", FORTRAN.replace("{q}", "q").replace("{sign}", "+"))
+    (row,) = [r for r in check_code(f"{file}::piston_velocity", "slider_crank.x_d", LETTERS)]
+    assert row["verdict"] == "untestable" and "q is assigned in a loop or a branch" in row["note"]
