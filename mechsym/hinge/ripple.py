@@ -90,7 +90,8 @@ def propeller_load_speed(
     decay = np.exp(-step)
     # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
     gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
-    *forced, end = accumulate(zip(decay, gain, strict=True), lambda g, s: s[0] * g + s[1], initial=0.0)
+    steps = zip(decay.tolist(), gain.tolist(), strict=True)
+    *forced, end = accumulate(steps, lambda g, s: s[0] * g + s[1], initial=0.0)
     faded = np.exp(-np.cumsum(step) + step)
     g = np.array(forced) + faded * end / -np.expm1(-step.sum())
     squares = omega**2 + 2 * (g - missing) / inertia
