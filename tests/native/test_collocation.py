@@ -125,3 +125,14 @@ def test_stiff_shaft_far_from_its_start():
     found = integrate(Runs(rhs=shaft, start=start, until=np.array([0.1]), times=times), "collocation")
     assert found.status[0] == 0
     np.testing.assert_allclose(found.samples[0, :, 2:].sum(axis=1), 100 + times, atol=1e-8)
+
+
+@pytest.mark.parametrize(("count", "tolerance", "method"), [
+    (2, 1e-8, "collocation"), (3, 1e-8, "dop853"), (3, 1e-12, "collocation"), (4, 1e-12, "dop853"),
+])  # fmt: skip
+def test_few_runs_go_one_by_one_fewer_at_a_loose_tolerance(count, tolerance, method):
+    start = np.tile([1.0, 0.0], (count, 1))
+    runs = Runs(rhs=PENDULUM, start=start, until=np.array([3.0]), rtol=tolerance, atol=tolerance)
+    wanted = {m: integrate(runs, m).steps.tolist() for m in ("collocation", "dop853")}
+    assert integrate(runs).steps.tolist() == wanted[method]
+    assert wanted["collocation"] != wanted["dop853"]
