@@ -10,6 +10,7 @@ from benchmarks.measure import Row
 _PANELS = (
     ("P1 derive 12 throws", "P1 derive + callable", "N = 12", "ms", 1e3),
     ("P2 batch, 1 coordinate", "P2 batch", "1-DOF", "ns a point", 1e9),
+    ("P2 batch of 256 points", "P2 batch", "1-DOF, 256", "ns a point", 1e9),
     ("P2 batch, 7 coordinates", "P2 batch", "N = 6", "ns a point", 1e9),
     ("P2 one call from Python", "P2 scalar", "1-DOF", "ns", 1e9),
     ("P3 99 s at 1e-8", "P3 single run", "1e-08", "ms", 1e3),
@@ -20,7 +21,7 @@ _PANELS = (
 _OURS, _HAND, _OTHERS = "#1a6fb0", "#222222", "#b0b0b0"
 
 
-def chart(path: Path, rows: Sequence[Row]) -> Path:
+def chart(path: Path, rows: Sequence[Row], where: str = "") -> Path:
     """Draw the chart.
 
     Parameters
@@ -29,6 +30,8 @@ def chart(path: Path, rows: Sequence[Row]) -> Path:
         SVG file
     rows : sequence of Row
         Measured routes
+    where : str
+        Machine and date, written below
 
     Returns
     -------
@@ -48,7 +51,8 @@ def chart(path: Path, rows: Sequence[Row]) -> Path:
         for axis, (title, problem, case, unit, factor) in zip(axes.ravel(), panels, strict=False):
             found = [r for r in rows if (r.problem, r.case) == (problem, case)]
             _panel(axis, f"{title} [{unit}]", {r.route: r.median_s * factor for r in found})
-        figure.tight_layout()
+        figure.text(0.01, 0.004, where, fontsize=6)
+        figure.tight_layout(rect=(0, 0.015, 1, 1))
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)

@@ -1,4 +1,4 @@
-"""P2: accelerations of one, two and seven coordinates, in a batch of 1e5 points and one call at a time."""
+"""P2: accelerations of one, two and seven coordinates, in batches of 256 to 1e6 points and one call at a time."""
 
 import ctypes
 import tempfile
@@ -14,6 +14,7 @@ from benchmarks.measure import Route, Row, take_turns
 from mechsym import native
 
 POINTS = 100_000
+SIZES = (256, 2048, 1_000_000)  # beside that, against what is as fast
 _ALLOWED = 1e-9
 
 
@@ -35,6 +36,9 @@ def rows(skipped: list[str]) -> list[Row]:
         function = models.acceleration(system)
         x = models.states(function, POINTS)
         found += take_turns("P2 batch", system, _batch(system, function, x, skipped))
+        for points in SIZES:
+            own = models.states(function, points)
+            found += take_turns("P2 batch", f"{system}, {points}", _close(system, function, own, skipped))
         found += take_turns("P2 scalar", system, _scalar(function, [float(c[0]) for c in x], skipped))
     return found
 
@@ -59,9 +63,28 @@ def _batch(system: str, function: ca.Function, x: list[np.ndarray], skipped: lis
     return [_checked(name, call, wanted, rounds) for name, (call, rounds) in routes.items()]
 
 
+def _close(system: str, function: ca.Function, x: list[np.ndarray], skipped: list[str]) -> list[Route]:
+    """The closest routes at other numbers of points; small batches show what a call costs."""
+    wanted = _reference(function, x)
+    out = np.empty_like(wanted)
+    fast, strict = (native.compiled(function, mode).batch for mode in ("fast", "strict"))
+    routes: dict[str, Callable[[], Any]] = {
+        "mechsym (fast)": lambda: fast(*x, out=out),
+        "mechsym (strict)": lambda: strict(*x, out=out),
+        "hand-written C": _hand(system, x, out),
+    }
+    try:
+        routes["heyoka"] = _heyoka(function, x)
+    except ImportError:
+        skipped.append("heyoka")
+    return [_checked(name, call, wanted, 9) for name, call in routes.items()]
+
+
 def _reference(function: ca.Function, x: list[np.ndarray]) -> np.ndarray:
-    values = function.map(POINTS).call([c[None] for c in x])[0]
-    return np.asarray(values).reshape(function.numel_out(0), POINTS)
+    pieces = [slice(start, start + POINTS) for start in range(0, len(x[0]), POINTS)]
+    mapped = function.map(min(POINTS, len(x[0])))
+    found = [np.asarray(mapped.call([c[None, piece] for c in x])[0]) for piece in pieces]
+    return np.concatenate([f.reshape(function.numel_out(0), -1) for f in found], axis=1)
 
 
 def _checked(name: str, call: Callable[[], Any], wanted: np.ndarray, rounds: int) -> Route:
@@ -70,13 +93,13 @@ def _checked(name: str, call: Callable[[], Any], wanted: np.ndarray, rounds: int
     error = float(np.max(np.abs(np.asarray(found).reshape(wanted.shape) - wanted) / scale))
     if not error < _ALLOWED:
         raise AssertionError(f"{name} gives other numbers: relative difference {error:.3g}")
-    return Route(name=name, call=call, size=POINTS, error=error, rounds=rounds)
+    return Route(name=name, call=call, size=wanted.shape[1], error=error, rounds=rounds)
 
 
 def _hand(system: str, x: list[np.ndarray], out: np.ndarray) -> Callable[[], np.ndarray]:
     loaded = references.load("accelerations")
     columns, results = ([ctypes.c_void_p(c.ctypes.data) for c in group] for group in (x, out))
-    n = ctypes.c_long(POINTS)
+    n = ctypes.c_long(len(x[0]))
     name = {"1-DOF": "hand_one_dof", "2-DOF": "hand_two_dof"}.get(system, "hand_six_throws")
     call = loaded[name]
     if name == "hand_six_throws":
@@ -165,7 +188,7 @@ def _heyoka(function: ca.Function, x: list[np.ndarray]) -> Callable[[], np.ndarr
     variables = hy.make_vars(*names)
     call = hy.cfunc(translate.heyoka_expressions(function, list(variables)), vars=list(variables), fast_math=True)
     table = np.array(x)
-    out = np.empty((function.numel_out(0), POINTS))
+    out = np.empty((function.numel_out(0), table.shape[1]))
     return lambda: call(table, outputs=out)
 
 

@@ -18,6 +18,7 @@ JOBS: dict[str, list[str]] = {
     "size": ["size", "nunes-slider-crank", "--json"],
     "1000 guides": [*_SPRINGS, "--of", "guides"],
     "1000 hinges": _SPRINGS,
+    "1000 start-ups": ["sweep", "chmielewski", "--over", "drive.torque=1..2:1000", "--jobs", "1", "--json"],
 }
 
 

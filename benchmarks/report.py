@@ -1,6 +1,7 @@
 """Targets, table, JSON and chart of a run."""
 
 import dataclasses
+import datetime
 import platform
 import sys
 from collections.abc import Sequence
@@ -35,26 +36,32 @@ class Target:
 
 _FAST, _SECOND = "mechsym (fast)", "a second"
 TARGETS = (
-    *(Target(problem="P1 derive + callable", case="N = 12", ours="mechsym (warm)", theirs=t, limit=0.02)
-      for t in ("sympy LagrangesMethod + lambdify",)),
+    Target(problem="P1 derive + callable", case="N = 12", ours="mechsym (warm)",
+           theirs="sympy LagrangesMethod + lambdify", limit=0.02),
+    *(Target(problem="P1 derive + callable", case=f"N = {n}", ours="mechsym (warm)",
+             theirs="casadi autodiff, interpreted", limit=1.0) for n in (1, 12)),
     Target(problem="P1 compile time", case="N = 12 / N = 1", ours="N = 12", theirs="N = 1", limit=1.5),
     *(Target(problem="P2 batch", case=case, ours=_FAST, theirs=theirs, limit=limit)
       for case in ("1-DOF", "N = 6")
       for theirs, limit in (("hand-written C", 1.25), ("heyoka", 0.6), ("numba on lambdify", 1 / 20),
                             ("casadi map, compiled", 1 / 20))),
+    *(Target(problem="P2 batch", case=f"{case}, {points}", ours=_FAST, theirs="hand-written C", limit=1.25)
+      for case in ("1-DOF", "N = 6") for points in (256, 2048, 1_000_000)),
     *(Target(problem="P2 scalar", case=case, ours=_FAST, theirs=theirs, limit=limit)
       for case in ("1-DOF", "2-DOF", "N = 6")
       for theirs, limit in (("sympy lambdify (numpy, cse)", 1 / 50), ("casadi call", 1 / 100))),
     *(Target(problem="P3 single run", case="1e-08", ours=_FAST, theirs=theirs, limit=limit)
-      for theirs, limit in (("hand-written C DOP853", 1.1), ("heyoka", 1 / 2), ("scipy DOP853 + lambdify", 1 / 100))),
-    Target(problem="P3 ensemble of 16", case="1e-08", ours=_FAST, theirs="heyoka batch", limit=1 / 4),
+      for theirs, limit in (("hand-written C DOP853", 1.1), ("heyoka", 1 / 4), ("scipy DOP853 + lambdify", 1 / 100))),
+    *(Target(problem="P3 ensemble of 16", case=tolerance, ours=_FAST, theirs="heyoka batch", limit=1 / 4)
+      for tolerance in ("1e-08", "1e-10", "1e-12")),
     *(Target(problem="P4 repeated solve", case="200 nodes", ours="mechsym (all compiled)", theirs=theirs, limit=limit)
-      for theirs, limit in (("casadi interpreted (map)", 1 / 2), ("opty", 1 / 10))),
+      for theirs, limit in (("casadi interpreted (map)", 1 / 2), ("opty", 0.35))),
     *(Target(problem="P5 cycle map", case="800 speeds", ours=_FAST, theirs=theirs, limit=limit)
-      for theirs, limit in (("hand-written C", 3.0), ("numpy over speeds", 1 / 5))),
+      for theirs, limit in (("hand-written C", 1.1), ("numpy over speeds", 1 / 5))),
+    Target(problem="P5 cycle map", case="800 speeds", ours="mechsym (strict)", theirs="hand-written C", limit=1.5),
     *(Target(problem="P6 whole jobs", case=case, ours="mechsym", theirs=_SECOND, limit=limit)
       for case, limit in (("eval", 0.35), ("hinge --json", 0.5), ("hinge --out", 2.0), ("simulate", 0.5), ("size", 1.0),
-                          ("1000 guides", 2.0), ("1000 hinges", 2.0))),
+                          ("1000 guides", 2.0), ("1000 hinges", 2.0), ("1000 start-ups", 3.0))),
 )  # fmt: skip
 
 
@@ -107,9 +114,9 @@ def table(rows: Sequence[Row], skipped: Sequence[str]) -> str:
     Returns
     -------
     text : str
-        Two tables
+        Where and when, then two tables
     """
-    lines = [f"{'problem':<22}{'case':<16}{'route':<34}{'median':>12}{'best':>12}  error"]
+    lines = [where(), "", f"{'problem':<22}{'case':<16}{'route':<34}{'median':>12}{'best':>12}  error"]
     for r in rows:
         error = "" if r.error is None else f"{r.error:.1e}"
         lines.append(f"{r.problem:<22}{r.case:<16}{r.route:<34}{_time(r.median_s):>12}{_time(r.best_s):>12}  {error}")
@@ -129,6 +136,12 @@ def _time(seconds: float) -> str:
         if seconds >= size:
             return f"{seconds / size:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"
+
+
+def where() -> str:
+    """Processor, compiler and date of a run, in one line."""
+    native = info()
+    return f"{native.processor}, {native.version}, {datetime.date.today().isoformat()}"
 
 
 def versions() -> dict[str, Any]:
@@ -181,10 +194,11 @@ def write(folder: Path, rows: Sequence[Row], skipped: Sequence[str], seconds: fl
     from benchmarks.chart import chart
 
     record = {
+        "where": where(),
         "versions": versions(),
         "seconds": seconds,
         "skipped": sorted(set(skipped)),
         "targets": judged(rows),
         "rows": [dataclasses.asdict(r) for r in rows],
     }
-    return [write_text(folder / "results.json", to_json(record) + "\n"), chart(folder / "chart.svg", rows)]
+    return [write_text(folder / "results.json", to_json(record) + "\n"), chart(folder / "chart.svg", rows, where())]
