@@ -28,7 +28,7 @@ _MOST_ROWS = 400  # more than any command says of a case of ours
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
 _ROUNDING = 1e-9  # of the largest value of a unit
-_SILENT = ("files", "written")  # of a folder that is gone
+_SILENT = ("files", "written", "units")  # of a folder that is gone; units stand beside their values
 #: commands that run again as soon as the sliders rest; the others take long and wait for their button
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
@@ -76,15 +76,24 @@ async def run(line: Sequence[str]) -> Run:
             await process.wait()
             raise
         curves = _curves(Path(folder) / table[0], table[1]) if table else ()
-    return _read(process.returncode or 0, out.decode(), said.decode(), curves)
+        units = _units(Path(folder) / table[0]) if table else {}
+    return _read(process.returncode or 0, out.decode(), said.decode(), curves, units)
 
 
-def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...]) -> Run:
+def _units(file: Path) -> dict[str, str]:
+    """Units by column of a table."""
+    if not file.exists():
+        return {}
+    with file.open(encoding="utf-8", newline="") as stream:
+        return dict(_head(head) for head in next(csv.reader(stream)))
+
+
+def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...], units: Mapping[str, str] | None = None) -> Run:
     try:
         found = json.loads(out)
     except ValueError:
         return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
-    rows = _checks(found) if isinstance(found, list) else _told(found)
+    rows = _checks(found) if isinstance(found, list) else _told(found, units or {})
     return Run(status=status, words=said.strip(), rows=tuple(rows)[:_MOST_ROWS], curves=curves)
 
 
@@ -97,11 +106,15 @@ def _checks(found: Sequence[Any]) -> list[tuple[str, str]]:
 
 
 def _beside(row: Mapping[str, Any]) -> str:
-    unit = "" if row["unit"] in (None, "-") else f" {row['unit']}"
+    unit = _unit(row["unit"])
     if row["limit"] is None:
         return f"{_text(row['value'])}{unit}"
     word = "" if row["holds"] else ", BELOW what is wanted"
     return f"{_text(row['value'])}{unit}, limit {_text(row['limit'])}{unit}, factor {_text(row['safety_factor'])}{word}"
+
+
+def _unit(unit: str | None) -> str:
+    return "" if unit in (None, "-") else f" {unit}"
 
 
 def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
@@ -144,8 +157,8 @@ def _numbers(texts: Sequence[str]) -> tuple[float, ...]:
         return ()
 
 
-def _told(found: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Rows of a command: doubts as sentences first, least and largest of a quantity in one row."""
+def _told(found: Mapping[str, Any], units: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Rows of a command: doubts as sentences first, least and largest of a quantity in one row, with its unit."""
     rows = [
         (word, f"{d['quantity']} = {_text(d['value'])}, usual is {d['usual']}: {d['why']}")
         for word, key in (("doubt", "doubts"), ("accepted", "accepted")) for d in found.get(key) or ()
@@ -157,7 +170,7 @@ def _told(found: Mapping[str, Any]) -> list[tuple[str, str]]:
     inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
     rows += _rows("", {k: v for k, v in rest.items() if k not in inner})
     if isinstance(low, Mapping) and isinstance(high, Mapping):
-        rows += [(k, f"{_text(low[k])} to {_text(high[k])}") for k in high if k in low]
+        rows += [(k, f"{_text(low[k])} to {_text(high[k])}{_unit(units.get(k))}") for k in high if k in low]
     return rows + _rows("", inner)
 
 
@@ -165,9 +178,9 @@ def _rows(prefix: str, found: Any) -> list[tuple[str, str]]:
     """Numbers and texts by dotted name; of a list its length and ends."""
     if isinstance(found, Mapping):
         return [row for key, value in found.items() for row in _rows(f"{prefix}.{key}" if prefix else str(key), value)]
+    if found is None or (isinstance(found, list) and all(value is None for value in found)):
+        return []  # what this case does not have
     if isinstance(found, list):
-        if not found:
-            return []
         if isinstance(found[0], (Mapping, list)):
             return [row for i, value in enumerate(found[:8]) for row in _rows(f"{prefix}[{i}]", value)]
         shown = found if len(found) <= 6 else [found[0], "..", found[-1]]

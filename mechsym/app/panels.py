@@ -65,7 +65,7 @@ class HingePanel(Panel):
         self.one = asyncio.Lock()
         self.answer: Answer | None = None
         self.pinned: Answer | None = None
-        self.verdict = ui.label().classes("text-lg").props('data-verdict="1"')
+        self.verdict = ui.label("designing the hinge ..").classes("text-lg").props('data-verdict="1"')
         self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
         with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2"):
             self.rows, self.bars = ui.html("", sanitize=False), ui.html("", sanitize=False)

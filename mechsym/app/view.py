@@ -55,7 +55,8 @@ class Page:
         self._head()
         ui.label(case.about).classes("opacity-70")
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
-            with ui.column().classes("w-full md:w-80 shrink-0 order-2 md:order-1 gap-0 mechsym-sliders"):
+            self.left = ui.column().classes("w-full md:w-80 shrink-0 order-2 md:order-1 gap-0 mechsym-sliders")
+            with self.left:
                 self._sliders()
             with ui.column().classes("w-full grow min-w-0 order-1 md:order-2"):
                 self._views(case.mechanism)
@@ -150,6 +151,7 @@ class Page:
         here = [key for key in self.knobs if key.partition(".")[0] in read]
         for section, box in self.sections.items():
             box.visible = any(key.startswith(f"{section}.") and key not in still for key in here)
+        self.left.visible = bool(here)
         for key, row in self.rows.items():
             row.visible = key not in still
         told: dict[str, list[str]] = {}
