@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz mutate dist lint format clean
+.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz nearby mutate dist lint format clean
 
 setup: $(READY)
 
@@ -78,6 +78,10 @@ dist: | .venv/ready-all
 # machine-made inputs against the command line, FUZZ of them; finds go to tests/corpus
 fuzz: | $(READY)
 	$(BIN)/python -m fuzz
+
+# what is doubted with one value of a built-in case 5 % up or down: make nearby [CASES="zotov-89 moroianu"]
+nearby: | $(READY)
+	$(BIN)/python -m fuzz.nearby $(CASES)
 
 # small mistakes in a module: make mutate MODULE=mechsym.hinge.springs [TESTS=tests/hinge/test_springs.py]
 mutate: | $(READY)
