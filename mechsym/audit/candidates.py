@@ -264,7 +264,7 @@ def _numbers(asked: Bench, tree: Node, wishes: Required, memo: dict[Node, Any]) 
 
 def _misread(printed: Fraction, right: Fraction) -> bool:
     # 0.651 for 0.615, 0.53 for 0.55, 0.6 for 0.06: digits exchanged, one of them wrong, the point moved
-    if not 0.09 < abs(right / printed) < 11:
+    if not printed or not 0.09 < abs(right / printed) < 11:
         return False  # that is a unit
     one, other = (f"{float(abs(v)):.6e}".partition("e")[0].replace(".", "").rstrip("0") for v in (printed, right))
     if one == other or sorted(one) == sorted(other):

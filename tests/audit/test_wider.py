@@ -43,6 +43,11 @@ def test_a_number_that_is_no_misreading_is_not_mended_by_digits(text):
     assert "number" not in check_formula(text, "piston_speed.mean_piston_speed")["note"]
 
 
+@pytest.mark.parametrize("text", ["(0 - 2)/(0)", "0/phi", "0*r1 + 0.0", "2**0 - 0"])
+def test_a_nought_is_no_misread_number(text):
+    assert check_formula(text, "crosshead.dx_dphi")["verdict"] in ("wrong", "untestable")
+
+
 def test_constant_speed_counts_for_names_that_hold_the_acceleration():
     row = check_formula("R_b + s + a/w**2", "flat_cam.radius", letters="w=phid")
     assert row["verdict"] == "convention"
