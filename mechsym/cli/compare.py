@@ -42,11 +42,14 @@ def compare(
 
 
 def _text(result: dict[str, Any]) -> str:
+    from mechsym.jobs.compare import unit_of
+
     a, b = result["cases"]
     found = [f"{speed:.1f} rpm" for speed in result["crossover_rpm"]]
-    rows = [row | {"at rpm": _speeds(row), "b/a - 1 %": _percent(row["difference"])} for row in result["table"]]
+    rows = [row | {"at rpm": _speeds(row), "unit": unit_of(row["quantity"]), "b/a - 1 %": _percent(row["difference"])}
+            for row in result["table"]]  # fmt: skip
     lines = [f"a = {a}, b = {b}", f"mean torque crosses at {', '.join(found) or 'no speed'}"]
-    return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "b/a - 1 %"])])
+    return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
 
 
 def _speeds(row: dict[str, Any]) -> str:
@@ -62,9 +65,11 @@ def _percent(value: float | None) -> str:
 def _write(out: Path, found: dict[str, Any], result: dict[str, Any]) -> list[Path]:
     from mechsym.cycle.plots import performance_picture
     from mechsym.files import to_json, write_quantities, write_text
+    from mechsym.jobs.compare import unit_of
 
-    keys = ("quantity", "speed_rpm", "a", "b", "difference")
-    columns = {k: [row[k] for row in result["table"]] for k in keys}
+    rows = result["table"]
+    columns = {k: [row[k] for row in rows] for k in ("quantity", "speed_rpm", "a", "b")}
+    columns |= {"unit": [unit_of(row["quantity"]) for row in rows], "difference": [row["difference"] for row in rows]}
     return [
         write_quantities(out / "comparison.csv", columns),
         write_text(out / "comparison.json", to_json(result) + "\n"),

@@ -6,10 +6,12 @@ from typing import Any
 import numpy as np
 
 from mechsym.page import ShownFigures
+from mechsym.quantities.names import stem_and_unit
 
 _PEAKS = ("torque_avg", "torque_max", "power_kw", "mep_kpa", "efficiency", "p_max_mpa", "force_max", "brake_torque")
 _ALONG = ("torque_avg", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa", "heat", "work", "exhaust",
           "unburnt")  # fmt: skip
+_SHARES = ("heat", "work", "exhaust", "unburnt")  # of the fuel, not joules
 _SPEEDS_IN_TABLE = 9
 
 
@@ -72,6 +74,12 @@ def _flat(found: Mapping[str, Any]) -> dict[str, np.ndarray]:
 def _row(quantity: str, speed: float | None, a: float, b: float) -> dict[str, Any]:
     difference = float(b / a - 1) if a else None
     return {"quantity": quantity, "speed_rpm": speed, "a": float(a), "b": float(b), "difference": difference}
+
+
+def unit_of(quantity: str) -> str:
+    """Unit of a row of the table."""
+    name = quantity.rpartition(" ")[2]
+    return "-" if name in _SHARES else stem_and_unit(name)[1] or "-"
 
 
 def _largest(quantity: str, speed: np.ndarray, a: np.ndarray, b: np.ndarray) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.jobs.compare import EngineComparison
+from mechsym.jobs.compare import EngineComparison, unit_of
 from mechsym.jobs.cycle import CycleFigures
 from mechsym.jobs.optimise import Optimised
 from mechsym.jobs.run import FinishedRun
@@ -73,8 +73,9 @@ def comparison_view(found: EngineComparison) -> View:
     crossing = ", ".join(quantity_text(float(v) * np.pi / 30, "rad/s") for v in found["crossover_rpm"])
     card = Card(name="mean torque crosses at", value=crossing or "no speed")
     rows = found["table"]
-    names = ("quantity", "speed_rpm", "a", "b", "difference")
-    return View(title="Two engines", cards=(card,), columns=lambda: {n: [row[n] for row in rows] for n in names})
+    columns = {n: [row[n] for row in rows] for n in ("quantity", "speed_rpm", "a", "b", "difference")}
+    columns["unit"] = [unit_of(row["quantity"]) for row in rows]
+    return View(title="Two engines", cards=(card,), columns=lambda: columns)
 
 
 @shows(Sizing)

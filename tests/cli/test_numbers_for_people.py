@@ -1,5 +1,6 @@
 """What people read: no digits of round-off, every heading with its unit, the same in JSON and CSV as ever in SI."""
 
+import html
 import json
 import re
 
@@ -23,9 +24,12 @@ TEXTS = [
     ("audit", "--source", "prymak"),
 ]  # fmt: skip
 TABLES = [("hinge", "zotov-89"), ("forces", "opposed-pistons"), ("forces", "balandin"), ("forces", "nunes-hypocycloid"),
-          ("cycle", "nunes-slider-crank"), ("simulate", "alpha-stirling", "--set", "simulation.turns=3")]  # fmt: skip
+          ("cycle", "nunes-slider-crank"),
+          ("compare", "nunes-slider-crank", "nunes-hypocycloid", "--speeds", "2000,6000"),
+          ("sweep", "nunes-slider-crank", "--over", "chamber.compression_ratio=8..14:2"),
+          ("simulate", "alpha-stirling", "--set", "simulation.turns=3")]  # fmt: skip
 WITHOUT = re.compile(
-    r"^(source|mechanism|verdict|note|failure|phi_deg|.*_(rpm|bar|mpa|kpa|kw|deg|g_kwh|pa|k|m3|n|nm|j))$"
+    r"^(source|mechanism|verdict|note|failure|phi_deg|quantity|unit|a|b|.*_(rpm|bar|mpa|kpa|kw|deg|g_kwh|pa|k|m3|n|nm|j))$"
 )
 
 
@@ -33,16 +37,30 @@ def run(*words):
     return CliRunner().invoke(mechsym, [*words], catch_exceptions=False)
 
 
+def read(page):
+    """What stands in a page, without its figures."""
+    bare = re.sub(r"(?s)<(svg|style|script)\b.*?</\1>", " ", page.read_text(encoding="utf-8"))
+    return html.unescape(re.sub(r"<[^>]+>", " ", bare)).replace("\u2011", "-")
+
+
+def round_off(text):
+    """Digit strings that no one measured; the usual tolerance, 1e-10, may be told."""
+    tiny = [n for n in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?e-\d+", text) if 0 < abs(float(n)) < 1e-10]
+    return tiny + re.findall(r"\d\.\d{12,}", text)
+
+
+def test_digits_of_round_off_are_seen(tmp_path):
+    page = tmp_path / "a.html"
+    page.write_text("<p>margin <b>2.9e\u201117</b> 1e-10 0.5661</p><svg>3e-16</svg><td>0.30000000000000004</td>")
+    assert round_off(read(page)) == ["2.9e-17", "0.30000000000000004"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("words", TEXTS, ids=" ".join)
 def test_no_digits_of_round_off(words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # report writes into the working folder
-    text = run(*words).output
-    tiny = [
-        n for n in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?e-\d+", text) if 0 < abs(float(n)) < 1e-10
-    ]  # the usual tolerance may be told
-    long = re.findall(r"\d\.\d{12,}", text)
-    assert text and not tiny + long, tiny + long
+    text = "\n".join([run(*words).output, *map(read, tmp_path.rglob("*.html"))])
+    assert text and not round_off(text), round_off(text)
     assert not re.findall(r"\b\d{3}_[0-9a-f]{16}\b", text)  # a source has a name
 
 

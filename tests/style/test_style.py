@@ -42,6 +42,20 @@ def test_pages_stand_out(pytestconfig):
             assert style.contrast(shades[name], shades["soft"]) >= 4.5, name
 
 
+def test_notebook_cards_and_simulating_pages_stand_out(pytestconfig):
+    cards = (pytestconfig.rootpath / "mechsym/templates/cards.html").read_text()
+    for sheet, paper in zip(re.findall(r"\.mechsym \{ (--[^}]*)\}", cards), ("#ffffff", "#14191f"), strict=True):
+        shades = dict(re.findall(r"--(\w+): (#\w{6})", sheet))
+        assert {"quiet", "green", "red"} <= set(shades)
+        assert min(style.contrast(shades[name], paper) for name in ("quiet", "green", "red")) >= 4.5
+    page = (pytestconfig.rootpath / "mechsym/out/web/page.html").read_text()
+    for sheet in re.findall(r":root \{([^}]*)\}", page):
+        shades = {name: "#" + (c if len(c) == 6 else "".join(2 * d for d in c))
+                  for name, c in re.findall(r"--(\w+): #(\w{3,6})", sheet)}  # fmt: skip
+        for name in ("ink", "quiet"):
+            assert min(style.contrast(shades[name], shades[back]) for back in ("paper", "soft")) >= 4.5, name
+
+
 def test_contrast_of_black_and_white():
     assert style.contrast("#000000", "#ffffff") == pytest.approx(21)
     assert style.contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)  # as the guidelines' examples
