@@ -80,12 +80,18 @@ def programme(task: CoDesignTask) -> ReadyProgramme:
             _FLYWHEEL * flywheel, ripples]  # fmt: skip
     return ReadyProgramme(
         task=task, basis=splines,
-        solver=solver(x, parameters, flywheel + _SMOOTH * (smooth + chosen), gathered.rows, _OPTIONS),
+        solver=solver(x, parameters, flywheel + _SMOOTH * (smooth + chosen), gathered.rows, _options(task)),
         read=ca.Function("read", [x], read), start=np.concatenate(gathered.start),
         bounds={"lbx": box[:, 0], "ubx": box[:, 1], "lbg": np.concatenate(gathered.low),
                 "ubg": np.concatenate(gathered.high)},
         wall=time.perf_counter() - begin,
     )  # fmt: skip
+
+
+def _options(task: CoDesignTask) -> dict[str, Any]:
+    """Without losses the barrier follows a trial step: chosen by quality the linear systems fill up for minutes."""
+    oracle = "quality-function" if task.losses else "probing"
+    return {**_OPTIONS, "ipopt": {**_OPTIONS["ipopt"], "mu_oracle": oracle}}
 
 
 def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesign | None = None) -> CoDesign:
