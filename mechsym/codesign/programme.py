@@ -33,11 +33,9 @@ _STATUS = {
     "Infeasible_Problem_Detected": "infeasible",
 }
 _OPTIONS: dict[str, Any] = {
-    "ipopt": {
-        "print_level": 0, "sb": "yes", "tol": 1e-7, "acceptable_tol": 1e-5, "mu_strategy": "adaptive", "max_iter": 400
-    },
+    "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-7, "acceptable_tol": 1e-5, "max_iter": 400},
     "print_time": False,
-}  # fmt: skip
+}
 _FLYWHEEL = 1000.0  # unit of the flywheel in the programme [kg*m^2]
 _SMOOTH = 1e-6  # weight of the mean of z''^2 and of free hardware: it decides where nothing else does
 _START = 3.0  # flywheel at the start, in units of `_FLYWHEEL`
@@ -89,9 +87,9 @@ def programme(task: CoDesignTask) -> ReadyProgramme:
 
 
 def _options(task: CoDesignTask) -> dict[str, Any]:
-    """Without losses the barrier follows a trial step: chosen by quality the linear systems fill up for minutes."""
-    oracle = "quality-function" if task.losses else "probing"
-    return {**_OPTIONS, "ipopt": {**_OPTIONS["ipopt"], "mu_oracle": oracle}}
+    """The barrier falls step by step: adaptive, some systems without losses fill up for half a minute."""
+    strategy = "adaptive" if task.losses else "monotone"
+    return {**_OPTIONS, "ipopt": {**_OPTIONS["ipopt"], "mu_strategy": strategy}}
 
 
 def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesign | None = None) -> CoDesign:
