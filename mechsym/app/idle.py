@@ -10,6 +10,7 @@ from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.jobs.own import is_own
+from mechsym.mechanisms.traits import is_train
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -45,8 +46,9 @@ def _fuel(case: Case, data: Any) -> str | None:
     return "the mean pressure is given: it tells temperatures and fuel only" if given else None
 
 
-def _own_fuel(case: Case, data: Any) -> str | None:
-    return _fuel(case, data) if is_own(case.mechanism) else None  # of others the facts tell the temperature
+def _untold_fuel(case: Case, data: Any) -> str | None:
+    untold = is_own(case.mechanism) or is_train(case.mechanism)  # of others the facts tell the temperature
+    return _fuel(case, data) if untold else None
 
 
 def _no_friction(case: Case, data: Any) -> str | None:
@@ -91,7 +93,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
     ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
-    ("cycle", ("c_v", "lhv", "R", "T_evc"), ("forces",), _own_fuel),
+    ("cycle", ("c_v", "lhv", "R", "T_evc"), ("forces",), _untold_fuel),
     ("cycle", ("p_back",), (), _scavenge),
     ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
     ("cycle", ("p_back",), ("cycle",), _measured),

@@ -1,10 +1,9 @@
 """A figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it."""
 
-import contextlib
 import hashlib
 import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -37,51 +36,12 @@ def svg(figure: "Figure", name: str = "") -> str:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     buffer = io.StringIO()
-    with matplotlib.rc_context(_RC), _ticks_once(figure):
+    with matplotlib.rc_context(_RC):
         # not savefig, which lays everything out twice
         FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
     text = buffer.getvalue()
     text = text[text.index("<svg") :].replace("#000000", INK)
     return _finished(text, title(figure), _description(figure), hashlib.sha256((name + text).encode()).hexdigest()[:8])
-
-
-@contextlib.contextmanager
-def _ticks_once(figure: "Figure") -> Iterator[None]:
-    """Work out the ticks of an axis once for each place and view that it has while it is laid out and drawn."""
-    axes: list[Any] = [one for panel in figure.axes for one in panel._axis_map.values()]
-    for one in axes:
-        one._update_ticks, one._get_ticklabel_bboxes = _kept(one)
-    try:
-        yield
-    finally:
-        for one in axes:
-            del one._update_ticks, one._get_ticklabel_bboxes
-
-
-def _kept(one: Any) -> tuple[Callable[[], Any], Callable[[Any, Any], Any]]:
-    """The ticks of an axis and the boxes of their labels; matplotlib asks a dozen times for each."""
-    work_out, measure = one._update_ticks, one._get_ticklabel_bboxes
-    seen: Any = None
-    shown: Any = None
-    boxes: Any = None
-
-    def ticks() -> Any:
-        nonlocal seen, shown, boxes
-        now = (one.axes.bbox.bounds, tuple(one.get_view_interval()))
-        if now != seen:
-            shown, boxes = work_out(), None
-            # a view that was not up to date is so now
-            seen = (one.axes.bbox.bounds, tuple(one.get_view_interval()))
-        return shown
-
-    def label_boxes(of: Any, renderer: Any) -> Any:
-        nonlocal boxes
-        if of is not ticks():
-            return measure(of, renderer)
-        boxes = boxes or measure(of, renderer)
-        return boxes
-
-    return ticks, label_boxes
 
 
 def write_picture(path: Path, figure: "Figure") -> Path:

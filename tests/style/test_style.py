@@ -1,6 +1,5 @@
 """One palette, labels that keep clear, units on axes, SVG with words and ids of its own."""
 
-import contextlib
 import re
 import xml.etree.ElementTree as ET
 
@@ -8,12 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from matplotlib.axis import Axis
 from pictures import faults, ids
 
 from mechsym import style
 from mechsym.quantities.display import choose
-from mechsym.style import palette, picture
+from mechsym.style import palette
 
 READ = {name: getattr(palette, name) for name in "INK BLUE RED GREEN ORANGE VIOLET TEAL PINK GREY QUIET".split()}
 FILLS = "PISTON CYLINDER CRANK GEAR BEARING CARRIER SHAFT WHEEL GAS ROLLER NOTHING PAPER".split()
@@ -168,24 +166,3 @@ def test_equal_paths_are_named_once_wherever_they_begin():
     path = lambda shift, size: np.concatenate([size * np.cos(t + shift), np.sin(2 * (t + shift))])  # noqa: E731
     found = style.distinct({"a": path(0, 1.0), "b": path(1.3, 1.0), "c": path(0, 1.05)}, same=style.same_path)
     assert list(found) == ["a = b", "c"]
-
-
-def test_ticks_worked_out_once_draw_the_same(monkeypatch):
-    def several():
-        figure, axes = style.panels(7, 5, 2, 2, sharex=True)
-        for k, axis in enumerate(axes):
-            axis.plot([0, 1e3], [0, 10.0 ** (3 * k)], label="a name")
-            axis.set(xlabel="time [s]", ylabel="speed [rpm]")
-            style.legend(axis)
-        axes[3].set_yscale("log")
-        axes[0].set_aspect("equal", adjustable="datalim")
-        figure.align_ylabels()
-        return figure
-
-    asked = []
-    measure = Axis._get_ticklabel_bboxes
-    monkeypatch.setattr(Axis, "_get_ticklabel_bboxes", lambda *of: asked.append(of[0]) or measure(*of))
-    quick, quickly = style.svg(several()), len(asked)
-    monkeypatch.setattr(picture, "_ticks_once", contextlib.nullcontext)
-    assert style.svg(several()) == quick
-    assert quickly < 0.7 * (len(asked) - quickly)
