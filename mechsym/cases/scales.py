@@ -19,7 +19,7 @@ from mechsym.plausible import Doubt, letters, proportion
 _BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
     ("friction", ("radius_piston_pin", "radius_crank_pin", "radius_main"), "bearing_size"),
     ("losses", ("bearing_radius",), "bearing_size"),
-    ("rollers", ("radius", "width"), "roller_size"),
+    ("rollers", ("radius", "width", "plane_offset"), "roller_size"),
     ("breathing", ("inlet_diameter", "inlet_lift", "exhaust_diameter", "exhaust_lift", "throttle_diameter",
                    "tailpipe_diameter"), "valve_size"),
     ("scavenging", ("port_width", "valve_diameter", "valve_lift"), "valve_size"),

@@ -103,6 +103,10 @@ INPUTS = (
           why="screens of regenerators have wires of some hundredths of a millimetre"),
     Usual(code="exchanger_length", keys=("heater_length", "cooler_length", "regenerator_length"), unit="m", low=2e-3,
           high=3, lowest=1e-5, highest=100, section="stirling", why="heat exchangers are a centimetre to a metre long"),
+    Usual(code="gear_pressure_angle", keys=("alpha_n",), unit="rad", low=math.radians(10), high=math.radians(35),
+          section="parameters", why="teeth of gears press at 14.5 to 25 degrees"),
+    Usual(code="nusselt_factor", keys=("a",), unit="-", low=0.1, high=3, section="heat_transfer",
+          why="Annand found 0.35 to 0.8"),
     Usual(code="convergence", keys=("difference_allowed",), unit="-", high=0.01, section="simulation",
           why="two runs that differ by more than a per cent have not converged"),
 )  # fmt: skip

@@ -208,6 +208,8 @@ SCALED = [  # what is possible in one engine and not in another
     ("cycle", "moroianu", "mean_indicated_pressure=60 bar", {"peak_pressure", "mean_pressure", "gas_temperature"}),
     ("forces", "alpha-stirling", "m_piston=0.1", {"reciprocating_mass"}),
     ("hinge", "zotov-89", "spring.A=0.0001", {"spring_area"}),
+    ("cycle", "nunes-hypocycloid", "alpha_n=1 deg", {"gear_pressure_angle"}),
+    ("cycle", "nunes-slider-crank", "heat_transfer.a=49", {"nusselt_factor"}),
     ("simulate", "chmielewski", "drive.time=100 s", {"drive_start"}),
 ]
 
