@@ -94,27 +94,18 @@ def _complements(place: Spot) -> Iterator[Edit]:
 
 def _runs(place: Spot) -> Iterator[Edit]:
     if is_operation(place.node, ast.Add, ast.Sub) and is_term(place):
-        yield from _of_sum(place.path, [*_terms(place.node, True)])
+        yield from _of_sum(place.path, _parts(place.node, ast.Add, ast.Sub))
     if is_operation(place.node, ast.Mult, ast.Div) and (is_product(place) or is_term(place)):
-        yield from _of_product(place.path, [*_factors(place.node, True)])
+        yield from _of_product(place.path, _parts(place.node, ast.Mult, ast.Div))
 
 
-def _terms(node: Node, plus: bool) -> Iterator[tuple[bool, Node]]:
-    if is_operation(node, ast.Add, ast.Sub):
-        assert isinstance(node, ast.BinOp)
-        yield from _terms(node.left, plus)
-        yield from _terms(node.right, plus == isinstance(node.op, ast.Add))
-    else:
-        yield plus, node
-
-
-def _factors(node: Node, above: bool) -> Iterator[tuple[bool, Node]]:
-    if is_operation(node, ast.Mult, ast.Div):
-        assert isinstance(node, ast.BinOp)
-        yield from _factors(node.left, above)
-        yield from _factors(node.right, above == isinstance(node.op, ast.Mult))
-    else:
-        yield above, node
+def _parts(node: Node, more: type[ast.operator], less: type[ast.operator], first: bool = True) -> Run:
+    """Terms of a sum or factors of a product, through brackets of the same kind."""
+    if not is_operation(node, more, less):
+        return [(first, node)]
+    assert isinstance(node, ast.BinOp)
+    last = first == isinstance(node.op, more)
+    return [*_parts(node.left, more, less, first), *_parts(node.right, more, less, last)]
 
 
 def _of_sum(path: Path, terms: Run) -> Iterator[Edit]:
