@@ -118,3 +118,7 @@ def _volumes(sections: Mapping[str, Any], bore: float, stroke: float) -> Iterato
     swept = math.pi / 4 * bore**2 * stroke
     for name in ("dead_hot", "dead_cold", "dead_regenerator"):
         yield "dead_volume", f"cycle.{name} / swept volume", _number(sections, "cycle", name) / swept
+    told = {name: _number(sections, "stirling", name) for name in ("buffer_volume", "conductance")}
+    yield "buffer_volume", "stirling.buffer_volume / swept volume", told["buffer_volume"] / swept
+    copper = 400 * math.pi / 4 * bore**2 / stroke  # a solid block of the piston's width, one stroke long [W/K]
+    yield "conductance", "stirling.conductance / that of solid copper", told["conductance"] / copper

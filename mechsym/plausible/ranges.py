@@ -205,6 +205,10 @@ PROPORTIONS = (
           why="parts of an engine are a hundredth to a few times as long as its piston is wide"),
     Usual(code="dead_volume", keys=(), unit="-", low=5e-3, high=50, lowest=1e-5, highest=1e4,
           why="dead volumes of Stirling engines are a tenth to twice the swept volume"),
+    Usual(code="buffer_volume", keys=(), unit="-", low=1, high=1000, lowest=0.5, highest=1e5,
+          why="the piston leaves half its stroke free behind it at the least; crankcases hold some strokes"),
+    Usual(code="conductance", keys=(), unit="-", high=0.3, highest=10,
+          why="walls between hot and cold are thin: hundredths of a solid block of copper, 400 W/m/K, a stroke long"),
     Usual(code="spring_height", keys=(), unit="-", low=0.02, high=50, lowest=1e-4, highest=1e4,
           why="the spring of a hinge is about as high as the stroke"),
 )  # fmt: skip

@@ -73,6 +73,26 @@ def test_full_disk_leaves_no_part_of_a_run(monkeypatch, capsys, tmp_path, count)
     assert list(tmp_path.iterdir()) == []
 
 
+AFTER_WORK = {
+    "study": ["study", "nunes2017-chapter-6", "--only", "rod", "--out", "RUN"],
+    "page": ["page", "zotov-89", "--out", "RUN/engine.html"],
+    "report": ["report", "chmielewski", "--out", "RUN/report.html"],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", AFTER_WORK)
+def test_full_disk_after_long_work(monkeypatch, capsys, tmp_path, name):
+    if name == "page":
+        pytest.importorskip("ziglang", reason="the extra web is not installed")
+    disk_full_after(monkeypatch, 0)
+    code, _, err = ended(monkeypatch, capsys, [word.replace("RUN", str(tmp_path)) for word in AFTER_WORK[name]])
+    assert code == 74
+    assert "No space left" in err
+    # a study keeps the points that it has computed: the same command goes on from them
+    assert [p.name for p in tmp_path.rglob("*") if p.is_file() and p.name != "sweep.db"] == []
+
+
 def test_a_run_that_fails_leaves_the_last_run_as_it_was(monkeypatch, capsys, tmp_path):
     assert ended(monkeypatch, capsys, [*CYCLE, "--out", str(tmp_path)])[0] in (0, None)
     before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}

@@ -99,6 +99,10 @@ DOUBTED = [
     ("alpha-stirling", "wire=10 mm", "wire"),
     ("alpha-stirling", "dead_hot=0.1", "dead_volume"),
     ("alpha-stirling", "cycle.mean_pressure=5e9", None),
+    ("alpha-stirling", "stirling.buffer_volume=1e-9", None),
+    ("alpha-stirling", "stirling.buffer_volume=500 cm^3", "buffer_volume"),
+    ("alpha-stirling", "stirling.conductance=1e9", None),
+    ("alpha-stirling", "stirling.conductance=40", "conductance"),
     ("nunes-hypocycloid", "part_masses.piston=294.7", "mass_density"),
     ("generator-breathing", "inlet_lift=6", "valve_size"),
 ]
