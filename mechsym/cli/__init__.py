@@ -11,7 +11,6 @@ import click
 
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import load
-from mechsym.quantities.display import choose
 
 # command: "module:function"
 COMMANDS = {
@@ -160,7 +159,7 @@ def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 
 def _units(ctx: click.Context, _: click.Parameter, wanted: str | None) -> None:
     ctx.meta["mechsym.units"] = wanted
-    choose(wanted)
+    load("mechsym.quantities.display:choose")(wanted)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -181,6 +180,8 @@ def main() -> None:
     """Run the command line; bad input ends with one line and exit status 2, a failure of the system with 74."""
     # what imports and figures leave is little: look for it rarely
     gc.set_threshold(20_000)
+    # before numpy is there: threads of BLAS would wait for small matrices with a processor each
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
     except BadInput as error:

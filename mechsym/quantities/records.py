@@ -1,8 +1,9 @@
 """Records that declare unit and range at each field and check themselves."""
 
 import dataclasses
+import inspect
 import math
-from typing import Any, TypeVar, dataclass_transform
+from typing import Any, NoReturn, TypeVar, dataclass_transform
 
 from mechsym.errors import BadInput, shown
 
@@ -104,9 +105,58 @@ def record(cls: type[Record]) -> type[Record]:
 
     if any(isinstance(value, dataclasses.Field) and value.metadata for value in vars(cls).values()):
         cls.__post_init__ = checked  # type: ignore[attr-defined]
-    if "__repr__" not in vars(cls):
-        cls.__repr__ = _in_short  # type: ignore[method-assign]
-    return dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
+    for name, shared in _SHARED.items():
+        if vars(cls).get(name) is None:
+            setattr(cls, name, shared)
+    return dataclasses.dataclass(init=False, repr=False, eq=False, match_args=False, kw_only=True)(cls)
+
+
+def _made(self: Any, /, **given: Any) -> None:
+    for field in dataclasses.fields(self):
+        if field.name in given and field.init:
+            value = given.pop(field.name)
+        elif field.default is not dataclasses.MISSING:
+            value = field.default
+        elif field.default_factory is not dataclasses.MISSING:
+            value = field.default_factory()
+        else:
+            raise TypeError(f"{type(self).__name__}.__init__() misses the keyword argument {field.name!r}")
+        self.__dict__[field.name] = value
+    for name in given:
+        raise TypeError(f"{type(self).__name__}.__init__() got an unexpected keyword argument {name!r}")
+    if hasattr(self, "__post_init__"):
+        self.__post_init__()
+
+
+def _compared(self: Any) -> tuple[Any, ...]:
+    return tuple(getattr(self, field.name) for field in dataclasses.fields(self) if field.compare)
+
+
+def _equal(self: Any, other: object) -> bool:
+    return _compared(self) == _compared(other) if other.__class__ is self.__class__ else NotImplemented
+
+
+def _hash(self: Any) -> int:
+    return hash(_compared(self))
+
+
+def _frozen(self: Any, name: str, *_: Any) -> NoReturn:
+    raise dataclasses.FrozenInstanceError(f"cannot change field {name!r}; dataclasses.replace makes another record")
+
+
+class _Signature:
+    """What `help` and editors show of a record: its fields."""
+
+    def __get__(self, made: Any, cls: type) -> inspect.Signature:
+        if made is not None:
+            raise AttributeError("__signature__")
+        return inspect.Signature([_parameter(field) for field in dataclasses.fields(cls) if field.init])
+
+
+def _parameter(field: dataclasses.Field[Any]) -> inspect.Parameter:
+    default = field.default if field.default_factory is dataclasses.MISSING else ...
+    default = inspect.Parameter.empty if default is dataclasses.MISSING else default
+    return inspect.Parameter(field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=field.type)
 
 
 def _in_short(self: Any) -> str:
@@ -129,6 +179,13 @@ def _value_in_short(value: Any) -> str:
     if isinstance(value, str):
         return f"{text[:_LONG_VALUE]}..'"
     return f"{kind} of {len(value)}" if hasattr(value, "__len__") else kind
+
+
+# `dataclass` would write and compile five functions for each record, which takes longer than all else in an import
+_SHARED = {
+    "__init__": _made, "__repr__": _in_short, "__eq__": _equal, "__hash__": _hash, "__setattr__": _frozen,
+    "__delattr__": _frozen, "__signature__": _Signature(),
+}  # fmt: skip
 
 
 def check(record: Any) -> None:

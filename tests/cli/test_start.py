@@ -1,8 +1,10 @@
 """What a command loads before it does anything: modules counted, which is the same on every machine, idle or not."""
 
 import json
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +15,15 @@ from mechsym.cli import mechsym
 with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
     mechsym.main(sys.argv[1:], "mechsym", standalone_mode=False)
 print(json.dumps(sorted(sys.modules)))
+"""
+# prints the threads of the process when a command ends
+_THREADS = """
+import contextlib, io, pathlib, sys
+from mechsym.cli import main
+sys.argv[1:] = ["cases"]
+with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
+    main()
+print("numpy" in sys.modules, len(list(pathlib.Path("/proc/self/task").iterdir())))
 """
 HEAVY = {"matplotlib", "sympy", "xarray", "pandas", "jinja2", "scipy.stats", "mechsym.audit", "mechsym.papers"}
 # of the rooms that a command does not work in it reads the records of their sections, and no more
@@ -46,6 +57,13 @@ def budget(command):
 
 def test_eval_loads_neither_scipy_nor_a_job():
     budget("eval crosshead --case zotov-89 --set phi=1")
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="threads are counted where Linux shows them")
+def test_no_thread_of_blas_waits_beside_a_command():
+    free = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    done = subprocess.run([sys.executable, "-c", _THREADS], check=True, capture_output=True, text=True, env=free)
+    assert done.stdout.split() == ["True", "1"]
 
 
 @pytest.mark.slow
