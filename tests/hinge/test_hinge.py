@@ -8,7 +8,8 @@ import pytest
 from hinges import HIGHER, LOWER, built, built_four_stroke, engine, exact_torque, four_stroke
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import cumulative_trapezoid, quad, solve_ivp
+from scipy.optimize import brentq
 
 from mechsym import cases, jobs, periodic
 from mechsym.errors import BadInput
@@ -167,23 +168,48 @@ def test_four_stroke_parts_add_up(rng):
     assert abs(periodic.mean(part.torque)) < 1e-9 * peak(found)
 
 
-def test_four_stroke_rest_ripples_as_a_run_does():
-    found = built_four_stroke()
-    part = balance.balance(found, "every_turn")
-    engine, omega, load = four_stroke(), found.omega, found.load_torque
+def four_stroke_run(part, load, start, turns, points):
+    """Speed of the crank with the hinge of `part`; `load` is a torque by speed, `points` are of the last two turns."""
+    engine, found = four_stroke(), built_four_stroke()
 
     def rate(_, state):
         phi = np.array([state[0]])
         given = engine.gas_torque(phi) + engine.gravity_torque(phi) + part.torque(phi)
         slope = engine.dinertia_dphi(phi) * state[1] ** 2 / 2
-        return [state[1], float((given - load * (state[1] / omega) ** 2 - slope)[0] / engine.inertia(phi)[0])]
+        return [state[1], float((given - load(state[1]) - slope)[0] / engine.inertia(phi)[0])]
 
-    end = 24 * TURN / omega
-    t = np.linspace(end - 2.2 * TURN / omega, end, 4000)
-    run = solve_ivp(rate, (0, end), [0.0, omega], rtol=1e-9, atol=1e-9, t_eval=t)
-    ripple = np.ptp(run.y[1]) / omega
-    assert part.ripple_propeller_load == pytest.approx(ripple, rel=2e-3)
-    assert part.ripple_constant_load > 0
+    def at(_, state):
+        return state[0] - turns * TURN
+
+    at.terminal = True
+    time = 3 * turns * TURN / found.omega
+    run = solve_ivp(rate, (0, time), [0.0, start], rtol=1e-9, atol=1e-9, events=at, dense_output=True)
+    end = run.t[-1]
+    before = brentq(lambda t: run.sol(t)[0] - (turns - 2) * TURN, 0, end)
+    return run.sol(np.linspace(before, end, points))[1], end - before
+
+
+def test_four_stroke_rest_ripples_as_a_run_does():
+    found = built_four_stroke()
+    part = balance.balance(found, "every_turn")
+    load = found.load_torque
+    phid, _ = four_stroke_run(part, lambda w: load * (w / found.omega) ** 2, found.omega, 24, 4000)
+    assert part.ripple_propeller_load == pytest.approx(np.ptp(phid) / found.omega, rel=2e-3)
+
+    def faster(start):
+        return 2 * TURN / four_stroke_run(part, lambda w: load, start, 2, 2)[1] / found.omega - 1
+
+    start = brentq(faster, 0.9 * found.omega, 1.5 * found.omega, xtol=1e-6 * found.omega)
+    phid, _ = four_stroke_run(part, lambda w: load, start, 2, 4000)
+    assert part.ripple_constant_load == pytest.approx(np.ptp(phid) / found.omega, rel=2e-3)
+
+
+def test_swing_of_the_rest_is_that_of_its_integral():
+    part = balance.balance(built_four_stroke(), "every_turn")
+    phi = np.linspace(0, 2 * TURN, 200_001)
+    work = cumulative_trapezoid(part.rest(phi), phi, initial=0)
+    assert part.rest_swing == pytest.approx(np.ptp(work), rel=1e-7)
+    assert part.work(1.0) == pytest.approx(quad(part.torque, 0, 1.0, epsabs=0, epsrel=1e-10)[0], rel=1e-9)
 
 
 def test_whole_cycle_leaves_nothing():
