@@ -50,9 +50,6 @@ class Guide:
     #: cannot hold the work), `crosses_axis` (rho would not stay positive)
     status: str
     reason: str
-    #: Stored energy that the turn asks for [J]
-    energy_min: float
-    energy_max: float
     #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
     rho: "scipy.interpolate.PPoly | None"
     closure: float  #: Gap of the path after a period, before it is closed [m]
@@ -88,9 +85,9 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
         raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
-    low, high = work_range(wanted)
     if isinstance(spring, AirThermal):
-        return _cut_thermal(wanted, spring, parameters, high - low)
+        return _cut_thermal(wanted, spring, parameters)
+    low, high = work_range(wanted)
     at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
     status, reason = law_status(wanted, spring, parameters, at_start - high, at_start - low)
     rho, closure = law_path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
@@ -101,22 +98,19 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
         rollers=rollers,
         status=status,
         reason=reason,
-        energy_min=at_start - high,
-        energy_max=at_start - low,
         rho=rho,
         closure=closure,
     )
 
 
-def _cut_thermal(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParameters, swing: float) -> Guide:
+def _cut_thermal(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParameters) -> Guide:
     if can_be_given(wanted):
         found = thermal_path(wanted, spring, parameters)
     else:
         found = ThermalPath(rho=None, status="takes_work", reason=takes_work(wanted), kept=0.0, closure=0.0)
     return Guide(
         parameters=parameters, spring=spring, omega=wanted.omega, rollers=ROLLERS[parameters.arrangement],
-        status=found.status, reason=found.reason, energy_min=0.0, energy_max=swing, rho=found.rho,
-        closure=found.closure,
+        status=found.status, reason=found.reason, rho=found.rho, closure=found.closure,
     )  # fmt: skip
 
 

@@ -1,9 +1,11 @@
 """A guide cut for a gas that exchanges heat: its torque against the gas integrated anew, its limits, and its runs."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from hinges import built_four_stroke
 from scipy.integrate import solve_ivp
 
 from mechsym import cases
@@ -61,6 +63,29 @@ def test_the_gas_integrated_along_the_path_gives_the_torque(wanted, choices, tau
     assert np.abs(given - (wanted.torque(theta) - kept_torque(guide))).max() < 2e-5 * size
     assert -given.mean() == pytest.approx(kept_torque(guide), abs=1e-5 * size)
     assert np.abs(crank_torque(guide, theta) - given).max() < 1e-5 * size
+
+
+def test_on_a_half_speed_shaft_the_gas_has_twice_the_time(choices):
+    wanted = built_four_stroke()
+    guide = cut(wanted, AirThermal(A=0.01, H=0.5, p0=3e5, tau=0.2), replace(choices, rho0=0.4, shaft_ratio=0.5))
+    kept = kept_torque(guide)
+    assert kept > 1e-3 * np.abs(wanted.torque(np.linspace(0, 12, 500))).max()
+    phi = np.linspace(0, 4 * np.pi, 4000, endpoint=False)
+    given = crank_torque(guide, phi)
+    assert given == pytest.approx(wanted.torque(phi) - kept, abs=1e-4 * np.abs(given).max())
+    # the loss of a turn of the shaft, by the first law in time
+    slope, z = guide.rho.derivative(), lambda theta: guide.rollers * (guide.parameters.rho0 - guide.rho(theta))
+
+    def rate(theta, state):
+        T, height = state[0], 0.5 - z(theta)
+        heat = (T - 320.0) / (wanted.omega / 2 * 0.2)
+        return [-0.4 * T * guide.rollers * slope(theta) / height - heat, heat]
+
+    start = gas_turn(guide, guide.spring).temperature[0]
+    turn = solve_ivp(rate, (0, 2 * np.pi), [start, 0.0], rtol=1e-10, atol=1e-7, max_step=0.02)
+    assert turn.y[0, -1] == pytest.approx(start, rel=1e-5)
+    lost = turn.y[1, -1] * (3e5 + 101325.0) * 0.01 * 0.5 / 320.0 / 0.4  # c_v m by the filling at 320 K
+    assert lost == pytest.approx(4 * np.pi * kept, rel=1e-3)
 
 
 def test_slow_exchange_is_the_adiabatic_spring(wanted, choices):
