@@ -8,12 +8,13 @@ import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mechsym.app.answers import Plotted
+from mechsym.app.told import pretty, told
 from mechsym.cases import Case
 from mechsym.cases.needs import NEEDS, READS
 from mechsym.quantities import record
+from mechsym.quantities.display import heading
 
 #: command: sections that a case needs for it
 _NEEDS = {
@@ -24,11 +25,11 @@ _NEEDS = {
     "size": ("sizing",),
     "codesign": ("codesign",),
 }
+_ALSO = {"size": "part_crosshead"}  # a section that is enough by itself
 _MOST_ROWS = 400  # more than any command says of a case of ours
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
 _ROUNDING = 1e-9  # of the largest value of a unit
-_SILENT = ("files", "written", "units")  # of a folder that is gone; units stand beside their values
 #: commands that run again as soon as the sliders rest; the others take long and wait for their button
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
@@ -48,7 +49,8 @@ class Run:
 
 def tabs(case: Case) -> tuple[str, ...]:
     """Commands that the sections of a case allow."""
-    return tuple(name for name, sections in _NEEDS.items() if all(s in case.sections for s in sections))
+    return tuple(name for name, sections in _NEEDS.items()
+                 if _ALSO.get(name) in case.sections or all(s in case.sections for s in sections))  # fmt: skip
 
 
 def reads(command: str) -> frozenset[str]:
@@ -93,28 +95,7 @@ def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...], units: 
         found = json.loads(out)
     except ValueError:
         return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
-    rows = _checks(found) if isinstance(found, list) else _told(found, units or {})
-    return Run(status=status, words=said.strip(), rows=tuple(rows)[:_MOST_ROWS], curves=curves)
-
-
-def _checks(found: Sequence[Any]) -> list[tuple[str, str]]:
-    """Rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first."""
-    if not all(isinstance(row, Mapping) and "component" in row for row in found):
-        return _rows("", list(found))
-    order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
-    return [(f"{r['component']}: {r['quantity']}", _beside(r)) for r in order]
-
-
-def _beside(row: Mapping[str, Any]) -> str:
-    unit = _unit(row["unit"])
-    if row["limit"] is None:
-        return f"{_text(row['value'])}{unit}"
-    word = "" if row["holds"] else ", BELOW what is wanted"
-    return f"{_text(row['value'])}{unit}, limit {_text(row['limit'])}{unit}, factor {_text(row['safety_factor'])}{word}"
-
-
-def _unit(unit: str | None) -> str:
-    return "" if unit in (None, "-") else f" {unit}"
+    return Run(status=status, words=said.strip(), rows=tuple(told(found, units or {}))[:_MOST_ROWS], curves=curves)
 
 
 def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
@@ -133,15 +114,15 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     sizes = {u: max((max(map(abs, c)) for c, (_, v) in zip(columns, named, strict=True) if c and u == v), default=0.0)
              for _, u in named}  # fmt: skip
     moving = [i for i, c in enumerate(columns) if i != place and c and max(c) - min(c) > _ROUNDING * sizes[named[i][1]]]
-    return tuple(
-        Plotted(name=named[i][0], chart=named[i][0], x_name=_axis(*named[place]), y_name=_axis(*named[i]),
-                x=columns[place], y=columns[i])
-        for i in moving[:_MOST_CURVES]
-    )  # fmt: skip
+    x_name, x = _axis(*named[place], columns[place])
+    shown = ((named[i][0], *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
+    return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in shown)
 
 
-def _axis(name: str, unit: str) -> str:
-    return name if unit == "-" else f"{name} [{unit}]"
+def _axis(name: str, unit: str, values: tuple[float, ...]) -> tuple[str, tuple[float, ...]]:
+    """Name and values of an axis in the unit in which people are shown them [unit]."""
+    title, shown = heading(name, list(values), unit=None if unit == "-" else unit)
+    return pretty(title), tuple(shown)
 
 
 def _head(head: str) -> tuple[str, str]:
@@ -155,40 +136,3 @@ def _numbers(texts: Sequence[str]) -> tuple[float, ...]:
         return tuple(map(float, texts))
     except ValueError:
         return ()
-
-
-def _told(found: Mapping[str, Any], units: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Rows of a command: doubts as sentences first, least and largest of a quantity in one row, with its unit."""
-    rows = [
-        (word, f"{d['quantity']} = {_text(d['value'])}, usual is {d['usual']}: {d['why']}")
-        for word, key in (("doubt", "doubts"), ("accepted", "accepted")) for d in found.get(key) or ()
-    ]  # fmt: skip
-    low, high = found.get("min"), found.get("max")
-    both = isinstance(low, Mapping) and isinstance(high, Mapping)
-    told = {"doubts", "accepted", *_SILENT, *(("min", "max") if both else ())}
-    rest = {k: v for k, v in found.items() if k not in told}
-    inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
-    rows += _rows("", {k: v for k, v in rest.items() if k not in inner})
-    if isinstance(low, Mapping) and isinstance(high, Mapping):
-        rows += [(k, f"{_text(low[k])} to {_text(high[k])}{_unit(units.get(k))}") for k in high if k in low]
-    return rows + _rows("", inner)
-
-
-def _rows(prefix: str, found: Any) -> list[tuple[str, str]]:
-    """Numbers and texts by dotted name; of a list its length and ends."""
-    if isinstance(found, Mapping):
-        return [row for key, value in found.items() for row in _rows(f"{prefix}.{key}" if prefix else str(key), value)]
-    if found is None or (isinstance(found, list) and all(value is None for value in found)):
-        return []  # what this case does not have
-    if isinstance(found, list):
-        if isinstance(found[0], (Mapping, list)):
-            return [row for i, value in enumerate(found[:8]) for row in _rows(f"{prefix}[{i}]", value)]
-        shown = found if len(found) <= 6 else [found[0], "..", found[-1]]
-        return [(prefix, ", ".join(_text(v) for v in shown))]
-    return [(prefix, _text(found))]
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.5g}"
-    return "none" if value is None else str(value)

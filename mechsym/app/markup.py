@@ -30,13 +30,20 @@ addEventListener("message", e => {
 
 def table(rows: Sequence[tuple[str, str]], pinned: Sequence[tuple[str, str]]) -> str:
     """Names and values, those of a pinned answer beside them."""
-    other = dict(pinned)
+    other = dict(_counted(pinned))
     cells = (
-        f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td><td>{html.escape(other.get(name, ''))}</td></tr>"
-        for name, value in rows
+        "".join(f"<td>{html.escape(text)}</td>" for text in (key[0], value, other.get(key, "")))
+        for key, value in _counted(rows)
     )
     head = "<tr><td></td><td></td><td>pinned</td></tr>" if pinned else ""
-    return f"<table class='mechsym-table'>{head}{''.join(cells)}</table>"
+    body = "".join(f"<tr>{row}</tr>" for row in cells)
+    return f"<table class='mechsym-table'>{head}{body}</table>"
+
+
+def _counted(rows: Sequence[tuple[str, str]]) -> list[tuple[tuple[str, int], str]]:
+    """Rows with how often their name has stood before, since several sentences may have one name."""
+    names = [name for name, _ in rows]
+    return [((name, names[:i].count(name)), value) for i, (name, value) in enumerate(rows)]
 
 
 def bars(answer: Answer) -> str:

@@ -14,7 +14,9 @@ from mechsym.app.idle import idle
 from mechsym.app.panels import AUDIT, AuditPanel, HingePanel, Panel, RunPanel
 from mechsym.app.saving import FILES, case_text, file_of
 from mechsym.app.sliders import Slider, safe, sliders
+from mechsym.app.told import pretty
 from mechsym.errors import BadInput
+from mechsym.quantities.display import quantity_text
 
 _ONE_MOVE = 1.0  # moves of one slider that follow each other so fast are one step of undo [s]
 
@@ -108,13 +110,12 @@ class Page:
 
     def _slider(self, knob: Slider) -> None:
         ui, value = self.ui, self.values.get(knob.key, knob.value)
-        unit = "" if knob.unit == "-" else f" [{knob.unit}]"
         self.rows[knob.key] = ui.row().classes("w-full items-center no-wrap gap-2")
         with self.rows[knob.key]:
-            ui.label(f"{knob.label}{unit}").classes("w-32 text-sm break-words").props["title"] = knob.about or knob.key
+            ui.label(knob.label).classes("w-28 text-sm break-words").props["title"] = knob.about or knob.key
             moved = ui.slider(min=min(knob.low, value), max=max(knob.high, value), step=knob.step, value=value)
             moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.key}"')
-            shown = ui.label(f"{value:.4g}").classes("w-16 text-right text-sm")
+            shown = ui.label(told_value(knob, value)).classes("shrink-0 text-right text-sm whitespace-nowrap mechsym-value")
         moved.on_value_change(lambda e: self.move(knob.key, float(e.value)))
         self.controls[knob.key] = (moved, shown)
 
@@ -169,7 +170,7 @@ class Page:
             self.before.append(dict(self.values))
         self.last = (key, time.monotonic())
         self.values = {**self.values, key: value}
-        self.controls[key][1].text = f"{value:.4g}"
+        self.controls[key][1].text = told_value(self.knobs[key], value)
         self.moved += 1
         await self.update()
 
@@ -187,7 +188,7 @@ class Page:
         self.moved += 1
         for key, (moved, shown) in self.controls.items():
             value = values.get(key, self.knobs[key].value)
-            moved.value, shown.text = value, f"{value:.4g}"
+            moved.value, shown.text = value, told_value(self.knobs[key], value)
         self.refresh()
 
     def pin(self) -> None:
@@ -239,6 +240,11 @@ class Page:
         await self.panels[self.tab].show(dict(self.values), lambda: asked == self.moved)
 
 
+def told_value(knob: Slider, value: float) -> str:
+    """A value of a slider in the unit of people [unit of the slider]."""
+    return pretty(quantity_text(value, knob.unit, 4))
+
+
 _STYLE = """<style>
 .mechsym-cursor { position: absolute; top: 30px; bottom: 40px; left: 0; width: 1px; background: #888;
   pointer-events: none; }
@@ -251,6 +257,7 @@ _STYLE = """<style>
   .mechsym-sliders { bottom: 0; max-height: 40vh; background: #fff; border-top: 1px solid #888; }
   .body--dark .mechsym-sliders { background: #121212; } }
 .mechsym-note { opacity: .7; }
+.mechsym-value { min-width: 5rem; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
 .mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }
 .mechsym-table td + td { overflow-wrap: anywhere; }

@@ -72,11 +72,10 @@ def size(case: Case) -> Sizing:
         return _own_loads(case)
     if _given_drive(case) and kind_of(case.need("cycle")).given != "engine":
         return _crosshead(case)  # no rule sizes such an engine: the sizes that it has are checked
-    one = task(case)
     rules = {"planet": _hypocycloid, "slider crank": _slider_crank}
     if rules_of(case.mechanism) not in rules:
         raise _unsized(case)
-    return rules[rules_of(case.mechanism)](one)
+    return rules[rules_of(case.mechanism)](task(case))
 
 
 def _given_drive(case: Case) -> bool:

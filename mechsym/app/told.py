@@ -1,0 +1,237 @@
+"""What a command says in JSON as rows for people: every number in its unit, what belongs together in one row."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
+from mechsym.quantities.names import stem_and_unit
+
+Rows = list[tuple[str, str]]
+
+_SILENT = ("files", "written", "units")  # of a folder that is gone; units stand beside their values
+_MOST = 8  # entries of a list that are told
+_ORDERS = 4  # orders of a harmonic analysis that are told
+_NAMES = {"component", "quantity"}
+_HARMONIC = {"order", "amplitude", "phase"}
+_AS_ONE = ({"value", "confidence"}, {"limit", "multiplier", "unit"})
+_BARE = dict.fromkeys(("N", "N*m", "J", "kg*m"), 1e-12)  # what is less in any machine of ours is round-off [its unit]
+_ROUNDING = 1e-9  # of the largest number of one unit in a group
+# the first pattern that fits the whole path, without indexes, says the unit (`1`: told as it is); else the last name
+_UNITS = [
+    (re.compile(pattern), unit)
+    for pattern, unit in (
+        (r"(fractions|two_mass|weight)\..+|per_degree\.(work|heat)|uncertainty\.(work|heat)", "-"),
+        (r"per_degree\.burn_50|uncertainty\.burn_50", "rad"),
+        (r"dead_centre\.deg", "deg"),
+        (r".*(residual|difference|efficiency|share|ripple|residual_gas)", "-"),
+        (r"tolerance|knock", "1"),
+        (r"energy\..+|mean\.(heat|work)", "J"),
+        (r"friction\.(power|places\..+|indicated_power)", "W"),
+        (r"friction\.friction_mean_pressure|mean\.(mean_indicated|p_max)|compression_line\.(rms|pressure\..+)", "Pa"),
+        (r"mean\.(phi_p_max|burn_angles)|(double_)?wiebe\.(start|duration\w*)\..+|compression_line\.tdc\..+", "rad"),
+        (r"(double_)?wiebe\..+|compression_line\.n\..+|scale|(.+\.)?n_(compression|expansion)", "-"),
+        (r"trapped_mass|guides\.moving_mass", "kg"),
+        (r"air_kg_h", "kg/h"),
+        (r"speeds\..+|(.+\.)?(rigid_speed_end|speed|speed_(mean|min|max)(_end)?)|vibration\.(low|high|omega)", "rad/s"),
+        (r"(.+\.)?held_below_c1|.*\bc1", "N*m*s/rad"),
+        (r"(.+\.)?natural(_bare|_frequencies)?", "Hz"),
+        (r"(.+\.)?twist_\w+", "rad"),
+        (r".+\.torque_rigid|torque_orders|shaking\.orders\.(roll|rocking_[xy])|losses\.(bearing|seal|guide|rolling|gas)",
+         "N*m"),
+        (r"shaking\.orders\.force_[xy]|shaking\.counterweight\.rms_\w+|rodless\.inertia_resultant_\w+", "N"),
+        (r"shaking\.(counterweight|planes)\.unbalance", "kg*m"),
+        (r"flywheel_inertia\w*", "kg*m^2"),
+        (r"guides\.(H|rho0|roller_\w+us|roller_width|rho_m\w+|z_m\w+)|losses\.assumed\.bearing_radius", "m"),
+        (r"guides\.A", "m^2"),
+        (r"guides\.(spring_pressure|hertz_stress)_max|load|p0", "Pa"),
+        (r"wall_s|(.+\.)?t_(start|end)|losses\.assumed\.tau", "s"),
+        (r"bound\.(swing\w*|flywheel)", "kg*m^2"),
+        (r".*(order|magnification|away|count|rank|cylinders|steps|iterations|cycle|multiplier|losses\.fill|_mu)", "-"),
+        (r"bound\..+|losses\.extra_fuel|weak_cycles", "-"),
+    )
+]  # fmt: skip
+
+
+def told(found: Any, units: Mapping[str, str]) -> Rows:
+    """Rows of what a command said.
+
+    Parameters
+    ----------
+    units : mapping of str to str
+        SI units of the columns of its table, where it has one
+    """
+    if isinstance(found, list):
+        return _checks(found)
+    rows = [
+        (word, f"{d['quantity']} = {figure(d['value'])}, usual is {d['usual']}: {d['why']}")
+        for word, key in (("doubt", "doubts"), ("accepted", "accepted")) for d in found.get(key) or ()
+    ]  # fmt: skip
+    spans = isinstance(found.get("min"), Mapping) and isinstance(found.get("max"), Mapping)
+    hidden = {"doubts", "accepted", *_SILENT, *(("min", "max", "angle_of_max_deg") if spans else ())}
+    rest = {k: v for k, v in found.items() if k not in hidden}
+    inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
+    said = {k: v for k, v in inner.items() if isinstance(v, list) and v and isinstance(v[0], str)}
+    rows += _rows("", {k: v for k, v in rest.items() if k not in inner}) + _rows("", said)
+    return rows + (_spans(found, units) if spans else []) + _rows("", {k: v for k, v in inner.items() if k not in said})
+
+
+def unit_of(path: str) -> tuple[str, str]:
+    """The path of a number without the unit that it carries, and its unit: `-` of a pure number, empty where unknown.
+
+    Examples
+    --------
+    >>> unit_of("per_cylinder.power_kw"), unit_of("energy.work.gas"), unit_of("friction.places.guides")
+    (('per_cylinder.power', 'kW'), ('energy.work.gas', 'J'), ('friction.places.guides', 'W'))
+    """
+    bare = re.sub(r"\[\d+\]", "", path)
+    known = next((unit for pattern, unit in _UNITS if pattern.fullmatch(bare)), None)
+    if known is not None:
+        return path, known
+    front, dot, last = path.rpartition(".")
+    stem, unit = stem_and_unit(last)
+    return f"{front}{dot}{stem}", unit
+
+
+def pretty(text: str) -> str:
+    """A unit as people write it.
+
+    Examples
+    --------
+    >>> pretty("9 kN*m"), pretty("kg*m^2"), pretty("g/(kW*h)")
+    ('9 kN m', 'kg m²', 'g/(kW h)')
+    """
+    return text.replace("*", " ").replace("^2", "²").replace("^3", "³")
+
+
+def measure(value: float, unit: str) -> str:
+    """A number with its unit for people; frequencies in Hz, what rounds to nothing is said to be.
+
+    Parameters
+    ----------
+    value : float
+        In SI, a frequency in rad/s [unit]
+    """
+    if unit in ("", "-", "1"):
+        return ratio_text(value, 5) if unit == "-" else figure(value)
+    value = 0.0 if unit in _BARE and abs(value) < _BARE[unit] else value
+    return pretty(quantity_text(value / (2 * math.pi) if unit == "Hz" else value, unit))
+
+
+def _spans(found: Mapping[str, Any], units: Mapping[str, str]) -> Rows:
+    """Least and largest of each quantity in one row, and where it is largest."""
+    low, high, where = found["min"], found["max"], found.get("angle_of_max_deg") or {}
+    rows = []
+    for key in (k for k in high if k in low and k != "phi_deg"):
+        (a, b), unit = shown_in([low[key], high[key]], units.get(key) or stem_and_unit(key)[1])
+        at = f", largest at {figure(where[key])} deg" if key in where else ""
+        rows.append((key, f"{figure(a)} to {figure(b)}{_after(unit)}{at}"))
+    return rows
+
+
+def _after(unit: str | None) -> str:
+    return "" if unit in (None, "", "-") else f" {pretty(unit or '')}"
+
+
+def _checks(found: Sequence[Any]) -> Rows:
+    """Rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first."""
+    if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
+        return _rows("", list(found))
+    order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
+    return [(f"{r['component']}: {r['quantity']}", _beside(r)) for r in order]
+
+
+def _beside(row: Mapping[str, Any]) -> str:
+    unit = row["unit"] or "-"
+    if not isinstance(row["value"], (int, float)):
+        return _text(row["value"], unit)
+    if row["limit"] is None:
+        return measure(row["value"], unit)
+    word = "" if row["holds"] else ", BELOW what is wanted"
+    return (f"{measure(row['value'], unit)}, limit {measure(row['limit'], unit)}, "
+            f"factor {figure(row['safety_factor'])}{word}")  # fmt: skip
+
+
+def _rows(prefix: str, found: Any) -> Rows:
+    """Numbers and texts by dotted name; sentences each in a row, of a long list its length and ends."""
+    if found is None or (isinstance(found, list) and all(value is None for value in found)):
+        return []  # what this case does not have
+    if isinstance(found, Mapping):
+        if found.keys() in _AS_ONE:
+            return [(prefix, _as_one(found, unit_of(f"{prefix}.value")[1]))]
+        if _harmonic(found):
+            found = {"": found}
+        if found and all(map(_harmonic, found.values())):
+            return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, found).items()]
+        found = _settled(prefix, found)
+        return [row for key, value in found.items() for row in _rows(f"{prefix}.{key}" if prefix else str(key), value)]
+    if not isinstance(found, list):
+        name, unit = unit_of(prefix) if _number(found) else (prefix, "")
+        return [(name, _text(found, unit))]
+    if isinstance(found[0], str):
+        return [(prefix, value) for value in found]
+    if isinstance(found[0], (Mapping, list)):
+        told = [row for i, value in enumerate(found[:_MOST]) for row in _rows(f"{prefix}[{i}]", value)]
+        left = len(found) - _MOST
+        return [*told, (prefix, f"and {left} more in the JSON")] if left > 0 else told
+    name, unit = unit_of(prefix)
+    return [(name, _listed(found, unit))]
+
+
+def _as_one(found: Mapping[str, Any], unit: str) -> str:
+    """A value with its confidence, or a limit with what one more of it would give."""
+    if "limit" in found:
+        per = "" if found["unit"] in (None, "-") else f" per {pretty(found['unit'])}"
+        return f"{found['limit']}, multiplier {figure(found['multiplier'])}{per}"
+    return f"{_text(found['value'], unit)} \u00b1 {_text(found['confidence'], unit)}"
+
+
+def _settled(prefix: str, found: Mapping[str, Any]) -> dict[str, Any]:
+    """A group whose numbers are 0 where they only round beside the largest of their unit."""
+    units = {k: unit_of(f"{prefix}.{k}")[1] for k, v in found.items() if isinstance(v, float)}
+    sizes = {u: max(abs(found[k]) for k in units if units[k] == u) for u in {*units.values()} - {"", "-", "1"}}
+    return {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in found.items()}
+
+
+def _listed(values: Sequence[Any], unit: str) -> str:
+    """Numbers of a list in one unit, of a long one the first and the last."""
+    if unit == "-" and len(values) == 1 and isinstance(values[0], float):
+        return measure(values[0], unit)
+    numbers = [v / (2 * math.pi) if unit == "Hz" and _number(v) else v for v in values]
+    changed, shown = shown_in(numbers, unit) if unit not in ("", "1") else (numbers, "")
+    texts = [figure(float(v)) if _number(v) else _text(v, "") for v in changed]
+    short = texts if len(texts) <= _MOST else [texts[0], "..", texts[-1]]
+    return ", ".join(short) + _after(shown)
+
+
+def _harmonic(found: Any) -> bool:
+    """Whether something is a harmonic analysis."""
+    return isinstance(found, Mapping) and found.keys() == _HARMONIC and isinstance(found["order"], list)
+
+
+def _orders(prefix: str, group: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+    """Mean and largest orders of each analysis of a group; what is round-off beside the largest of all is left out."""
+    size = max((abs(a) for one in group.values() for a in one["amplitude"] if a is not None), default=0.0)
+    told = {}
+    for name, one in group.items():
+        unit = unit_of(f"{prefix}.{name}".rstrip("."))[1]
+        seen = [(n, a) for n, a in zip(one["order"], one["amplitude"], strict=True) if a and abs(a) > _ROUNDING * size]
+        largest = sorted((p for p in seen if p[0]), key=lambda p: -abs(p[1]))[:_ORDERS]
+        parts = [f"mean {measure(a, unit)}" for n, a in seen if not n]
+        told[name] = "; ".join([*parts, *(f"order {n:g}: {measure(a, unit)}" for n, a in largest)]) or "0"
+    return told
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _text(value: Any, unit: str) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value}{_after(unit)}"
+    if isinstance(value, float):
+        return measure(value, unit)
+    return "-" if value is None else str(value)

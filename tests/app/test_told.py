@@ -1,0 +1,66 @@
+"""What a tab says of the JSON of its command: units of people, round-off named, pinned values beside their own."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from mechsym import cases
+from mechsym.app import commands
+from mechsym.app.markup import table
+from mechsym.app.told import told, unit_of
+from mechsym.cli import mechsym
+
+
+def rows(found, units=None):
+    return dict(told(found, units or {}))
+
+
+def test_numbers_stand_in_units_of_people():
+    given = {"speed_rpm": 89.0, "t_end": 2.0, "speeds": {"phi": {"mean": 9.42477796}}, "p_max_mpa": [7.4271],
+             "vibration": {"natural": [62.831853, 125.663706]}, "twist": [{"twist_peak": 0.1}]}  # fmt: skip
+    assert rows(given) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4271 MPa",
+                           "vibration.natural": "10, 20 Hz", "twist[0].twist_peak": "5.7296 deg"}  # fmt: skip
+
+
+def test_round_off_is_named_or_zero():
+    given = {"energy": {"work": {"gas": 1.1e6, "hinge": -1.9e-5}}, "power_residual": 3e-16, "tolerance": 1e-10}
+    assert rows(given) == {"power_residual": "0 (below 1e-9)", "tolerance": "1e-10", "energy.work.gas": "1100 kJ",
+                           "energy.work.hinge": "0 J"}  # fmt: skip
+
+
+def test_what_belongs_together_stands_in_one_row():
+    orders = {"order": [0.0, 1.0, 2.0], "amplitude": [9000.0, 500.0, 1e-9], "phase": [0.0, 0.1, 0.2]}
+    given = {"max": {"phi_deg": 359.0, "F": 2000.0}, "min": {"phi_deg": 0.0, "F": -10.0},
+             "angle_of_max_deg": {"F": 12.5}, "torque_orders": orders, "facts": ["one", "two"],
+             "wiebe": {"start": {"value": 0.1, "confidence": 0.01}}}  # fmt: skip
+    assert told(given, {"F": "N"}) == [
+        ("facts", "one"), ("facts", "two"), ("F", "-0.01 to 2 kN, largest at 12.5 deg"),
+        ("torque_orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe.start", "5.7296 deg ± 0.57296 deg"),
+    ]  # fmt: skip
+
+
+def test_sentences_of_one_name_stand_beside_their_own():
+    shown = table([("facts", "a"), ("facts", "b")], [("facts", "c"), ("facts", "d")])
+    assert "<td>a</td><td>c</td>" in shown and "<td>b</td><td>d</td>" in shown
+
+
+def numbers(path, found):
+    """Every number under its path."""
+    if isinstance(found, dict) and found.keys() != {"order", "amplitude", "phase"}:
+        return [n for k, v in found.items() for n in numbers(f"{path}.{k}" if path else k, v)]
+    if isinstance(found, list):
+        return [n for v in found for n in numbers(path, v)]
+    return [path] if isinstance(found, float) else []
+
+
+PAIRS = [(t, n) for n in cases.names() for t in commands.tabs(cases.load(n)) if t not in ("hinge", "size")]
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+@pytest.mark.parametrize(("tab", "name"), PAIRS)
+def test_the_unit_of_every_number_is_known(tab, name):
+    done = CliRunner().invoke(mechsym, [tab, name, "--json"])
+    found = {k: v for k, v in json.loads(done.stdout).items() if k not in ("doubts", "accepted", "min", "max")}
+    assert [path for path in numbers("", found) if not unit_of(path)[1]] == []
