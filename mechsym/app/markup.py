@@ -78,13 +78,14 @@ def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
         for i, (c, style) in enumerate(curves)
     ]  # fmt: skip
     labels = {"axisLabel": {"color": _GREY}, "nameTextStyle": {"color": _GREY}}
+    last = {"axisLabel": {"color": _GREY, "showMaxLabel": first.x[-1] % 10 == 0}}  # 359.5 would touch the one before it
     lines = {"splitLine": {"lineStyle": {"color": _GREY, "opacity": 0.25}}}
     return {
         "animation": False, "tooltip": {"trigger": "axis"},
         "title": {"text": first.y_name, "textStyle": {"fontSize": 12, "color": _GREY}},
         "grid": {"left": 70, "right": 15, "top": 30, "bottom": 40},
         "xAxis": {"type": "value", "name": first.x_name, "nameLocation": "middle", "nameGap": 25, "min": first.x[0],
-                  "max": first.x[-1], **labels, **lines},
+                  "max": first.x[-1], **labels, **last, **lines},
         "yAxis": {"type": "value", "scale": True, **labels, **lines}, "series": series,
     }  # fmt: skip
 

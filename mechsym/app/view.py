@@ -115,7 +115,9 @@ class Page:
             ui.label(knob.label).classes("w-28 text-sm break-words").props["title"] = knob.about or knob.key
             moved = ui.slider(min=min(knob.low, value), max=max(knob.high, value), step=knob.step, value=value)
             moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.key}"')
-            shown = ui.label(told_value(knob, value)).classes("shrink-0 text-right text-sm whitespace-nowrap mechsym-value")
+            shown = ui.label(told_value(knob, value)).classes(
+                "shrink-0 text-right text-sm whitespace-nowrap mechsym-value"
+            )
         moved.on_value_change(lambda e: self.move(knob.key, float(e.value)))
         self.controls[knob.key] = (moved, shown)
 
@@ -257,9 +259,12 @@ _STYLE = """<style>
   .mechsym-sliders { bottom: 0; max-height: 40vh; background: #fff; border-top: 1px solid #888; }
   .body--dark .mechsym-sliders { background: #121212; } }
 .mechsym-note { opacity: .7; }
-.mechsym-value { min-width: 5rem; }
+.mechsym-value { min-width: 5rem; white-space: nowrap; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
 .mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }
 .mechsym-table td + td { overflow-wrap: anywhere; }
 .mechsym-table td + td + td { opacity: .65; }
+@media (max-width: 767px) { /* a number beside its name, a sentence below it */
+  .mechsym-table tr { display: flex; flex-wrap: wrap; }
+  .mechsym-table td:first-child { opacity: .65; overflow-wrap: anywhere; } }
 </style>"""

@@ -132,6 +132,16 @@ def test_a_load_that_is_too_heavy_stalls_the_engine(tmp_path):
     assert answer.exit_code == 1 and json.loads(answer.stdout)["status"] == "stalled"
 
 
+def test_a_trial_step_into_no_gas_warns_of_nothing(monkeypatch):
+    def trial(*args, **kwargs):
+        assert np.isnan(np.log(np.array([-1.0]))).all()  # warns, which is an error here, where nobody expects it
+        raise StopIteration
+
+    monkeypatch.setattr("scipy.integrate.solve_ivp", trial)
+    with pytest.raises(StopIteration):
+        run_loop(loop(load("nunes-slider-crank", LIGHT)), 2000 * RPM, 5)
+
+
 def test_command(tmp_path):
     arguments = ["nunes-hypocycloid", "--loop", "3", "--json", "--out", str(tmp_path)]
     result = CliRunner().invoke(cycle_command, arguments, catch_exceptions=False)
