@@ -10,7 +10,7 @@ from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.jobs.own import is_own
-from mechsym.mechanisms.traits import is_train
+from mechsym.mechanisms.traits import is_train, rules_of
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -83,6 +83,28 @@ def _own(case: Case, data: Any) -> str | None:
     return "of a mechanism of one's own the roles tell where it rubs" if is_own(case.mechanism) else None
 
 
+def _anew(words: str) -> Callable[[Case, Any], str | None]:
+    """A reason where rules size the parts anew; parts that a case gives are checked under all of its loads."""
+    return lambda case, data: words if rules_of(case.mechanism) and "part_crosshead" not in case.sections else None
+
+
+def _chosen(case: Case, data: Any) -> str | None:
+    return (
+        None if "part_crosshead" in case.sections else "the part is sized anew, of the given one only masses are read"
+    )
+
+
+def _fine(case: Case, data: Any) -> str | None:
+    wanted = case.sections.get("sizing")
+    return "sizing.speed_step is wider" if wanted and _REACH * data.step <= wanted.speed_step else None
+
+
+def _weighed(case: Case, data: Any) -> str | None:
+    anew = rules_of(case.mechanism) == "slider crank" and "part_crosshead" not in case.sections
+    return "sized parts weigh what they weigh" if anew else None
+
+
+_REACH = 2.0  # as far as sliders go, times the value
 _NO_PLACE = "the mechanism has no such place that rubs"
 
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
@@ -93,6 +115,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
     ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
+    ("cycle", ("lhv",), ("size",), _fuel),
     ("cycle", ("c_v", "lhv", "R", "T_evc"), ("forces",), _untold_fuel),
     ("cycle", ("p_back",), (), _scavenge),
     ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
@@ -106,5 +129,15 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
     ("chamber", ("back_pressure",), ("forces",), _opposed),
     ("shaking", ("limit",), ("forces",), _said("it only judges")),
+    ("friction", (), ("size",), _said("parts are sized without friction of the joints")),
+    ("operation", ("speed",), ("size",), _anew("sized at the speeds of [speeds]")),
+    ("speeds", ("step",), ("size",), _fine),
+    ("parameters", ("I1",), ("size",), _anew("the speed is held")),
+    ("parameters", ("m1", "m2", "m3", "m4", "m5", "I01", "IC2"), ("size",), _weighed),
+    ("part_piston", ("ring_radial", "ring_axial", "land_top", "land"), ("size",), _chosen),
+    ("part_cylinder", ("flange", "bolts", "thread_mm"), ("size",), _chosen),
+    ("part_gears", ("shift",), ("size",), _chosen),
+    ("part_crank", ("pin", "web_width"), ("size",), _chosen),
+    ("part_masses", ("crankshaft",), ("size",), _chosen),
     ("startup", ("twist_limit",), ("simulate",), _said("the twist is told, and beside it the limit")),
 )

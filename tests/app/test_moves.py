@@ -80,7 +80,9 @@ def test_what_is_left_out_has_a_reason_that_follows_the_choice():
     other = idle(cases.load("zotov-89", {"rollers.friction": "rolling", "scavenging.source": "turbocharger"}), "hinge")
     assert "rollers.rolling_arm" not in other and "scavenging.warming" not in other
     assert "cycle.lhv" not in given and "cycle.lhv" in idle(cases.load("zotov-89"), "simulate")
-    assert not idle(cases.load("nunes-slider-crank"), "size")
+    sized = idle(cases.load("nunes-slider-crank"), "size")
+    assert sized["operation.speed"] == "sized at the speeds of [speeds]" and "speeds.highest" not in sized
+    assert "parameters.m4" in sized and "parameters.m4" not in idle(cases.load("moroianu"), "size")
     assert idle(cases.load("alpha-stirling"), "size")["stirling.wire"] == "kind is schmidt, without losses"
     assert idle(cases.load("nunes-slider-crank"), "forces")["friction.module"].startswith("the mechanism has no")
     assert "friction.mu_guide" in idle(cases.load("nunes-hypocycloid"), "forces")
