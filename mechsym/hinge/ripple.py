@@ -17,7 +17,8 @@ numbers are reported for the engine as built; a test holds the two together.
 from itertools import accumulate
 
 import numpy as np
-import scipy
+
+from mechsym.periodic.search import root
 
 
 def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) -> np.ndarray | None:
@@ -55,7 +56,7 @@ def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) 
     slowest = float(np.max(missing - inertia * omega**2 / 2)) + max(1e-9 * swing, 1e-14 * energy)
     if excess(slowest) > 0:
         return None
-    return phid(scipy.optimize.brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
+    return phid(root(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
 
 
 def propeller_load_speed(

@@ -12,7 +12,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -186,7 +185,7 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 @lru_cache(maxsize=64)
 def fitted(value: Periodic) -> Any:
     """Periodic piecewise polynomial of a value, to round-off; one that is such a polynomial stays as it is."""
-    if isinstance(value.value, scipy.interpolate.PPoly):
+    if hasattr(value.value, "c") and hasattr(value.value, "x"):
         return value.value
     return periodic.fit(value.value, value.kinks, value.period)
 
