@@ -71,6 +71,26 @@ def faults(figure):
     return found
 
 
+def unitless(figure):
+    """Axes that have numbers and no unit; a bar of colours has it in the title of its map."""
+    found = []
+    for axis in figure.axes:
+        if not (axis.get_visible() and axis.axison) or axis.get_label() == "<colorbar>":
+            continue
+        for one in (axis.xaxis, axis.yaxis):
+            label = one.get_label_text()
+            numbers = [t.get_text() for t in one.get_ticklabels() if t.get_visible() and re.search(r"\d", t.get_text())]
+            if (label and "[" not in label) or (not label and numbers and numbers != one_words(axis, one)):
+                found.append(label or f"no label beside {numbers[:3]}")
+    return found
+
+
+def one_words(axis, one):
+    """Names along an axis, which need no unit: ticks that were given as texts."""
+    formatter = one.get_major_formatter()
+    return [t.get_text() for t in one.get_ticklabels()] if type(formatter).__name__ == "FixedFormatter" else []
+
+
 def ids(page):
     """Ids that stand more than once in a page, and references to ids that are not there."""
     given = Counter(re.findall(r'\sid="([^"]+)"', page))

@@ -13,7 +13,7 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import appear, to_json, together, try_folder, write_summary
 from mechsym.plausible import Doubt, results, sifted
-from mechsym.quantities.display import choose, column_text, heading, shown_in
+from mechsym.quantities.display import SMALLEST, choose, column_text, heading, ratio_text, shown_in
 
 _CASES, DOUBTED, _RUN = "mechsym.cases", "mechsym.doubted", "mechsym.run"
 
@@ -207,8 +207,9 @@ def in_rows(rows: list[dict[str, Any]], keys: tuple[str, ...], unit: str = "unit
     """
     found = []
     for row in rows:
-        values, name = (
-            shown_in([row.get(key) for key in keys], row[unit]) if row[unit] else ([row.get(k) for k in keys], "")
-        )
+        values = [row.get(key) for key in keys]
+        values, name = shown_in(values, row[unit]) if row[unit] else (values, "")
+        if name == "-" and all(abs(v) < SMALLEST for v in values if isinstance(v, float)):
+            values = [ratio_text(v) if isinstance(v, float) and v else v for v in values]
         found.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
     return found

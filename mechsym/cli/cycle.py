@@ -149,13 +149,14 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     lines = [_rows(found, shown, every, units)]
     for name, one in found.get("pistons", {}).items():
         lines += ["", f"piston {name}", _rows({"speed_rpm": found["speed_rpm"], **one}, list(_SHOWN), every, {})]
+    each = found.get("each", "cylinder")
     if found["per_cylinder"] and found["cylinders"] > 1:
         one = {"speed_rpm": found["speed_rpm"], **found["per_cylinder"]}
         lines = [
-            f"engine of {found['cylinders']} cylinders",
+            f"engine of {found['cylinders']} {each}s",
             *lines,
             "",
-            "one cylinder",
+            f"one {each}",
             _rows(one, list(_ONE), every, {}),
         ]
     if every > 1:
@@ -180,7 +181,11 @@ def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list
     from mechsym.cycle.plots import cycle_picture, performance_picture
     from mechsym.files import write_quantities
 
-    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder", "pistons")}
+    flat = {
+        k: v
+        for k, v in found.items()
+        if k not in ("fractions", "loads", "cylinders", "each", "per_cylinder", "pistons")
+    }
     if found["cylinders"] > 1:
         flat |= {f"{k}_per_cylinder": v for k, v in found["per_cylinder"].items()}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]

@@ -58,7 +58,7 @@ def _write(out: Path, run: Any, found: dict[str, Any]) -> list[Path]:
     from mechsym.files import write_quantities
 
     one = curves(run)
-    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "per_cylinder")}
+    flat = {k: v for k, v in found.items() if k not in ("fractions", "loads", "cylinders", "each", "per_cylinder")}
     flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()}
     files = [
         write_quantities(out / "performance.csv", flat),

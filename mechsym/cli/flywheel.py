@@ -56,8 +56,11 @@ def _text(result: dict[str, Any]) -> str:
     ]
     if result["inertia"] is None:
         return "\n".join([*lines, f"no flywheel gives {100 * result['ripple_wanted']:.4g} %: {result['reason']}"])
+    turning = f"the {figure(result['inertia_kept'])} kg*m^2 that turn"
     lines.append(
-        f"flywheel {figure(result['inertia'])} kg*m^2 besides the {figure(result['inertia_kept'])} kg*m^2 that turn "
+        f"no flywheel is needed: {turning} keep {100 * result['ripple_wanted']:.4g} %"
+        if result["inertia"] == 0
+        else f"flywheel {figure(result['inertia'])} kg*m^2 besides {turning} "
         f"(rule of thumb: {figure(result['estimate'])} kg*m^2)"
     )
     if check["speed_ripple"] is not None:

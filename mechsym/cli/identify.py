@@ -56,15 +56,19 @@ def _end(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _shown(value: float) -> str:
-    return figure(value) if math.isfinite(value) else "no end"
+def _told_apart(value: float, low: float, high: float) -> list[str]:
+    """A value and its interval with as many digits as tell them apart."""
+    shown = [[figure(v, digits) for v in (value, low, high)] for digits in range(5, 12)]
+    texts = next((texts for texts in shown if len(set(texts)) == 3), shown[-1])
+    return [text if math.isfinite(v) else "no end" for text, v in zip(texts, (value, low, high), strict=True)]
 
 
 def _text(found: Any) -> str:
     lines = [f"{found.status} ({found.reason}): {found.samples} samples over {found.intervals} intervals"]
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
-        lines.append(f"{e.name} = {figure(e.value)}{unit}, 95 %: {_shown(e.low)} to {_shown(e.high)}")
+        value, low, high = _told_apart(e.value, e.low, e.high)
+        lines.append(f"{e.name} = {value}{unit}, 95 %: {low} to {high}{unit}")
     return "\n".join([*lines, f"left over: {_left_over(found)}"])
 
 

@@ -17,7 +17,7 @@ from mechsym.quantities import parse
 @click.option("--bore", help='Bore of a cylinder, e.g. "86 mm".')
 @click.option("--stroke", help='Stroke of a piston, e.g. "86 mm".')
 @click.option("--cylinders", type=int, help="Number of cylinders; usual for the kind when left out.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=Path("."), help="Folder to write to.")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("."), help="Folder, or FILE.toml of an engine.")
 @json_option
 def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke: str | None, cylinders: int | None,
         out: Path, as_json: bool) -> None:  # fmt: skip
@@ -39,6 +39,8 @@ def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke:
 def _mechanism(name: str | None, out: Path) -> list[Path]:
     from mechsym.cases import new_mechanism
 
+    if out.suffix or out.is_file():
+        raise BadInput(f"--out {out}: a mechanism is written as three files; give a folder, and its NAME before it")
     if name is None:
         raise BadInput("a mechanism needs a NAME: mechsym new mechanism toggle_press")
     return new_mechanism.write(name, out)
@@ -52,7 +54,13 @@ def _engine(
     bore, stroke = (_length(text, key) for text, key in zip(sizes, ("--bore", "--stroke"), strict=True))
     if kind is None:
         raise BadInput(f"an engine needs --kind: {', '.join(KINDS)}")
-    return write_engine(kind, bore, stroke, cylinders, out, name or "")
+    if out.suffix == ".toml" and not out.is_dir():
+        if name is not None:
+            raise BadInput(f"NAME {name} and --out {out} both name the file; leave one away")
+        out, name = out.parent, out.stem
+    if out.is_file():
+        raise BadInput(f"--out {out} is a file that exists; give a folder, or a file that ends in .toml")
+    return write_engine(kind, bore, stroke, cylinders, out, (name or "").removesuffix(".toml"))
 
 
 def _length(text: str | None, key: str) -> float:

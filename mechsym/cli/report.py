@@ -15,7 +15,7 @@ from mechsym.errors import BadInput, suggest
 @click.option("--parts", metavar="A,B..", help="Only these: cycle, hinge, forces, size, simulate.")
 @click.option("--date", default="", metavar="TEXT", help="Date for the title block; without it there is none.")
 @click.option("--pdf", is_flag=True, help="Print the report to PDF as well; needs a Chromium.")
-@file_option("CASE-report.html where it is left away")
+@file_option("CASE-report.html where it is left away, .html is added where it is missing")
 @set_option
 @json_option
 @click.pass_context
@@ -47,6 +47,8 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
         path = out or Path("-".join([*(case.name for case in loaded), "report.html"]))
+        if path.suffix.lower() not in (".html", ".htm"):  # a browser opens a page by its name
+            path = path.with_name(f"{path.name}.html")
         text = html(found, date)
         live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
         files = [write_text(path, with_live(text, live))]

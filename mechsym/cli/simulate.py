@@ -1,6 +1,7 @@
 """`mechsym simulate`: time simulation of a case."""
 
 import dataclasses
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,7 @@ from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, se
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.quantities import ranges
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import figure, ratio_text
 
 if TYPE_CHECKING:
     from mechsym.jobs.run import FinishedRun
@@ -110,11 +111,11 @@ def _text(report: dict[str, Any]) -> str:
     lines += ["", table(rows, ["over the last", "of", *rates], rates)]
     if report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
-        natural = ", ".join(f"{f:.6g}" for f in report["natural_frequencies"])
+        natural = ", ".join(figure(f / math.tau, 4) for f in report["natural_frequencies"])
         lines += [
             "",
             table(report["twist"], columns, dict.fromkeys(columns[1:4], "rad")),
-            f"natural frequencies {natural} rad/s",
+            f"natural frequencies {natural} Hz",
         ]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]

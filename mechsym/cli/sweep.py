@@ -102,7 +102,8 @@ def _text(found: Any, report: dict[str, Any]) -> str:
             ),
             "",
         ]
-        lines += [f"{len(report['data']) - len(rows)} more results with --json or --out" + _more(found)]
+        more = len(report["data"]) - len(rows)
+        lines += [f"{more} more results with --json or --out" + _more(found)] if more else []
     lines += _indices(report["sobol"])
     lines += [f"failed at {place(found, f['index'])}: {f['reason']}" for f in report["failed"][:5]]
     if len(report["failed"]) > 5:

@@ -70,7 +70,6 @@ def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
     """A sweep as JSON."""
     from mechsym.sweep import columns, failures
     from mechsym.sweep.sensitivity import indices
-    from mechsym.sweep.units import unit_of
 
     sampled, data = "sample" in found.dims, columns(found)
     reasons = failures(found)
@@ -83,7 +82,7 @@ def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
             a.key: {"unit": a.unit, "values": [p[i] for p in found.points] if sampled else list(a.values)}
             for i, a in enumerate(found.axes)
         },
-        "units": {name: unit_of(name) for name in data},
+        "units": {name: found.units[name] for name in data},
         # a word that is not there is null, as a number
         "data": {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()},
         "failed": [{"index": i, "at": _values(found, i), "reason": reason} for i, reason in reasons.items()],
@@ -98,9 +97,8 @@ def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
 def rows_of(found: Any) -> list[dict[str, Any]]:
     """Smallest and largest of the main results and where they are, in the unit of each."""
     from mechsym.sweep import main_results
-    from mechsym.sweep.units import unit_of
 
-    return [_row(found, name, column) | {"unit": unit_of(name)} for name, column in main_results(found).items()]
+    return [_row(found, name, column) | {"unit": found.units[name]} for name, column in main_results(found).items()]
 
 
 def _row(found: Any, name: str, column: Any) -> dict[str, Any]:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_CURVES = 6
+_NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
 
 def chain(found: Forces) -> "Figure":
@@ -109,31 +110,39 @@ def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color
 
 def orders(found: Forces) -> "Figure":
     """Orders of the torque, and of the shaking force and moments."""
-    figure, (left, middle, right) = panels(9, 3.8, 1, 3, "Orders of the torque, the shaking force and moment")
+    shown = {n: o for n, o in found.shaking.orders.items() if n != "roll"}
+    moments = {n: o for n, o in shown.items() if n.startswith("rocking")}
+    forces = {n: o for n, o in shown.items() if n not in moments}
+    acting = [(orders, si, name) for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment"))
+              if orders and max(_whole(o).max(initial=0.0) for o in orders.values()) >= _NOUGHT]  # fmt: skip
+    what = "".join(f", the shaking {name}" for *_, name in acting)
+    figure, (left, *others) = panels(9, 3.8, 1, 1 + len(acting), f"Orders of the torque{what}")
     torque = found.torque_orders
     factor, unit = axis_unit("N*m", torque.amplitude[1:])
     left.bar(torque.order[1:], torque.amplitude[1:] * factor, width=0.35, color=SERIES[0])
-    left.set(xlabel="order [-]", ylabel=f"torque amplitude [{unit}]")
-    shown = {n: o for n, o in found.shaking.orders.items() if n != "roll"}
-    moments = {n: o for n, o in shown.items() if n.startswith("rocking")}
-    _order_bars(middle, {n: o for n, o in shown.items() if n not in moments}, "N", "force on the frame")
-    _order_bars(right, moments, "N*m", "moment on the frame")
+    told = [
+        f"no {name} shakes the frame: below 1 {unit_words(si)}"
+        for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment"))
+        if all(name != shaking for *_, shaking in acting)
+    ]
+    left.set(xlabel="\n".join(["order [-]", *told]), ylabel=f"torque amplitude [{unit}]")
+    for axis, (orders, si, name) in zip(others, acting, strict=True):
+        _order_bars(axis, orders, si, f"{name} on the frame")
     return figure
 
 
+def _whole(found: Any) -> np.ndarray:
+    """Amplitudes of the first six whole orders."""
+    return np.asarray(found.amplitude)[np.isclose(found.order % 1, 0) & (found.order > 0) & (found.order <= 6)]
+
+
 def _order_bars(axis: Any, orders: dict[str, Any], si: str, name: str) -> None:
-    whole = {n: np.isclose(o.order % 1, 0) & (o.order > 0) & (o.order <= 6) for n, o in orders.items()}
-    factor, unit = axis_unit(si, *(o.amplitude[whole[n]] for n, o in orders.items()))
-    shown = distinct({_label(n): o.amplitude[whole[n]] for n, o in orders.items()})
+    factor, unit = axis_unit(si, *map(_whole, orders.values()))
+    shown = distinct({_label(n): _whole(o) for n, o in orders.items()})
     for i, (label, values) in enumerate(shown.items()):
         place = np.arange(1, len(values) + 1) + 0.8 * ((i + 0.5) / len(shown) - 0.5)
         axis.bar(place, values * factor, width=0.7 / len(shown), color=SERIES[i], label=label)
     axis.set(xlabel="order [-]", ylabel=f"{name} [{unit}]")
-    if not shown or max(v.max(initial=0.0) for v in shown.values()) < 1:  # round-off of what is balanced is no picture
-        axis.set_ylim(0, 1)
-        axis.set_yticks([])
-        text = f"balanced:\nbelow 1 {unit_words(si)}"
-        axis.text(0.5, 0.5, text, transform=axis.transAxes, ha="center", fontsize=8, color=QUIET)
     legend(axis)
 
 

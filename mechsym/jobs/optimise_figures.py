@@ -20,7 +20,7 @@ _UNITS = {
 }  # fmt: skip
 _PLAIN = {"torque_avg": "N*m", "torque_max": "N*m", "brake_torque": "N*m", "force_max": "N"}
 _JUMPS = 2e-4  # of the figures of gas exchange, as a timing passes one of its half degrees [-]
-_NO_FIGURES = ("speed_rpm", "cylinders", "energy_residual", "mass_residual")
+_NO_FIGURES = ("speed_rpm", "cylinders", "each", "energy_residual", "mass_residual")
 
 
 def programme(case: Case, section: Optimise, asked: Mapping[str, Any]) -> FigureProgramme:

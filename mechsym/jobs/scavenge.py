@@ -17,6 +17,7 @@ from mechsym.cycle.motion import one_cylinder, piston_travel
 from mechsym.errors import BadInput
 from mechsym.jobs.starts import guesses
 from mechsym.quantities import RPM
+from mechsym.quantities.display import quantity_text
 
 
 def follows(case: Case) -> bool:
@@ -74,8 +75,8 @@ def told(found: Gas, state: ScavengeState | None) -> Gas:
 def facts(state: ScavengeState) -> tuple[str, ...]:
     """How the turbocharger runs, in sentences."""
     return (
-        f"turbocharger: scavenge air {state.p_s / 1e5:.3f} bar and {state.T_s:.0f} K, before the turbine "
-        f"{state.p_r / 1e5:.3f} bar and {state.T_r:.0f} K, compressor ratio {state.ratio:.2f}",
+        f"turbocharger: scavenge air {quantity_text(state.p_s, 'Pa', 4)} and {state.T_s:.0f} K, before the turbine "
+        f"{quantity_text(state.p_r, 'Pa', 4)} and {state.T_r:.0f} K, compressor ratio {state.ratio:.2f}",
         f"scavenging: {state.delivery:.2f} times the cylinder's volume of air, {100 * state.residual:.0f} % stays "
         f"burnt gas; the exhaust closes on {state.T_evc:.0f} K",
         f"mean-value balance: mass closed to {state.mass_residual:.1g}, energy to {state.energy_residual:.1g}",

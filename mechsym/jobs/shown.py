@@ -34,7 +34,7 @@ def cycle_view(found: CycleFigures) -> View:
             k = int(np.nanargmax(values))
             told = "" if one else f"largest, at {figure(float(rpm[k]), 4)} rpm"
             if cylinders > 1 and key in found.get("per_cylinder", {}):
-                told = f"{told + ', ' if told else ''}of {cylinders} cylinders together"
+                told = f"{told + ', ' if told else ''}of {cylinders} {found.get('each', 'cylinder')}s together"
             cards.append(Card(name=name, value=quantity_text(factor * float(values.flat[k]), unit, 4), about=told))
     best = np.asarray(found.get("efficiency", np.nan), dtype=float)
     if np.isfinite(best).any():
@@ -118,9 +118,11 @@ def optimised_view(found: Optimised) -> View:
     cards = [
         Card(name="optimum", value=best.status, about=best.reason, mark="yes" if best.status == "optimal" else "no")
     ]
-    cards += [Card(name="objective", value=figure(best.objective, 5), about="SI")]
-    cards += [Card(name=name, value=figure(value, 5), about="SI") for name, value in best.variables.items()]
-    cards += [Card(name=f"limit {row['name']}", value=f"{row['side']} {figure(row['limit'], 5)} {row['unit']}",
+    aim = next((name for name, v in best.figures.items() if v == best.objective), "")
+    cards += [Card(name="objective", value=quantity_text(best.objective, found.units.get(aim, "-")), about=aim)]
+    cards += [Card(name=name, value=quantity_text(value, found.units.get(name, "-")))
+              for name, value in best.variables.items()]  # fmt: skip
+    cards += [Card(name=f"limit {row['name']}", value=f"{row['side']} {quantity_text(row['limit'], row['unit'])}",
                    about=row["meaning"]) for row in best.active]  # fmt: skip
     points = found.front or (best,)
     return View(title="Best design", cards=tuple(cards), columns=lambda: {
@@ -134,10 +136,12 @@ def run_view(run: FinishedRun) -> View:
     told = run.summary
     mean, low, high = told["speed_mean"], told["speed_min"], told["speed_max"]
     good = told["status"] not in ("failed", "not converged", "chaotic")
+    share = (high - low) / mean if mean else None
+    ripple = "–" if share is None else ratio_text(share) if abs(share) < 1e-6 else f"{figure(100 * share, 3)} %"
     cards = [
         Card(name="run", value=told["status"], about=told["reason"], mark="" if good else "no"),
         Card(name="mean speed", value=quantity_text(mean, "rad/s", 4), about=f"{span(low, high)} over the last period"),
-        Card(name="speed ripple", value=ratio_text((high - low) / mean) if mean else "–", about="of the last period"),
+        Card(name="speed ripple", value=ripple, about="of the last period"),
         Card(name="energy residual", value=ratio_text(told["energy_residual"], 2), about="of the work brought in"),
     ]  # fmt: skip
     cards += [Card(name=f"twist of section {s.section}", value=quantity_text(s.twist_peak, "rad", 4), about="peak")

@@ -112,9 +112,9 @@ def check_printed(case: Case) -> Sizing:
     """
     if _given_drive(case):
         return _crosshead(case)
-    one = task(case)
     if not rules_of(case.mechanism):
         raise _unsized(case)
+    one = task(case)
     if rules_of(case.mechanism) == "slider crank":
         raise BadInput(f"{case.file}: the case prints no parts; leave out --as-printed")
     reference = printed_parts(one.case)

@@ -37,6 +37,7 @@ class CylinderCount:
 
     count: int  #: Chambers of a crank train, working faces of a rodless engine
     share: float  #: What one cylinder's figures are multiplied with for the engine [-]
+    each: str = "cylinder"  #: What is counted: a cylinder, or a piston where two share one
 
 
 def cylinders(case: Case) -> CylinderCount:
@@ -59,7 +60,22 @@ def cylinders(case: Case) -> CylinderCount:
     with of(case):
         _refuse_unlike(case, parameters)
     count = len(parameters.throw) // int(getattr(case.sections.get("chamber"), "pistons", 1))
-    return CylinderCount(count=count, share=float(count))
+    return CylinderCount(count=count, share=float(count), each="piston" if _face_each_other(parameters) else "cylinder")
+
+
+def _face_each_other(parameters: CrankTrainParameters) -> bool:
+    """Whether the pistons of a crank train stand in pairs on one axis, each towards the other's crank."""
+    bank, at = (np.asarray(each(parameters, name)) for name in ("bank", "axis_x"))
+    throw, across = np.asarray(parameters.throw) - 1, np.asarray(each(parameters, "axis_y"))
+    place, along = at[throw] + 1j * across[throw], np.asarray(each(parameters, "z"))[throw]
+
+    def faces(i: int, k: int) -> bool:
+        way = (place[k] - place[i]) * np.exp(-1j * bank[i])  # from crank to crank, along the first one's axis
+        turned = abs(np.exp(1j * (bank[k] - bank[i])) + 1) < _ALIKE
+        return bool(turned and along[i] == along[k] and way.real > 0 and abs(way.imag) < _ALIKE * way.real)
+
+    pistons = range(len(throw))
+    return all(any(faces(i, k) for k in pistons if k != i) for i in pistons)
 
 
 def piston_travels(case: Case) -> dict[str, np.ndarray]:
@@ -124,10 +140,10 @@ def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.
     counted = cylinders(case)
     own = {name: found[name] for name in (*_ADD, _NOT_LARGER) if name in found}
     if counted.count == 1:
-        return {**found, "cylinders": 1, "per_cylinder": own}
+        return {**found, "cylinders": 1, "each": counted.each, "per_cylinder": own}
     whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
     whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)
-    return {**found, **whole, "cylinders": counted.count, "per_cylinder": own}
+    return {**found, **whole, "cylinders": counted.count, "each": counted.each, "per_cylinder": own}
 
 
 def largest_torque(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:

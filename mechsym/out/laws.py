@@ -86,7 +86,7 @@ def load_law(part: str, load: Load, speed: int) -> Law:
             return Law(part=part, parameters=(port,), value=lambda t, q, u, p, w, s: p["load_torque"])
         case PropellerLoad(torque=float(number), speed=float(reference)):
             ports = (
-                Port(name="load_torque", unit="N*m", start=number, about=f"{torque} at load_speed"),
+                Port(name="load_torque", unit="N*m", start=number, about=f"{torque} at its speed of reference"),
                 Port(name="load_speed", unit="rad/s", start=reference, about="speed of reference of the load"),
             )
             return Law(

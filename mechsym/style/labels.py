@@ -77,7 +77,7 @@ def envelope(axis: Any, t: np.ndarray, y: np.ndarray, color: str, label: str | N
     t, y : ndarray, shape (n,)
         Time and values, in the units of the panel [-]
     """
-    swings = np.count_nonzero(np.diff(np.sign(np.diff(y))))
+    swings = np.abs(np.diff(y)).sum() / (np.ptp(y) or 1.0)  # through all of its range, so that ripples do not count
     if swings <= MOST_SWINGS:
         axis.plot(t, y, color=color, linewidth=0.9, label=label)
         return

@@ -45,7 +45,9 @@ def single(case: Case) -> dict[str, Any]:
 
 
 def _of_the_engine(found: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: values for name, values in found.items() if name not in ("cylinders", "per_cylinder", "pistons")}
+    return {
+        name: values for name, values in found.items() if name not in ("cylinders", "each", "per_cylinder", "pistons")
+    }
 
 
 def families(found: Sequence[Case]) -> list[list[int]]:

@@ -10,7 +10,6 @@ from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_quantities, write_with
 from mechsym.sweep.outcomes import Gap, asked
 from mechsym.sweep.run import Sweep
-from mechsym.sweep.units import unit_of
 
 MAIN = {
     "simulate": ("speed_mean", "speed_min", "speed_max", "twist_peak", "torque_peak", "t_end"),
@@ -88,7 +87,7 @@ def dataset(result: Sweep) -> Any:
         if name in along and _same(values, along[name]):
             continue
         label = f"result.{name}" if name in along else name
-        variables[label] = (names, values.reshape(shape), _units(unit_of(name)))
+        variables[label] = (names, values.reshape(shape), _units(result.units[name]))
     reasons = failures(result)
     texts = np.array([reasons.get(i, "") for i in range(len(result.points))])
     variables["failure"] = (names, texts.reshape(shape), {"long_name": "why there is no result"})
@@ -118,7 +117,7 @@ def write_table(result: Sweep, folder: Path) -> Path:
     reasons = failures(result)
     table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()}
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
-    return write_quantities(folder / "sweep.csv", table, {name: unit_of(name) for name in table if "[" not in name})
+    return write_quantities(folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if "[" not in n})
 
 
 def write_netcdf(result: Sweep, folder: Path) -> Path:

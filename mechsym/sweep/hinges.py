@@ -41,10 +41,15 @@ def designed(show: Collection[str]) -> Callable[[Case], dict[str, Any]]:
     """Designs with what is shown; how they run is computed only where a name asks for it."""
 
     def one(case: Case) -> dict[str, Any]:
+        from mechsym.hinge.springs import Coil
         from mechsym.hinge.summary import KEYS, summary
         from mechsym.jobs.hinge import hinge
 
-        return summary(hinge(case), KEYS if "all" in show else {name.partition(".")[0] for name in show})
+        found = summary(hinge(case), KEYS if "all" in show else {name.partition(".")[0] for name in show})
+        if "retune" in found:
+            unit = "N" if isinstance(case.need("spring"), Coil) else "Pa"
+            found["retune"] = {f"p0 [{unit}]" if key == "p0" else key: v for key, v in found["retune"].items()}
+        return found
 
     return one
 

@@ -108,5 +108,6 @@ def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float
 
 
 def asked(name: str, show: str) -> bool:
-    """Whether a name or group that is shown means a result."""
+    """Whether a name or group that is shown means a result, whose name may carry its unit."""
+    name = name.partition(" [")[0]
     return name == show or name.startswith(f"{show}.")

@@ -10,7 +10,6 @@ from mechsym.quantities.names import stem_and_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.palette import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
-from mechsym.sweep.units import unit_of
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
@@ -116,7 +115,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
     figure, axes = _panels(result, shown)
     figure.suptitle(_title(result, free), fontsize=10)
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        drawn, told = _scaled(name, column, unit_of(name))
+        drawn, told = _scaled(name, column, result.units[name])
         values = np.atleast_2d(_slice(result, free, drawn).T)
         x, across = _ticks(axis, along)
         for k, y in enumerate(values):
@@ -144,7 +143,7 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
     figure.suptitle(_title(result, list(over)), fontsize=10)
     (x, across), (y, upwards) = (_scaled(a.key, np.array(a.values), a.unit) for a in (right, up))
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        drawn, told = _scaled(name, column, unit_of(name))
+        drawn, told = _scaled(name, column, result.units[name])
         values = _slice(result, list(over), drawn).T
         axis.set_facecolor(NOTHING)
         axis.grid(False)
@@ -174,7 +173,7 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
     inputs = np.array(result.points, dtype=float).T
     for k, (name, column) in enumerate(shown.items()):
         there = np.isfinite(column)
-        y, told = _scaled(name, column[there], unit_of(name))
+        y, told = _scaled(name, column[there], result.units[name])
         upper, lower = axes[k], axes[len(shown) + k]
         upper.hist(y, bins=min(40, max(5, round(np.sqrt(y.size)))), color=BLUE)
         upper.axvline(y.mean(), color=RED, linewidth=1)

@@ -22,6 +22,7 @@ from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
 from mechsym.sweep.stopping import asked_to_stop
 from mechsym.sweep.ties import Ties, ties
+from mechsym.sweep.units import unit_of
 
 Progress = Callable[[int], Any]
 INTERRUPTED = Gap(reason="interrupted")
@@ -83,10 +84,22 @@ class Sweep:
     @functools.cached_property
     def by_name(self) -> dict[str, np.ndarray]:
         """Results by name, one for each point; see `data.columns` [SI, or as the name says]."""
-        rows = [{} if isinstance(o, Gap) else o for o in self.outcomes]
+        bare = {name: name.partition(" [")[0] for name in self._names}
+        rows = [{} if isinstance(o, Gap) else {bare[name]: value for name, value in o.items()} for o in self.outcomes]
         names = dict.fromkeys(name for keys in dict.fromkeys(map(tuple, rows)) for name in keys)
         gaps = {name: "" if name in WORDS else math.nan for name in names}
         return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
+
+    @functools.cached_property
+    def units(self) -> dict[str, str]:
+        """Unit of each result, that its name carries or tells; `-` of a pure number, empty of a word."""
+        told = {name: name.partition(" [")[::2] for name in self._names}
+        return {stem: unit.rstrip("]") or unit_of(stem) for stem, unit in told.values()}
+
+    @functools.cached_property
+    def _names(self) -> list[str]:
+        found = (o for o in self.outcomes if not isinstance(o, Gap))
+        return list(dict.fromkeys(name for names in dict.fromkeys(map(tuple, found)) for name in names))
 
 
 @record

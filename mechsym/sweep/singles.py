@@ -15,7 +15,7 @@ def forces(case: Case) -> dict[str, Any]:
 
 
 def size(case: Case) -> dict[str, Any]:
-    """Rows of `mechsym size` as component.quantity, with .limit and .safety_factor of a check."""
+    """Rows of `mechsym size` as component.quantity with its unit, and .limit and .safety_factor of a check."""
     from mechsym.jobs.size import size as sized
 
     found = sized(case)
@@ -23,10 +23,11 @@ def size(case: Case) -> dict[str, Any]:
     for row in found.rows:
         name = f"{row['component']}.{row['quantity']}".replace(" ", "_")
         # one quantity may be held against several rules
-        name = name if name not in numbers else f"{name}.{row['rule']}".replace(" ", "_")
-        numbers[name] = row["value"]
+        unit = f" [{row['unit'] or '-'}]"
+        name = name if name + unit not in numbers else f"{name}.{row['rule']}".replace(" ", "_")
+        numbers[name + unit] = row["value"]
         if row["limit"] is not None:
-            numbers |= {f"{name}.{key}": row[key] for key in ("limit", "safety_factor")}
+            numbers |= {f"{name}.limit{unit}": row["limit"], f"{name}.safety_factor [-]": row["safety_factor"]}
     return numbers
 
 

@@ -1,10 +1,9 @@
 """A start-up in sentences and in numbers: what held it, whether the model bears it, and what the source says."""
 
+import math
 from typing import Any
 
-import numpy as np
-
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import figure, quantity_text
 from mechsym.torsion.startup import StartUp
 
 _HIGHEST = 4  # orders above are too weak to speak of
@@ -14,9 +13,9 @@ def findings(found: StartUp) -> tuple[str, ...]:
     """What happens and whether the model bears it."""
     end = float(found.result.t[-1])
     return (
-        f"natural frequency {found.natural_bare:.3f} rad/s bare, {found.natural:.3f} rad/s with the mean "
-        "reciprocating inertia",
-        f"a rigid shaft would gain {found.rigid_rate:.4f} rad/s^2 and reach {_rigid(found, end):.2f} rad/s at "
+        f"natural frequency {_hertz(found.natural_bare)} bare, {_hertz(found.natural)} with the mean reciprocating "
+        "inertia",
+        f"a rigid shaft would gain {_speed(found.rigid_rate)} each second and reach {_speed(_rigid(found, end))} at "
         f"{end:g} s at most",
         *_passages(found),
         *_validity(found),
@@ -49,6 +48,14 @@ def numbers(found: StartUp) -> dict[str, Any]:
     }
 
 
+def _speed(value: float) -> str:
+    return quantity_text(value, "rad/s", 4)
+
+
+def _hertz(value: float) -> str:
+    return f"{figure(value / math.tau, 4)} Hz"
+
+
 def _rigid(found: StartUp, t: float) -> float:
     return found.rigid_rate * max(t - found.drive.time, 0.0)
 
@@ -60,15 +67,15 @@ def _passages(found: StartUp) -> list[str]:
         if critical.order in held:
             lines.append(
                 f"order {critical.order:g} can hold a drive of {found.drive.torque:g} N*m at "
-                f"{critical.speed:.2f} rad/s while c1 < {damping:.3f} N*m*s/rad (c1 = {found.c1:g})"
+                f"{_speed(critical.speed)} while c1 < {damping:.3f} N*m*s/rad (c1 = {found.c1:g})"
             )
         elif critical.speed < reached and critical.order <= _HIGHEST:
-            lines.append(f"order {critical.order:g} at {critical.speed:.2f} rad/s is passed")
+            lines.append(f"order {critical.order:g} at {_speed(critical.speed)} is passed")
     for c in found.captures:
         left = "then leaves it" if c.released else "and is still held at the end"
         lines.append(
             f"from {c.t_start:.1f} s to {c.t_end:.1f} s the shaft is held at order {c.critical.order:g}, "
-            f"{c.critical.speed:.2f} rad/s: the drive feeds the vibration, not the speed; {left}"
+            f"{_speed(c.critical.speed)}: the drive feeds the vibration, not the speed; {left}"
         )
     return lines or ["no resonance is reached"]
 
@@ -76,14 +83,17 @@ def _passages(found: StartUp) -> list[str]:
 def _validity(found: StartUp) -> list[str]:
     times = found.torque_peak / abs(found.drive.torque) if found.drive.torque else float("inf")
     lines = [
-        f"largest twist {found.twist_peak:.4f} rad ({np.degrees(found.twist_peak):.1f} deg), shaft torque "
-        f"{quantity_text(found.torque_peak, 'N*m', 4)}, {times:.0f} times the drive's"
+        f"largest twist {quantity_text(found.twist_peak, 'rad', 3)}, shaft torque "
+        f"{quantity_text(found.torque_peak, 'N*m', 4)}, {figure(times, 3)} times the drive's"
     ]
     limit = found.claim.twist_limit
     if found.twist_peak > limit:
-        lines.append(f"the model does not hold: the twist is beyond {limit:g} rad, no linear spring nor a whole shaft")
+        lines.append(
+            f"the model does not hold: the twist is beyond {quantity_text(limit, 'rad', 3)}, no linear spring nor a "
+            "whole shaft"
+        )
     if found.speed_min < -1e-3 * found.speed_max:
-        lines.append(f"the crank runs backwards within a turn (down to {found.speed_min:.1f} rad/s)")
+        lines.append(f"the crank runs backwards within a turn (down to {_speed(found.speed_min)})")
     return lines
 
 
@@ -93,14 +103,15 @@ def _claim(found: StartUp) -> list[str]:
         return []
     allowed = _rigid(found, max(since, end))
     line = (
-        f"the source's {speed:g} rad/s from {since:g} s on is {'beyond' if speed > allowed else 'within'} what the "
-        f"drive's work allows ({_rigid(found, since):.1f} rad/s then, {allowed:.1f} rad/s at {max(since, end):g} s)"
+        f"the source's {speed:g} rad/s ({_speed(speed)}) from {since:g} s on is "
+        f"{'beyond' if speed > allowed else 'within'} what the drive's work allows ({_speed(_rigid(found, since))} "
+        f"then, {_speed(allowed)} at {max(since, end):g} s)"
     )
     after = found.t >= since
     if after.any():
         low, high = found.speed_mean[after].min(), found.speed_mean[after].max()
         line += (
-            f"; the mean speed found there is {low:.2f} to {high:.2f} rad/s, and the crank peaks at "
-            f"{found.speed_max:.1f} rad/s in the whole run"
+            f"; the mean speed found there is {_speed(float(low))} to {_speed(float(high))}, and the crank peaks at "
+            f"{_speed(found.speed_max)} in the whole run"
         )
     return [line]

@@ -7,6 +7,7 @@ settle elsewhere, for the work that should raise the speed goes into the vibrati
 import numpy as np
 
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
 from mechsym.simulate import Result
 
 _NEAR = 0.02  # a mean speed this close to a critical one counts as being at it [-]
@@ -60,22 +61,26 @@ def settling(
     )  # fmt: skip
 
 
+def _speed(value: float) -> str:
+    return quantity_text(value, "rad/s", 4)
+
+
 def sentences(found: Settling) -> tuple[str, ...]:
     """What a reader of the run should know."""
     lines = [
-        f"from {found.speed_start:.2f} rad/s the engine {'settles at' if found.settled else 'has come to'} "
-        f"{found.speed_end:.2f} rad/s{'' if found.settled else ', which still changes'}"
+        f"from {_speed(found.speed_start)} the engine {'settles at' if found.settled else 'has come to'} "
+        f"{_speed(found.speed_end)}{'' if found.settled else ', which still changes'}"
     ]
     if found.speed_rigid is not None:
-        lines.append(f"on a rigid shaft gas and load are in balance at {found.speed_rigid:.2f} rad/s")
-    lines += [f"order {order:g} at {speed:.2f} rad/s is passed" for order, speed in found.passed]
+        lines.append(f"on a rigid shaft gas and load are in balance at {_speed(found.speed_rigid)}")
+    lines += [f"order {order:g} at {_speed(speed)} is passed" for order, speed in found.passed]
     if found.at is None:
         lines.append("it runs at no critical speed")
     elif found.held:
-        lines.append(f"order {found.at[0]:g} holds it at its critical speed of {found.at[1]:.2f} rad/s")
+        lines.append(f"order {found.at[0]:g} holds it at its critical speed of {_speed(found.at[1])}")
     else:
         lines.append(
-            f"order {found.at[0]:g} has a critical speed of {found.at[1]:.2f} rad/s, within 2 % of where it runs: the "
+            f"order {found.at[0]:g} has a critical speed of {_speed(found.at[1])}, within 2 % of where it runs: the "
             "balance of gas and load puts it there, the critical does not hold it, but it vibrates"
         )
     return tuple(lines)

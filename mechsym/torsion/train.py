@@ -203,7 +203,8 @@ def doubts(found: TrainVibration, twist: Sequence[ShaftSection] = ()) -> tuple[D
     told: tuple[Doubt, ...] = ()
     for c in found.criticals:
         if abs(c.away) <= _NEAR:
-            what = f"order {c.order:g}, critical at {c.speed:.4g} rad/s: magnification at {found.omega:.4g} rad/s"
+            what = f"order {c.order:g}, critical at {quantity_text(c.speed, 'rad/s', 4)}: magnification at "
+            what += quantity_text(found.omega, "rad/s", 4)
             told += proportion("critical", what, c.magnification)
     for section, limit in zip(twist, found.twist_limit if twist else (), strict=True):
         if section.twist_peak > limit:

@@ -69,8 +69,9 @@ def test_the_commands_take_it_as_it_is(engine, written):
     for command in ("check", "cycle", "forces"):
         done = run(command, path, "--json", "--strict")
         assert done.exit_code == 0, done.output
-    counted = json.loads(run("cycle", path, "--json").output)["cylinders"]
-    assert counted == engine[3] * (2 if engine[0] == "opposed" else 1)
+    cycle, opposed = json.loads(run("cycle", path, "--json").output), engine[0] == "opposed"
+    assert cycle["cylinders"] == engine[3] * (2 if opposed else 1)
+    assert cycle["each"] == ("piston" if opposed else "cylinder")
     if engine[0] == "two-stroke-crosshead" and engine[3] == 1:
         assert json.loads(run("hinge", path, "--json").output)["guide"]["feasible"]
 
@@ -92,6 +93,19 @@ def test_one_cylinder_is_carried_over_its_compression(written):
 def test_what_is_missing_is_said(words, message, tmp_path):
     with pytest.raises(BadInput, match=message):
         run("new", *words, "--out", tmp_path)
+
+
+def test_out_may_name_the_file(tmp_path):
+    sizes = ("--kind", "inline", "--bore", "86 mm", "--stroke", "86 mm")
+    run("new", "engine", *sizes, "--out", tmp_path / "my.toml")
+    run("new", "engine", "other.toml", *sizes, "--out", tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == ["my.toml", "other.toml"]
+    with pytest.raises(BadInput, match="exists"):
+        run("new", "engine", *sizes, "--out", tmp_path / "my.toml")
+    with pytest.raises(BadInput, match="both name the file"):
+        run("new", "engine", "third", *sizes, "--out", tmp_path / "fourth.toml")
+    with pytest.raises(BadInput, match="give a folder"):
+        run("new", "mechanism", "press", "--out", tmp_path / "press.toml")
 
 
 def test_nothing_is_overwritten(tmp_path):

@@ -34,7 +34,7 @@ def test_start_up_keys_and_files(tmp_path):
         .read_text()
         .startswith("t [s],phi0 [rad],phi2 [rad],phi0d [rad/s],phi2d [rad/s],work_drive [J]")
     )
-    assert any("natural frequency 190.281 rad/s bare" in line for line in found["findings"])
+    assert any("natural frequency 30.28 Hz bare" in line for line in found["findings"])
     assert found["files"][0].endswith("series.csv")
 
 

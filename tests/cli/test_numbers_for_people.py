@@ -28,10 +28,23 @@ TABLES = [("hinge", "zotov-89"), ("forces", "opposed-pistons"), ("forces", "bala
           ("compare", "nunes-slider-crank", "nunes-hypocycloid", "--speeds", "2000,6000"),
           pytest.param(("sweep", "nunes-slider-crank", "--over", "chamber.compression_ratio=8..14:2"),
                        marks=pytest.mark.heavy),
+          ("sweep", "nunes-hypocycloid", "--of", "forces", "--over", "speed_rpm=2000,3000"),
+          *(pytest.param(("sweep", *words), marks=pytest.mark.heavy)
+            for words in (("nunes-hypocycloid", "--of", "size", "--over", "speed_rpm=4000"),
+                          ("balandin", "--of", "forces", "--over", "speed_rpm=1500"),
+                          ("zotov-89", "--show", "all", "--over", "spring.p0=5 MPa"))),
+          ("size", "nunes-slider-crank"), ("flywheel", "zotov-89"),
           ("simulate", "alpha-stirling", "--set", "simulation.turns=3")]  # fmt: skip
 WITHOUT = re.compile(
     r"^(source|mechanism|verdict|note|failure|phi_deg|quantity|unit|a|b|.*_(rpm|bar|mpa|kpa|kw|deg|g_kwh|pa|k|m3|n|nm|j))$"
 )
+
+
+# every command that a case can run, but those above
+_MORE = {
+    "eval": (), "forces": (), "cycle": (), "hinge": (), "size": (), "simulate": ("--set", "simulation.turns=2"),
+    "flywheel": (), "report": (), "optimise": (),
+}  # fmt: skip
 
 
 def run(*words):
@@ -63,6 +76,23 @@ def test_no_digits_of_round_off(words, tmp_path, monkeypatch):
     text = "\n".join([run(*words).output, *map(read, tmp_path.rglob("*.html"))])
     assert text and not round_off(text), round_off(text)
     assert not re.findall(r"\b\d{3}_[0-9a-f]{16}\b", text)  # a source has a name
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", cases.names())
+def test_no_digits_of_round_off_in_any_command_of_a_case(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    able = [c for c, missing in json.loads(run("check", name, "--json").output)["commands"].items() if not missing]
+    found = {}
+    for command in sorted({*able, "report"} & set(_MORE)):
+        more = _MORE[command] if command != "simulate" or "cycle" in able else ()
+        words = ("eval", cases.load(name).mechanism, "--case", name) if command == "eval" else (command, name, *more)
+        done = run(*words)
+        assert done.exit_code in (0, 1) or "diagram" in done.output, done.output
+        found[command] = round_off(done.output)
+    found["pages"] = [n for page in tmp_path.rglob("*.html") for n in round_off(read(page))]
+    assert {command: tiny for command, tiny in found.items() if tiny} == {}
 
 
 @pytest.mark.slow

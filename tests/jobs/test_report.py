@@ -81,6 +81,11 @@ def test_units_are_obeyed_in_text_tables_and_axes(tmp_path):
     assert " hp" in text and " psi" in text and "kW" not in text and "MPa" not in text
 
 
+def test_a_page_is_named_so_that_a_browser_opens_it(tmp_path):
+    done = run("balandin", "--parts", "cycle", "--out", str(tmp_path / "mine"))
+    assert done.exit_code == 0 and (tmp_path / "mine.html").is_file() and not (tmp_path / "mine").exists()
+
+
 def test_an_own_case_fills_the_title_block(tmp_path):
     case = tmp_path / "mine.toml"
     case.write_text(

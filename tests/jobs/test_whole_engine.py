@@ -12,6 +12,7 @@ from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.turn import turn
+from mechsym.jobs.whole_engine import cylinders
 
 SIX = """
 mechanism = "crank_train"
@@ -85,6 +86,14 @@ def test_both_commands_refuse_the_same_firing_order(six, command):
     path = six(firing='["0 deg", "120 deg", "240 deg", "360 deg", "480 deg", "600 deg"]')
     with pytest.raises(BadInput, match='cylinder 4 .* firing = \\["0 deg", "480 deg", "240 deg", "600 deg"'):
         CliRunner().invoke(mechsym, [command, path], catch_exceptions=False)
+
+
+def test_pistons_that_face_each_other_are_no_cylinders():
+    pair = cases.load("opposed-pistons")
+    assert (cylinders(pair).count, cylinders(pair).each) == (2, "piston")
+    apart = cases.load("opposed-pistons", {"parameters.axis_y": [0.0, 0.1]})
+    away = cases.load("opposed-pistons", {"parameters.axis_x": [0.0, -0.46]})
+    assert cylinders(apart).each == cylinders(away).each == "cylinder"
 
 
 def test_opposed_pistons_share_a_chamber(six):

@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from mechsym import cases
 from mechsym.cli import mechsym
+from mechsym.cli.identify import _told_apart
 from mechsym.errors import BadInput
 from mechsym.jobs.identify import identify
 from mechsym.optimise.trace import read_trace
@@ -97,6 +98,11 @@ def test_an_interval_ends_where_the_best_motion_gets_worse_by_what_it_says(tmp_p
 
 
 @pytest.mark.slow
+def test_an_interval_is_printed_with_the_digits_that_it_needs():
+    assert _told_apart(0.58, 0.5799991, 0.5800009) == ["0.58", "0.579999", "0.580001"]
+    assert _told_apart(6500.0, 6400.0, float("inf")) == ["6500", "6400", "no end"]
+
+
 def test_command_writes_json_picture_and_table(tmp_path, speeds):
     file = written(tmp_path, speeds)
     settings = [word for key, value in GIVEN.items() for word in ("--set", f"{key}={value}")]

@@ -129,6 +129,24 @@ def test_numbers_are_shown_in_the_units_that_were_chosen(exported, monkeypatch):
     assert build._data(exported("zotov-89")[1])["shown"]["rad/s"][1] == "rpm"
 
 
+def test_what_acts_is_told_with_its_kind(exported, monkeypatch):
+    from mechsym.out.web import build
+
+    monkeypatch.setattr(build, "webassembly", lambda block: b"")
+    told = [(a["label"], a["unit"]) for a in build._data(exported("zotov-89")[1])["acting"]]
+    assert told == [("gas", "N"), ("hinge", "N*m"), ("load", "N*m")]
+
+
+@pytest.mark.slow
+def test_ticks_are_round(opened):
+    tab, errors, _ = opened("zotov-89")
+    read = lambda *words: [text for _, text in tab.evaluate("w => mechsym.ticks(...w)", list(words))]  # noqa: E731
+    assert read(0, 362.2, 4, True) == ["0", "180", "360"]
+    assert read(3984.7, 4033.8, 5) == ["3990", "4000", "4010", "4020", "4030"]
+    assert read(-0.0513, 0.0721, 5) == ["-0.05", "0.00", "0.05"] and read(0, 0.3, 4) == ["0.0", "0.1", "0.2", "0.3"]
+    assert errors == []
+
+
 @pytest.mark.slow
 def test_the_page_shows_the_chosen_units(browser, tmp_path):
     path = tmp_path / "p.html"

@@ -3,7 +3,7 @@
 import pytest
 from built_in import DATA, needed
 from click.testing import CliRunner
-from pictures import colours, drawn, faults, ids
+from pictures import colours, drawn, faults, ids, unitless
 
 from mechsym import style
 from mechsym.cli import mechsym
@@ -48,6 +48,7 @@ def look(monkeypatch, folder, words):
         assert "<title id=" in text and "<desc id=" in text and "<text" in text
         assert colours(text) <= set(style.DARK) or words[0] in _MAPS
     assert {figure.get_label() or str(i): faults(figure) for i, figure in enumerate(figures) if faults(figure)} == {}
+    assert {figure.get_label(): unitless(figure) for figure in figures if unitless(figure)} == {}
 
 
 @pytest.mark.parametrize(("command", "case"), [marked(run) for run in RUNS])
@@ -77,6 +78,9 @@ def test_new_engines(name, command, tmp_path, monkeypatch):
         ["compare", "nunes-slider-crank", "nunes-hypocycloid"],
         ["simulate", "chmielewski", "--dampings", "1,5"],
         ["sweep", "zotov-89", "--over", "spring.p0=4..6 MPa:3"],
+        ["sweep", "zotov-89", "--of", "guides", "--over", "spring.p0=4..6 MPa:3", "--over", "spring.H=0.8..1 m:3"],
+        pytest.param(["optimise", "nunes-hypocycloid", "--set", "optimise.against=p_max"], marks=pytest.mark.heavy),
+        pytest.param(["codesign", "zotov-89", "--ripple", "2%"], marks=pytest.mark.heavy),
         ["forces", "moroianu", "--units", "bar, rad, N, N*m, inch"],
     ],
     ids=" ".join,

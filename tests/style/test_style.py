@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from pictures import faults, ids
 
 from mechsym import style
+from mechsym.out.web.build import _palette
 from mechsym.quantities.display import choose
 from mechsym.style import palette
 
@@ -42,16 +43,21 @@ def test_pages_stand_out(pytestconfig):
 
 def test_notebook_cards_and_simulating_pages_stand_out(pytestconfig):
     cards = (pytestconfig.rootpath / "mechsym/templates/cards.html").read_text()
-    for sheet, paper in zip(re.findall(r"\.mechsym \{ (--[^}]*)\}", cards), ("#ffffff", "#14191f"), strict=True):
-        shades = dict(re.findall(r"--(\w+): (#\w{6})", sheet))
-        assert {"quiet", "green", "red"} <= set(shades)
-        assert min(style.contrast(shades[name], paper) for name in ("quiet", "green", "red")) >= 4.5
+    # letters have the notebook's own colour, whatever its theme; only the bars of verdicts have one of ours
+    assert "prefers-color-scheme" not in cards and not re.findall(r"(?<![-\w])color: (?!inherit)", cards)
+    for bar in re.findall(r"border(?:-left|-color): [^;]*?(#\w{6})", cards):
+        assert min(style.contrast(bar, paper) for paper in ("#ffffff", "#111111")) >= 3, bar
     page = (pytestconfig.rootpath / "mechsym/out/web/page.html").read_text()
     for sheet in re.findall(r":root \{([^}]*)\}", page):
         shades = {name: "#" + (c if len(c) == 6 else "".join(2 * d for d in c))
                   for name, c in re.findall(r"--(\w+): #(\w{3,6})", sheet)}  # fmt: skip
         for name in ("ink", "quiet"):
             assert min(style.contrast(shades[name], shades[back]) for back in ("paper", "soft")) >= 4.5, name
+    script = page.partition("<script>")[2]
+    assert not re.findall(r"#[0-9a-f]{3,6}\b", script)  # canvases take the palette's colours, which the page carries
+    for kind, of in (("light", lambda colour: colour), ("dark", style.DARK.__getitem__)):
+        drawn = _palette(of)
+        assert min(style.contrast(c, of(style.PAPER)) for c in (*drawn["series"], drawn["quiet"])) >= 4.5, kind
 
 
 def test_contrast_of_black_and_white():

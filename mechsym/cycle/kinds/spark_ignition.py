@@ -20,7 +20,12 @@ class SparkIgnition:
     """Section `[cycle]`, `model = "spark_ignition"`."""
 
     #: `converged`: the differential equation in crank angle; `nunes2017_printed`: the thesis's one-degree march
-    method: str = choice("converged", "nunes2017_printed", default="converged")
+    method: str = choice(
+        "converged",
+        "nunes2017_printed",
+        default="converged",
+        about="solved until it converges, or by the source's steps as printed",
+    )
     intake_pressure: float = quantity("Pa", above=0, about="absolute pressure when the inlet closes")
     intake_temperature: float = quantity("K", above=0, about="temperature when the inlet closes")
     #: Ends of the closed period, from firing top dead centre [rad]
@@ -42,7 +47,13 @@ class SparkIgnition:
     #: `latent_heat`: each kilogram of vapour costs its latent heat and arrives without internal energy (the thesis);
     #: `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge is
     #: vapour from the start
-    vaporisation: str = choice("latent_heat", "liquid_energy", "none", default="liquid_energy")
+    vaporisation: str = choice(
+        "latent_heat",
+        "liquid_energy",
+        "none",
+        default="liquid_energy",
+        about="where the fuel takes its heat of evaporation from",
+    )
     octane: float = quantity("-", default=95.0, low=60, high=130, about="octane number of the fuel, for knock")
     latent_heat: float = quantity("J/kg", default=0.0, low=0, about="latent heat of vaporisation")
 

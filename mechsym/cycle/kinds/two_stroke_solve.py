@@ -22,6 +22,7 @@ from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, pressure_o
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
 
 _CLOSED_POINTS = 881  # of the closed period, where the highest temperature is looked for
 _AIR_BY_FUEL = 14.6  # stoichiometric, marine fuel oil
@@ -122,19 +123,23 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     )  # fmt: skip
 
 
+def _pressure(value: float) -> str:
+    return quantity_text(value, "Pa", 4)
+
+
 def _facts(cycle: TwoStrokeMarine, cylinder: Chamber, state: TwoStrokeState) -> tuple[str, ...]:
     trapped = float(volume(cylinder, cycle.evc)) / cylinder.clearance
     burnt = double_wiebe(1.0, cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
     return (
         f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
-        f"pressures at top dead centre, absolute: compression {state.p_comp / 1e5:.1f} bar, "
-        f"expansion reference {state.p_ref / 1e5:.1f} bar; when the exhaust opens {state.p_evo / 1e5:.2f} bar",
+        f"pressures at top dead centre, absolute: compression {_pressure(state.p_comp)}, "
+        f"expansion reference {_pressure(state.p_ref)}; when the exhaust opens {_pressure(state.p_evo)}",
         f"temperature rise solved for the mean pressure: {state.dT:.0f} K on {state.T_comp:.0f} K; with lhv and c_v it "
         f"means {state.excess_air:.2f} times the air needed and an indicated efficiency of {state.efficiency:.2f}",
         f"burnt at the nominal end of combustion: {burnt:.3f}; the rest burns on, there is no step",
-        f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at {state.p_evc / 1e5:.3f} "
-        "bar absolute until the exhaust closes",
-        f"under the piston: {back_pressure(cycle) / 1e5:.4g} bar absolute ({cycle.crank_side})",
+        f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at "
+        f"{_pressure(state.p_evc)} absolute until the exhaust closes",
+        f"under the piston: {_pressure(back_pressure(cycle))} absolute ({cycle.crank_side})",
     )
 
 

@@ -13,6 +13,7 @@ from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.measured.measure import MeasuredCycles
 from mechsym.cycle.measured.smoothing import noise
 from mechsym.quantities import RPM
+from mechsym.quantities.display import quantity_text
 
 _WEAK = 0.7
 _Z = 1.96
@@ -67,22 +68,21 @@ def diagram_facts(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles,
     residual : float
         Root mean square of what the smoothing left out [Pa]
     """
-    p_mi = cycle_work(measured, cylinder) / 1e5
+    p_mi = cycle_work(measured, cylinder)
     scatter = float(measured.cycles.std(axis=0).max())
     return (
         read_and_used(diagram, measured),
         *(f"the file says: {comment}" for comment in measured.comments),
-        f"{Path(measured.file).name}: {len(p_mi)} cycles; net mean indicated pressure {p_mi.min():.2f} to "
-        f"{p_mi.max():.2f} bar, "
-        f"peaks {measured.cycles.max(axis=1).min() / 1e5:.1f} to {measured.cycles.max() / 1e5:.1f} bar absolute",
+        f"{Path(measured.file).name}: {len(p_mi)} cycles; net mean indicated pressure {_pressures(p_mi)}, "
+        f"peaks {_pressures(measured.cycles.max(axis=1))} absolute",
         _alignment_fact(diagram, measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
         _pegging_fact(diagram, measured),
         _scale_fact(diagram, measured),
         _exponent_fact(diagram, cylinder, measured),
-        f"smoothing ({diagram.smoothing}) leaves {residual / 1e5:.4f} bar rms of the mean cycle; its noise is "
-        f"{noise(measured.cycles.mean(axis=0)) / 1e5:.4f} bar, the cycles scatter by up to {scatter / 1e5:.2f} bar",
+        f"smoothing ({diagram.smoothing}) leaves {_pressure(residual, 3)} rms of the mean cycle; its noise is "
+        f"{_pressure(noise(measured.cycles.mean(axis=0)), 3)}, the cycles scatter by up to {_pressure(scatter, 3)}",
         _weak_fact(p_mi),
-        f"under the piston: {diagram.p_back / 1e5:.4g} bar absolute",
+        f"under the piston: {_pressure(diagram.p_back)} absolute",
     )
 
 
@@ -90,15 +90,23 @@ def read_and_used(diagram: Diagram, measured: MeasuredCycles) -> str:
     """What was read and what was used, in one line."""
     found = measured.alignment.dead_centre
     by = "as read" if measured.scale == 1.0 else f"scaled {measured.scale:.3g} by scale = {diagram.scale}"
-    low, high = measured.offsets.min() / 1e5, measured.offsets.max() / 1e5
-    shifted = f"{-low:+.2f} bar" if high - low < 0.005 else f"{-high:+.2f} to {-low:+.2f} bar"
+    shifted = _pressures(-measured.offsets)
     speeds = "" if measured.speeds is None else f", {_range(measured.speeds / RPM, '.0f')} rpm by time_s"
-    read, used = measured.raw_mean.max() / 1e5, measured.cycles.mean(axis=0).max() / 1e5
+    read, used = _pressure(measured.raw_mean.max()), _pressure(measured.cycles.mean(axis=0).max(), 3)
     return (
-        f"peak {read:.4g} bar read, {used:.3g} bar absolute used: shifted {shifted} by pegging = {diagram.pegging}, "
+        f"peak {read} read, {used} absolute used: shifted by {shifted}, pegging = {diagram.pegging}, "
         f"{by}, dead centre {_modulo(found.angle):.2f} deg ({_modulo(found.low):.2f} to {_modulo(found.high):.2f}) by "
         f"{found.method}{speeds}"
     )
+
+
+def _pressure(value: float, digits: int = 4) -> str:
+    return quantity_text(float(value), "Pa", digits)
+
+
+def _pressures(values: np.ndarray) -> str:
+    low, high = (_pressure(value, 3) for value in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
 
 
 def _modulo(angle: float) -> float:
@@ -126,21 +134,20 @@ def _alignment_fact(diagram: Diagram, measured: MeasuredCycles, per_degree: floa
 def _pegging_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
     how = {
         "none": "none, the file is taken as absolute",
-        "gauge": f"the file is taken as gauge, over {diagram.p_back / 1e5:.4g} bar absolute",
+        "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
         "inlet": "inlet_pressure at the dead centre before compression (assumed)",
         "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
         "joint": "offset of every cycle's compression line in the joint fit",
     }[diagram.pegging]
-    low, high = measured.offsets.min() / 1e5, measured.offsets.max() / 1e5
-    return f"pegging: {how}; {low:.3f} to {high:.3f} bar were taken off the cycles"
+    return f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles"
 
 
 def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
-    start = f"the compression line starts from {measured.bottom / 1e5:.3g} bar absolute at BDC"
+    start = f"the compression line starts from {_pressure(measured.bottom, 3)} absolute at BDC"
     if diagram.scale in ("checked", "as_given"):
         return f"scale as given; {start}"
     assumed = "inlet_pressure there" if diagram.scale == "trapped" else (
-        f"{diagram.exhaust_pressure / 1e5:.3g} bar in the middle of the exhaust stroke"
+        f"{_pressure(diagram.exhaust_pressure, 3)} in the middle of the exhaust stroke"
     )  # fmt: skip
     return f"scaled by {measured.scale:.4f} (assumed: {assumed}); {start}; all pressures and the work are as uncertain"
 
@@ -159,5 +166,5 @@ def _weak_fact(p_mi: np.ndarray) -> str:
     weak = weak_cycles(p_mi)
     if not weak:
         return f"no cycle does less than {_WEAK:g} of the median work"
-    named = ", ".join(f"{k + 1} ({p_mi[k]:.2f} bar)" for k in weak)
+    named = ", ".join(f"{k + 1} ({_pressure(p_mi[k], 3)})" for k in weak)
     return f"nearly misfired (less than {_WEAK:g} of the median work), kept in the mean: cycle {named}"

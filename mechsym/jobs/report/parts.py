@@ -39,6 +39,10 @@ TITLES = {
     "simulate": "Run in time",
 }
 _MODEL, _CLOSED = "the cycle is a model: ", "the closed period only, gas exchange at constant pressure"
+_BRAKE = (
+    "brake power is after all losses of a whole engine, by [friction_pressure], auxiliaries and pumping among them; "
+    "the friction of bearings, guides and rings that is counted part by part is less"
+)
 _HINGE = (
     "the ripple is that of an ideal hinge at one speed and one load; friction, heat and a lost combustion stand beside "
     "it, with assumed data",
@@ -66,21 +70,22 @@ def _cycle(case: Case) -> ReportPart:
     view, acting = found.view, None if is_own(case.mechanism) else gas(case)
     pictures = () if acting is None else acting.view.pictures
     power, rpm = float(found["power_kw"][0]), float(found["speed_rpm"][0])
-    many = found.get("cylinders", 1)
+    many, each = found.get("cylinders", 1), found.get("each", "cylinder")
     verdict = f"The gas {'takes' if power < 0 else 'gives'} {quantity_text(1e3 * abs(power), 'W', 4)} at " + (
-        f"{figure(rpm, 4)} rpm" + (f", {many} cylinders" if many > 1 else "")
+        f"{figure(rpm, 4)} rpm" + (f", {many} {each}s" if many > 1 else "")
     )
     rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
     one = {k: v for k, v in (found.get("per_cylinder") or {}).items() if rubs or not k.startswith("brake")}
     rows = [{"of": "engine", **{k: float(found[k][0]) for k in one}}]
-    rows += [{"of": "one cylinder", **{k: float(v[0]) for k, v in one.items()}}] if many > 1 else []
+    rows += [{"of": f"one {each}", **{k: float(v[0]) for k, v in one.items()}}] if many > 1 else []
     facts = () if acting is None else tuple(acting.pressure.facts)
     given = kind_of(case.need("cycle")).given
     return ReportPart(
         name="cycle", title=TITLES["cycle"], view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
         verdict=f"{verdict}.", facts=facts,
         grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
-        silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),),
+        silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),
+                *([_BRAKE] if rubs and "friction_pressure" in case.sections else [])),
         numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(case, acting)),
     )  # fmt: skip
 

@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,8 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
 from mechsym.out.text.c import model
-from mechsym.style import axis_unit
+from mechsym.quantities.display import chosen
+from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
 
 _OPTIONS = ("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-O2", "-s", "-ffp-contract=off")
 # parameters that get a slider, with the range as shares of the start; others have a field
@@ -77,17 +79,38 @@ def _data(block: Block) -> dict[str, Any]:
         "references": {v.port.name: v.reference for v in rows},
         "units": {v.port.name: v.port.unit for v in rows},
         "shown": _shown(block),
+        "chosen": chosen(),
         "angle": block.states[0].name,
         "speed": speed.name,
         "start_speed": speed.start,
         "sliders": sliders,
         "fields": [{"name": p.name, "unit": p.unit, "start": p.start, "about": p.about} for p in block.parameters],
-        "torques": [p.name for p in block.outputs if "_on_" in p.name],
+        "acting": _acting(block),
+        "palette": {"light": _palette(lambda colour: colour), "dark": _palette(DARK.__getitem__)},
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
         "period": turn,
         "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         "t_end": _end(block, speed.start),
     }
+
+
+def _acting(block: Block) -> list[dict[str, str]]:
+    """What acts on the machine, for people: a part's name, and the unit of the input that it acts on."""
+    units = {port.name: port.unit for port in block.inputs}
+    parts = {p.name: p.name.partition("_on_") for p in block.outputs if "_on_" in p.name}
+    named = [part for part, _, _ in parts.values()]
+    return [
+        {
+            "name": name,
+            "label": (name if named.count(part) > 1 else part).replace("_", " "),
+            "unit": units.get(on, "N*m"),
+        }
+        for name, (part, _, on) in parts.items()
+    ]
+
+
+def _palette(of: Callable[[str], str]) -> dict[str, Any]:
+    return {"quiet": of(QUIET), "grid": of(GRID), "series": [of(colour) for colour in SERIES]}
 
 
 def _shown(block: Block) -> dict[str, tuple[float, str]]:
