@@ -18,7 +18,6 @@ from mechsym.hinge.springs import AirAbsolute, AirGauge
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
 from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import curves
-from mechsym.periodic.pieces import Pieces
 
 _KEPT = 6  # angles of a function that is remembered
 
@@ -106,9 +105,9 @@ def from_curve(
     )
     driving = periodic.fit(lambda x: spline((x - angle[0]) % period + angle[0]), angle, period, 1e-10)
     mean = periodic.mean(driving)
-    wanted = Pieces(-driving.c, driving.x, extrapolate="periodic")
+    wanted = scipy.interpolate.PPoly(-driving.c, driving.x, extrapolate="periodic")
     wanted.c[-1] += mean
-    constant = Pieces(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
+    constant = scipy.interpolate.PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
     return Point(omega=omega, load_torque=mean, law="constant", period=period, work=periodic.antiderivative(wanted),
                  inertia=constant, torque=driving, kinks=())  # fmt: skip
 

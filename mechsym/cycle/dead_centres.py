@@ -4,10 +4,10 @@ import dataclasses
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym.cycle.chamber import Chamber, Motion, piston_area, travel
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 
 _STILL = 1e-9  # slope of a piston that stands still, by its stroke [1/rad]
 
@@ -75,7 +75,9 @@ def with_bottom(motion: Motion) -> Motion:
         raise BadInput(f"the piston goes out and back {count} times in a turn; a cycle knows one bottom dead centre")
     best = int(np.argmax(x))
     low, high = phi[best - 1], phi[best + 1]
-    return dataclasses.replace(motion, bottom=float(root(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15)))
+    return dataclasses.replace(
+        motion, bottom=float(scipy.optimize.brentq(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
+    )
 
 
 def check_motion(motion: Motion) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Motion
@@ -21,7 +22,6 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.traits import traits_of
-from mechsym.periodic.search import lowest, root
 
 _TURN = 2 * math.pi
 
@@ -117,9 +117,11 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
         return sign * float(travel(angle)[1])
 
     if slope(low) < 0 < slope(high):
-        best = float(root(slope, low, high, xtol=1e-15))
+        best = float(scipy.optimize.brentq(slope, low, high, xtol=1e-15))
     else:
-        best = float(lowest(lambda a: sign * float(travel(a)[0]), low, high))
+        best = float(
+            scipy.optimize.minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x
+        )
     return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
 
 

@@ -14,9 +14,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.chamber import Chamber, travel
-from mechsym.periodic.search import lowest
 from mechsym.quantities import record
 
 ATMOSPHERE = 101325.0
@@ -183,8 +183,10 @@ def peak(absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...]
     phi = np.union1d(np.linspace(-period / 2, period / 2, 2881)[1:], _centred(np.asarray(kinks), period))
     at = phi[int(np.argmax(absolute(phi)))]
     step = period / 2880
-    refined = lowest(lambda angle: -float(absolute(angle)), at - step, at + step, 1e-9)
-    best = max((float(at), refined), key=lambda angle: float(absolute(angle)))
+    refined = scipy.optimize.minimize_scalar(
+        lambda angle: -float(absolute(angle)), bounds=(at - step, at + step), method="bounded", options={"xatol": 1e-9}
+    )
+    best = max((float(at), float(refined.x)), key=lambda angle: float(absolute(angle)))
     return float(absolute(best)), float(_centred(best, period))
 
 

@@ -9,6 +9,7 @@ import functools
 import math
 
 import numpy as np
+import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -16,7 +17,6 @@ from mechsym.hinge.choices import BALANCES
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 
 _TURN = 2 * math.pi
@@ -30,9 +30,9 @@ class Balance:
     omega: float  #: Crank speed that it is for [rad/s]
     period: float  #: Period of the torque that the hinge gives [rad]
     #: That torque [N*m] and its integral from phi = 0 [J]
-    torque: Pieces
-    work: Pieces
-    rest: Pieces  #: Torque that is left over [N*m]
+    torque: "scipy.interpolate.PPoly"
+    work: "scipy.interpolate.PPoly"
+    rest: "scipy.interpolate.PPoly"  #: Torque that is left over [N*m]
     rest_swing: float  #: Largest minus smallest work of the rest [J]
     #: Speed ripple that the rest leaves; None if the crank would stop [-]
     ripple_constant_load: float | None
@@ -78,7 +78,7 @@ def balance(hinge: Hinge, kind: str) -> Balance:
     )
 
 
-def turn_mean(torque: Pieces) -> Pieces:
+def turn_mean(torque: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     r"""Part of a torque that repeats every turn.
 
     .. math:: \bar M(\varphi) = \frac1k \sum_{i=0}^{k-1} M(\varphi + 2 \pi i)
@@ -98,8 +98,8 @@ def turn_mean(torque: Pieces) -> Pieces:
     return periodic.fit(lambda phi: torque(phi + shifts).mean(axis=0), torque.x, _TURN, tol=1e-11)
 
 
-def _rest(torque: Pieces, part: Pieces) -> Pieces:
+def _rest(torque: "scipy.interpolate.PPoly", part: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     if part is torque:
-        return Pieces(np.zeros_like(torque.c), torque.x, extrapolate="periodic")
+        return scipy.interpolate.PPoly(np.zeros_like(torque.c), torque.x, extrapolate="periodic")
     breaks = np.concatenate([torque.x, part.x, part.x + _TURN])
     return periodic.fit(lambda phi: torque(phi) - part(phi), breaks, torque.x[-1], tol=1e-9)

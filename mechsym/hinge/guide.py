@@ -21,6 +21,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -32,7 +33,6 @@ from mechsym.hinge.springs import law
 from mechsym.hinge.thermal import AirThermal, GasTurn, thermal_pressure
 from mechsym.hinge.thermal_guide import ThermalPath, gas_on, thermal_path, warmth_of
 from mechsym.hinge.torque import Hinge
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 
 Spring = LawSpring | AirThermal
@@ -51,7 +51,7 @@ class Guide:
     status: str
     reason: str
     #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
-    rho: "Pieces | None"
+    rho: "scipy.interpolate.PPoly | None"
     closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
@@ -119,7 +119,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
     return replace(guide, spring=spring)
 
 
-def path(guide: Guide) -> Pieces:
+def path(guide: Guide) -> "scipy.interpolate.PPoly":
     """The path of the roller centres.
 
     Returns
@@ -178,7 +178,7 @@ def gas_turn(guide: Guide, spring: AirThermal) -> GasTurn:
     return gas_on(spring, path(guide), partial(closing, guide), guide.omega * guide.parameters.shaft_ratio)
 
 
-def warmth(guide: Guide, spring: AirThermal) -> Pieces:
+def warmth(guide: Guide, spring: AirThermal) -> "scipy.interpolate.PPoly":
     """Temperature of that gas by the wall's [-] over the angle of the guide's shaft."""
     return warmth_of(spring, gas_turn(guide, spring), path(guide))
 

@@ -19,6 +19,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.hinge import losses as laws
 from mechsym.hinge.guide import Guide, path, warmth
@@ -27,7 +28,6 @@ from mechsym.hinge.rollers import RollerParameters, inertia_force, loss_torque, 
 from mechsym.hinge.springs import law
 from mechsym.hinge.thermal import AirThermal, thermal_pressure
 from mechsym.machine.record import Machine, kinks_of, period_of
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 from mechsym.simulate.problem import Along, Kinks, Part, Periodic, Problem, State
 
@@ -79,16 +79,16 @@ def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Pro
     )
 
 
-def _over_crank(rho: Pieces, ratio: float) -> Pieces:
+def _over_crank(rho: "scipy.interpolate.PPoly", ratio: float) -> "scipy.interpolate.PPoly":
     """The same path over the angle of the crank."""
     if ratio == 1:
         return rho
     powers = ratio ** np.arange(rho.c.shape[0] - 1, -1, -1)
-    return Pieces(rho.c * powers[:, None], rho.x / ratio, extrapolate="periodic")
+    return scipy.interpolate.PPoly(rho.c * powers[:, None], rho.x / ratio, extrapolate="periodic")
 
 
-def _curve(coordinate: str, poly: Pieces) -> Periodic:
-    curve = Pieces(poly.c, poly.x, extrapolate="periodic")
+def _curve(coordinate: str, poly: "scipy.interpolate.PPoly") -> Periodic:
+    curve = scipy.interpolate.PPoly(poly.c, poly.x, extrapolate="periodic")
     return Periodic(coordinate=coordinate, value=curve, period=float(poly.x[-1] - poly.x[0]))
 
 
@@ -188,7 +188,7 @@ def _stored(hinge: RealHinge, u: Any, curves: Any, states: Any) -> Any:
     return law(spring).energy(z)
 
 
-def _inertia(coordinate: str, hinge: RealHinge, rho: Pieces) -> tuple[Periodic, Periodic] | None:
+def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") -> tuple[Periodic, Periodic] | None:
     """Inertia of the moving masses on the crank [kg*m^2] and its derivative."""
     if hinge.rollers.moving_mass == 0:
         return None
@@ -196,7 +196,7 @@ def _inertia(coordinate: str, hinge: RealHinge, rho: Pieces) -> tuple[Periodic, 
     mass = hinge.guide.rollers * ratio**2 * hinge.rollers.moving_mass
     drho = rho.derivative()
     squared = mass * (_square(rho.c) + _padded(_square(drho.c) / ratio**2, 2))
-    poly = Pieces(squared, rho.x, extrapolate="periodic")
+    poly = scipy.interpolate.PPoly(squared, rho.x, extrapolate="periodic")
     return _curve(coordinate, poly), _curve(coordinate, poly.derivative())
 
 
@@ -209,7 +209,7 @@ def _padded(c: np.ndarray, rows: int) -> np.ndarray:
     return np.vstack([np.zeros((rows, c.shape[1])), c])
 
 
-def _kinks(gas: tuple[float, ...], rho: Pieces, period: float) -> tuple[float, ...]:
+def _kinks(gas: tuple[float, ...], rho: "scipy.interpolate.PPoly", period: float) -> tuple[float, ...]:
     """Where the gas is not smooth, on every turn of the guide, and where the rollers turn back."""
     own = float(rho.x[-1] - rho.x[0])
     back = rho.derivative().roots(discontinuity=False, extrapolate=False)

@@ -3,13 +3,13 @@
 import functools
 
 import numpy as np
+import scipy
 
 from mechsym import periodic
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
 from mechsym.hinge.torque import Hinge, exists
-from mechsym.periodic.pieces import Pieces
 
 LawSpring = AirGauge | AirAbsolute | Coil
 
@@ -75,7 +75,7 @@ def status(
 
 def law_path(
     wanted: Hinge | Balance, spring: LawSpring, parameters: GuideParameters, at_start: float
-) -> "tuple[Pieces, float]":
+) -> "tuple[scipy.interpolate.PPoly, float]":
     """Path over the guide's angle [m] and the gap that its slope would leave after a period [m].
 
     Parameters

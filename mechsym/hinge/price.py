@@ -11,6 +11,7 @@ and the load is lowered by the mean of what is lost. The fill of the spring is s
 import dataclasses
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.hinge import losses as law
@@ -25,7 +26,6 @@ from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, TableLoad
 from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import curves
-from mechsym.periodic.search import lowest
 from mechsym.quantities import quantity, record
 from mechsym.simulate import angle_turn
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
@@ -199,8 +199,9 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best = lowest(lambda f: motion(f).speed_ripple or _STOPPED, *_RESET, xatol=1e-4)
-    return best, motion(best).speed_ripple
+    best = scipy.optimize.minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
+                           options={"xatol": 1e-4})  # fmt: skip
+    return float(best.x), motion(float(best.x)).speed_ripple
 
 
 def _lowered(load: Load, lost: float) -> Load:

@@ -15,6 +15,7 @@ Source: Zotov et al. (2024), eqs. (12) to (14) and fig. 6, who raise p0 by 1.9 a
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import Guide, Spring
@@ -22,7 +23,6 @@ from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripp
 from mechsym.hinge.setting import Affine, affine, missing_work, setting_of, with_setting, work_swing
 from mechsym.hinge.springs import Coil
 from mechsym.hinge.torque import Hinge
-from mechsym.periodic.search import lowest
 from mechsym.quantities import record
 
 CRITERIA = (
@@ -122,7 +122,10 @@ def _least_squares_work(parts: Affine) -> float:
 
 
 def _minimum(cost: Callable[[float], float], near: float) -> float:
-    return lowest(cost, near / 2, near * 2, 1e-9 * near)
+    found = scipy.optimize.minimize_scalar(
+        cost, bounds=(near / 2, near * 2), method="bounded", options={"xatol": 1e-9 * near}
+    )
+    return float(found.x)
 
 
 def _ripple_constant(parts: Affine, setting: float) -> float | None:

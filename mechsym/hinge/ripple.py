@@ -17,8 +17,7 @@ numbers are reported for the engine as built; a test holds the two together.
 from itertools import accumulate
 
 import numpy as np
-
-from mechsym.periodic.search import root
+import scipy
 
 
 def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) -> np.ndarray | None:
@@ -56,7 +55,7 @@ def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) 
     slowest = float(np.max(missing - inertia * omega**2 / 2)) + max(1e-9 * swing, 1e-14 * energy)
     if excess(slowest) > 0:
         return None
-    return phid(root(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
+    return phid(scipy.optimize.brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
 
 
 def propeller_load_speed(

@@ -7,6 +7,8 @@ torque comes from the geometry of the guide and the law of the spring.
 import dataclasses
 import functools
 
+import scipy
+
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide, Spring, refit
 from mechsym.hinge.in_time import RealHinge
@@ -18,7 +20,6 @@ from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import Trial, ready, run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
-from mechsym.periodic.search import lowest
 from mechsym.quantities import record
 from mechsym.simulate.angle import Panels, tabulate
 from mechsym.simulate.engine import reduced
@@ -140,7 +141,9 @@ def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Re
         return 2.0 if found is None else found
 
     bounds = (0.8 * near, 1.25 * near)
-    best = lowest(ripple, *bounds, xatol=1e-4 * near)
+    best = float(
+        scipy.optimize.minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x
+    )
     spring = with_setting(guide.spring, best)
     steady = with_guide(other, wanted, refit(guide, spring))
     trial = None

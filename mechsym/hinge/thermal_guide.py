@@ -20,7 +20,6 @@ from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.thermal import AirThermal, GasTurn, turn
 from mechsym.hinge.torque import Hinge
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 
 _STEP = np.pi / 360  # widest step of the march
@@ -39,7 +38,7 @@ class ThermalPath:
     """Path of the roller centres for a gas that exchanges heat."""
 
     #: Over the angle of the guide's shaft [m]; None where the spring cannot hold the work
-    rho: "Pieces | None"
+    rho: "scipy.interpolate.PPoly | None"
     status: str  #: As in `Guide`
     reason: str
     kept: float  #: Mean torque that the gas keeps, on the guide's shaft [N*m]
@@ -103,11 +102,13 @@ def thermal_path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideP
     slope = (task.at - kept) / (count * force)
     slope[-1] = slope[0]
     curve = scipy.interpolate.CubicHermiteSpline(theta, rho, slope)
-    path = Pieces(curve.c, curve.x, extrapolate="periodic")
+    path = scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
     return ThermalPath(rho=path, status="cut", reason="", kept=kept, closure=gap)
 
 
-def gas_on(spring: AirThermal, rho: Pieces, closing: Callable[[np.ndarray], np.ndarray], omega: float) -> GasTurn:
+def gas_on(
+    spring: AirThermal, rho: "scipy.interpolate.PPoly", closing: Callable[[np.ndarray], np.ndarray], omega: float
+) -> GasTurn:
     """Steady turn of the gas on a path, at even angles of a period.
 
     Parameters
@@ -122,11 +123,11 @@ def gas_on(spring: AirThermal, rho: Pieces, closing: Callable[[np.ndarray], np.n
     return turn(spring, closing(rho(theta)), np.full(_POINTS, period / _POINTS), omega)
 
 
-def warmth_of(spring: AirThermal, found: GasTurn, rho: Pieces) -> Pieces:
+def warmth_of(spring: AirThermal, found: GasTurn, rho: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     """Temperature of the gas by the wall's [-] over the angle of the guide's shaft."""
     values = np.append(found.temperature, found.temperature[0]) / spring.wall_temperature
     curve = scipy.interpolate.CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
-    return Pieces(curve.c, curve.x, extrapolate="periodic")
+    return scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
 
 
 def _nodes(breaks: np.ndarray, step: float) -> np.ndarray:

@@ -18,12 +18,12 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
+import scipy
 
 from mechsym import periodic
 from mechsym.cycle.gas import Gas
 from mechsym.machine.record import Machine, gas_of
 from mechsym.mechanisms.record import Mechanism, curves, evaluate
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 
 _MEAN_TOLERANCE = 1e-9  # of the peak torque; what rounding leaves is far below
@@ -52,13 +52,13 @@ class Hinge:
     omega: float
     period: float
     load_torque: float  #: Constant torque M_r that the engine can drive, the mean of F dx/dphi [N*m]
-    torque: Pieces  #: M_h, the sum of the three parts [N*m]
+    torque: "scipy.interpolate.PPoly"  #: M_h, the sum of the three parts [N*m]
     #: omega^2 I'/2, M_r - F x' and -M_g [N*m]
-    inertia_part: Pieces
-    gas_part: Pieces
-    gravity_part: Pieces
-    inertia: Pieces  #: I [kg*m^2]
-    work: Pieces  #: W, integral of M_h from phi = 0 [J]
+    inertia_part: "scipy.interpolate.PPoly"
+    gas_part: "scipy.interpolate.PPoly"
+    gravity_part: "scipy.interpolate.PPoly"
+    inertia: "scipy.interpolate.PPoly"  #: I [kg*m^2]
+    work: "scipy.interpolate.PPoly"  #: W, integral of M_h from phi = 0 [J]
     mean_torque: float  #: Mean of M_h over a period [N*m]
     exists: bool  #: The mean is zero within 1e-9 of the peak, so that a spring can give the torque
     torque_min: float  #: Signed extremes [N*m], [J]
@@ -139,7 +139,7 @@ def hinge_of(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
     inertia_part, gas_part, gravity_part = (_part(parts, i) for i in range(3))
     load_torque = -periodic.mean(gas_part)
     gas_part.c[-1] += load_torque
-    total = Pieces(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
+    total = scipy.interpolate.PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
     work = periodic.antiderivative(total)
     low, _, high, _ = periodic.extremes(total)
     work_low, _, work_high, _ = periodic.extremes(work)
@@ -162,7 +162,7 @@ def hinge_of(torques: EngineTorques, omega: float, tol: float = 1e-12) -> Hinge:
     )
 
 
-def exists(torque: Pieces) -> bool:
+def exists(torque: "scipy.interpolate.PPoly") -> bool:
     """Whether a spring can give a torque: its work over a period vanishes.
 
     Parameters
@@ -179,7 +179,7 @@ def exists(torque: Pieces) -> bool:
     return abs(periodic.mean(torque)) <= _MEAN_TOLERANCE * max(abs(low), abs(high))
 
 
-def harmonics(torque: Pieces, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
+def harmonics(torque: "scipy.interpolate.PPoly", count: int = 24) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a torque by order of the crank speed.
 
     Parameters
@@ -200,7 +200,7 @@ def harmonics(torque: Pieces, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
     return np.arange(1, count + 1) * (2 * math.pi / period), amplitudes[1 : count + 1]
 
 
-def odd_share(torque: Pieces) -> float:
+def odd_share(torque: "scipy.interpolate.PPoly") -> float:
     """Share of the root mean square in odd orders of the period; a track of half that period cannot give it.
 
     Parameters
@@ -218,5 +218,5 @@ def odd_share(torque: Pieces) -> float:
     return float(np.sqrt(np.mean(odd**2) / np.mean(torque(phi) ** 2)))
 
 
-def _part(parts: Pieces, i: int) -> Pieces:
-    return Pieces(parts.c[..., i].copy(), parts.x, extrapolate="periodic")
+def _part(parts: "scipy.interpolate.PPoly", i: int) -> "scipy.interpolate.PPoly":
+    return scipy.interpolate.PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic")

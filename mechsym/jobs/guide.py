@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
@@ -13,7 +14,6 @@ from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.steady import sensitivities, with_guide
 from mechsym.jobs.export import guide_of
 from mechsym.machine.record import Machine, kinks_of
-from mechsym.periodic.pieces import Pieces
 from mechsym.quantities import record
 from mechsym.simulate.steady import Steady
 
@@ -68,7 +68,7 @@ def _shifted(guide: Guide, distance: float) -> Guide:
     rho = path(guide)
     rows = rho.c.copy()
     rows[-1] += distance
-    return replace(guide, rho=Pieces(rows, rho.x, extrapolate="periodic"))
+    return replace(guide, rho=scipy.interpolate.PPoly(rows, rho.x, extrapolate="periodic"))
 
 
 def _around(guide: Guide, angles: tuple[float, ...]) -> tuple[float, ...]:

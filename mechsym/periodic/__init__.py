@@ -8,12 +8,8 @@ breaks at the kinks and halves a piece until its polynomial is right, so pieces 
     ----|-|--|----|--------|----|--|-|-|--|----> phi
         0                                period
 
-What it returns is a `Pieces` with ``extrapolate="periodic"``: it takes any real angle, and derivative and
-antiderivative are exact. `scalar` makes the fast function of one float that a time simulation needs.
-
-pieces.py   `Pieces`: what scipy's PPoly gives, without the import of scipy
-search.py   `root` and `lowest` of a function of one number, as scipy finds them
-halving.py  pieces halved until a polynomial follows
+What it returns is a `scipy.interpolate.PPoly` with ``extrapolate="periodic"``: it takes any real angle, and
+derivative and antiderivative are exact. `scalar` makes the fast function of one float that a time simulation needs.
 """
 
 import math
@@ -21,9 +17,9 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable
 
 import numpy as np
+import scipy
 
 from mechsym.periodic.halving import DEGREE, first_edges, halved
-from mechsym.periodic.pieces import Pieces
 
 
 def even_angles(period: float, count: int = 4096) -> np.ndarray:
@@ -44,7 +40,7 @@ def even_angles(period: float, count: int = 4096) -> np.ndarray:
 
 def fit(
     function: Callable[[np.ndarray], np.ndarray], breaks: Iterable[float], period: float, tol: float = 1e-12
-) -> Pieces:
+) -> "scipy.interpolate.PPoly":
     """Periodic piecewise polynomial that follows a function within a tolerance.
 
     Parameters
@@ -60,7 +56,7 @@ def fit(
 
     Returns
     -------
-    poly : Pieces
+    poly : scipy.interpolate.PPoly
         Breaks from 0 to `period`; values of shape (n,), or (n, parts)
 
     Raises
@@ -77,7 +73,7 @@ def fit(
     return _assembled(left, width, rows, period)
 
 
-def mean(poly: Pieces) -> float:
+def mean(poly: "scipy.interpolate.PPoly") -> float:
     """Mean over a period.
 
     Returns
@@ -88,26 +84,26 @@ def mean(poly: Pieces) -> float:
     return float(_integral(poly)(poly.x[-1]) / (poly.x[-1] - poly.x[0]))
 
 
-def antiderivative(poly: Pieces) -> Pieces:
+def antiderivative(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     """Exact integral from the first break, without the drift that a mean would bring.
 
     Returns
     -------
-    integral : Pieces
+    integral : scipy.interpolate.PPoly
         Periodic: integral of f - mean(f), 0 at the first break
     """
-    level = Pieces(poly.c.copy(), poly.x, extrapolate="periodic")
+    level = scipy.interpolate.PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
     level.c[-1] -= mean(poly)
     integral = _integral(level)
-    return Pieces(integral.c, integral.x, extrapolate="periodic")
+    return scipy.interpolate.PPoly(integral.c, integral.x, extrapolate="periodic")
 
 
-def scalar(poly: Pieces) -> Callable[[float], tuple[float, float]]:
+def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, float]]:
     """Fast evaluation for one float at a time: the value and its derivative.
 
     Parameters
     ----------
-    poly : Pieces
+    poly : scipy.interpolate.PPoly
         Periodic piecewise polynomial with values of shape (n,)
 
     Returns
@@ -136,12 +132,12 @@ def scalar(poly: Pieces) -> Callable[[float], tuple[float, float]]:
     return value_and_slope
 
 
-def extremes(poly: Pieces) -> tuple[float, float, float, float]:
+def extremes(poly: "scipy.interpolate.PPoly") -> tuple[float, float, float, float]:
     """Smallest and largest value over a period and where they are.
 
     Parameters
     ----------
-    poly : Pieces
+    poly : scipy.interpolate.PPoly
         Periodic piecewise polynomial with values of shape (n,)
 
     Returns
@@ -154,7 +150,7 @@ def extremes(poly: Pieces) -> tuple[float, float, float, float]:
     return low, phi_low, -high, phi_high
 
 
-def piece_points(poly: Pieces, count: int = 17) -> np.ndarray:
+def piece_points(poly: "scipy.interpolate.PPoly", count: int = 17) -> np.ndarray:
     """Angles on every piece, both of its ends included, denser towards the ends.
 
     Returns
@@ -166,12 +162,12 @@ def piece_points(poly: Pieces, count: int = 17) -> np.ndarray:
     return poly.x[:-1, None] + np.diff(poly.x)[:, None] * u
 
 
-def piece_values(poly: Pieces, phi: np.ndarray) -> np.ndarray:
+def piece_values(poly: "scipy.interpolate.PPoly", phi: np.ndarray) -> np.ndarray:
     """Values that take each break from the piece the point belongs to, so that both sides of a jump are seen.
 
     Parameters
     ----------
-    poly : Pieces
+    poly : scipy.interpolate.PPoly
         Periodic piecewise polynomial with values of shape (n,)
     phi : ndarray, shape (pieces, count)
         Angles made by `piece_points` of a polynomial with the same breaks [rad]
@@ -188,23 +184,23 @@ def piece_values(poly: Pieces, phi: np.ndarray) -> np.ndarray:
     return values
 
 
-def _assembled(left: np.ndarray, width: np.ndarray, rows: np.ndarray, period: float) -> Pieces:
+def _assembled(left: np.ndarray, width: np.ndarray, rows: np.ndarray, period: float) -> "scipy.interpolate.PPoly":
     # PPoly counts from the left break in radians, not in shares of the piece
     scale = width ** np.arange(DEGREE, -1, -1)[:, None]
     rows = rows / scale.reshape(scale.shape + (1,) * (rows.ndim - 2))
     order = np.argsort(left)
-    return Pieces(rows[:, order], np.append(left[order], period), extrapolate="periodic")
+    return scipy.interpolate.PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
 
 
-def _integral(poly: Pieces) -> Pieces:
-    return Pieces(poly.c, poly.x, extrapolate=False).antiderivative()
+def _integral(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+    return scipy.interpolate.PPoly(poly.c, poly.x, extrapolate=False).antiderivative()
 
 
 def _smallest(rows: np.ndarray, x: np.ndarray) -> tuple[float, float]:
     width, powers = np.diff(x), np.arange(len(rows) - 1, -1, -1)[:, None]
     scaled = rows * width**powers
-    phi = piece_points(Pieces(rows, x))
-    lowest = piece_values(Pieces(rows, x), phi).min(axis=1)
+    phi = piece_points(scipy.interpolate.PPoly(rows, x))
+    lowest = piece_values(scipy.interpolate.PPoly(rows, x), phi).min(axis=1)
     # between two of its points a piece dips by less than gap**2 / 8 of its largest second derivative
     dip = (math.pi / 2 / (phi.shape[1] - 1)) ** 2 / 8 * (powers * (powers - 1) * np.abs(scaled)).sum(axis=0)
     pieces = np.flatnonzero(lowest - dip <= lowest.min())

@@ -13,7 +13,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy
+import scipy.linalg
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops

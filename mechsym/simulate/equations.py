@@ -12,6 +12,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -185,7 +186,7 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 @lru_cache(maxsize=64)
 def fitted(value: Periodic) -> Any:
     """Periodic piecewise polynomial of a value, to round-off; one that is such a polynomial stays as it is."""
-    if hasattr(value.value, "c") and hasattr(value.value, "x"):
+    if isinstance(value.value, scipy.interpolate.PPoly):
         return value.value
     return periodic.fit(value.value, value.kinks, value.period)
 

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import scipy
 
-from mechsym.periodic.search import root
 from mechsym.simulate.equations import right_side
 from mechsym.simulate.phase import Leg, Phase, Span, Surface
 
@@ -102,4 +101,4 @@ def _time(dense: Any, surface: Surface, t_old: float, t: float) -> float:
 
     if distance(t_old) * distance(t) >= 0:
         return t
-    return max(float(root(distance, t_old, t, xtol=1e-300, rtol=1e-15)), float(np.nextafter(t_old, t)))
+    return max(float(scipy.optimize.brentq(distance, t_old, t, xtol=1e-300, rtol=1e-15)), float(np.nextafter(t_old, t)))

@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
@@ -100,10 +101,7 @@ def modes(mass: np.ndarray, stiffness: np.ndarray) -> Modes:
     modes : Modes
         The first component of each shape is not negative
     """
-    # of L^-1 K L^-T, where M = L L^T
-    lower = np.linalg.cholesky(mass)
-    squares, turned = np.linalg.eigh(np.linalg.solve(lower, np.linalg.solve(lower, stiffness).T))
-    shapes = np.linalg.solve(lower.T, turned)
+    squares, shapes = scipy.linalg.eigh(stiffness, mass)
     scale = float(np.max(np.abs(squares)))
     squares = np.where(squares > 1e-12 * scale, squares, 0.0)
     return Modes(frequencies=np.sqrt(squares), shapes=shapes * np.where(shapes[0] < 0, -1.0, 1.0))

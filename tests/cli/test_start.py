@@ -25,23 +25,19 @@ with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
     main()
 print("numpy" in sys.modules, len(list(pathlib.Path("/proc/self/task").iterdir())))
 """
-HEAVY = {
-    "matplotlib", "sympy", "xarray", "pandas", "jinja2",
-    "scipy.optimize", "scipy.interpolate", "scipy.linalg", "scipy.special",
-    "mechsym.audit", "mechsym.papers",
-}  # fmt: skip
+HEAVY = {"matplotlib", "sympy", "xarray", "pandas", "jinja2", "scipy.stats", "mechsym.audit", "mechsym.papers"}
 # of the rooms that a command does not work in it reads the records of their sections, and no more
 COMMANDS = {
     "eval crosshead --case zotov-89 --set phi=1": (
-        {"mechsym.jobs", "mechsym.cycle.gas", "mechsym.native.evaluate"},
+        {"scipy.optimize", "scipy.interpolate", "mechsym.jobs", "mechsym.cycle.gas", "mechsym.native.evaluate"},
         390,
     ),
-    "cases zotov-89": ({"mechsym.jobs"}, 390),
-    "hinge zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 550),
-    "simulate zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 580),
-    "cycle nunes-hypocycloid": ({"mechsym.hinge.contact", "mechsym.codesign"}, 515),
-    "forces zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 525),
-    "size nunes-slider-crank": ({"mechsym.codesign", "mechsym.hinge.contact"}, 570),
+    "cases zotov-89": ({"scipy.optimize", "scipy.interpolate", "mechsym.jobs"}, 390),
+    "hinge zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
+    "simulate zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
+    "cycle nunes-hypocycloid": ({"scipy.interpolate", "mechsym.hinge.contact", "mechsym.codesign"}, 920),
+    "forces zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 960),
+    "size nunes-slider-crank": ({"mechsym.codesign", "mechsym.hinge.contact"}, 970),
 }
 
 

@@ -14,6 +14,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.breathing.flow import orifice_flow
 from mechsym.cycle.breathing.scavenging import Scavenging, dew_point, flow_area, remaining, trapped_temperature
@@ -23,7 +24,6 @@ from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine, absolute_pressure, k
 from mechsym.cycle.kinds.two_stroke_solve import solve
 from mechsym.cycle.pressure import mean_indicated_pressure
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 from mechsym.quantities import record
 
 _GAMMA, _CP = 1.4, 1005.0
@@ -144,7 +144,7 @@ def scavenge(s: Scavenging, cycle: TwoStrokeMarine, room: Chamber, omega: float)
     if not stable:
         raise BadInput(_no_balance(engine, surplus))
     at = stable[-1]
-    p_s = float(root(lambda p: _surplus(engine, p), trials[at], trials[at + 1], xtol=1e-9, rtol=1e-14))
+    p_s = float(scipy.optimize.brentq(lambda p: _surplus(engine, p), trials[at], trials[at + 1], xtol=1e-9, rtol=1e-14))
     return _state(engine, _charge(engine, p_s))
 
 
@@ -218,7 +218,9 @@ def _receiver(engine: _Engine, c: _Charge) -> float | None:
         found = _flow(engine, c, p_r)
         return found.air + found.fuel - found.through
 
-    return float(root(rest, low, high, xtol=1e-9, rtol=1e-15)) if low < high and rest(high) < 0 else None
+    return (
+        float(scipy.optimize.brentq(rest, low, high, xtol=1e-9, rtol=1e-15)) if low < high and rest(high) < 0 else None
+    )
 
 
 def _surplus(engine: _Engine, p_s: float) -> float:

@@ -13,11 +13,11 @@ import math
 from typing import Any
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.pressure import Pressure, pressure_over
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 from mechsym.quantities import quantity, record
 
 _TURN = 2 * math.pi
@@ -81,7 +81,7 @@ def valves(cycle: CompressorCycle, room: Chamber) -> dict[str, float]:
     full = room.clearance + room.displacement
 
     def reached(wanted: float, low: float, high: float) -> float:
-        return float(root(lambda phi: float(volume(room, phi)) / wanted - 1, low, high, xtol=1e-15))
+        return float(scipy.optimize.brentq(lambda phi: float(volume(room, phi)) / wanted - 1, low, high, xtol=1e-15))
 
     return {
         "delivery valve closes": 0.0,

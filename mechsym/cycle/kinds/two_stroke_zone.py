@@ -26,7 +26,6 @@ from mechsym.cycle.kinds.two_stroke import scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 from mechsym.quantities import choice, quantity, record
 
 _TURN = 2 * math.pi
@@ -184,7 +183,7 @@ def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float
             f"mean_indicated_pressure = {wanted / 1e5:g} bar cannot be had: without fuel there are {low / 1e5:.3g} "
             f"bar, with all the air burnt {high / 1e5:.3g} bar; change it or the scavenge pressure p_s"
         )
-    return float(root(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
+    return float(scipy.optimize.brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
 
 
 def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Any], Any]:

@@ -8,10 +8,10 @@ saturated, stuck      the same value again and again where the pressure must cha
 import math
 
 import numpy as np
+import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 
 _DEG = math.radians(1.0)
 _NEAR = 60 * _DEG
@@ -63,7 +63,7 @@ def motored_width(cylinder: Chamber) -> float:
     v_c, half = float(volume(cylinder, 0.0)), 2 ** (1 / 1.33)
     if cylinder.compression_ratio <= half:
         return math.pi
-    return 2 * float(root(lambda phi: float(volume(cylinder, phi)) / v_c - half, 0.0, math.pi))
+    return 2 * float(scipy.optimize.brentq(lambda phi: float(volume(cylinder, phi)) / v_c - half, 0.0, math.pi))
 
 
 def _refuse_second_hump(file: str, mean: np.ndarray, rows: np.ndarray, step: float, period: float) -> None:

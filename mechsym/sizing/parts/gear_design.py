@@ -9,9 +9,9 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import scipy
 
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 from mechsym.quantities import record
 from mechsym.sizing.loads import reversed_tooth_load
 from mechsym.sizing.parts.records import GearPart
@@ -116,7 +116,7 @@ def face_width(part: GearPart, loads: ToothLoads, wants: Wants, material: Materi
         raise BadInput(
             f"face width: {1e3 * (short(most) + most):.1f} mm are needed, the pinion bears {1e3 * most:.1f} mm"
         )
-    return float(root(short, 1e-4, most, xtol=1e-9)) if short(1e-4) > 0 else 1e-4
+    return float(scipy.optimize.brentq(short, 1e-4, most, xtol=1e-9)) if short(1e-4) > 0 else 1e-4
 
 
 def candidates(d: float, pressure_angle: float, base: GearPart) -> Iterator[GearPart]:

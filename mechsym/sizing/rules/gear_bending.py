@@ -13,9 +13,9 @@ last printed digit and the rest to 0.7 (tests/sizing/test_agma908.py).
 """
 
 import numpy as np
+import scipy
 
 from mechsym.errors import BadInput
-from mechsym.periodic.search import root
 from mechsym.sizing.checks import require
 from mechsym.sizing.rules.gear_geometry import Pair, action_line, contact_ratio, tooth_thickness
 
@@ -133,7 +133,9 @@ def critical_section(pair: Pair, member: int) -> tuple[float, float]:
         raise BadInput(
             f"teeth = {teeth}, shift = {pair.shift:g}: no critical section; the tooth is undercut or pointed"
         )
-    xi, eta = fillet(pair, member, root(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12))
+    xi, eta = fillet(
+        pair, member, scipy.optimize.brentq(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12)
+    )
     return float(r_L - eta), float(2 * xi)
 
 
