@@ -94,6 +94,10 @@ def _chosen(case: Case, data: Any) -> str | None:
     )
 
 
+def _kept(case: Case, data: Any) -> str | None:
+    return "pins, guide and rod are checked" if "part_crosshead" in case.sections else None
+
+
 def _fine(case: Case, data: Any) -> str | None:
     wanted = case.sections.get("sizing")
     return "sizing.speed_step is wider" if wanted and _REACH * data.step <= wanted.speed_step else None
@@ -134,6 +138,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("speeds", ("step",), ("size",), _fine),
     ("parameters", ("I1",), ("size",), _anew("the speed is held")),
     ("parameters", ("m1", "m2", "m3", "m4", "m5", "I01", "IC2"), ("size",), _weighed),
+    ("parameters", ("m1", "I01"), ("size",), _kept),
     ("part_piston", ("ring_radial", "ring_axial", "land_top", "land"), ("size",), _chosen),
     ("part_cylinder", ("flange", "bolts", "thread_mm"), ("size",), _chosen),
     ("part_gears", ("shift",), ("size",), _chosen),

@@ -94,6 +94,7 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     symbols = _symbols(problem, ports, chosen)
     rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols)
     units = _units(problem.mechanism) | {u: v for law in chosen for u, v in law.units.items()}
+    units |= {f"{part.name}_on_{part.input}": units[part.input] for part in problem.parts}
     arguments = [symbols[k] for k in ("t", "x", "u", "p", "w", "s")]
     q, u = problem.mechanism.coordinates, velocities(problem.mechanism)
     starts = zip((*q, *u), (*problem.q0, *problem.u0), strict=True)
