@@ -51,7 +51,12 @@ def _machine(written: Written, name: str) -> tuple[str, str]:
         "    const unsigned *by, size_t count_by, const double *so_much, double *change);",
     ]  # fmt: skip
     core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
-    calls = f"""
+    return "\n".join(header), "\n".join([model(written.block), dop853_numbers(), core, _calls(name)])
+
+
+def _calls(name: str) -> str:
+    """What the header offers, by what `core.h` has."""
+    return f"""
 size_t {name}_size(void) {{ return sizeof(machine); }}
 void {name}_start(void *own, double tolerance)
 {{
@@ -74,4 +79,3 @@ int {name}_change(const void *own, const unsigned *of, size_t count_of,
     return core_directional((const machine *)own, of, count_of, by, count_by, so_much, change);
 }}
 """
-    return "\n".join(header), "\n".join([model(written.block), dop853_numbers(), core, calls])
