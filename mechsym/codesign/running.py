@@ -9,7 +9,7 @@ order eight. They share the functions of the machine and no method.
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,14 +18,14 @@ import scipy
 from mechsym import periodic
 from mechsym.codesign.contact_block import path_of
 from mechsym.codesign.hardware import gas_energy, gas_pressure, outside, roller_inertia
+from mechsym.codesign.in_time import Turning, of_track, turn
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
-from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
+from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
-_TOLERANCE = 1e-10
 _PER_TURN = 1440  # angles at which a run is read
 _STALLED = 0.02  # of the mean speed
 
@@ -41,7 +41,7 @@ class Running:
     load: ConstantLoad | PropellerLoad
     torque: Function  #: gas and gravity over the angle [N*m]
     kinks: tuple[float, ...]  #: of that torque [rad]
-    extra: scipy.interpolate.PPoly | None = (
+    extra: "scipy.interpolate.PPoly | None" = (
         None  #: torque of friction, and of a gas with heat beside the polytrope [N*m]
     )
 
@@ -136,23 +136,21 @@ def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0, st
     stall : float
         Share of the point's speed below which the run ends [-]
     """
-    rates = _rates(machine)
-    turned = _event(lambda y: y[0] - phi_start - 2 * np.pi * turns, 1.0)
-    stalled = _event(lambda y: y[1] - stall * machine.point.omega, -1.0)
-    found = scipy.integrate.solve_ivp(
-        lambda t, y: rates(y), (0.0, 20 * turns * 2 * np.pi / speed), [phi_start, speed, 0.0, 0.0], method="DOP853",
-        rtol=_TOLERANCE, atol=_TOLERANCE, events=[turned, stalled], dense_output=True,
-        max_step=2 * np.pi / machine.point.omega / 90,
+    t, (phi, omega, gained, taken), stalled = turn(
+        Turning(
+            tables=_tables(machine), held=_held(machine), kinks=_kinks(machine), period=machine.point.period,
+            start=(phi_start, speed), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
+            longest=20 * turns * 2 * np.pi / speed,
+        ),
+        int(_PER_TURN * turns) + 1,
     )  # fmt: skip
-    t = np.linspace(0, found.t[-1], int(_PER_TURN * turns) + 1)
-    phi, omega, gained, taken = found.sol(t)
     ends = np.array([phi[0], phi[-1]])
     stored = sum(np.diff(spring_energy(t_, p0, ends))[0]
                  for t_, p0 in zip(machine.tracks, machine.pressures, strict=True))  # fmt: skip
     kinetic = inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2
     turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
     residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=bool(len(found.t_events[1])), energy_residual=residual)
+    return TimeRun(t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual)
 
 
 def joined(legs: Sequence[TimeRun]) -> TimeRun:
@@ -177,53 +175,26 @@ def ripple_of_last_turn(found: TimeRun, period: float) -> float | None:
     return float(np.ptp(found.omega[last])) / mean
 
 
-def _event(value: Callable[[Any], float], direction: float) -> Any:
-    def event(t: float, y: Any) -> float:
-        return value(y)
+def _kinks(machine: Running) -> np.ndarray:
+    """Where the machine is not smooth in a period [rad]; what is nearer than rounding is one."""
+    period = machine.point.period
+    angles = np.concatenate([machine.kinks, *(t.z.x for t in machine.tracks)]) % period
+    return np.unique(np.round(angles, 12))
 
-    event.terminal, event.direction = True, direction  # type: ignore[attr-defined]
-    return event
 
-
-def _rates(machine: Running) -> Callable[[Any], list[float]]:
-    """Rates of angle, speed, work of gas and gravity, and work of the load, as fast functions of floats."""
+def _tables(machine: Running) -> tuple[Any, ...]:
     point = machine.point
-    gas = periodic.scalar(periodic.fit(machine.torque, machine.kinks, point.period, 1e-10))
-    engine = periodic.scalar(point.inertia)
-    springs = [_spring_rates(t, p0) for t, p0 in zip(machine.tracks, machine.pressures, strict=True)]
-    load, flywheel = machine.load, machine.flywheel
-    extra = _nothing if machine.extra is None else periodic.scalar(machine.extra)
-
-    def rates(y: Any) -> list[float]:
-        phi, omega = float(y[0]), float(y[1])
-        driving = gas(phi)[0] + extra(phi)[0]
-        own, slope = engine(phi)
-        total, rise, push = own + flywheel, slope, 0.0
-        for of in springs:
-            added, change, pushed = of(phi)
-            total, rise, push = total + added, rise + change, push + pushed
-        taken = float(load_torque(load, omega))
-        return [omega, (driving + push - taken - rise * omega**2 / 2) / total, driving * omega, taken * omega]
-
-    return rates
+    driving = periodic.fit(machine.torque, machine.kinks, point.period, 1e-10)
+    extra = scipy.interpolate.PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
+    closings = (p for t in machine.tracks for p in (t.z, t.z.derivative(), t.z.derivative(2)))
+    return driving, extra, point.inertia, point.inertia.derivative(), *closings
 
 
-def _nothing(phi: float) -> tuple[float, float]:
-    return 0.0, 0.0
-
-
-def _spring_rates(track: Track, p0: float) -> Callable[[float], tuple[float, float, float]]:
-    """Added inertia [kg*m^2], its derivative [kg*m^2/rad] and the torque [N*m] of one guide at an angle [rad]."""
-    h, value, slope = track.hardware, periodic.scalar(track.z), periodic.scalar(track.z.derivative())
-    ratio, pa = h.shaft_ratio, outside(h)
-    mass = h.count * (h.moving_mass + h.roller_inertia / h.radius**2)
-
-    def rates(phi: float) -> tuple[float, float, float]:
-        z, dz = value(phi)
-        d2z = slope(phi)[1]
-        # radial and tangential velocity of a roller by the crank's speed
-        across, along = ratio * (h.rho0 - z / h.count), -dz / h.count
-        push = -h.A * gas_pressure(z, p0, h.H, h.n, pa) * dz
-        return mass * (across**2 + along**2), 2 * mass * (across * ratio * along - along * d2z / h.count), push
-
-    return rates
+def _held(machine: Running) -> tuple[float, ...]:
+    load = machine.load
+    if isinstance(load, PropellerLoad):
+        laws = (0.0, float(load.torque or 0.0), float(load.speed or 1.0))
+    else:
+        laws = (float(load.torque or 0.0), 0.0, 1.0)
+    guides = (of_track(t.hardware, p0) for t, p0 in zip(machine.tracks, machine.pressures, strict=True))
+    return (machine.flywheel, *laws, *(value for guide in guides for value in guide))

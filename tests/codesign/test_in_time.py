@@ -1,0 +1,66 @@
+"""The equation of a machine over time: two integrators, and the energy that a machine without losses keeps."""
+
+import numpy as np
+import pytest
+import scipy
+
+from mechsym import periodic
+from mechsym.codesign import in_time
+from mechsym.codesign.hardware import Hardware, gas_energy, outside, roller_inertia
+
+HARDWARE = Hardware(A=0.03, H=1.0, n=1.3, p0=2e5, rho0=0.6, count=2, shaft_ratio=0.5, radius=0.1, width=0.1,
+                    moving_mass=80.0, roller_inertia=0.4)  # fmt: skip
+
+
+def turning(load=(0.0, 0.0, 1.0), speed=12.0, turns=1.5, **changes):
+    period, nothing = 2 * np.pi, scipy.interpolate.PPoly([[0.0]], [0.0, 2 * np.pi], "periodic")
+    z = periodic.fit(lambda phi: 0.2 - 0.15 * np.cos(phi), [], period)
+    inertia = periodic.fit(lambda phi: 500 + 60 * np.cos(2 * phi), [], period)
+    given = {
+        "tables": (nothing, nothing, inertia, inertia.derivative(), z, z.derivative(), z.derivative(2)),
+        "held": (100.0, *load, *in_time.of_track(HARDWARE, 3e5)), "kinks": np.array([1.0]), "period": period,
+        "start": (0.0, speed), "turned": turns * period, "stalled": 1.0, "longest": 100.0,
+    }  # fmt: skip
+    return in_time.Turning(**given | changes)
+
+
+def energy(machine, phi, omega):
+    z, dz, h = machine.tables[4](phi), machine.tables[5](phi), HARDWARE
+    rollers = roller_inertia(h.rho0 - z / 2, dz / (2 * 0.5), h.moving_mass, h.roller_inertia, h.radius, 2)
+    inertia = machine.tables[2](phi) + machine.held[0] + 0.25 * rollers
+    return inertia * omega**2 / 2 + h.A * gas_energy(z, 3e5, h.H, h.n, outside(h))
+
+
+@pytest.mark.parametrize("integrator", [in_time._compiled, in_time._by_scipy])
+def test_a_machine_without_losses_keeps_its_energy(integrator):
+    machine = turning()
+    t, (phi, omega, gained, taken), stalled = integrator(machine, 50)
+    assert not stalled and phi[-1] == pytest.approx(machine.turned, rel=1e-12) and np.ptp(omega) > 0.5
+    np.testing.assert_allclose(np.diff(t), t[1], rtol=1e-9)
+    np.testing.assert_allclose(energy(machine, phi, omega), energy(machine, 0.0, 12.0), rtol=1e-8)
+    assert np.abs([gained, taken]).max() == 0
+
+
+@pytest.mark.parametrize("load", [(300.0, 0.0, 1.0), (0.0, 300.0, 12.0)])
+def test_a_load_takes_its_work_and_both_integrators_agree(load):
+    machine = turning(load)
+    (t, y, _), (t_other, other, _) = in_time._compiled(machine, 30), in_time._by_scipy(machine, 30)
+    assert t[-1] == pytest.approx(t_other[-1], rel=1e-9)
+    np.testing.assert_allclose(y[:2], other[:2], rtol=1e-8)
+    np.testing.assert_allclose(energy(machine, *y[:2]) + y[3] - y[2], energy(machine, 0.0, 12.0), rtol=1e-8)
+    if load[0]:
+        np.testing.assert_allclose(y[3], load[0] * y[0], rtol=1e-8)
+
+
+def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch):
+    machine = turning((4e4, 0.0, 1.0))
+    _, y, stalled = in_time.turn(machine, 20)
+    assert stalled and y[1, -1] == pytest.approx(1.0, rel=1e-9)
+
+    def no_compiler(*_):
+        raise in_time.NoCompiler("none here")
+
+    monkeypatch.setattr(in_time, "integrate", no_compiler)
+    _, other, stalled = in_time.turn(machine, 20)
+    assert stalled
+    np.testing.assert_allclose(other, y, rtol=1e-7, atol=1e-6)
