@@ -70,7 +70,7 @@ def _page_of(server: "subprocess.Popen[str]", address: str) -> str:
     while time.monotonic() < until:
         if server.poll() is not None:
             said = server.stderr.read().strip() if server.stderr else ""
-            raise BadInput(said.splitlines()[-1] if said else "the workbench ended at once")
+            raise BadInput(said.splitlines()[-1].removeprefix("mechsym: ") if said else "the workbench ended at once")
         try:
             with urllib.request.urlopen(address, timeout=5) as answer:
                 return str(answer.read().decode())

@@ -155,7 +155,7 @@ def _beside(row: Mapping[str, Any]) -> str:
 
 def _rows(prefix: str, found: Any) -> Rows:
     """Numbers and texts by dotted name; sentences each in a row, of a long list its length and ends."""
-    if found is None or (isinstance(found, list) and all(value is None for value in found)):
+    if found in (None, "") or (isinstance(found, list) and all(value is None for value in found)):
         return []  # what this case does not have
     if isinstance(found, Mapping):
         if found.keys() in _AS_ONE:

@@ -174,7 +174,9 @@ def _derived(path: Path, which: str, key: str) -> dict[str, Any]:
     try:
         from mechsym.derive import files
     except ModuleNotFoundError as error:
-        raise MissingExtra(f"deriving {path.name} needs sympy ({error}); pip install 'mechsym[derive]'") from None
+        raise MissingExtra(
+            f"deriving {path.name} needs sympy ({error}), which belongs to mechsym: pip install 'sympy==1.14.0'"
+        ) from None
     code, listing = files.build(path, which, key[:16])
     return {"code": code, "listing": listing}
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mechsym import cases
-from mechsym.app import Slider, hinge_answer, run, safe, sliders, tabs
+from mechsym.app import Slider, hinge_answer, run, safe, server, sliders, tabs
 from mechsym.app.answers import moving
 from mechsym.app.saving import case_text
 from mechsym.errors import BadInput
@@ -113,3 +113,11 @@ def test_without_the_extra_one_line_names_it():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2
     assert done.stderr.strip() == "mechsym: the workbench needs the extra app: pip install 'mechsym[app]'"
+
+
+def test_why_the_server_ended_is_told_once():
+    code = "import sys; print('mechsym: no such thing', file=sys.stderr); sys.exit(2)"
+    with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True) as ended:
+        ended.wait()
+        with pytest.raises(BadInput, match="^no such thing$"):
+            server._page_of(ended, "http://127.0.0.1:1/")
