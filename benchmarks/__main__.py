@@ -22,7 +22,7 @@ def main(arguments: list[str]) -> int:
     Returns
     -------
     status : int
-        0, or 2 for a name that is not known
+        0; 1 where a problem failed, whose rows are missing; 2 for a name that is not known
     """
     folder = Path(__file__).parent
     if "--out" in arguments[:-1]:
@@ -33,15 +33,19 @@ def main(arguments: list[str]) -> int:
     if unknown:
         print(f"no problem {', '.join(unknown)}; there are {', '.join(_PROBLEMS)}", file=sys.stderr)
         return 2
-    begin, skipped, rows = time.perf_counter(), [], []
+    begin, skipped, rows, failed = time.perf_counter(), [], [], []
     for name in arguments or _PROBLEMS:
         print(f"{name} ..", file=sys.stderr, flush=True)
-        rows += importlib.import_module(f"benchmarks.{_PROBLEMS[name]}").rows(skipped)
+        try:
+            rows += importlib.import_module(f"benchmarks.{_PROBLEMS[name]}").rows(skipped)
+        except Exception as error:  # the others took minutes: what they found is shown all the same
+            failed.append(f"{name} failed: {type(error).__name__}: {error}")
     seconds = time.perf_counter() - begin
     print(table(rows, skipped))
-    if not arguments:
+    if not arguments and not failed:
         print(f"\n{seconds:.0f} s; wrote {', '.join(map(str, write(folder, rows, skipped, seconds)))}")
-    return 0
+    print(*failed, sep="\n", end="\n" if failed else "", file=sys.stderr)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
