@@ -17,6 +17,7 @@ from fuzz.__main__ import WARM
 from fuzz.judge import answer
 
 FACTORS = (0.95, 1.05)
+_NAMES = ("doubts", "part_bearings")  # whose texts are names, a bearing "6013 M" too
 # runs are short: what a doubt needs is the start of a run and its last turns
 COMMANDS: dict[str, tuple[tuple[str, ...], ...]] = {
     "alpha-stirling": (("cycle",), ("forces",), ("simulate", "--no-check", "--set", "simulation.turns=6")),
@@ -57,7 +58,7 @@ def main(names: list[str]) -> int:
 def _changed(text: str) -> Iterator[tuple[str, str]]:
     """Dotted key and changed value of every number of a case file, units kept."""
     for section, table in tomllib.loads(text).items():
-        for key, value in table.items() if isinstance(table, dict) and section != "doubts" else ():
+        for key, value in table.items() if isinstance(table, dict) and section not in _NAMES else ():
             number, _, unit = value.partition(" ") if isinstance(value, str) else (value, "", "")
             try:
                 size = float(number) if not isinstance(number, bool) else 0.0
