@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from mechsym import cases
+from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
 from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.moving import engine
@@ -98,8 +99,8 @@ def moving(answer: Answer, title: str) -> str | None:
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:
     phi = np.linspace(0, design.hinge.period, _POINTS)
     torque, verdict = design.hinge.torque(phi), design.verdict
-    rows = [("load torque", f"{design.hinge.load_torque:.5g} N m"),
-            ("hinge torque", f"{torque.min():.5g} to {torque.max():.5g} N m")]  # fmt: skip
+    rows = [("load torque", measure(design.hinge.load_torque, "N*m")),
+            ("hinge torque", span(float(torque.min()), float(torque.max()), "N*m"))]  # fmt: skip
     if verdict.rho_min is not None:
         rows += [
             ("guide, radius", f"{1e3 * verdict.rho_min:.4g} to {1e3 * (verdict.rho_max or 0):.4g} mm"),

@@ -8,6 +8,7 @@ from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
+_SENTENCE = 40  # letters
 _GREY = "#767676"  # 4.5 on white, 4.1 on the dark page: no one grey has 4.5 on both
 # in the picture: it tells its angle, and stands where it is told to
 _LINK = """<script>
@@ -32,12 +33,17 @@ def table(rows: Sequence[tuple[str, str]], pinned: Sequence[tuple[str, str]]) ->
     """Names and values, those of a pinned answer beside them."""
     other = dict(_counted(pinned))
     cells = (
-        "".join(f"<td>{html.escape(text)}</td>" for text in (key[0], value, other.get(key, "")))
+        "".join(f"<td>{html.escape(text)}</td>" for text in (key[0], value, _beside(value, other.get(key, ""))))
         for key, value in _counted(rows)
     )
     head = "<tr><td></td><td></td><td>pinned</td></tr>" if pinned else ""
     body = "".join(f"<tr>{row}</tr>" for row in cells)
     return f"<table class='mechsym-table'>{head}{body}</table>"
+
+
+def _beside(value: str, pinned: str) -> str:
+    """A pinned value; a sentence that has not changed is not told twice."""
+    return "the same" if value == pinned and len(value) > _SENTENCE else pinned
 
 
 def _counted(rows: Sequence[tuple[str, str]]) -> list[tuple[tuple[str, int], str]]:

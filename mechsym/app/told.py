@@ -119,14 +119,19 @@ def measure(value: float, unit: str) -> str:
     return pretty(quantity_text(value / (2 * math.pi) if unit == "Hz" else value, unit))
 
 
+def span(low: float, high: float, unit: str) -> str:
+    """Least and largest value in one unit of people [unit]."""
+    (a, b), shown = shown_in([low, high], unit)
+    return f"{figure(a)} to {figure(b)}{_after(shown)}"
+
+
 def _spans(found: Mapping[str, Any], units: Mapping[str, str]) -> Rows:
     """Least and largest of each quantity in one row, and where it is largest."""
     low, high, where = found["min"], found["max"], found.get("angle_of_max_deg") or {}
     rows = []
     for key in (k for k in high if k in low and k != "phi_deg"):
-        (a, b), unit = shown_in([low[key], high[key]], units.get(key) or stem_and_unit(key)[1])
         at = f", largest at {figure(where[key])} deg" if key in where else ""
-        rows.append((key, f"{figure(a)} to {figure(b)}{_after(unit)}{at}"))
+        rows.append((key, span(low[key], high[key], units.get(key) or stem_and_unit(key)[1]) + at))
     return rows
 
 

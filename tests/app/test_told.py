@@ -43,6 +43,8 @@ def test_what_belongs_together_stands_in_one_row():
 def test_sentences_of_one_name_stand_beside_their_own():
     shown = table([("facts", "a"), ("facts", "b")], [("facts", "c"), ("facts", "d")])
     assert "<td>a</td><td>c</td>" in shown and "<td>b</td><td>d</td>" in shown
+    long = "a sentence of more than forty letters, which stays"
+    assert f"<td>{long}</td><td>the same</td>" in table([("facts", long)], [("facts", long)])
 
 
 def numbers(path, found):
