@@ -57,9 +57,11 @@ def _end(value: float) -> float | None:
 
 
 def _told_apart(value: float, low: float, high: float) -> list[str]:
-    """A value and its interval with as many digits as tell them apart."""
-    shown = [[figure(v, digits) for v in (value, low, high)] for digits in range(5, 12)]
+    """A value and its interval with as many digits as tell them apart; five where that is round-off."""
+    shown = [[figure(v, digits) for v in (value, low, high)] for digits in range(5, 9)]
     texts = next((texts for texts in shown if len(set(texts)) == 3), shown[-1])
+    if high - low < 1e-8 * abs(value):
+        texts = [figure(value)] * 3
     return [text if math.isfinite(v) else "no end" for text, v in zip(texts, (value, low, high), strict=True)]
 
 
@@ -68,7 +70,8 @@ def _text(found: Any) -> str:
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
         value, low, high = _told_apart(e.value, e.low, e.high)
-        lines.append(f"{e.name} = {value}{unit}, 95 %: {low} to {high}{unit}")
+        within = f"{low} to {high}{unit}" if low != high else "no wider than 1e-8 of it"
+        lines.append(f"{e.name} = {value}{unit}, 95 %: {within}")
     return "\n".join([*lines, f"left over: {_left_over(found)}"])
 
 

@@ -120,4 +120,5 @@ def _values(found: Any, index: int) -> dict[str, Any]:
 def place(found: Any, index: int) -> str:
     """Where a point is, in words."""
     parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
-    return ", ".join(f"{a.key}={v}{' ' + a.suffix if a.suffix else ''}" for a, v in parts)
+    units = {a.key: a.suffix or ("" if a.unit == "-" else a.unit) for a, _ in parts}  # plain numbers are SI
+    return ", ".join(f"{a.key}={v} {units[a.key]}".rstrip() for a, v in parts)

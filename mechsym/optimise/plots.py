@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from mechsym.optimise.identify import Identified
-from mechsym.style import BLUE, INK, RED, legend, panels, write_picture
+from mechsym.quantities.display import SMALLEST
+from mechsym.style import BLUE, INK, QUIET, RED, legend, panels, write_picture
 
 
 def trace_picture(path: Path, found: Identified) -> Path:
@@ -13,6 +14,13 @@ def trace_picture(path: Path, found: Identified) -> Path:
         axes[0].plot(found.t, measured, ".", ms=2, color=color, alpha=0.4, label=f"{name} measured")
         axes[0].plot(found.t, found.fitted[name], color=color, lw=0.8, label=f"{name} fitted")
         axes[1].plot(found.t, measured - found.fitted[name], ".", ms=2, color=color, label=name)
+    largest = max(float(abs(values).max()) for values in found.measured.values())
+    if found.noise < SMALLEST * largest:  # round-off is no picture
+        axes[1].clear()
+        axes[1].set_yticks([])
+        axes[1].text(
+            0.5, 0.5, "0 (below 1e-9 of the largest speed)", transform=axes[1].transAxes, ha="center", color=QUIET
+        )
     axes[0].set(xlabel="time [s]", ylabel="speed [rad/s]")
     axes[1].set(xlabel="time [s]", ylabel="measured less fitted [rad/s]")
     for axis in axes:

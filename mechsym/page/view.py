@@ -4,6 +4,7 @@ A room says in its `shown.py` what of its results is worth seeing (`@shows(Desig
 there when it is asked, so that physics needs no picture to be computed.
 """
 
+import functools
 import importlib
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -12,6 +13,7 @@ from mechsym.errors import BadInput, suggest
 from mechsym.page.table import ResultTable
 from mechsym.page.template import page
 from mechsym.quantities import record
+from mechsym.style import svg
 
 _VIEWS: dict[type, Callable[[Any], "View"]] = {}
 _SHORT = 400  # characters of a repr
@@ -80,7 +82,10 @@ class Shown:
             raise BadInput(f"{type(self).__name__} has no picture")
         if name and name not in pictures:
             raise BadInput(f"no picture {name!r}; {suggest(name, list(pictures))}")
-        return pictures[name or next(iter(pictures))].draw()
+        figure = pictures[name or next(iter(pictures))].draw()
+        # a notebook knows figures of pyplot only
+        figure._repr_svg_ = functools.partial(svg, figure)  # on its own paper
+        return figure
 
     def table(self) -> ResultTable:
         """Its curves or figures as columns with units."""

@@ -100,6 +100,7 @@ def test_an_interval_ends_where_the_best_motion_gets_worse_by_what_it_says(tmp_p
 @pytest.mark.slow
 def test_an_interval_is_printed_with_the_digits_that_it_needs():
     assert _told_apart(0.58, 0.5799991, 0.5800009) == ["0.58", "0.579999", "0.580001"]
+    assert _told_apart(0.58, 0.58 - 1e-12, 0.58 + 1e-12) == ["0.58"] * 3
     assert _told_apart(6500.0, 6400.0, float("inf")) == ["6500", "6400", "no end"]
 
 

@@ -132,3 +132,8 @@ def test_a_wide_table_is_stacked_on_a_phone_and_repeats_its_head_in_print():
     text = _environment().from_string(template).render(table=wide)
     assert '<table class="stack"><thead><tr><th>check</th>' in text
     assert '<td data-name="value and limit">closing z/H 0.4678' in text
+
+
+def test_a_figure_shows_itself_in_a_notebook():
+    drawn = Spot(force=1.0).plot()._repr_svg_()
+    assert drawn.startswith("<svg") and "<title id=" in drawn and drawn.rstrip().endswith("</svg>")
