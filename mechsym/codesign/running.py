@@ -9,6 +9,7 @@ order eight. They share the functions of the machine and no method.
 """
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 from typing import Any
 
@@ -182,9 +183,15 @@ def _kinks(machine: Running) -> np.ndarray:
     return np.unique(np.round(angles, 12))
 
 
+# the legs of a run share it
+@functools.lru_cache(maxsize=8)
+def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":
+    return periodic.fit(torque, kinks, period, 1e-10)
+
+
 def _tables(machine: Running) -> tuple[Any, ...]:
     point = machine.point
-    driving = periodic.fit(machine.torque, machine.kinks, point.period, 1e-10)
+    driving = _fitted(machine.torque, machine.kinks, point.period)
     extra = scipy.interpolate.PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
     closings = (p for t in machine.tracks for p in (t.z, t.z.derivative(), t.z.derivative(2)))
     return driving, extra, point.inertia, point.inertia.derivative(), *closings

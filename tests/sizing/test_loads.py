@@ -143,3 +143,20 @@ def test_a_turning_shaft_under_a_still_load_and_a_still_shaft_under_a_turning_lo
     load = fatigue_factor(section, 50 * np.cos(THETA)[None, :], 50 * np.sin(THETA)[None, :], 0 * THETA, none)
     assert turning[0] == pytest.approx(load[0], rel=1e-9)
     assert turning[0] == pytest.approx(3e8 * np.pi * 0.02**3 / 32 / 50, rel=1e-6)
+
+
+def test_each_of_24_fibres_of_a_turning_section_is_seen():
+    random = np.random.default_rng(3)
+    M_x, M_y, T = random.normal(20, 50, (3, 4, 90))
+    turn = np.linspace(0, 4 * np.pi, 90, endpoint=False)
+    section = Section(d=0.02, S_e=2e8, S_ut=8e8, K_f=1.6, K_fs=1.3, bore=0.008)
+    solid = np.pi * section.d**3 / 32 * (1 - 0.4**4)
+    used = []
+    for alpha in np.radians(np.arange(0, 360, 15)):
+        sigma = (M_x * np.cos(turn + alpha) + M_y * np.sin(turn + alpha)) / solid
+        (sigma_a, sigma_m), (tau_a, tau_m) = ((np.ptp(s, axis=1) / 2, (s.max(axis=1) + s.min(axis=1)) / 2)
+                                              for s in (sigma, T / (2 * solid)))  # fmt: skip
+        amplitude = np.sqrt((1.6 * sigma_a) ** 2 + 3 * (1.3 * tau_a) ** 2)
+        mean = np.sqrt((1.6 * np.maximum(sigma_m, 0)) ** 2 + 3 * (1.3 * tau_m) ** 2)
+        used.append(amplitude / section.S_e + mean / section.S_ut)
+    np.testing.assert_allclose(fatigue_factor(section, M_x, M_y, turn, T), 1 / np.max(used, axis=0), rtol=1e-13)

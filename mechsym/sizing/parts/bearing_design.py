@@ -1,5 +1,6 @@
 """Choosing and checking rolling bearings for a load history over the speeds."""
 
+import functools
 from collections.abc import Iterable
 
 import numpy as np
@@ -22,6 +23,21 @@ class Seat:
     omega: np.ndarray  #: shape (k,): Crank speeds, for the notes [rad/s]
     load: np.ndarray  #: shape (k, n): Radial load of the place over the period [N]
     turning: np.ndarray  #: shape (k,): Speed of one ring relative to the other [rad/s]
+
+    @functools.cached_property
+    def peak(self) -> np.ndarray:
+        """Largest load at each speed, shape (k,) [N]."""
+        return np.asarray(np.abs(self.load).max(axis=1))
+
+    @functools.cached_property
+    def ball(self) -> np.ndarray:
+        """Load of equal life on balls, shape (k,) [N]."""
+        return bearings.equivalent_load(self.load, "ball")
+
+    @functools.cached_property
+    def roller(self) -> np.ndarray:
+        """Load of equal life on rollers, shape (k,) [N]."""
+        return bearings.equivalent_load(self.load, "roller")
 
 
 @record
@@ -61,9 +77,8 @@ def mass(choice: Choice) -> float:
 def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
     """Static load, life and speed of the bearings of one place, each at its worst crank speed."""
     bearing, name = choice.bearing, f"{seat.name}, {choice.count} x {choice.bearing.designation}"
-    peak = np.abs(seat.load).max(axis=1)
+    peak, P = seat.peak, seat.ball if bearing.kind == "ball" else seat.roller
     k = int(np.argmax(peak))
-    P = bearings.equivalent_load(seat.load, bearing.kind)
     C = bearings.set_rating(bearing.C, choice.count, bearing.kind)
     life = np.full(P.shape, np.inf)
     loaded = P > 0

@@ -10,7 +10,7 @@ from mechsym.sizing.checks import require
 from mechsym.sizing.rules.crankshaft import bending_stress, torsion_stress
 from mechsym.sizing.rules.fatigue import stress_cycle
 
-_FIBRES = 24
+_FIBRES = 24  # an even number: each has one opposite
 
 
 @record
@@ -65,13 +65,16 @@ def fatigue_factor(section: Section, M_x: np.ndarray, M_y: np.ndarray, turn: np.
     """
     hollow = 1 - (section.bore / section.d) ** 4
     tau_a, tau_m = stress_cycle(torsion_stress(np.asarray(T), section.d) / hollow)
+    # moments in the section's own axes: turned once, they serve all fibres
+    cos, sin, per_moment = np.cos(turn), np.sin(turn), bending_stress(1.0, section.d) / hollow
+    along, across = M_x * cos + M_y * sin, M_y * cos - M_x * sin
     used = np.zeros(np.shape(M_x)[0])
-    for alpha in np.arange(_FIBRES) * 2 * np.pi / _FIBRES:
-        direction = np.asarray(turn) + alpha
-        sigma = bending_stress(M_x * np.cos(direction) + M_y * np.sin(direction), section.d) / hollow
-        sigma_a, sigma_m = stress_cycle(sigma)
+    for alpha in np.arange(_FIBRES // 2) * 2 * np.pi / _FIBRES:
+        sigma_a, sigma_m = stress_cycle(along * np.cos(alpha) + across * np.sin(alpha))
+        # the fibre on the other side has the same amplitude and the opposite mean
+        sigma_a, sigma_m = per_moment * sigma_a, per_moment * np.abs(sigma_m)
         amplitude = np.hypot(section.K_f * sigma_a, np.sqrt(3) * section.K_fs * tau_a)
-        mean = np.hypot(section.K_f * np.maximum(sigma_m, 0), np.sqrt(3) * section.K_fs * tau_m)
+        mean = np.hypot(section.K_f * sigma_m, np.sqrt(3) * section.K_fs * tau_m)
         used = np.maximum(used, amplitude / section.S_e + mean / section.S_ut)
     with np.errstate(divide="ignore"):
         return 1 / used
