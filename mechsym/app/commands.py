@@ -30,6 +30,7 @@ _MOST_ROWS = 400  # more than any command says of a case of ours
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
 _ROUNDING = 1e-9  # of the largest value of a unit
+_TURNS = 12.0  # about two turns [rad]
 #: commands that run again as soon as the sliders rest; the others take long and wait for their button
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
@@ -114,6 +115,8 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     sizes = {u: max((max(map(abs, c)) for c, (_, v) in zip(columns, named, strict=True) if c and u == v), default=0.0)
              for _, u in named}  # fmt: skip
     moving = [i for i, c in enumerate(columns) if i != place and c and max(c) - min(c) > _ROUNDING * sizes[named[i][1]]]
+    # an angle that goes on from turn to turn is a straight line; what swings stands before it
+    moving.sort(key=lambda i: named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS)
     x_name, x = _axis(*named[place], columns[place])
     shown = ((named[i][0], *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
     return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in shown)

@@ -177,11 +177,20 @@ def _rows(prefix: str, found: Any) -> Rows:
     if isinstance(found[0], str):
         return [(prefix, value) for value in found]
     if isinstance(found[0], (Mapping, list)):
-        told = [row for i, value in enumerate(found[:_MOST]) for row in _rows(f"{prefix}[{i}]", value)]
+        told = [row for i, value in enumerate(found[:_MOST]) for row in _entry(f"{prefix}[{i}]", value)]
         left = len(found) - _MOST
         return [*told, (prefix, f"and {left} more in the JSON")] if left > 0 else told
     name, unit = unit_of(prefix)
     return [(name, _listed(found, unit))]
+
+
+def _entry(prefix: str, found: Any) -> Rows:
+    """An entry of a list: in one row where it holds plain values only."""
+    rows = _rows(prefix, found)
+    flat = isinstance(found, Mapping) and not any(isinstance(v, (Mapping, list)) for v in found.values())
+    if not flat or len(rows) < 2:
+        return rows
+    return [(prefix, "; ".join(f"{name.rpartition('.')[2]} {value}" for name, value in rows))]
 
 
 def _as_one(found: Mapping[str, Any], unit: str) -> str:

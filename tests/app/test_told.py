@@ -17,10 +17,10 @@ def rows(found, units=None):
 
 
 def test_numbers_stand_in_units_of_people():
-    given = {"speed_rpm": 89.0, "t_end": 2.0, "speeds": {"phi": {"mean": 9.42477796}}, "p_max_mpa": [7.4271],
-             "vibration": {"natural": [62.831853, 125.663706]}, "twist": [{"twist_peak": 0.1}]}  # fmt: skip
-    assert rows(given) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4271 MPa",
-                           "vibration.natural": "10, 20 Hz", "twist[0].twist_peak": "5.7296 deg"}  # fmt: skip
+    given = {"speed_rpm": 89.0, "t_end": 2.0, "speeds": {"phi": {"mean": 9.42477796}}, "p_max_mpa": [7.4],
+             "vibration": {"natural": [62.831853, 125.663706]}, "twist": [{"of": "a", "twist_peak": 0.1}]}  # fmt: skip
+    assert rows(given) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4 MPa",
+                           "vibration.natural": "10, 20 Hz", "twist[0]": "of a; twist_peak 5.7296 deg"}  # fmt: skip
 
 
 def test_round_off_is_named_or_zero():
@@ -38,6 +38,14 @@ def test_what_belongs_together_stands_in_one_row():
         ("facts", "one"), ("facts", "two"), ("F", "-0.01 to 2 kN, largest at 12.5 deg"),
         ("torque_orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe.start", "5.7296 deg ± 0.57296 deg"),
     ]  # fmt: skip
+
+
+def test_what_swings_is_drawn_before_an_angle_that_goes_on(tmp_path):
+    lines = ["t [s],phi [rad],work [J],psi [rad]", "0,0,5,0.1", "1,50,2500,-0.2", "2,100,7000,0.1"]
+    (tmp_path / "series.csv").write_text("\n".join(lines), encoding="utf-8")
+    found = commands._curves(tmp_path / "series.csv", "t")
+    assert [c.y_name for c in found] == ["work [kJ]", "psi [deg]", "phi [deg]"]
+    assert found[0].y == pytest.approx((0.005, 2.5, 7.0)) and found[0].x_name == "t [s]"
 
 
 def test_sentences_of_one_name_stand_beside_their_own():
