@@ -6,7 +6,7 @@ takes all panels of a turn at once: one step where the load is linear in the ene
 
 import numpy as np
 
-from mechsym.machine.loads import ConstantLoad, Load, load_slope, load_torque
+from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, load_slope, load_torque
 from mechsym.quantities import record
 from mechsym.simulate.angle import Panels, gauss
 
@@ -63,7 +63,9 @@ def _turn_together(panels: Panels, flywheel: float, energy: float) -> AngleTurn 
         before, (found, edges, multiplier) = found, _linear(net + lively * found, lively, half, energy)
         if not np.all(np.isfinite(found)):
             return None
-        if np.max(np.abs(found - before)) <= 1e-13 * np.max(np.abs(found)):
+        # a law that is linear in the energy, slope and all, is met by the first step
+        met = isinstance(panels.load, PropellerLoad) and before.min() > 0 and found.min() > 0
+        if met or np.max(np.abs(found - before)) <= 1e-13 * np.max(np.abs(found)):
             if np.any(found <= 0):
                 multiplier = _linear(net, slope, half, energy)[2]
             return AngleTurn(energy=found, energy_edges=edges, multiplier=multiplier)
