@@ -3,6 +3,8 @@
 tape.py       a CasADi function as plain instructions        kernels.py   equal parts rolled into loops
 emit.py       C text                                         cache.py     compiled files, checked before use
 evaluate.py   scalar and batch calls                         fallback.py  the same without a compiler
+arc.py        motion along the arc length of each angle      series.py    angle and slope over it
+adams.py      steps that look back, in lanes                 c/adams.h    their control
 integrate.py  runs in time: DOP853 in lanes, collocation     fold.py      equal Runge-Kutta steps at many designs
 march.py      a recurrence over stages in many lanes         external.py  functions with derivatives for CasADi
 c/*.h         what does not depend on the program: elementary functions, methods, step control

@@ -1,6 +1,7 @@
 """Integration in C: one run, or many side by side in the lanes of the processor and on its cores."""
 
 import ctypes
+import dataclasses
 import functools
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -10,9 +11,10 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import integrators, library
+from mechsym.native import adams, integrators, library
 from mechsym.native.kernels import constant_table
-from mechsym.native.runs import Level, Outcome, Runs, Table
+from mechsym.native.layout import structure
+from mechsym.native.runs import Outcome, Runs
 from mechsym.native.source import Program, program
 from mechsym.native.tape import ANALYTIC
 from mechsym.quantities import record
@@ -22,35 +24,10 @@ LANES = (1, 8, 16)
 # Runs that one by one, in all lanes, take less time than side by side in one lane each. Two start-ups: 5.4 against
 # 7.1 ms at 1e-8. Three: 8.7 against 6.8 at 1e-8, 20.9 against 18.3 at 1e-10 with results, 11.2 against 16.6 at 1e-12.
 _FEW, _FEW_TIGHT, _TIGHT = 2, 3, 1e-11
+# Where steps that look back win at equal error: 16 start-ups of 99 s take 1.5 against 2.7 ms each at 1e-8, but with
+# 100 wanted times a second more than DOP853, and three angles with damping the same.
+_MOST_TIMES, _MOST_ANGLES = 100, 2
 _UNSOLVED = (5, 6)  # indices into STATUS: what explicit steps may still do
-
-_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "max_steps")
-_DOUBLES = ("rtol", "atol", "first_step")
-_ARRAYS = (
-    "constants", "until", "held", "grid", "kink_angles", "kink_periods", "kink_states", "kinked_states",
-    "table", "surface", "t", "y", "samples", "last_step",
-    "steps", "rejected", "sampled", "met", "status",
-)  # fmt: skip
-
-
-class _Table(ctypes.Structure):
-    _fields_ = [
-        *((name, ctypes.c_long) for name in ("slot", "state", "pieces", "terms")),
-        *((name, ctypes.c_void_p) for name in ("breaks", "coefficients")),
-    ]
-
-
-class _Surface(ctypes.Structure):
-    _fields_ = [("state", ctypes.c_long), ("direction", ctypes.c_long), ("level", ctypes.c_void_p)]
-
-
-class _Run(ctypes.Structure):
-    # the same fields in the same order as ms_run in c/run.h
-    _fields_ = [
-        *((name, ctypes.c_long) for name in _LONGS),
-        *((name, ctypes.c_double) for name in _DOUBLES),
-        *((name, ctypes.c_void_p) for name in _ARRAYS),
-    ]
 
 
 @record
@@ -77,7 +54,9 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
         `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
         all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations, as
         long as it converges fast, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
-        `first_step`, for conservative runs without kinks and surfaces
+        `first_step`, for conservative runs without kinks and surfaces. `adams`: steps of order 11 that look back, a run
+        in each lane, along the arc lengths of its angles; `auto` takes it for long smooth ensembles with few wanted
+        times
 
     Returns
     -------
@@ -91,7 +70,8 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     """
     batch = _spread(runs, mode)
     if method == "auto":
-        found = _integrated(batch, _chosen(batch), mode)
+        method = _chosen(batch, mode)
+        found = _integrated(batch, method, mode)
         return _integrated(batch, "dop853", mode) if np.isin(found.status, _UNSOLVED).any() else found
     return _integrated(batch, method, mode)
 
@@ -99,8 +79,7 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
 def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     count = len(batch.start)
     lanes, together = _shape(batch, method, count)
-    followed = tuple(sorted({t.state for t in batch.runs.tables})) if method == "dop853" else ()
-    texts = [_text(p, method, lanes, *([followed] if followed else [])) for p in batch.programs]
+    texts, batch = _texts(batch, method, lanes, mode)
     loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
     blocks = _blocks(texts if len(texts) > 1 else texts * count, together)
     result = _empty(count, batch.start.shape[1], batch.times.shape[1])
@@ -116,19 +95,48 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     return Outcome(**result)
 
 
-def _chosen(batch: _Batch) -> str:
+def _texts(batch: _Batch, method: str, lanes: int, mode: str) -> tuple[list[str], _Batch]:
+    """The C file of each function, and the batch with the constants that it reads."""
+    if method != "adams":
+        followed = tuple(sorted({t.state for t in batch.runs.tables})) if method == "dop853" else ()
+        return [_text(p, method, lanes, *([followed] if followed else [])) for p in batch.programs], batch
+    made, rates = _looking_back(batch, mode), batch.programs[0]
+    if made is None:
+        raise BadInput(
+            "method 'adams' takes runs of one smooth function, in which an inertia depends on its own angle only and "
+            "surfaces are of angles and speeds; use dop853"
+        )
+    return [adams.text(rates, lanes, made)], dataclasses.replace(batch, constants=adams.constants(rates, made))
+
+
+def _looking_back(batch: _Batch, mode: str) -> adams.LookingBack | None:
+    """What `adams` needs, where it can be taken."""
+    runs = batch.runs
+    if runs.tables or runs.kinks or len(batch.programs) > 1:
+        return None
+    functions: Any = runs.rhs
+    rates = functions if isinstance(functions, casadi.Function) else functions[0]
+    return adams.ready(rates, batch.held, {s.state for s in runs.surfaces}, mode)
+
+
+def _chosen(batch: _Batch, mode: str) -> str:
     """The faster method that is safe: long steps of high order need rates with all derivatives."""
     analytic = all({op for op, _ in p.tape.nodes} <= ANALYTIC for p in batch.programs)
     smooth = analytic and not batch.runs.tables and not batch.runs.kinks
     few = _FEW_TIGHT if batch.runs.rtol < _TIGHT else _FEW
-    return "collocation" if smooth and len(batch.start) <= few else "dop853"
+    if smooth and len(batch.start) <= few:
+        return "collocation"
+    if not smooth or mode != "fast" or batch.times.shape[1] > _MOST_TIMES:
+        return "dop853"
+    made = _looking_back(batch, mode)
+    return "adams" if made and len(made.parts.form.angles) <= _MOST_ANGLES and not made.parts.form.read else "dop853"
 
 
 def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
     """Lanes of a block, and how many runs lie in them."""
     runs, lanes = batch.runs, next((n for n in LANES if n >= count), LANES[-1])
     match method:
-        case "dop853":
+        case "dop853" | "adams":
             return lanes, lanes
         case "collocation":
             if runs.kinks or runs.tables:
@@ -137,7 +145,7 @@ def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
         case "gauss":
             _check_gauss(batch)
             return lanes, lanes
-    raise BadInput(f"method = {method!r} is not an option; options are auto, dop853, collocation, gauss")
+    raise BadInput(f"method = {method!r} is not an option; options are auto, dop853, collocation, adams, gauss")
 
 
 def _check_gauss(batch: _Batch) -> None:
@@ -214,8 +222,8 @@ def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, resu
     chosen = np.array(members + [members[-1]] * (lanes - len(members)))
     arrays = _arrays(batch, chosen)
     arrays["samples"] = np.array([result["samples"][run].ctypes.data for run in chosen], dtype=np.uintp)
-    structure, alive = _structure(batch.runs, arrays, chosen)
-    advance(ctypes.byref(structure))
+    argument, alive = structure(batch.runs, arrays, chosen)
+    advance(ctypes.byref(argument))
     del alive
     used = slice(0, len(members))
     result["y"][members] = arrays["y"].T[used]
@@ -246,37 +254,3 @@ def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
     }
     # always a copy: the runs are written into t and y
     return {name: np.array(a, dtype=float, order="C") for name, a in floats.items()} | counters
-
-
-def _structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[_Run, list[Any]]:
-    """The argument of the C function, and what must stay alive as long as it is used."""
-    alive: list[Any] = [arrays]
-    tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
-    surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
-    alive += [tables, surfaces]
-    structure = _Run(
-        segments=len(arrays["until"]), times=arrays["grid"].shape[1], tables=len(runs.tables),
-        surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kinked=len(arrays["kinked_states"]),
-        max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
-        table=ctypes.addressof(tables), surface=ctypes.addressof(surfaces),
-        **{name: a.ctypes.data for name, a in arrays.items()},
-    )  # fmt: skip
-    return structure, alive
-
-
-def _table(table: Table, run: int, alive: list[Any]) -> _Table:
-    breaks, coefficients = table.polynomials[run if len(table.polynomials) > 1 else 0]
-    breaks = np.ascontiguousarray(breaks, dtype=float)
-    # one polynomial after another, as the C code reads them
-    rows = np.ascontiguousarray(coefficients.T, dtype=float)
-    alive += [breaks, rows]
-    return _Table(
-        slot=table.held, state=table.state, pieces=len(breaks) - 1, terms=rows.shape[1], breaks=breaks.ctypes.data,
-        coefficients=rows.ctypes.data,
-    )  # fmt: skip
-
-
-def _surface(surface: Level, chosen: np.ndarray, alive: list[Any]) -> _Surface:
-    level = np.array(np.take(np.atleast_1d(surface.level), chosen, mode="clip"), dtype=float)
-    alive.append(level)
-    return _Surface(state=surface.state, direction=surface.direction, level=level.ctypes.data)

@@ -262,7 +262,7 @@ def test_shapes_are_checked():
         integrate(Runs(rhs=FORCED, start=np.zeros(3), until=np.array([1.0]), held=np.zeros((1, 1))))
     with pytest.raises(BadInput, match="must agree"):
         integrate(Runs(rhs=FORCED, start=np.zeros((3, 2)), until=np.ones((2, 1)), held=np.zeros((1, 1))))
-    with pytest.raises(BadInput, match="options are auto, dop853, collocation, gauss"):
+    with pytest.raises(BadInput, match="options are auto, dop853, collocation, adams, gauss"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0])), "euler")
     with pytest.raises(BadInput, match="atol must be above 0"):
         integrate(Runs(rhs=PENDULUM, start=np.zeros(2), until=np.array([1.0]), atol=0.0))

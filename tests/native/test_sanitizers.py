@@ -90,8 +90,8 @@ def test_a_machine_as_a_program(compiler, tmp_path, case):
     clean(subprocess.run([str(tmp_path / "run")], capture_output=True, text=True, check=False))
 
 
-@pytest.mark.parametrize("case", MACHINES)
-def test_a_run_of_the_compiled_integrator(compiler, tmp_path, case):
+def surroundings(compiler: str, folder: Path) -> dict[str, str]:
+    """Variables under which what Python compiles and loads is sanitized."""
     runtime = {"gcc": "libasan.so", "clang": "libclang_rt.asan-x86_64.so"}[compiler]
     library = subprocess.check_output([compiler, f"-print-file-name={runtime}"], text=True).strip()
     if not Path(library).is_file():
@@ -99,10 +99,36 @@ def test_a_run_of_the_compiled_integrator(compiler, tmp_path, case):
     if compiler == "gcc":  # its runtime wants the library of C++ beside it, whose exceptions other modules throw
         library += " " + subprocess.check_output([compiler, "-print-file-name=libstdc++.so.6"], text=True).strip()
     shared = ["-shared-libsan"] if compiler == "clang" else []
-    surroundings = os.environ | {
-        "CC": " ".join([compiler, *SANITIZED[:3], *shared]), "LD_PRELOAD": library, "XDG_CACHE_HOME": str(tmp_path),
+    return os.environ | {
+        "CC": " ".join([compiler, *SANITIZED[:3], *shared]), "LD_PRELOAD": library, "XDG_CACHE_HOME": str(folder),
         "ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1",
     }  # fmt: skip
+
+
+# long ensembles with weights, works, segments, surfaces and wanted times
+ENSEMBLE = """
+import numpy as np
+from native.test_adams import discs
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import Level
+surface = Level(state=1, level=0.5, direction=-1)
+for changed in ({}, {"times": np.linspace(0.5, 299, 50)}, {"surfaces": (surface,)}, {"max_steps": 4000}):
+    found = integrate(discs(rtol=1e-8, atol=1e-8, **changed), "adams")
+    assert found.steps.min() > 100
+"""
+
+
+def test_steps_that_look_back(compiler, tmp_path):
+    tests = str(Path(__file__).parents[1])
+    found = surroundings(compiler, tmp_path)
+    found["PYTHONPATH"] = os.pathsep.join([tests, found.get("PYTHONPATH", "")])
+    clean(subprocess.run([sys.executable, "-c", ENSEMBLE], capture_output=True, text=True, check=False, env=found))
+    assert list(tmp_path.rglob("*.so"))
+
+
+@pytest.mark.parametrize("case", MACHINES)
+def test_a_run_of_the_compiled_integrator(compiler, tmp_path, case):
+    found = surroundings(compiler, tmp_path)
     short = ["--set", "t_end=2"] if case == "chmielewski" else ["--set", "simulation.turns=3"]
     command = [
         sys.executable,
@@ -115,7 +141,7 @@ def test_a_run_of_the_compiled_integrator(compiler, tmp_path, case):
         "simulation.backend=native",
         "--json",
     ]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, env=surroundings)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=found)
     clean(done)
     assert json.loads(done.stdout)["backend"] == "native"
     # what ran was compiled here, with the sanitizers

@@ -11,7 +11,7 @@ from native.models import functions
 
 from mechsym import cases
 from mechsym.jobs.cycle import cycle
-from mechsym.native import compiler, march, source
+from mechsym.native import compiler, integrate, march, source
 from mechsym.native.emit import block, bodies
 from mechsym.sweep.run import Plan, sweep
 
@@ -78,3 +78,25 @@ def marched(monkeypatch: pytest.MonkeyPatch, module: str) -> list[ca.Function]:
 
 def text(step: ca.Function, mode: str) -> str:
     return march.text(source.program(step, mode), (step.numel_in(0), step.numel_in(1), step.numel_in(2)))
+
+
+def test_steps_that_look_back(tmp_path):
+    from native.test_adams import discs
+
+    batch = integrate._spread(discs(), "fast")
+    (made,), _ = integrate._texts(batch, "adams", 16, "fast")
+    (tmp_path / "made.c").write_text(made)
+    command = [GCC, *compiler.flags("fast"), "-fopt-info-vec-optimized", "made.c", "-o", "made.so", "-lm"]
+    said = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stderr
+    done = {int(n) for n in re.findall(r"made\.c:(\d+):\d+: optimized: (?:loop|basic block part) vectorized", said)}
+    lines = made.splitlines()
+    found = 0
+    for name in ("static void ms_unbend(", "noinline)) void ms_stride("):
+        start = next(i for i, line in enumerate(lines) if name in line)
+        end = next(i for i in range(start, len(lines)) if lines[i] == "}")
+        for i in (i for i in range(start, end) if "MS_EACH" in lines[i]):
+            if "run->surfaces" in lines[i - 1] or "MS_RO; i++" in lines[i - 1]:
+                continue  # for surfaces alone, and states that this function has not
+            found += 1
+            assert done & set(range(i, i + 4)), lines[i : i + 3]
+    assert found > 5

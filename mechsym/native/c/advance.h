@@ -305,21 +305,32 @@ static void ms_settle(const ms_run *run, ms_work *w)
         ms_guess_step(run, w, fresh);
 }
 
-MS_EXPORT void ms_dop853(const ms_run *run)
+/* One try in all lanes. Returns how many are not done. */
+static int ms_turn_over(const ms_run *run, ms_work *w)
 {
-    ms_work work, *w = &work;
-    for (int left = ms_begin(run, w); left;) {
-        ms_choose_steps(run, w);
-        ms_try(run, w);
-        if (!ms_settle_plain(run, w))
-            ms_settle(run, w);
-        left = 0;
-        for (int l = 0; l < MS_L; l++)
-            left += w->active[l];
-    }
+    int left = 0;
+    ms_choose_steps(run, w);
+    ms_try(run, w);
+    if (!ms_settle_plain(run, w))
+        ms_settle(run, w);
+    for (int l = 0; l < MS_L; l++)
+        left += w->active[l];
+    return left;
+}
+
+static void ms_leave(const ms_run *run, const ms_work *w)
+{
     for (int l = 0; l < MS_L; l++) {
         run->t[l] = w->t[l];
         for (int i = 0; i < MS_N; i++)
             run->y[i * MS_L + l] = w->y[i][l];
     }
+}
+
+MS_EXPORT void ms_dop853(const ms_run *run)
+{
+    ms_work work, *w = &work;
+    for (int left = ms_begin(run, w); left;)
+        left = ms_turn_over(run, w);
+    ms_leave(run, w);
 }
