@@ -13,10 +13,11 @@ from typing import Any
 
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import own
+from mechsym.mechanisms.own import packaged
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.record import listing as stored_listing
 from mechsym.mechanisms.state import state
-from mechsym.mechanisms.traits import packaged, traits_of
+from mechsym.mechanisms.traits import traits_of
 from mechsym.quantities import quantity
 
 

@@ -9,7 +9,8 @@ from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of
-from mechsym.mechanisms.traits import packaged, traits_of
+from mechsym.mechanisms.own import packaged
+from mechsym.mechanisms.traits import traits_of
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "extent", "extent_of", "shapes"]
 

@@ -11,10 +11,9 @@ import dataclasses
 import difflib
 import functools
 import hashlib
-import importlib.metadata
-import importlib.util
 import json
 from collections.abc import Mapping
+from importlib import resources
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -42,12 +41,26 @@ class Own:
 
 def is_file(name: str) -> bool:
     """Whether a mechanism is named by a file, or brought by another package."""
-    return name.partition(".py:")[0].endswith(".py") or ".py:" in name or name in brought()
+    return name.partition(".py:")[0].endswith(".py") or ".py:" in name or _brought(name) is not None
+
+
+@functools.cache
+def packaged() -> tuple[str, ...]:
+    """Names of the mechanisms that the package has, generated or assembled."""
+    generated = {p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _code(p.name)}
+    assembled = {p.parent.name for p in Path(__file__).parent.glob("*/__init__.py")}
+    return tuple(sorted(generated | assembled))
+
+
+def _code(name: str) -> bool:
+    return name.endswith(".py") and not name.startswith("_")
 
 
 @functools.lru_cache(maxsize=1)
 def brought() -> dict[str, str]:
     """Names that installed packages bring, with their files."""
+    import importlib.metadata
+
     found = {}
     for entry in importlib.metadata.entry_points(group=_GROUP):
         spec = importlib.util.find_spec(entry.value.partition(":")[0])
@@ -56,16 +69,21 @@ def brought() -> dict[str, str]:
     return found
 
 
+def _brought(name: str) -> str | None:
+    # what this package has goes first: a look at all that is installed takes longer than an evaluation
+    return None if name in packaged() else brought().get(name)
+
+
 def located(name: str, folder: Path) -> str:
     """A mechanism's name in a case file of a folder as a name that holds in the working folder."""
-    if name in brought() or not is_file(name):
+    if _brought(name) or not is_file(name):
         return name
     path, colon, which = _parts(name)
     return f"{path if path.is_absolute() else folder / path}{colon}{which}"
 
 
 def _parts(name: str) -> tuple[Path, str, str]:
-    name = brought().get(name, name)
+    name = _brought(name) or name
     head, colon, which = name.rpartition(":")
     if colon and head.endswith(".py"):
         return Path(head), colon, which

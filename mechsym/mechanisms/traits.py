@@ -7,13 +7,13 @@ roles of its declaration, as a mechanism of a user's own has.
 
 import functools
 from collections.abc import Callable, Iterable, Mapping
-from importlib import import_module, resources
+from importlib import import_module
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 from mechsym.mechanisms.chain import CrankChain
 from mechsym.mechanisms.drawn_parts import Circle, Line
+from mechsym.mechanisms.own import packaged
 from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import record
@@ -56,18 +56,6 @@ class Traits:
     rules: str = ""  #: By which its parts are sized: `slider crank`, `planet`
     #: The mechanism as one cylinder of it sees itself: name and record of one that has a single piston
     alone: Callable[[Any], tuple[str, Any]] | None = None
-
-
-@functools.cache
-def packaged() -> tuple[str, ...]:
-    """Names of the mechanisms that the package has, generated or assembled."""
-    generated = {p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _code(p.name)}
-    assembled = {p.parent.name for p in Path(__file__).parent.glob("*/__init__.py")}
-    return tuple(sorted(generated | assembled))
-
-
-def _code(name: str) -> bool:
-    return name.endswith(".py") and not name.startswith("_")
 
 
 @functools.lru_cache(maxsize=64)
