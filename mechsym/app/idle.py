@@ -108,6 +108,10 @@ def _weighed(case: Case, data: Any) -> str | None:
     return "sized parts weigh what they weigh" if anew else None
 
 
+def _family(case: Case, data: Any) -> str | None:
+    return "codesign.scavenge tells it at each load" if case.need("codesign").scavenge else None
+
+
 _REACH = 2.0  # as far as sliders go, times the value
 _NO_PLACE = "the mechanism has no such place that rubs"
 
@@ -136,6 +140,8 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any],
     ("friction", (), ("size",), _said("parts are sized without friction of the joints")),
     ("operation", ("speed",), ("size",), _anew("sized at the speeds of [speeds]")),
     ("speeds", ("step",), ("size",), _fine),
+    ("cycle", ("p_s",), ("codesign",), _family),
+    ("operation", ("speed",), ("codesign",), _said("designed at the speeds of [codesign]")),
     ("parameters", ("I1",), ("size",), _anew("the speed is held")),
     ("parameters", ("m1", "m2", "m3", "m4", "m5", "I01", "IC2"), ("size",), _weighed),
     ("parameters", ("m1", "I01"), ("size",), _kept),

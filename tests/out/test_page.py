@@ -234,3 +234,16 @@ def test_the_guide_of_the_page_turns_with_its_own_shaft(exported):
     for name in ("zotov-89", "generator"):
         wanted = cases.load(name, needed(name)).sections["guide"].shaft_ratio
         assert _data(exported(name)[1])["ratio"] == wanted
+
+
+@pytest.mark.parametrize(("name", "turns"), [("zotov-89", 1), ("generator", 2), ("chmielewski", 1)])
+def test_the_curves_of_the_page_go_over_a_whole_cycle(exported, name, turns):
+    from mechsym.out.web.build import _data
+
+    assert _data(exported(name)[1])["period"] == pytest.approx(turns * 2 * np.pi, rel=1e-12)
+
+
+@pytest.mark.slow
+def test_nobody_is_offered_a_misfire_without_gas(opened):
+    tab, errors, _ = opened("chmielewski")
+    assert not tab.is_visible("#misfire") and tab.is_visible("#slider_k1") and errors == []

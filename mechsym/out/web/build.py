@@ -3,6 +3,7 @@
 import base64
 import importlib.util
 import json
+import math
 import os
 import subprocess
 import sys
@@ -72,7 +73,6 @@ def _data(block: Block) -> dict[str, Any]:
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
     if speed.start:
         sliders.append(_slider(speed, 0.9, 1.1))
-    turn = block.kinks[0].period if block.kinks else 2 * 3.141592653589793
     return {
         "name": block.name,
         "about": block.about,
@@ -88,10 +88,16 @@ def _data(block: Block) -> dict[str, Any]:
         "acting": _acting(block),
         "palette": {"light": _palette(lambda colour: colour), "dark": _palette(DARK.__getitem__)},
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
-        "period": turn,
+        "period": _period(block),
         "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         "t_end": _end(block, speed.start),
     }
+
+
+def _period(block: Block) -> float:
+    """Crank angle after which all curves begin again [rad]: a measured four-stroke cycle has two turns and no kinks."""
+    curves = (abs((c.poly.x[-1] - c.poly.x[0]) / c.ratio) for c in block.curves if c.periodic)
+    return max([2 * math.pi, *(k.period for k in block.kinks), *map(float, curves)])
 
 
 def _acting(block: Block) -> list[dict[str, str]]:
