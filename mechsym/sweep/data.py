@@ -115,7 +115,8 @@ def write_table(result: Sweep, folder: Path) -> Path:
         for i, a in enumerate(result.axes)
     }
     reasons = failures(result)
-    table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()}
+    table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()
+              if result.units[name] or column.dtype.kind != "f" or not np.isnan(column).all()}  # fmt: skip
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
     return write_quantities(folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if "[" not in n})
 

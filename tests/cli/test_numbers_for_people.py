@@ -36,7 +36,9 @@ TABLES = [("hinge", "zotov-89"), ("forces", "opposed-pistons"), ("forces", "bala
           ("size", "nunes-slider-crank"), ("flywheel", "zotov-89"),
           ("simulate", "alpha-stirling", "--set", "simulation.turns=3")]  # fmt: skip
 WITHOUT = re.compile(
-    r"^(source|mechanism|verdict|note|failure|phi_deg|quantity|unit|a|b|.*_(rpm|bar|mpa|kpa|kw|deg|g_kwh|pa|k|m3|n|nm|j))$"
+    r"^(source|mechanism|verdict|note|failure|phi_deg|quantity|unit|a|b|guide\.reason|status|end"  # words
+    r"|component|value|limit|safety_factor|rule|wanted|holds"  # rows that each have a unit of their own
+    r"|.*_(rad_s|rpm|bar|mpa|kpa|kw|deg|g_kwh|pa|k|m3|n|nm|j))$"
 )
 
 
