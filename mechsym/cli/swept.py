@@ -120,5 +120,6 @@ def _values(found: Any, index: int) -> dict[str, Any]:
 def place(found: Any, index: int) -> str:
     """Where a point is, in words."""
     parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
-    units = {a.key: a.suffix or ("" if a.unit == "-" else a.unit) for a, _ in parts}  # plain numbers are SI
+    plain = {"-", *(a.unit for a, _ in parts if a.key.endswith(f"_{a.unit}"))}  # the name carries it; else SI
+    units = {a.key: a.suffix or ("" if a.unit in plain else a.unit) for a, _ in parts}
     return ", ".join(f"{a.key}={v} {units[a.key]}".rstrip() for a, v in parts)
