@@ -103,7 +103,7 @@ def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine
     """
     cycle = case.need("cycle")
     if kind_of(cycle).given != "engine":
-        why = "[cycle] kind must be \"spark-ignition\" for this command; 'mechsym check' tells which take the case"
+        why = "[cycle] kind must be 'spark-ignition' for this command; 'mechsym check' tells which take the case"
         raise BadInput(f"{case.file}: {why}")
     with of(case):
         motion = piston_motion(case.mechanism, asdict(case.need("parameters")), guesses(case), number)
