@@ -53,7 +53,7 @@ class Case:
             The case has no such section
         """
         if section not in self.sections:
-            why = f"section [{section}] is missing; this command needs it; 'mechsym check' tells all that it lacks (see 'mechsym cases')"
+            why = f"section [{section}] is missing; this command needs it; see 'mechsym check' and 'mechsym cases'"
             raise MissingSection(f"{self.file}: {why}")
         return self.sections[section]
 
