@@ -224,11 +224,12 @@ def summary(rows: Sequence[Row]) -> str:
     unmatched = sum(r["read"] and not r["matched"] for r in rows)
     told = "; ".join(chains(rows))
     return (
-        f"{_few(len(rows), 'equation')}: {_few(findings, 'finding')}, {count[CARRIED]} carried"
-        f"{f': {told}' if told else ''}, {_few(count[DEFINED], 'definition')}, {unread} not read, "
+        f"{few(len(rows), 'equation')}: {few(findings, 'finding')}, {count[CARRIED]} carried"
+        f"{f': {told}' if told else ''}, {few(count[DEFINED], 'definition')}, {unread} not read, "
         f"{unmatched} not matched"
     )
 
 
-def _few(count: int, word: str) -> str:
+def few(count: int, word: str) -> str:
+    """A count and its word, in the plural where there is not just one."""
     return f"{count} {word}{'' if count == 1 else 's'}"

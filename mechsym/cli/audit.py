@@ -107,11 +107,12 @@ def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[dict[
 
 
 def _counted(rows: Sequence[dict[str, Any]], paper: Path | None) -> str:
-    from mechsym.audit.paper_rows import summary
+    from mechsym.audit.paper_rows import few, summary
 
     if paper is not None:
         return summary(rows)
-    return f"{len(rows)} formulas, {sum(r['verdict'] in ('misprint', 'nearer', 'wrong') for r in rows)} findings"
+    found = sum(r["verdict"] in ("misprint", "nearer", "wrong") for r in rows)
+    return f"{few(len(rows), 'formula')}, {few(found, 'finding')}"
 
 
 def _page(folder: Path, title: str, summary: str, rows: Sequence[dict[str, Any]]) -> None:
