@@ -93,15 +93,19 @@ def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
     largest = {unit: float(unit in ("rad", "rad/rad", "-")) for unit in units.values()}
     for key, unit in units.items():
         largest[unit] = max(largest[unit], abs(flat.get(key, 0.0)))
+    # what pushes and speeds up by the energies that are there
+    energy, mass = largest["J"], max(abs(m) for row in found["mass_matrix"] for m in row)
+    zeros = {"bias": energy, "generalized_force": energy, "acceleration": energy / mass if mass else 0.0}
     rows = (
-        (key, _shown(value, _ROUND_OFF * largest.get(units.get(key, ""), 0.0)), units.get(key, ""), about.get(key, ""))
+        (key, _shown(value, _ROUND_OFF * zeros.get(key, largest.get(units.get(key, ""), 0.0))), units.get(key, ""),
+         about.get(key, ""))
         for key, value in flat.items()
-    )
+    )  # fmt: skip
     return [f"{key:25s} {value:18s} {unit:12s} {who}".rstrip() for key, value, unit, who in rows]
 
 
 def _shown(value: Any, zero: float = 0.0) -> str:
     """Ten digits of a number or a list; what is not above `zero` is 0 [unit of the value]."""
     if isinstance(value, list):
-        return "[" + ", ".join(_shown(v) for v in value) + "]"
+        return "[" + ", ".join(_shown(v, zero) for v in value) + "]"
     return f"{value:.10g}" if abs(value) > zero else "0"

@@ -118,5 +118,5 @@ def _bound(case: Case) -> float | None:
         return 1 - cycle.T_c / cycle.T_e if cycle.T_e > cycle.T_c else None
     mixture = case.sections.get("gas", ConstantGamma())
     gamma = mixture.gamma if isinstance(mixture, ConstantGamma) and given == "engine" else _COLD_AIR
-    ratio = case.need("chamber").compression_ratio if given == "engine" else cycle.compression_ratio
+    ratio = case.need("chamber").compression_ratio if given in ("engine", "breathing") else cycle.compression_ratio
     return float(1 - ratio ** (1 - gamma))

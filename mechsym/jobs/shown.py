@@ -38,10 +38,11 @@ def cycle_view(found: CycleFigures) -> View:
             cards.append(Card(name=name, value=quantity_text(factor * float(values.flat[k]), unit, 4), about=told))
     best = np.asarray(found.get("efficiency", np.nan), dtype=float)
     if np.isfinite(best).any():
+        missing = "friction is" if "volumetric_efficiency" in found else "gas exchange and friction are"
         about = (
             "indicated, of the heat from the hot side"
             if "heat_in_j" in found
-            else "indicated, of the fuel's heating value; gas exchange and friction are not in it"
+            else f"indicated, of the fuel's heating value; {missing} not in it"
         )
         cards.append(Card(name="efficiency", value=f"{figure(100 * float(np.nanmax(best)), 4)} %", about=about))
     drawn = (

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.jobs.judged import of_cycle
 from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, inputs, proportion, proportions, results, sifted
 
 
@@ -275,10 +276,17 @@ def test_a_window_longer_than_the_run_is_doubted():
 
 
 def test_no_efficiency_beats_the_bound_of_its_cycle():
-    from mechsym.jobs.judged import of_cycle
 
     for name, bound in (("nunes-slider-crank", 1 - 10**-0.4), ("alpha-stirling", 1 - 330 / 900)):
         case = cases.load(name)
         assert of_cycle(case, {"efficiency": [bound * 0.99, float("nan")]}) == ()
         assert [d.code for d in of_cycle(case, {"efficiency": [bound * 1.01]})] == ["efficiency_bound"]
     assert of_cycle(cases.load("moroianu"), {"efficiency": [float("nan")]}) == ()
+
+
+@pytest.mark.parametrize("name", "generator-breathing nunes-slider-crank alpha-stirling zotov-89 moroianu".split())
+def test_efficiency_has_a_bound_in_every_kind_of_cycle(name):
+    columns = {"efficiency": [0.3], "p_max_mpa": [5.0]}
+    assert of_cycle(cases.load(name), columns) == ()
+    (doubt,) = of_cycle(cases.load(name), columns | {"efficiency": [0.3, 0.95]})
+    assert doubt.code == "efficiency_bound"

@@ -25,6 +25,7 @@ from mechsym.cycle.knock import knock_along
 from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, record
+from mechsym.quantities.display import ratio_text
 
 
 @record
@@ -115,7 +116,7 @@ def pressure(found: BreathingRun) -> Pressure:
     facts = (
         f"gas exchange at {breath.omega / RPM:.5g} rpm: {100 * breath.volumetric_efficiency:.1f} % of the swept volume "
         f"filled, {100 * breath.residual:.1f} % of the charge is residual gas",
-        f"mass and energy closed to {max(breath.mass_residual, breath.energy_residual):.1g}",
+        f"mass and energy closed to {ratio_text(max(breath.mass_residual, breath.energy_residual), 1)}",
     )
     return pressure_over("gas-exchange", absolute, PERIOD, kinks, found.chamber, facts=facts)
 
