@@ -276,7 +276,6 @@ def test_a_window_longer_than_the_run_is_doubted():
 
 
 def test_no_efficiency_beats_the_bound_of_its_cycle():
-
     for name, bound in (("nunes-slider-crank", 1 - 10**-0.4), ("alpha-stirling", 1 - 330 / 900)):
         case = cases.load(name)
         assert of_cycle(case, {"efficiency": [bound * 0.99, float("nan")]}) == ()
