@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
@@ -148,9 +147,7 @@ def _numbers(guide: Guide, contact: Contact) -> dict[str, Any]:
         "hertz_stress_max": highest(contact.theta, contact.hertz_stress),
         "tilting_couple_max": highest(contact.theta, contact.tilting_couple),
         "inertia_force_max": highest(contact.theta, np.abs(contact.inertia_force)),
-        "loss_torque_mean": float(
-            scipy.integrate.trapezoid(contact.loss_torque, contact.theta) / np.ptp(contact.theta)
-        ),
+        "loss_torque_mean": float(np.trapezoid(contact.loss_torque, contact.theta) / np.ptp(contact.theta)),
         "closure": guide.closure,
     }
 

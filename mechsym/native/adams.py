@@ -178,18 +178,15 @@ def _polynomial(place: int, terms: int) -> str:
     return f"{halves[0]} + c * {halves[1]}"
 
 
-def lagrange(nodes: _Row) -> list[_Row]:
+def lagrange(nodes: list[int]) -> list[_Row]:
     """Polynomials that are 1 at one node and 0 at the others, lowest power first."""
     found = []
     for j, own in enumerate(nodes):
-        row = [Fraction(1)]
-        for m, other in enumerate(nodes):
-            if m != j:
-                row = [
-                    (b - other * a) / (own - other)
-                    for a, b in zip([*row, Fraction(0)], [Fraction(0), *row], strict=True)
-                ]
-        found.append(row)
+        row, below = [1], 1
+        for other in nodes[:j] + nodes[j + 1 :]:
+            row = [a - other * b for a, b in zip([0, *row], [*row, 0], strict=True)]
+            below *= own - other
+        found.append([Fraction(a, below) for a in row])
     return found
 
 
@@ -203,15 +200,15 @@ def integrals(rows: list[_Row]) -> tuple[list[_Row], list[_Row]]:
 @functools.cache
 def numbers() -> str:
     """Weights as macros MS_ONCE, MS_TWICE, MS_AHEAD of the last rates MS_PAST(j), and tables."""
-    behind = [Fraction(-j) for j in range(BACK)]
-    around = [Fraction(1 - j) for j in range(BACK + 1)]
+    behind = [-j for j in range(BACK)]
+    around = [1 - j for j in range(BACK + 1)]
     polynomials = lagrange(behind)
     once, twice = ([float(sum(row)) for row in found] for found in integrals(polynomials))
     ahead = [float(sum(row)) for row in polynomials]
     inside_once, inside_twice = integrals(lagrange(around))
     longer = int(-(-(BACK - 1) * GROWTH // 1)) + 1
     shrink = [[_at(row, -j / GROWTH) for row in polynomials] for j in range(BACK)]
-    grow = [[_at(row, -j * GROWTH) for row in lagrange([Fraction(-m) for m in range(longer)])] for j in range(BACK)]
+    grow = [[_at(row, -j * GROWTH) for row in lagrange([-m for m in range(longer)])] for j in range(BACK)]
     macros = {"MS_ONCE": once, "MS_TWICE": twice, "MS_AHEAD": ahead}
     tables = {"ms_inside_once": inside_once, "ms_inside_twice": inside_twice, "ms_shrunk": shrink, "ms_grown": grow}
     lines = [f"enum {{ MS_BACK = {BACK}, MS_LONGER = {longer}, MS_STRIDES = {STRIDES} }};"]

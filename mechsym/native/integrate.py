@@ -24,9 +24,10 @@ LANES = (1, 8, 16)
 # Runs that one by one, in all lanes, take less time than side by side in one lane each. Two start-ups: 5.4 against
 # 7.1 ms at 1e-8. Three: 8.7 against 6.8 at 1e-8, 20.9 against 18.3 at 1e-10 with results, 11.2 against 16.6 at 1e-12.
 _FEW, _FEW_TIGHT, _TIGHT = 2, 3, 1e-11
-# Where steps that look back win at equal error: 16 start-ups of 99 s take 1.5 against 2.7 ms each at 1e-8, but with
-# 100 wanted times a second more than DOP853, and three angles with damping the same.
-_MOST_TIMES, _MOST_ANGLES = 100, 2
+# Where steps that look back win: 16 start-ups of 99 s take 3.1 against 4.4 ms each at 1e-8, 6.0 against 12.2 at 1e-12,
+# with 236 wanted times a second 8.4 against 8.1 and 11.4 against 19.3, at a quarter of the error; three angles with
+# damping the same.
+_MOST_ANGLES = 2
 _UNSOLVED = (5, 6)  # indices into STATUS: what explicit steps may still do
 
 
@@ -126,7 +127,7 @@ def _chosen(batch: _Batch, mode: str) -> str:
     few = _FEW_TIGHT if batch.runs.rtol < _TIGHT else _FEW
     if smooth and len(batch.start) <= few:
         return "collocation"
-    if not smooth or mode != "fast" or batch.times.shape[1] > _MOST_TIMES:
+    if not smooth or mode != "fast":
         return "dop853"
     made = _looking_back(batch, mode)
     return "adams" if made and len(made.parts.form.angles) <= _MOST_ANGLES and not made.parts.form.read else "dop853"
@@ -240,7 +241,7 @@ def _arrays(batch: _Batch, chosen: np.ndarray) -> dict[str, np.ndarray]:
     periods = np.array([k.period for k in batch.runs.kinks for _ in range(np.shape(k.angles)[-1])])
     states = np.array([k.state for k in batch.runs.kinks for _ in range(np.shape(k.angles)[-1])], ctypes.c_long)
     counters = {name: np.zeros(lanes, ctypes.c_long) for name in ("steps", "rejected", "sampled", "met", "status")}
-    counters |= {"kink_states": states, "kinked_states": np.unique(states)}
+    counters |= {"kink_states": states, "kinked_states": np.array(sorted(set(states)), ctypes.c_long)}
     floats = {
         "constants": np.stack([constants[c] for c in chosen], axis=1),
         "until": batch.until[chosen].T,

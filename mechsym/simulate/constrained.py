@@ -13,7 +13,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy.linalg
+import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops

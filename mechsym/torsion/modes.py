@@ -13,7 +13,6 @@ from collections.abc import Callable, Mapping
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
@@ -101,7 +100,9 @@ def modes(mass: np.ndarray, stiffness: np.ndarray) -> Modes:
     modes : Modes
         The first component of each shape is not negative
     """
-    squares, shapes = scipy.linalg.eigh(stiffness, mass)
+    inverse = np.linalg.inv(np.linalg.cholesky(mass))  # M = L L^T
+    squares, shapes = np.linalg.eigh(inverse @ stiffness @ inverse.T)
+    shapes = inverse.T @ shapes
     scale = float(np.max(np.abs(squares)))
     squares = np.where(squares > 1e-12 * scale, squares, 0.0)
     return Modes(frequencies=np.sqrt(squares), shapes=shapes * np.where(shapes[0] < 0, -1.0, 1.0))

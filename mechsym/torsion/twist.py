@@ -10,7 +10,6 @@ The window is the stretch at the end over which speeds are summed up; the peaks 
 from typing import Any
 
 import numpy as np
-import scipy
 
 from mechsym.mechanisms import shaft
 from mechsym.quantities import record
@@ -88,7 +87,7 @@ def _section(result: Result, pair: tuple[str, str], k: float, c: float, window: 
 
 
 def _mean(t: np.ndarray, values: np.ndarray) -> float:
-    return float(scipy.integrate.trapezoid(values, t) / (t[-1] - t[0])) if len(t) > 1 else float(values[-1])
+    return float(np.trapezoid(values, t) / (t[-1] - t[0])) if len(t) > 1 else float(values[-1])
 
 
 def natural_frequencies(parameters: Any) -> tuple[float, ...]:

@@ -242,14 +242,58 @@ static void ms_go_back(ms_adams_work *m, int l)
         m->now.other[i][l] = m->before[0].other[i][l];
 }
 
-/* States at wanted times within the last strides, in all lanes at once: the polynomial through the rates on both sides
+/* Polynomials in the share, row after row of a table; three at once, for each waits for its own last product. */
+static void ms_weights(const double *share, const double *table, int terms, ms_row *weight)
+{
+    for (int j = 0; j <= MS_BACK; j += 3) {
+        ms_row a = {0}, b = {0}, c = {0};
+        for (int k = terms - 1; k >= 0; k--)
+            MS_EACH
+            {
+                a[l] = a[l] * share[l] + table[j * terms + k];
+                b[l] = b[l] * share[l] + table[(j + 1) * terms + k];
+                c[l] = c[l] * share[l] + table[(j + 2) * terms + k];
+            }
+        MS_EACH weight[j][l] = a[l], weight[j + 1][l] = b[l], weight[j + 2][l] = c[l];
+    }
+}
+
+/* The place at a share of the step after stride `number` of each lane: the polynomial through the rates on both sides
  * is integrated that far. */
+static void ms_inside_step(const ms_adams_work *m, long start, const long *number, const double *share, ms_place *then)
+{
+    ms_row once[MS_F] = {0}, twice[MS_A] = {0}, weight[2][MS_BACK + 1];
+    ms_weights(share, ms_inside_once[0], MS_BACK + 2, weight[0]);
+    ms_weights(share, ms_inside_twice[0], MS_BACK + 3, weight[1]);
+    for (int j = 0; j <= MS_BACK; j++) {
+        ms_row rate[MS_F];
+        for (int l = 0; l < MS_L; l++)
+            for (int i = 0; i < MS_F; i++)
+                rate[i][l] = m->past[start + number[l] - j][i][l];
+        for (int i = 0; i < MS_F; i++)
+            MS_EACH once[i][l] += weight[0][j][l] * rate[i][l];
+        for (int i = 0; i < MS_A; i++)
+            MS_EACH twice[i][l] += weight[1][j][l] * rate[i][l];
+    }
+    for (int l = 0; l < MS_L; l++) {
+        const ms_place *from = m->before + number[l];
+        const double h = m->h[l];
+        for (int i = 0; i < MS_A; i++) {
+            then->angle[i][l] = from->angle[i][l] + h * (share[l] * from->speed[i][l] + h * twice[i][l]);
+            then->speed[i][l] = from->speed[i][l] + h * once[i][l];
+        }
+        for (int i = 0; i < MS_O; i++)
+            then->other[i][l] = from->other[i][l] + h * once[MS_A + i][l];
+    }
+}
+
+/* States at wanted times within the last strides, in all lanes at once. */
 static void ms_sample_back(const ms_run *run, ms_work *w, ms_adams_work *m, const long *good)
 {
     const long start = m->at - MS_STRIDES;
     for (;;) {
         long due[MS_L], any = 0, number[MS_L];
-        ms_row share, once[MS_BACK + 1], twice[MS_BACK + 1], x[MS_X], slope[MS_A], bend[MS_A];
+        ms_row share, x[MS_X], slope[MS_A], bend[MS_A];
         ms_place then;
         MS_EACH due[l] = good[l] & (w->due[l] <= m->t[l] + MS_STRIDES * m->h[l]);
         for (int l = 0; l < MS_L; l++) {
@@ -260,33 +304,7 @@ static void ms_sample_back(const ms_run *run, ms_work *w, ms_adams_work *m, cons
         }
         if (!any)
             return;
-        for (int j = 0; j <= MS_BACK; j++)
-            MS_EACH
-            {
-                double a = 0.0, b = 0.0;
-                for (int k = MS_BACK + 1; k >= 0; k--)
-                    a = a * share[l] + ms_inside_once[j][k];
-                for (int k = MS_BACK + 2; k >= 0; k--)
-                    b = b * share[l] + ms_inside_twice[j][k];
-                once[j][l] = a, twice[j][l] = b;
-            }
-        for (int i = 0; i < MS_F; i++)
-            for (int l = 0; l < MS_L; l++) {
-                const double h = m->h[l];
-                double a = 0.0, b = 0.0;
-                for (int j = 0; j <= MS_BACK; j++) {
-                    const double rate = m->past[start + number[l] - j][i][l];
-                    a += once[j][l] * rate;
-                    b += twice[j][l] * rate;
-                }
-                const ms_place *from = m->before + number[l];
-                if (i < MS_A) {
-                    then.angle[i][l] = from->angle[i][l] + h * (share[l] * from->speed[i][l] + h * b);
-                    then.speed[i][l] = from->speed[i][l] + h * a;
-                } else {
-                    then.other[i - MS_A][l] = from->other[i - MS_A][l] + h * a;
-                }
-            }
+        ms_inside_step(m, start, number, share, &then);
         ms_unbend(ms_series(run), then.angle, then.speed, x, slope, bend);
         for (int l = 0; l < MS_L; l++) {
             if (!due[l])
