@@ -9,7 +9,7 @@ the right; a reaction R_j is the force of the first body on the second along the
 import dataclasses
 import functools
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
 from typing import Any
@@ -44,29 +44,35 @@ class Mechanism:
     __hash__ = object.__hash__
 
 
-class BoundFunctions(Mapping[str, ca.Function]):
-    """The functions of a generated module for given parameters, each built when it is first asked for."""
+class LazyFunctions(Mapping[str, ca.Function]):
+    """Named functions, each built when it is first asked for."""
 
-    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Any]) -> None:
-        self.module, self.values_bound = module, values
-        self._letters = letters
+    def __init__(self, makers: Mapping[str, Callable[[], ca.Function]]) -> None:
+        self._makers = makers
         self._built: dict[str, ca.Function] = {}
 
     def __getitem__(self, name: str) -> ca.Function:
         if name not in self._built:
-            if name not in self.module.FUNCTIONS:
-                raise KeyError(name)
-            self._built[name] = casadi_function(self.module, name, self._letters[name], self.values_bound)
+            self._built[name] = self._makers[name]()
         return self._built[name]
 
     def __contains__(self, name: object) -> bool:
-        return name in self.module.FUNCTIONS  # without building it
+        return name in self._makers  # without building it
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.module.FUNCTIONS)
+        return iter(self._makers)
 
     def __len__(self) -> int:
-        return len(self.module.FUNCTIONS)
+        return len(self._makers)
+
+
+class BoundFunctions(LazyFunctions):
+    """The functions of a generated module for given parameters."""
+
+    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Any]) -> None:
+        build = functools.partial(casadi_function, module)
+        super().__init__({n: functools.partial(build, n, letters[n], values) for n in module.FUNCTIONS})
+        self.module, self.values_bound = module, values
 
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:

@@ -1,7 +1,8 @@
 """Shared objects kept in the user's cache directory.
 
-A file is named <key>-<checksum>: the key is the hash of everything that decides its contents (source, options,
-compiler, processor, Python), the checksum that of its own bytes. A file is made in a folder of its own and moved into
+A file is named <key>-<checksum>, in a folder named by the first two letters of the key, so that nobody reads thousands
+of names to find one: the key is the hash of everything that decides its contents (source, options, compiler, processor,
+Python), the checksum that of its own bytes. A file is made in a folder of its own and moved into
 place, so a half-written one is never seen, and two processes that compile the same source at once do no harm: the
 second replaces the file by an equally good one. A file whose bytes do not match its name is damaged and made again.
 Beyond 256 MB the files used longest ago are removed.
@@ -59,7 +60,7 @@ def shared_object(source: str, mode: str) -> Path:
     """
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
-    folder = writable()
+    folder = writable() / name[:2]
     for path in sorted(folder.glob(f"{name}-*.so")):
         if path.name == _named(name, path):
             os.utime(path)  # used today, see `_prune`
@@ -69,6 +70,7 @@ def shared_object(source: str, mode: str) -> Path:
 
 
 def _build(source: str, program: compiler.Compiler, options: tuple[str, ...], name: str, folder: Path) -> Path:
+    folder.mkdir(exist_ok=True, mode=0o700)
     with tempfile.TemporaryDirectory(dir=folder, prefix="build-") as made:
         text, binary = Path(made) / f"{name}.c", Path(made) / f"{name}.so"
         text.write_text(source, encoding="utf-8")
@@ -76,14 +78,14 @@ def _build(source: str, program: compiler.Compiler, options: tuple[str, ...], na
         target = folder / _named(name, binary)
         os.replace(text, folder / text.name)
         os.replace(binary, target)
-    _prune(folder, target)
+    _prune(folder.parent, target)
     return target
 
 
 def _prune(folder: Path, kept: Path) -> None:
     """Remove what was used longest ago when the cache has grown too large."""
     found = []
-    for path in folder.iterdir():
+    for path in _entries(folder):
         with contextlib.suppress(OSError):  # another process may have removed it
             status = path.stat()
             found += [(status.st_mtime, status.st_size, path)] if path.is_file() and path != kept else []
@@ -103,7 +105,8 @@ def writable() -> Path:
     """The cache directory, made; a private one for this process where it cannot be written to or is not ours."""
     folder = directory()
     try:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if not folder.is_dir():  # asking is cheaper than making what is there
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         if os.access(folder, os.W_OK | os.X_OK) and _ours(folder):
             return folder
     except OSError:
@@ -132,10 +135,13 @@ def _private() -> str:
     return _PRIVATE[0]
 
 
+def _entries(folder: Path) -> list[Path]:
+    return [*folder.glob("*.*"), *folder.glob("??/*")]  # the first: where earlier versions put them
+
+
 def contents() -> list[Path]:
     """All files of the cache."""
-    folder = directory()
-    return sorted(p for p in folder.iterdir() if p.is_file()) if folder.is_dir() else []
+    return sorted(p for p in _entries(directory()) if p.is_file())
 
 
 def clear() -> int:

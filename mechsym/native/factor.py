@@ -6,6 +6,7 @@ once are taken apart, so nothing is computed twice. The order of the factors cha
 
 import collections
 import dataclasses
+import math
 
 from mechsym.native.tape import Tape, prune, wait
 from mechsym.quantities import record
@@ -32,16 +33,10 @@ def factored(tape: Tape) -> Tape:
     tape : Tape
         With as many sums and fewer products
     """
-    users = collections.defaultdict(list)
-    for i, (op, args) in enumerate(tape.nodes):
-        for a in args if op not in ("input", "constant") else ():
-            users[a].append(i)
-    for r in tape.results:
-        users[r].append(-1)
+    only = _only_users(tape)
     work = _Factoring()
     for i, (op, args) in enumerate(tape.nodes):
-        once = len(users[i]) == 1 and users[i][0] >= 0 and tape.nodes[users[i][0]][0] in (*_PRODUCTS, *_SUMS)
-        once = once and tape.nodes[users[i][0]][0] != "sq"
+        once = only[i] >= 0 and tape.nodes[only[i]][0] in ("mul", "add", "sub")
         factors = _factors(work, op, args)
         if factors and once:
             work.waiting[i] = factors
@@ -50,9 +45,20 @@ def factored(tape: Tape) -> Tape:
         elif op in ("input", "constant"):
             work.place[i] = _put(work, op, args)
         else:
-            work.place[i] = _put(work, op, tuple(_value(work, a) for a in args))
+            work.place[i] = _put(work, op, tuple([_value(work, a) for a in args]))
     nodes, results = prune(work.nodes, [work.place[r] for r in tape.results])
     return dataclasses.replace(tape, nodes=tuple(nodes), results=tuple(results))
+
+
+def _only_users(tape: Tape) -> list[int]:
+    """For each node the only one that uses it, -1 where there are several or it is a result."""
+    only, seen = [-1] * len(tape.nodes), [False] * len(tape.nodes)
+    for i, (op, args) in enumerate(tape.nodes):
+        for a in args if op not in ("input", "constant") else ():
+            only[a], seen[a] = -1 if seen[a] else i, True
+    for r in tape.results:
+        only[r] = -1
+    return only
 
 
 def _factors(work: _Factoring, op: str, args: tuple) -> list[int]:
@@ -64,6 +70,8 @@ def _factors(work: _Factoring, op: str, args: tuple) -> list[int]:
     if op not in _SUMS:
         return []
     left, right = (_parts(work, a) for a in args)
+    if set(left).isdisjoint(right):
+        return []
     rest = collections.Counter(right)
     common = []
     for factor in list(left):
@@ -94,13 +102,12 @@ def _value(work: _Factoring, node: int) -> int:
 
 def _written(work: _Factoring, factors: list[int]) -> int:
     """Multiply factors; constants among them become one."""
+    if len(factors) == 1:
+        return factors[0]
     constants = [f for f in factors if work.nodes[f][0] == "constant"]
     others = [f for f in factors if work.nodes[f][0] != "constant"]
     if len(constants) > 1:
-        value = 1.0
-        for f in constants:
-            value *= work.nodes[f][1][0]
-        constants = [_put(work, "constant", (value,))]
+        constants = [_put(work, "constant", (math.prod([work.nodes[f][1][0] for f in constants]),))]
     # what is known first is multiplied first, so that the latest value waits for one product only; equal ones keep
     # their order, so that equal parts of a program stay equal
     product, *more = sorted(constants + others, key=lambda f: work.ready[f])
@@ -110,8 +117,8 @@ def _written(work: _Factoring, factors: list[int]) -> int:
 
 
 def _put(work: _Factoring, op: str, args: tuple) -> int:
-    if (op, args) not in work.known:
-        work.known[op, args] = len(work.nodes)
+    found = work.known.setdefault((op, args), len(work.nodes))
+    if found == len(work.nodes):
         work.nodes.append((op, args))
-        work.ready.append(wait(op) + (0 if op in ("input", "constant") else max(work.ready[a] for a in args)))
-    return work.known[op, args]
+        work.ready.append(wait(op) + (0 if op in ("input", "constant") else max([work.ready[a] for a in args])))
+    return found

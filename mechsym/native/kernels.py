@@ -119,7 +119,7 @@ def _part(tape: Tape, outputs: list[int]) -> _Part:
                 constants.append(args[0])
                 args = (len(constants) - 1,)
             else:
-                args = tuple(place[a] for a in args)
+                args = tuple([place[a] for a in args])
             place[i] = len(nodes)
             nodes.append((op, args))
     return _Part(
@@ -135,16 +135,19 @@ def _order(tape: Tape, root: int, done: dict[int, int]) -> list[int]:
     # operands before their users, visited from left to right: equal programs come out in equal order
     order: list[int] = []
     seen: set[int] = set()
-    stack = [(root, False)]
+    stack = [root]
     while stack:
-        node, ready = stack.pop()
-        if ready:
-            order.append(node)
+        node = stack.pop()
+        if node < 0:
+            order.append(~node)
         elif node not in seen and node not in done:
             seen.add(node)
-            stack.append((node, True))
-            if tape.nodes[node][0] not in ("input", "constant"):
-                stack.extend((a, False) for a in reversed(tape.nodes[node][1]))
+            op, args = tape.nodes[node]
+            if op in ("input", "constant"):
+                order.append(node)
+            else:
+                stack.append(~node)  # again, when its operands are there
+                stack.extend(reversed(args))
     return order
 
 

@@ -58,7 +58,7 @@ def cheaper(tape: Tape) -> Tape:
             exponent = _put(work, "mul", (work.place[args[1]], _put(work, "log", (work.place[args[0]],))))
             work.place[i] = _put(work, "exp", (exponent,))
         else:
-            work.place[i] = _put(work, op, tuple(work.place[a] for a in args))
+            work.place[i] = _put(work, op, tuple([work.place[a] for a in args]))
     nodes, results = prune(work.nodes, [work.place[r] for r in tape.results])
     return dataclasses.replace(tape, nodes=tuple(nodes), results=tuple(results))
 
@@ -68,7 +68,7 @@ def _multiplied(tape: Tape) -> set[int]:
     ready: list[int] = []
     uses: collections.Counter[int] = collections.Counter()
     for op, args in tape.nodes:
-        ready.append(wait(op) + (0 if op in ("input", "constant") else max(ready[a] for a in args)))
+        ready.append(wait(op) + (0 if op in ("input", "constant") else max([ready[a] for a in args])))
         if op in ("div", "inv"):
             uses[_base(tape, args[-1])] += 1
     return {
@@ -90,10 +90,10 @@ def _base(tape: Tape, d: int) -> int:
 
 
 def _put(work: _Work, op: str, args: tuple) -> int:
-    if (op, args) not in work.known:
-        work.known[op, args] = len(work.nodes)
+    found = work.known.setdefault((op, args), len(work.nodes))
+    if found == len(work.nodes):
         work.nodes.append((op, args))
-    return work.known[op, args]
+    return found
 
 
 def _broken(tape: Tape, exponent: int) -> bool:

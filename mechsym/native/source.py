@@ -12,6 +12,7 @@ from mechsym.native.factor import factored
 from mechsym.native.kernels import Kernel, kernels
 from mechsym.native.rewrite import cheaper, marked
 from mechsym.native.tape import Tape, read
+from mechsym.quantities import record
 
 
 # compared by identity: `program` gives the same one for the same function, and texts are cached by it
@@ -41,20 +42,21 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
     mode : str
         `fast` shares reciprocals and factors, `strict` leaves every operation as it is
     """
-    return stored_program(function.serialize(), mode)
+    return stored_program(_Stored(text=function.serialize(), function=function), mode)
+
+
+@record
+class _Stored:
+    # a function, told from others by its text
+    text: str
+    function: casadi.Function = dataclasses.field(compare=False)
 
 
 # a run, its check, its energies and the next trial ask for the same function again
 @functools.lru_cache(maxsize=1024)
-def stored_program(text: str, mode: str) -> Program:
-    """As `program`, from a function as CasADi stores it.
-
-    Returns
-    -------
-    program : Program
-        The same for the same text
-    """
-    tape = prepared(casadi.Function.deserialize(text), mode)
+def stored_program(stored: _Stored, mode: str) -> Program:
+    """As `program`; the same for the same text."""
+    tape = prepared(stored.function, mode)
     return Program(tape=tape, kernels=kernels(tape))
 
 

@@ -119,16 +119,17 @@ def _rename(function: casadi.Function, inputs: list[int], outputs: list[int]) ->
 
     def node(op: str, args: tuple) -> int:
         key = (op, args)
-        if key not in known:
-            known[key] = len(nodes)
+        found = known.setdefault(key, len(nodes))
+        if found == len(nodes):
             nodes.append(key)
-        return known[key]
+        return found
 
     places_in = [_dense(function, "in", i) for i in range(function.n_in())]
     places_out = [_dense(function, "out", i) for i in range(function.n_out())]
     results = [-1] * outputs[-1]
+    code, reads, writes = function.instruction_id, function.instruction_input, function.instruction_output
     for k in range(function.n_instructions()):
-        op, args, out = names[function.instruction_id(k)], function.instruction_input(k), function.instruction_output(k)
+        op, args, out = names[code(k)], reads(k), writes(k)
         if op == "input":
             work[out[0]] = node(op, (inputs[args[0]] + places_in[args[0]][args[1]],))
         elif op == "output":
@@ -138,20 +139,25 @@ def _rename(function: casadi.Function, inputs: list[int], outputs: list[int]) ->
         elif op == "assign":
             work[out[0]] = work[args[0]]
         else:
-            work[out[0]] = node(op, tuple(work[a] for a in args))
+            work[out[0]] = node(op, tuple([work[a] for a in args]))
     return nodes, [node("constant", (0.0,)) if r < 0 else r for r in results]
 
 
 def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tuple[str, tuple]], list[int]]:
     """Drop what no result needs."""
-    needed = set(results)
+    needed = [False] * len(nodes)
+    for r in results:
+        needed[r] = True
     for i in range(len(nodes) - 1, -1, -1):
-        if i in needed and nodes[i][0] not in ("input", "constant"):
-            needed.update(nodes[i][1])
+        if needed[i] and nodes[i][0] not in ("input", "constant"):
+            for a in nodes[i][1]:
+                needed[a] = True
+    if all(needed):
+        return nodes, results
     place: dict[int, int] = {}
     kept: list[tuple[str, tuple]] = []
     for i, (op, args) in enumerate(nodes):
-        if i in needed:
+        if needed[i]:
             place[i] = len(kept)
             kept.append((op, args if op in ("input", "constant") else tuple(place[a] for a in args)))
     return kept, [place[r] for r in results]

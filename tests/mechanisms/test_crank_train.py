@@ -20,7 +20,7 @@ from mechsym.derive.build import declared
 from mechsym.derive.emit import module_text
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crank_throw, shaft
-from mechsym.mechanisms.crank_train import build, build_rigid
+from mechsym.mechanisms.crank_train import assembly, build, build_rigid
 from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles, firing_gaps, gas_forces
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.record import acceleration_function
@@ -409,3 +409,17 @@ def test_a_cylinder_that_fires_off_its_dead_centre_is_explained():
     gas_forces(in_line_six(firing=tuple(angles)), np.cos, 0.01, np.zeros(3), FOUR_STROKE)
     with pytest.raises(BadInput, match="firing order"):
         firing_angles((1, 1, 2), FOUR_STROKE)
+
+
+def test_functions_are_built_when_asked_for(monkeypatch):
+    asked = []
+    monkeypatch.setattr(assembly, "_throw", lambda group, throw=assembly._throw: asked.append(group) or throw(group))
+    found = build(
+        CrankTrainParameters(
+            throw=(1,), phase=0.0, r=0.05, l1=0.1, l2=0.1, m_rod=1.0, m_piston=1.0, I_rod=0.01, I0=0.1, I_f=1.0, k=1e3
+        )
+    )
+    assert "dynamics" in found.functions
+    assert not asked
+    assert found.functions["dynamics"] is found.functions["dynamics"]
+    assert asked == ["dynamics"]

@@ -1,46 +1,41 @@
 """Putting derived throws on a shaft: every function of the crank train is a sum over instances of one throw."""
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
+from mechsym.mechanisms.crank_train import forces
+from mechsym.mechanisms.crank_train.forces import Instances, Outputs
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.crank_train.throws import ThrowPart, parts
-from mechsym.mechanisms.record import Mechanism, bind, generated
+from mechsym.mechanisms.record import LazyFunctions, Mechanism, generated
 from mechsym.quantities import record
+
+_STATE = ("phi", "phid", "phidd", "F")
+# the dynamics, and the torque of each section of the shaft
+_Joined = tuple[Outputs, ca.SX]
 
 
 @record
 class _Symbols:
-    # q, u, a: one symbol a throw and one of the flywheel; in the rigid train all are the same
+    # q, u, a: columns of one symbol a throw and one of the flywheel; in the rigid train all are the same
     names: tuple[str, ...]
-    q: list[ca.SX]
-    u: list[ca.SX]
-    a: list[ca.SX]
-    forces: list[ca.SX]
+    q: ca.SX
+    u: ca.SX
+    a: ca.SX
+    forces: ca.SX
     load: ca.SX
+    inputs: dict[str, list[ca.SX]]  #: Symbols of coordinates, velocities, accelerations and forces
 
 
 def build(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate a throw and one of the flywheel."""
     names = (*(f"phi{k + 1}" for k in range(max(p.throw))), "phi_f")
-    s = _symbols(names, names, len(p.throw))
-    pieces = _dynamics(p, s)
-    twist = [a - b for a, b in zip(s.q[:-1], s.q[1:], strict=True)]
-    rate = [a - b for a, b in zip(s.u[:-1], s.u[1:], strict=True)]
-    springs = zip(each(p, "k"), twist, each(p, "c"), rate, strict=True)
-    torques = [k * angle + c * speed for k, angle, c, speed in springs]
-    rows = zip(pieces["force"], [*torques, ca.SX(0)], [ca.SX(0), *torques], strict=True)
-    force = [applied - own + before for applied, own, before in rows]
-    strain = sum((k * angle**2 / 2 for k, angle in zip(each(p, "k"), twist, strict=True)), ca.SX(0))
-    outputs = {
-        "mass_matrix": ca.diag(ca.vertcat(*pieces["mass"])),
-        "bias": ca.vertcat(*pieces["bias"]),
-        "generalized_force": ca.vertcat(*force),
-    }
-    return _mechanism(p, s, outputs, torques, strain)
+    return _mechanism(p, _symbols(names, len(names), len(p.throw)), _elastic)
 
 
 def build_driven(p: CrankTrainParameters) -> Mechanism:
@@ -51,98 +46,131 @@ def build_driven(p: CrankTrainParameters) -> Mechanism:
     mechanism : Mechanism
         Named CasADi functions; reactions take the input too, though none of them feels it at given accelerations
     """
-    plain, torque = build(p), ca.SX.sym("M_drive")
-    functions = dict(plain.functions)
-    for group in ("dynamics", "reactions"):
-        function = plain.functions[group]
-        inputs = {name: ca.SX.sym(name) for name in function.name_in()}
-        outputs = {name: ca.SX(value) for name, value in function(**inputs).items()}
-        if group == "dynamics":
-            force = outputs["generalized_force"]
-            outputs["generalized_force"] = ca.vertcat(force[0] + torque, force[1:])
-        ordered = {name: outputs[name] for name in function.name_out()}
-        functions[group] = _function(group, [*inputs.values(), torque], ordered)
-    return dataclasses.replace(plain, inputs=(*plain.inputs, "M_drive"), functions=functions)
+    plain = build(p)
+    made = {name: functools.partial(plain.functions.__getitem__, name) for name in plain.functions}
+    made |= {name: functools.partial(_driven, plain, name) for name in ("dynamics", "reactions")}
+    return dataclasses.replace(plain, inputs=(*plain.inputs, "M_drive"), functions=LazyFunctions(made))
+
+
+def _driven(plain: Mechanism, group: str) -> ca.Function:
+    function, torque = plain.functions[group], ca.SX.sym("M_drive")
+    inputs = [ca.SX.sym(name) for name in function.name_in()]
+    outputs = dict(zip(function.name_out(), function.call(inputs), strict=True))
+    if group == "dynamics":
+        force = outputs["generalized_force"]
+        outputs["generalized_force"] = ca.vertcat(force[0] + torque, force[1:])
+    return _function(group, [*inputs, torque], outputs)
 
 
 def build_rigid(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before."""
-    s = _symbols(("phi",), ("phi",) * (max(p.throw) + 1), len(p.throw))
-    pieces = _dynamics(p, s)
-    torques, sum_before = [], ca.SX(0)
-    for mass, bias, force in list(zip(pieces["mass"], pieces["bias"], pieces["force"], strict=True))[:-1]:
-        sum_before = sum_before + force - bias - mass * s.a[0]
-        torques.append(sum_before)
-    totals = {name: ca.SX(sum(values)) for name, values in pieces.items()}
-    outputs = {"mass_matrix": totals["mass"], "bias": totals["bias"], "generalized_force": totals["force"]}
-    return _mechanism(p, s, outputs, torques, ca.SX(0))
+    return _mechanism(p, _symbols(("phi",), max(p.throw) + 1, len(p.throw)), _rigid)
 
 
-def _symbols(names: tuple[str, ...], per_throw: tuple[str, ...], cylinders: int) -> _Symbols:
-    made = {f"{n}{dots}": ca.SX.sym(f"{n}{dots}") for n in names for dots in ("", "d", "dd")}
-    return _Symbols(
-        names=names,
-        q=[made[n] for n in per_throw],
-        u=[made[f"{n}d"] for n in per_throw],
-        a=[made[f"{n}dd"] for n in per_throw],
-        forces=[ca.SX.sym(f"F{i + 1}") for i in range(cylinders)],
-        load=ca.SX.sym("M"),
-    )
+def _elastic(p: CrankTrainParameters, s: _Symbols, rows: list[ca.SX]) -> _Joined:
+    mass, bias, force = rows
+    torques = ca.DM(each(p, "k")) * _sections(s.q) + ca.DM(each(p, "c")) * _sections(s.u)
+    joined = force - ca.vertcat(torques, 0) + ca.vertcat(0, torques)
+    return {"mass_matrix": ca.diag(mass), "bias": bias, "generalized_force": joined}, torques
 
 
-def _caller(s: _Symbols) -> Callable[[str, ThrowPart], dict[str, ca.SX]]:
+def _rigid(p: CrankTrainParameters, s: _Symbols, rows: list[ca.SX]) -> _Joined:
+    mass, bias, force = rows
+    torques = ca.cumsum((force - bias - mass * s.a[0])[:-1])
+    totals = (ca.sum1(row) for row in rows)
+    return dict(zip(("mass_matrix", "bias", "generalized_force"), totals, strict=True)), torques
+
+
+def _sections(column: ca.SX) -> ca.SX:
+    return column[:-1] - column[1:]
+
+
+def _symbols(names: tuple[str, ...], discs: int, cylinders: int) -> _Symbols:
+    made = {letter: [ca.SX.sym(f"{n}{dots}") for n in names] for letter, dots in (("q", ""), ("u", "d"), ("a", "dd"))}
+    made["F"] = [*(ca.SX.sym(f"F{i + 1}") for i in range(cylinders)), ca.SX.sym("M")]
+    q, u, a = (ca.vertcat(*(made[n] * (discs if len(names) == 1 else 1))) for n in "qua")
+    return _Symbols(names=names, q=q, u=u, a=a, forces=ca.vertcat(*made["F"][:-1]), load=made["F"][-1], inputs=made)
+
+
+# the same for all trains
+@functools.cache
+def _throw(group: str) -> ca.Function:
+    """A function of the derived throw, from its state and its letters, no torque on it, to all outputs."""
+    module = generated("crank_throw")
+    state, letters = ca.SX.sym("state", len(_STATE)), ca.SX.sym("letters", len(module.PARAMETERS))
+    symbols = [*ca.vertsplit(state), *ca.vertsplit(letters), ca.SX(0)]
+    given = dict(zip((*_STATE, *module.PARAMETERS, "M"), symbols, strict=True))
+    arguments, _ = module.FUNCTIONS[group]
+    found: list[ca.SX] = list(getattr(module, group)(**{n: given[n] for n in arguments}))
+    return ca.Function(group, [state, letters], [ca.vertcat(*found)])
+
+
+def _tables(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
+    """What gives the outputs of a group, a row each, for all parts, a column each."""
+    throw, cylinder = [part.throw for part in all_parts], [part.cylinder - 1 for part in all_parts]
     letters = generated("crank_throw").PARAMETERS
-    throw = bind("crank_throw", {n: ca.SX.sym(n) for n in letters}).functions
-
-    def call(group: str, part: ThrowPart) -> dict[str, ca.SX]:
-        k = part.throw
-        force = s.forces[part.cylinder - 1] if part.cylinder else 0
-        given = {"phi": s.q[k] + part.shift, "phid": s.u[k], "phidd": s.a[k], "F": force, "M": 0, **part.letters}
-        function = throw[group]
-        return {n: ca.SX(v) for n, v in function(**{n: given[n] for n in function.name_in()}).items()}
-
-    return call
+    values = np.array([[part.letters[n] for part in all_parts] for n in letters])
+    angle = s.q[throw] + np.array([part.shift for part in all_parts])
+    # a crank alone has no cylinder: -1 stands for the zero at the end
+    state = ca.horzcat(angle, s.u[throw], s.a[throw], ca.vertcat(s.forces, 0)[cylinder]).T
+    return lambda group: _throw(group).map(len(throw))(state, values)
 
 
-def _dynamics(p: CrankTrainParameters, s: _Symbols) -> dict[str, list[ca.SX]]:
-    count, call = max(p.throw), _caller(s)
-    pieces = {name: [ca.SX(0)] * (count + 1) for name in ("mass", "bias", "force")}
-    for part in parts(p):
-        found = call("dynamics", part)
-        for name, key in (("mass", "mass_matrix"), ("bias", "bias"), ("force", "generalized_force")):
-            pieces[name][part.throw] = pieces[name][part.throw] + found[key]
-    pieces["mass"][-1], pieces["force"][-1] = ca.SX(p.I_f), -s.load
-    return pieces
+def _rows(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart], table: ca.SX) -> list[ca.SX]:
+    """Inertia, bias and force of every throw and of the flywheel, of the table of the dynamics."""
+    throw = [part.throw for part in all_parts]
+    joining = ca.DM.triplet(list(range(len(throw))), throw, ca.DM.ones(len(throw)), len(throw), max(throw) + 1)
+    sums = ca.mtimes(table, joining)
+    ends: tuple[ca.SX, ...] = (ca.SX(p.I_f), ca.SX(0), -s.load)
+    return [ca.vertcat(row.T, end) for row, end in zip(ca.vertsplit(sums), ends, strict=True)]
 
 
 def _mechanism(
-    p: CrankTrainParameters, s: _Symbols, dynamics: dict[str, ca.SX], torques: list[ca.SX], strain: ca.SX
+    p: CrankTrainParameters, s: _Symbols, join: Callable[[CrankTrainParameters, _Symbols, list[ca.SX]], _Joined]
 ) -> Mechanism:
-    from mechsym.mechanisms.crank_train import forces as crank_train_forces
+    all_parts = parts(p)
+    tables = _tables(p, s, all_parts)
 
-    q, u, a = (list({str(v): v for v in values}.values()) for values in (s.q, s.u, s.a))
-    forces, call, all_parts = [*s.forces, s.load], _caller(s), parts(p)
-    kinetic, potential = p.I_f * s.u[-1] ** 2 / 2, strain
-    for part in all_parts:
-        found = call("energy", part)
-        kinetic, potential = kinetic + found["kinetic_energy"], potential + found["potential_energy"]
-    reactions = crank_train_forces.reactions(all_parts, lambda part: call("reactions", part))
-    reactions |= {f"shaft_torque_{k + 1}": torque for k, torque in enumerate(torques)}
-    momentum = crank_train_forces.momentum(all_parts, lambda part: call("momentum", part))
-    flywheel = each(p, "sense")[-1] * p.I_f * s.a[-1]
-    momentum["angular_momentum_rate"] = momentum["angular_momentum_rate"] + flywheel
-    kinematics = crank_train_forces.kinematics(all_parts, lambda part: call("kinematics", part), s.names)
-    groups = {
-        "kinematics": (q, kinematics),
-        "dynamics": ([*q, *u, *forces], dynamics),
-        "energy": ([*q, *u], {"kinetic_energy": kinetic, "potential_energy": potential}),
-        "reactions": ([*q, *u, *a, *forces], reactions),
-        "momentum": ([*q, *u, *a], momentum),
+    def throws(group: str) -> Instances:
+        names, columns = generated("crank_throw").FUNCTIONS[group][1], ca.horzsplit(tables(group))
+        found = (dict(zip(names, ca.vertsplit(column), strict=True)) for column in columns)
+        return list(zip(all_parts, found, strict=True))
+
+    def joined() -> _Joined:
+        return join(p, s, _rows(p, s, all_parts, tables("dynamics")))
+
+    def energy() -> Outputs:
+        found, strain = throws("energy"), ca.sum1(ca.DM(each(p, "k")) * _sections(s.q) ** 2 / 2)
+        of_shaft = {"kinetic_energy": p.I_f * s.u[-1] ** 2 / 2, "potential_energy": strain}
+        return {name: sum((outputs[name] for _, outputs in found), start) for name, start in of_shaft.items()}
+
+    def reactions() -> Outputs:
+        sections = {f"shaft_torque_{k}": torque for k, torque in enumerate(ca.vertsplit(joined()[1]), 1)}
+        return forces.reactions(throws("reactions")) | sections
+
+    def momentum() -> Outputs:
+        found, flywheel = forces.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
+        return found | {"angular_momentum_rate": found["angular_momentum_rate"] + flywheel}
+
+    groups: dict[str, tuple[str, Callable[[], Outputs]]] = {
+        "kinematics": ("q", lambda: forces.kinematics(throws("kinematics"), s.names)),
+        "dynamics": ("quF", lambda: joined()[0]),
+        "energy": ("qu", energy),
+        "reactions": ("quaF", reactions),
+        "momentum": ("qua", momentum),
     }
-    functions = {name: _function(name, inputs, outputs) for name, (inputs, outputs) in groups.items()}
-    inputs = tuple(str(f) for f in forces)
-    values = {f.name: getattr(p, f.name) for f in dataclasses.fields(p)}
-    return Mechanism(name="crank_train", coordinates=s.names, inputs=inputs, parameters=values, functions=functions)
+    makers = {
+        name: functools.partial(_made, name, [v for kind in kinds for v in s.inputs[kind]], outputs)
+        for name, (kinds, outputs) in groups.items()
+    }
+    return Mechanism(
+        name="crank_train", coordinates=s.names, inputs=tuple(map(str, s.inputs["F"])),
+        parameters={f.name: getattr(p, f.name) for f in dataclasses.fields(p)}, functions=LazyFunctions(makers),
+    )  # fmt: skip
+
+
+def _made(name: str, inputs: list[ca.SX], outputs: Callable[[], Outputs]) -> ca.Function:
+    return _function(name, inputs, outputs())
 
 
 def _function(name: str, inputs: list[ca.SX], outputs: dict[str, ca.SX]) -> ca.Function:

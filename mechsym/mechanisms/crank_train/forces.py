@@ -1,14 +1,13 @@
 """Outputs of a crank train from the derived throw's: turned into the common frame and summed where they meet."""
 
 import math
-from collections.abc import Callable
 
 import casadi as ca
 
 from mechsym.mechanisms.crank_train.throws import ThrowPart
 
 Outputs = dict[str, ca.SX]
-Call = Callable[[ThrowPart], Outputs]
+Instances = list[tuple[ThrowPart, Outputs]]  #: Parts with the outputs of the derived throw
 
 
 def _common(part: ThrowPart, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
@@ -17,13 +16,11 @@ def _common(part: ThrowPart, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
     return c * x - part.sense * s * y, s * x + part.sense * c * y
 
 
-def kinematics(all_parts: list[ThrowPart], call: Call, names: tuple[str, ...]) -> Outputs:
+def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
     """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
 
     Parameters
     ----------
-    call : callable
-        ThrowPart to the outputs of the derived throw
     names : tuple of str
         Names of the coordinates; one name stands for all throws
 
@@ -33,9 +30,9 @@ def kinematics(all_parts: list[ThrowPart], call: Call, names: tuple[str, ...]) -
         `x_1`, `dx_1_dphi1`, `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, ..
     """
     outputs: Outputs = {}
-    for part in all_parts:
+    for part, found in throws:
         if part.cylinder:
-            found, i = call(part), part.cylinder
+            i = part.cylinder
             q = names[part.throw] if len(names) > 1 else names[0]
             twice = f"d{q}_d{q}" if len(names) > 1 else f"d{q}2"
             outputs |= {f"x_{i}": found["x"], f"dx_{i}_d{q}": found["dx_dphi"], f"d2x_{i}_{twice}": found["d2x_dphi2"]}
@@ -43,13 +40,8 @@ def kinematics(all_parts: list[ThrowPart], call: Call, names: tuple[str, ...]) -
     return outputs
 
 
-def reactions(all_parts: list[ThrowPart], call: Call) -> Outputs:
+def reactions(throws: Instances) -> Outputs:
     """Joint forces of every cylinder and the load on the main bearings of every throw.
-
-    Parameters
-    ----------
-    call : callable
-        ThrowPart to the outputs of the derived throw
 
     Returns
     -------
@@ -60,8 +52,8 @@ def reactions(all_parts: list[ThrowPart], call: Call) -> Outputs:
     """
     outputs: Outputs = {}
     bearings: Outputs = {}
-    for part in all_parts:
-        found, i, k = call(part), part.cylinder, part.throw + 1
+    for part, found in throws:
+        i, k = part.cylinder, part.throw + 1
         for axis, force in zip("xy", _common(part, found["R_x_O"], found["R_y_O"]), strict=True):
             name = f"main_bearing_force_{axis}_{k}"
             bearings[name] = bearings.get(name, ca.SX(0)) + force
@@ -73,13 +65,8 @@ def reactions(all_parts: list[ThrowPart], call: Call) -> Outputs:
     return outputs | bearings
 
 
-def momentum(all_parts: list[ThrowPart], call: Call) -> Outputs:
+def momentum(throws: Instances) -> Outputs:
     """Rates of momentum of all moving parts in the common frame, without the flywheel.
-
-    Parameters
-    ----------
-    call : callable
-        ThrowPart to the outputs of the derived throw
 
     Returns
     -------
@@ -89,8 +76,7 @@ def momentum(all_parts: list[ThrowPart], call: Call) -> Outputs:
     """
     names = ("momentum_rate_x", "momentum_rate_y", "angular_momentum_rate", "rocking_rate_x", "rocking_rate_y")
     totals = {name: ca.SX(0) for name in names}
-    for part in all_parts:
-        found = call(part)
+    for part, found in throws:
         x, y = _common(part, found["momentum_rate_x"], found["momentum_rate_y"])
         about_own = part.sense * found["angular_momentum_rate"]
         rates = (x, y, about_own + part.axis[0] * y - part.axis[1] * x, -part.z * y, part.z * x)

@@ -39,9 +39,9 @@ def parts(p: CrankTrainParameters) -> list[ThrowPart]:
         # a throw without rod and piston; its lengths do not matter
         letters = nothing | {"r": 1.0, "l1": 1.0, "l2": 1.0} | {n: each(p, n)[k] for n in _CRANK}
         found.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
-    for i, k in enumerate(p.throw):
+    for i, (k, shift) in enumerate(zip(p.throw, local_shift(p), strict=True)):
         letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
-        found.append(_part(p, i + 1, k - 1, local_shift(p)[i], each(p, "bank")[i], letters))
+        found.append(_part(p, i + 1, k - 1, shift, each(p, "bank")[i], letters))
     return found
 
 
