@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
-from mechsym.cli.sweep import INTERRUPTED, judge, kept_or_short, picture_of, report_of, rows_of, write
+from mechsym.cli.swept import INTERRUPTED, judge, kept_or_short, picture_of, report_of, rows_of, write
 from mechsym.errors import BadInput, suggest
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import emit, in_rows, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
 from mechsym.cli.swept import INTERRUPTED, judge, kept_or_short, picture_of, place, report_of, rows_of, write
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
@@ -96,10 +96,7 @@ def _text(found: Any, report: dict[str, Any]) -> str:
         spread = ["mean", "std"] if sampled else []
         lines += [
             "",
-            table(
-                in_rows(rows, ("min", "max", "mean", "std")),
-                ["name", "unit", "min", "at min", "max", "at max", *spread],
-            ),
+            table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]),
             "",
         ]
         more = len(report["data"]) - len(rows)

@@ -6,10 +6,11 @@ from typing import Any
 
 import click
 
-from mechsym.cli.common import case_of
+from mechsym.cli.common import case_of, in_rows
 from mechsym.errors import BadInput, MissingExtra
 
 _UNKEPT = 1800.0  # time of a processor from which a sweep without --out is refused: too much to lose [s]
+_NUMBERS = ("min", "max", "mean", "std")
 INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
@@ -95,10 +96,11 @@ def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
 
 
 def rows_of(found: Any) -> list[dict[str, Any]]:
-    """Smallest and largest of the main results and where they are, in the unit of each."""
+    """Smallest and largest of the main results and where they are, each in the unit that suits it."""
     from mechsym.sweep import main_results
 
-    return [_row(found, name, column) | {"unit": found.units[name]} for name, column in main_results(found).items()]
+    rows = [_row(found, name, column) | {"unit": found.units[name]} for name, column in main_results(found).items()]
+    return in_rows(rows, _NUMBERS)
 
 
 def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
@@ -107,9 +109,11 @@ def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
     ends = np.nanmin(column), np.nanmax(column)
     # of points that differ by round-off the first
     low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-12 * np.abs(end))[0]) for end in ends)
+    numbers = dict(zip(_NUMBERS, map(float, (*ends, np.nanmean(column), np.nanstd(column))), strict=True))
+    largest = max(map(abs, numbers.values()))
     return {
-        "name": name, "min": float(ends[0]), "at min": place(found, low), "max": float(ends[1]),
-        "at max": place(found, high), "mean": float(np.nanmean(column)), "std": float(np.nanstd(column)),
+        "name": name, "at min": place(found, low), "at max": place(found, high),
+        **{key: 0.0 if abs(v) < 1e-12 * largest else v for key, v in numbers.items()},
     }  # fmt: skip
 
 

@@ -72,7 +72,7 @@ def _label(name: str, unit: str) -> str:
 def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     """Values in the unit that suits them or was chosen, and what is written at their axis."""
     if unit in ("", "-"):
-        return values, _label(name, unit)
+        return np.where(np.abs(values) < _ROUND_OFF, 0.0, values), _label(name, unit)
     factor, word = axis_unit(unit, values)
     return values * factor, _label(stem_and_unit(name)[0], word)  # speed_rpm in rad/s is no speed_rpm
 

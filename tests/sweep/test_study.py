@@ -115,3 +115,18 @@ def test_a_file_that_is_not_there_is_refused():
 def test_a_sweep_that_is_not_there_is_refused(file):
     with pytest.raises(BadInput, match="did you mean 'bore'"):
         run(file, "--only", "bor")
+
+
+def test_a_study_is_told_in_units_for_people(tmp_path):
+    file = tmp_path / "ripple.toml"
+    file.write_text(
+        'title = "Ripple"\ncase = "zotov-89"\n[[sweep]]\nname = "speed"\nover = ["speed_rpm=80,89"]\n'
+        'show = ["hinge_torque_max", "check.speed_ripple"]\n'
+    )
+    out = tmp_path / "out"
+    text = run(file, "--out", out).output
+    assert "hinge_torque_max    kN*m  44.26" in text and "check.speed_ripple  -     0 (below 1e-9)" in text
+    page = (out / "report.html").read_text()
+    assert ">44.26 kN m<" in page and "0 (below 1e-9)" in page
+    # the picture draws round-off as nothing
+    assert "0.000000" not in page
