@@ -68,7 +68,7 @@ def judged(sections: Mapping[str, Any], mechanism: str) -> tuple[Doubt, ...]:
         for section, record in sections.items()
         if not (section in _LETTERS and own.is_file(mechanism))
         for key, name in _keys(section, record.__class__)
-        if isinstance(value := getattr(record, name), float) and math.isfinite(value)
+        if isinstance(value := _largest(getattr(record, name)), float) and math.isfinite(value)
     }
     found = inputs(values) + by_unit(sections, _LETTERS) + _run(sections)
     known, parameters = traits_of(mechanism), sections.get("parameters")
@@ -78,6 +78,12 @@ def judged(sections: Mapping[str, Any], mechanism: str) -> tuple[Doubt, ...]:
     bore = None if area is None else math.sqrt(4 * area / math.pi)
     found += _sizes(sections, sizes) + by_size(sections, sizes, bore)
     return found + (() if known.shaft is None else by_shaft(known.shaft, parameters))
+
+
+def _largest(value: Any) -> Any:
+    """A number, or of a list the one that is farthest from zero."""
+    numbers = value if isinstance(value, tuple) and value and all(isinstance(v, float) for v in value) else (value,)
+    return max(numbers, key=abs) if len(numbers) > 1 else numbers[0]
 
 
 def _sizes(sections: Mapping[str, Any], sizes: Proportions) -> tuple[Doubt, ...]:
@@ -113,8 +119,10 @@ def _piston_area(sections: Mapping[str, Any]) -> float | None:
 
 def _run(sections: Mapping[str, Any]) -> tuple[Doubt, ...]:
     simulation, drive = sections.get("simulation"), sections.get("drive")
-    end = getattr(simulation, "t_end", None)
+    end, claim = getattr(simulation, "t_end", None), getattr(sections.get("startup"), "claim_time", None)
+    found = proportion("window", "startup.claim_time / simulation.t_end", claim / end) if claim and end else ()
     if drive is None or end is None or drive.time < end:
-        return ()
+        return found
     why = "the run ends before the drive is switched on: nothing happens in it"
-    return (Doubt(code="drive_start", quantity="drive.time", value=drive.time, usual=f"below {end:g} s", why=why),)
+    late = Doubt(code="drive_start", quantity="drive.time", value=drive.time, usual=f"below {end:g} s", why=why)
+    return (*found, late)

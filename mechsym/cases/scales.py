@@ -20,15 +20,23 @@ _BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
     ("friction", ("radius_piston_pin", "radius_crank_pin", "radius_main"), "bearing_size"),
     ("losses", ("bearing_radius",), "bearing_size"),
     ("rollers", ("radius", "width", "plane_offset"), "roller_size"),
-    ("breathing", ("inlet_diameter", "inlet_lift", "exhaust_diameter", "exhaust_lift", "throttle_diameter",
-                   "tailpipe_diameter"), "valve_size"),
-    ("scavenging", ("port_width", "valve_diameter", "valve_lift"), "valve_size"),
-    ("sizing", ("ring_thickness", "reboring", "reach", "fillet", "carrier_wall"), "part_size"),
+    ("breathing", ("inlet_diameter", "inlet_lift", "exhaust_diameter", "exhaust_lift"), "valve_size"),
+    ("breathing", ("throttle_diameter", "tailpipe_diameter"), "pipe_size"),
+    ("scavenging", ("valve_diameter", "valve_lift"), "valve_size"),
+    ("scavenging", ("port_width",), "port_size"),
+    ("rings", ("heights",), "ring_size"),
+    ("sizing", ("ring_thickness",), "ring_size"),
+    ("part_piston", ("ring_radial", "ring_axial"), "ring_size"),
+    ("sizing", ("reboring", "reach", "fillet", "carrier_wall"), "part_size"),
     *((f"part_{name}", (), "part_size") for name in ("piston", "cylinder", "gears", "crank")),
     ("part_crosshead", ("pin_diameter", "pin_length", "crank_pin_diameter", "crank_pin_length", "shoe_width",
-                        "shoe_length", "rod_diameter", "rod_length", "web_width", "web_thickness", "web_arm"),
-     "part_size"),
+                        "shoe_length", "rod_diameter", "web_width", "web_thickness", "web_arm"), "part_size"),
+    ("stirling", ("heater_diameter", "cooler_diameter"), "tube_share"),
+    ("stirling", ("seal_length", "shuttle_length"), "seal_share"),
 )  # fmt: skip
+# absolute pressure of the charge, what each kind of cycle calls it
+_CHARGE = (("cycle", "intake_pressure"), ("cycle", "p_s"), ("cycle", "mean_pressure"), ("cycle", "p_suction"),
+           ("cycle", "inlet_pressure"), ("cycle", "exhaust_pressure"))  # fmt: skip
 _Told = tuple[str, str, float]  # kind, what it is, value
 
 
@@ -40,12 +48,9 @@ def by_size(sections: Mapping[str, Any], sizes: Proportions, bore: float | None)
     bore : float or None
         Of the piston; None where it is not known [m]
     """
-    told = [
-        *_inertias(sections, sizes),
-        ("spring_height", "spring.H / stroke", _number(sections, "spring", "H") / sizes.stroke),
-    ]
+    told = [*_inertias(sections, sizes), *_by_stroke(sections, sizes), *_fitted(sections)]
     if bore:
-        told += [*_lengths(sections, bore), *_volumes(sections, bore, sizes.stroke)]
+        told += [*_lengths(sections, bore), *_volumes(sections, bore, sizes.stroke), *_areas(sections, sizes, bore)]
     else:  # with a bore the area of the piston tells it
         told.append(("mass_density", "moving mass / stroke^3", sizes.mass / sizes.stroke**3))
     return _doubts(told)
@@ -101,11 +106,72 @@ def _inertias(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told
         yield "inertia", f"flywheel.inertia / {about}", kept
 
 
+def _by_stroke(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told]:
+    """Lengths along the stroke, and what belongs to the gears and rollers of the mechanism."""
+    parts = ("heater", "cooler", "regenerator")
+    lengths = [("spring", "H", "spring_height"), ("part_crosshead", "rod_length", "piston_rod")]
+    lengths += [("stirling", f"{part}_length", "exchanger_share") for part in parts]
+    for section, name, code in lengths:
+        yield code, f"{section}.{name} / stroke", _number(sections, section, name) / sizes.stroke
+    radius = _number(sections, "part_gears", "module") * _number(sections, "part_gears", "teeth_pinion") / 2
+    yield "gear_pitch", "part_gears.module * teeth_pinion / 2 / (stroke / 4)", 4 * radius / sizes.stroke
+    if roller := _number(sections, "rollers", "radius"):
+        yield (
+            "bearing_share",
+            "losses.bearing_radius / rollers.radius",
+            (_number(sections, "losses", "bearing_radius") / roller),
+        )
+    if sizes.span is not None:
+        yield "opposed_span", "distance of the shafts / (r + l1 + l2 of both)", sizes.span
+
+
+def _fitted(sections: Mapping[str, Any]) -> Iterator[_Told]:
+    """Constants of fitted laws by the law's own."""
+    for section, names in (("heat_transfer", ("c1", "c2")), ("friction_pressure", ())):
+        for field in _fields(sections.get(section)):
+            own = field.default
+            if isinstance(own, float) and own and (field.name in names or not names):
+                about = f"{section}.{field.name} / the law's own {own:g}"
+                yield "fitted_constant", about, _number(sections, section, field.name) / own
+
+
+def _areas(sections: Mapping[str, Any], sizes: Proportions, bore: float) -> Iterator[_Told]:
+    """Pressures, forces and stiffnesses by the area of a piston."""
+    area = math.pi / 4 * bore**2
+    charge = next((p for p in (_number(sections, *key) for key in _CHARGE) if p), 0.0)
+    for section, name in (("cycle", "p_back"), ("chamber", "back_pressure")) if charge else ():
+        yield "back_pressure_share", f"{section}.{name} / charge", _number(sections, section, name) / charge
+    faces = getattr(sections.get("faces"), "areas", ())
+    swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (_number(sections, "chamber", "pistons") or 1)
+    yield (
+        "load_pressure",
+        "load.torque * 2 pi / swept volume",
+        2 * math.pi * _number(sections, "load", "torque") / swept,
+    )
+    yield (
+        "reaction_limit",
+        "limits.roller_reaction / piston area",
+        _number(sections, "limits", "roller_reaction") / area,
+    )
+    for face in faces:
+        yield "face_area", "faces.areas / piston area", face / area
+    for name in ("k_a", "k_b", "k_c"):
+        yield (
+            "joint_stiffness",
+            f"closing.{name} * bore / (1 MPa * piston area)",
+            (_number(sections, "closing", name) * bore / (1e6 * area)),
+        )
+    if sizes.pitch is not None:
+        yield "cylinder_pitch", "least distance of two cylinders / bore", sizes.pitch / bore or 1e-9
+
+
 def _lengths(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
     for section, names, code in _BY_BORE:
         fields = _fields(sections.get(section))
-        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m"]:
-            yield code, f"{section}.{name} / bore", _number(sections, section, name) / bore
+        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m" and "ring_" not in f.name]:
+            value = getattr(sections.get(section), name, None) or 0.0
+            for length in set(value) if isinstance(value, tuple) else (value,):
+                yield code, f"{section}.{name} / bore", length / bore
     for field in _fields(sections.get("part_masses")):
         yield (
             "mass_density",
@@ -118,6 +184,8 @@ def _volumes(sections: Mapping[str, Any], bore: float, stroke: float) -> Iterato
     swept = math.pi / 4 * bore**2 * stroke
     for name in ("dead_hot", "dead_cold", "dead_regenerator"):
         yield "dead_volume", f"cycle.{name} / swept volume", _number(sections, "cycle", name) / swept
+    for name in ("plenum_volume", "manifold_volume"):
+        yield "pipe_volume", f"breathing.{name} / swept volume", _number(sections, "breathing", name) / swept
     told = {name: _number(sections, "stirling", name) for name in ("buffer_volume", "conductance")}
     yield "buffer_volume", "stirling.buffer_volume / swept volume", told["buffer_volume"] / swept
     copper = 400 * math.pi / 4 * bore**2 / stroke  # a solid block of the piston's width, one stroke long [W/K]

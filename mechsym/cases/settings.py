@@ -55,3 +55,6 @@ class Speeds:
     def __post_init__(self) -> None:
         if self.highest < self.lowest:
             raise BadInput(f"highest = {self.highest:g} rad/s is below lowest = {self.lowest:g} rad/s")
+        if 0 < self.highest - self.lowest < self.step:
+            told = f"step = {self.step:g} rad/s is wider than the range from {self.lowest:g} to {self.highest:g} rad/s"
+            raise BadInput(f"{told}; give a smaller one")

@@ -124,8 +124,8 @@ def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> No
     if not isinstance(table, dict):
         raise BadInput(f"--set {key}: {section!r} is no section; {suggest(section, schema.sections())}")
     before = _keys(mechanism, section, table) if name == schema.selector(section) else set()
-    stem = name.rpartition("_")[0]
-    table.pop(stem if stem in table and name not in table else name, None)
+    stem, _, unit = name.rpartition("_")
+    table.pop(stem if stem in table and name not in table and unit in units() else name, None)
     for other in [k for k in table if k.rpartition("_")[0] == name and k.rpartition("_")[2] in units()]:
         table.pop(other)
     table[name] = value

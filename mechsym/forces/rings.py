@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 
 if TYPE_CHECKING:
@@ -35,6 +36,11 @@ class ContactPressure:
     gas_shares: tuple[float, ...] = quantity("-", low=0, high=1, about="part of the gas pressure behind each ring")
     #: Pressure of a ring's own tension on the wall [Pa]
     elastic: float = quantity("Pa", low=0, about="pressure of a ring's own tension")
+
+    def __post_init__(self) -> None:
+        if not self.heights or len(self.heights) != len(self.gas_shares):
+            given = f"{len(self.heights)} heights and {len(self.gas_shares)} gas_shares"
+            raise BadInput(f'{given}: rings need one of each, at least one; law = "none" leaves rings away')
 
 
 Rings = NoRings | Patton1989 | ContactPressure

@@ -83,10 +83,20 @@ def of_forces(case: Case, found: Forces) -> tuple[Doubt, ...]:
     pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
     largest = max((float(np.hypot(x, y).max()) for x, y in _vectors(found)), default=0.0)
     largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
-    doubts = of_gas(case, found.turn.gas)
+    doubts = of_gas(case, found.turn.gas) + _driven(case, found)
     if found.turn.gas is None or not max(pushes, default=0.0) > 0:
         return doubts
     return doubts + proportion("force_ratio", "largest bearing force / gas force", largest / max(pushes))
+
+
+def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
+    """Whether the gas of a Stirling engine takes work: then its cold piston leads."""
+    travel = {f"F{i}": f"dx_{i}_dphi" for i in range(1, len(found.turn.inputs) + 1)}
+    if "cycle" not in case.sections or kind_of(case.need("cycle")).given != "train":
+        return ()
+    turn = found.turn
+    work = sum(float(np.mean(turn.inputs[name] * turn.kinematics[dx])) for name, dx in travel.items())
+    return proportion("driven", "work of the gas in a turn", work * turn.period)
 
 
 def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -30,6 +30,11 @@ class Proportions:
     #: Inertia about a part's own centre by its letter, and the part's mass by its length squared [kg*m^2]
     parts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     unbalances: Mapping[str, float] = field(default_factory=dict)  #: By their letter [kg*m]
+    pistons: int = 1  #: How many drive its shaft
+    #: Least distance of two cylinders of a shaft, None where their places are not given [m]
+    pitch: float | None = None
+    #: Distance of the shafts of opposed pistons over the length of both rods and throws, None without such [-]
+    span: float | None = None
 
 
 def slider_crank(r: float, l: float, moving: tuple[Reciprocating, ...] = (), **more: Any) -> Proportions:  # noqa: E741

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, LARGEST, PROPORTIONS, RESULTS, Usual
+from mechsym.plausible.ranges import INPUTS, LARGEST, RESULTS, Usual
+from mechsym.plausible.together import PROPORTIONS
 from mechsym.quantities import record
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]

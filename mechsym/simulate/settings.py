@@ -74,6 +74,6 @@ class StepTorque:
 
     #: The mechanism's input; None takes M_drive of a crank train, the torque at its free end, and M of any other
     input: str | None = None
-    time: float = quantity("s", default=0.0, about="when the torque is switched on")
+    time: float = quantity("s", default=0.0, low=0, about="when the torque is switched on")
     #: Torque from then on, 0 before [N*m]
     torque: float = quantity("N*m", about="driving torque")

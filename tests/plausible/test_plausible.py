@@ -11,9 +11,12 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
+from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.judged import of_cycle
+from mechsym.forces.rings import ContactPressure
+from mechsym.jobs.forces import forces
+from mechsym.jobs.judged import of_cycle, of_forces
 from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, inputs, proportion, proportions, results, sifted
 
 
@@ -60,6 +63,12 @@ IMPOSSIBLE = [
     ("nunes-slider-crank", "cycle.ignition=-170 deg"),
     ("zotov-89", "axis_tilt=90"),
     ("alpha-stirling", "operation.speed=600000 rpm"),
+    ("generator-breathing", "breathing.inlet_temperature=20"),
+    ("zotov-89", "cycle.evo=31 deg"),
+    ("nunes-hypocycloid", "part_gears.teeth_ring=26"),
+    ("nunes-hypocycloid", "part_crank.pin_bore=30 mm"),
+    ("nunes-slider-crank", "speeds.step=80000 rpm"),
+    ("chmielewski", "drive.time=-1 s"),
 ]
 
 
@@ -106,7 +115,98 @@ DOUBTED = [
     ("alpha-stirling", "stirling.conductance=40", "conductance"),
     ("nunes-hypocycloid", "part_masses.piston=294.7", "mass_density"),
     ("generator-breathing", "inlet_lift=6", "valve_size"),
+    ("generator-breathing", "throttle_diameter=180 mm", "pipe_size"),
+    ("generator-breathing", "plenum_volume=100 L", "pipe_volume"),
+    ("generator-breathing", "inlet_opens=200 deg", "valve_timing"),
+    ("generator-breathing", "exhaust_closes=280 deg", "valve_timing"),
+    ("generator-breathing", "air_fuel_ratio=1.05", "air_fuel_ratio"),
+    ("generator-breathing", "heat_transfer.c1=228", "fitted_constant"),
+    ("nunes-slider-crank", "heat_transfer.radiation=4.25e-6", "radiation"),
+    ("nunes-slider-crank", "heat_transfer.exponent=0.07", "reynolds_exponent"),
+    ("nunes-slider-crank", "chamber.back_pressure=100 bar", "back_pressure_share"),
+    ("nunes-slider-crank", "sizing.life=200", "life"),
+    ("nunes-hypocycloid", "sizing.head_dT=7500", "head_temperature"),
+    ("nunes-hypocycloid", "sizing.ring_thickness=20 mm", "ring_size"),
+    ("nunes-hypocycloid", "part_gears.module=2.54 mm", "gear_pitch"),
+    ("nunes-hypocycloid", "part_gears.face=390 mm", "part_size"),
+    ("nunes-hypocycloid", "part_cylinder.thread_mm=0.01", "thread"),
+    ("nunes-hypocycloid", "friction.contact_ratio=16", "contact_ratio"),
+    ("zotov-89", "cycle.p_back=101.325", "back_pressure_share"),
+    ("zotov-89", "cycle.n_e=1.66", "exponent"),
+    ("zotov-89", "cycle.n_c=1.01", "exponent"),
+    ("zotov-89", "limits.hertz_stress=1500 GPa", "contact_limit"),
+    ("zotov-89", "limits.spring_pressure=25 GPa", "pressure_limit"),
+    ("zotov-89", "limits.pressure_angle=89 deg", "angle_limit"),
+    ("zotov-89", "limits.roller_reaction=600 MN", "reaction_limit"),
+    ("zotov-89", "losses.bearing_radius=150 mm", "bearing_share"),
+    ("generator", "cycle.fit_to=-1 deg", "fit_window"),
+    ("moroianu", "part_crosshead.shoe_pressure=60 MPa", "bearing_pressure"),
+    ("moroianu", "part_crosshead.wanted=0.01", "safety"),
+    ("moroianu", "part_crosshead.rod_length=0.22 m", "piston_rod"),
+    ("moroianu", "part_crosshead.web_thickness=2.5 m", "part_size"),
+    ("alpha-stirling", "regenerator_length=2 m", "exchanger_share"),
+    ("alpha-stirling", "heater_diameter=30 mm", "tube_share"),
+    ("alpha-stirling", "shuttle_length=0.1 mm", "seal_share"),
+    ("alpha-stirling", "simulation.turns=0.001", "run_length"),
+    ("alpha-stirling", "simulation.phi_start=90", "angle"),
+    ("alpha-stirling", "load.torque=1e6", "load_pressure"),
+    ("balandin", "closing.k_a=200", "joint_stiffness"),
+    ("chmielewski", "startup.claim_time=900 s", "window"),
 ]
+# lists, which only a file can give
+LISTED = [
+    ("alpha-stirling", "phase", "[90, 0]", "angle"),
+    ("balandin", "areas", '["25 cm^2", "25 cm^2", "25 cm^2", "25 cm^2"]', "face_area"),
+    ("zotov-89", "heights", '["50 mm", "7 mm", "7 mm", "7 mm"]', "ring_size"),
+    ("opposed-pistons", "axis_x", '["0 m", "0.3 m"]', "opposed_span"),
+    ("opposed-pistons", "axis_x", '["0 m", "4.6 m"]', "opposed_span"),
+]
+
+
+@pytest.mark.parametrize(("name", "key", "written", "code"), LISTED)
+def test_values_of_lists_are_judged(tmp_path, name, key, written, code):
+    file = tmp_path / "mine.toml"
+    file.write_text(re.sub(rf"^{key} = .*$", f"{key} = {written}", cases.text(name), flags=re.MULTILINE))
+    case = cases.load(str(file))
+    assert code in {d.code for d in sifted(case.doubts, case.acceptances)[0]}
+
+
+@pytest.mark.parametrize(
+    ("written", "doubted"),
+    [
+        ('["0 mm", "98 mm", "196 mm", "294 mm"]', False),
+        ('["294 mm", "196 mm", "98 mm", "0 mm"]', False),
+        ('["0 mm", "80 mm", "160 mm", "240 mm"]', True),
+        ('["0 mm", "98 mm", "98 mm", "294 mm"]', True),
+        ("0", False),  # a plane model: nothing is said of where the throws stand
+    ],
+)
+def test_cylinders_that_cut_each_other_are_doubted(tmp_path, written, doubted):
+    file = write_engine("inline", 0.082, 0.09, 4, tmp_path)[0]
+    file.write_text(re.sub(r"^z = .*$", f"z = {written}", file.read_text(), flags=re.MULTILINE))
+    assert ("cylinder_pitch" in {d.code for d in cases.load(str(file)).doubts}) == doubted
+
+
+@pytest.mark.parametrize("bank", [5, 30])
+def test_the_banks_of_a_v_stand_apart(tmp_path, bank):
+    file = write_engine("v", 0.095, 0.084, 6, tmp_path)[0]
+    banks = ", ".join(f'"{sign}{bank} deg"' for sign in "---+++".replace("+", " ")).replace('" ', '"')
+    file.write_text(re.sub(r"^bank = .*$", f"bank = [{banks}]", file.read_text(), flags=re.MULTILINE))
+    assert ("cylinder_pitch" in {d.code for d in cases.load(str(file)).doubts}) == (bank == 5)
+
+
+def test_a_stirling_engine_whose_cold_piston_leads_is_doubted_by_its_forces(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(cases.text("alpha-stirling").replace('phase = ["90 deg"', 'phase = ["-90 deg"'))
+    case = cases.load(str(file))
+    assert [d.code for d in of_forces(case, forces(case))] == ["driven"]
+
+
+def test_rings_need_a_share_each():
+    with pytest.raises(BadInput, match=r"2 heights and 1 gas_shares: rings need one of each"):
+        ContactPressure(mu=0.05, heights=(1e-3, 1e-3), gas_shares=(1.0,), elastic=1e5)
+    with pytest.raises(BadInput, match="at least one"):
+        ContactPressure(mu=0.05, heights=(), gas_shares=(), elastic=1e5)
 
 
 @pytest.mark.parametrize(("name", "setting", "code"), DOUBTED)

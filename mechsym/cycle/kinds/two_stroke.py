@@ -68,12 +68,13 @@ class TwoStrokeMarine:
     p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston")
 
     def __post_init__(self) -> None:
-        order = (("evc", self.evc), ("soc", self.soc), ("evo", self.evo), ("spo", self.spo))
+        burnt = ("soc + duration", self.soc + self.duration)
+        order = (("evc", self.evc), ("soc", self.soc), burnt, ("evo", self.evo), ("spo", self.spo))
         for (name, angle), (later, limit) in zip(order, order[1:], strict=False):
             if not angle < limit:
                 raise BadInput(
                     f"{name} = {math.degrees(angle):g} deg is not before {later} = {math.degrees(limit):g} deg; "
-                    "the order is evc < soc < evo < spo"
+                    "the order is evc < soc < soc + duration < evo < spo"
                 )
 
 

@@ -1,5 +1,6 @@
 """The parts of an engine as records: what a drawing needs and every check reads. Sections `[part_*]` of a case."""
 
+from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 
 
@@ -43,6 +44,11 @@ class GearPart:
     ring_outside: float = quantity("m", above=0, about="outside diameter of the ring")
     pinion_bore: float = quantity("m", low=0, about="bore of the pinion")
 
+    def __post_init__(self) -> None:
+        if self.teeth_ring != 2 * self.teeth_pinion:
+            told = f"teeth_ring = {self.teeth_ring:g} is not twice teeth_pinion = {self.teeth_pinion:g}"
+            raise BadInput(f"{told}: the planet of a hypocycloid rolls in a ring of twice its size")
+
 
 @record
 class CrankPart:
@@ -59,6 +65,10 @@ class CrankPart:
     #: Diameter of the output shaft [m]
     output: float = quantity("m", above=0, about="output shaft")
     pin_bore: float = quantity("m", default=0.0, low=0, about="bore of the crankpin")
+
+    def __post_init__(self) -> None:
+        if self.pin_bore >= self.pin:
+            raise BadInput(f"pin_bore = {self.pin_bore:g} m is not below pin = {self.pin:g} m")
 
 
 @record
