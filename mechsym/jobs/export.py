@@ -3,12 +3,11 @@
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import scipy
 
-from mechsym import cases, periodic
+from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.friction import NoFriction
@@ -23,7 +22,8 @@ from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import engine_with, one_cylinder
 from mechsym.jobs.machine import load, machine
 from mechsym.jobs.own import is_own
-from mechsym.jobs.problem import problem_of
+from mechsym.jobs.problem import braked, problem_of, turned
+from mechsym.jobs.train import Cylinders, cylinders
 from mechsym.jobs.turn import turn
 from mechsym.machine.loads import Load, settle
 from mechsym.machine.record import Machine
@@ -33,7 +33,7 @@ from mechsym.quantities import record
 from mechsym.simulate import Part, Problem
 from mechsym.simulate import engine as engines
 from mechsym.simulate.engine import load_value
-from mechsym.simulate.problem import Kinks, Stop
+from mechsym.simulate.problem import Kinks, Periodic, Stop
 from mechsym.simulate.settings import Simulation
 
 TURNS = 10  # of a run where the case says nothing
@@ -48,18 +48,16 @@ class Ready:
 
     problem: Problem
     guide: Guide | None = None  #: of the part `hinge`
-    load: Load | None = None  #: settled law of the part `load`, over the speed of the first coordinate
-    tables: "Mapping[str, scipy.interpolate.PPoly]" = dataclasses.field(
-        default_factory=dict
-    )  #: parts that are curves, over its angle
+    load: Load | None = None  #: settled law of the part `load`, over the speed of the last coordinate
 
 
 def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
     hinged = {"spring", "guide"} <= set(case.sections)
-    train = is_train(case.mechanism) and not _by_spark(case)
-    if is_own(case.mechanism) and not hinged or "drive" in case.sections or train:
+    if is_own(case.mechanism) and not hinged or "drive" in case.sections:
         return Ready(problem=problem_of(_running(case)))
+    if is_train(case.mechanism):
+        return _elastic(case)
     if is_own(case.mechanism) or case.mechanism in with_hinge() and not _by_spark(case):
         return _engine(case, diagram)
     if diagram is not None:
@@ -123,16 +121,36 @@ def _engine(case: Case, diagram: str | None) -> Ready:
     return Ready(problem=problem, guide=guide, load=built.load)
 
 
+def _elastic(case: Case) -> Ready:
+    """A crank train with gas on the throws of its elastic shaft."""
+    running = braked(_running(case))
+    gas = _of_spark(running) if _by_spark(case) else cylinders(running)
+    problem, law = turned(running, running.need("simulation"), gas)
+    return Ready(problem=problem, load=law)
+
+
+def _of_spark(case: Case) -> Cylinders:
+    """The gas of spark ignition at the speed of operation, over the angle of each throw."""
+    once, parameters = turn(case), case.need("parameters")
+    throws = {f"F{k}": f"phi{throw}" for k, throw in enumerate(parameters.throw, 1)}
+    kinks = {name: _kinks(case, once, firing) for name, firing in zip(throws, each(parameters, "firing"), strict=True)}
+    followed = {q: sorted({a for n, at in throws.items() if at == q for a in kinks[n]}) for q in throws.values()}
+    return Cylinders(
+        parts=tuple(_gas(once, name, q, kinks[name]) for name, q in throws.items()),
+        kinks=tuple(Kinks(coordinate=q, angles=tuple(at), period=once.period) for q, at in followed.items()),
+        torque=float(np.mean(once.torque)),
+    )
+
+
 def _at_speed(case: Case) -> Ready:
     """A mechanism with gas on its pistons at the speed of operation, against the mean torque or the case's load."""
     once = turn(case)
     mechanism, omega = once.drive.mechanism, once.omega
     (q,) = mechanism.coordinates
-    kinks = _kinks(case, once)
-    tables = {f"gas_{name}": _table(once, name, kinks) for name in once.inputs}
+    kinks = _kinks(case, once, *getattr(case.sections.get("faces"), "firing", (0.0,)))
     law = settle(load(case), float(np.mean(once.torque)), omega)
     load_input = next(n for n in ("M_r", "M") if n in mechanism.inputs)
-    parts = [Part(name=n, input=n.removeprefix("gas_"), value=_callable(poly)) for n, poly in tables.items()]
+    parts = [_gas(once, name, q, kinks) for name in once.inputs]
     parts.append(Part(name="load", input=load_input, role="load", value=load_value(law)))
     turn_time = 2 * math.pi / omega
     problem = Problem(
@@ -140,7 +158,13 @@ def _at_speed(case: Case) -> Ready:
         kinks=(Kinks(coordinate=q, angles=kinks, period=once.period),) if kinks else (),
         stops=(Stop(name="stall", of=f"{q}d", direction="falling"),), output=turn_time / 360,
     )  # fmt: skip
-    return Ready(problem=problem, load=law, tables=tables)
+    return Ready(problem=problem, load=law)
+
+
+def _gas(once: Turn, name: str, coordinate: str, kinks: tuple[float, ...]) -> Part:
+    """A gas force as splines over an angle."""
+    value = Periodic(coordinate=coordinate, value=_table(once, name, kinks), period=once.period, kinks=kinks)
+    return Part(name=f"gas_{name}", input=name, value=value)
 
 
 def _table(once: Turn, name: str, kinks: tuple[float, ...]) -> "scipy.interpolate.PPoly":
@@ -164,17 +188,10 @@ def _spline(once: Turn, name: str, first: float, last: float) -> "scipy.interpol
     return scipy.interpolate.PPoly(poly.c[:, 7:-7], poly.x[7:-7])
 
 
-def _kinks(case: Case, once: Turn) -> tuple[float, ...]:
+def _kinks(case: Case, once: Turn, *firing: float) -> tuple[float, ...]:
     """Angles in a period where a gas force is not smooth [rad]: ends of the closed period and of its combustion."""
     angles = list(once.gas.pressure.kinks if once.gas else ())
     if _by_spark(case):
         closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
         angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
-    train = is_train(case.mechanism)
-    firing = each(case.need("parameters"), "firing") if train else getattr(case.sections.get("faces"), "firing", (0.0,))
     return tuple(sorted({float(a + f) % once.period for a in angles for f in firing}))
-
-
-def _callable(poly: "scipy.interpolate.PPoly") -> Any:
-    point = periodic.scalar(poly)
-    return lambda t, q, u: point(q[0])[0]

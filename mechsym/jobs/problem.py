@@ -24,7 +24,7 @@ from mechsym.jobs.machine import machine
 from mechsym.jobs.own import is_own
 from mechsym.jobs.own import problem as own_problem
 from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_of
-from mechsym.machine.loads import PropellerLoad
+from mechsym.machine.loads import Load, PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.traits import is_train, traits_of, with_hinge
@@ -66,7 +66,7 @@ def problem_of(case: Case) -> Problem:
         return own_problem(case)
     wanted, case = simulation_of(case), braked(case)
     if is_train(case.mechanism):
-        return _train(case, wanted)
+        return turned(case, wanted, trains.cylinders(case))[0]
     if "drive" in case.sections and not is_own(case.mechanism):
         return _driven(case, wanted)
     engine = engine_of(case)
@@ -169,8 +169,9 @@ def _driven(case: Case, wanted: Simulation) -> Problem:
     )
 
 
-def _train(case: Case, wanted: Simulation) -> Problem:
-    gas, driven = trains.cylinders(case), "drive" in case.sections
+def turned(case: Case, wanted: Simulation, gas: trains.Cylinders) -> tuple[Problem, Load | None]:
+    """The run of a crank train under the gas of its cylinders and a drive, and the settled law of its load."""
+    driven = "drive" in case.sections
     if not (gas.parts or driven):
         raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
     usual = case.need("operation").speed if gas.parts and not driven else 0.0
@@ -178,9 +179,11 @@ def _train(case: Case, wanted: Simulation) -> Problem:
     mechanism = _elastic(case)
     mean = gas.torque + (case.need("drive").torque if driven else 0.0)
     t_end, output = _end(case, wanted, speed)
-    return Problem(
+    law = trains.load(case, mean, speed)
+    held = () if law is None else (Part(name="load", input="M", role="load", value=engines.load_value(law, -1)),)
+    problem = Problem(
         mechanism=mechanism,
-        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *trains.load(case, mean, speed)),
+        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *held),
         q0=(wanted.phi_start,) * len(mechanism.coordinates),
         u0=(speed,) * len(mechanism.coordinates),
         t_end=t_end,
@@ -190,6 +193,7 @@ def _train(case: Case, wanted: Simulation) -> Problem:
         stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
         output=output,
     )
+    return problem, law
 
 
 def _elastic(case: Case) -> Mechanism:

@@ -36,6 +36,7 @@ class EngineSpeed:
     """What an engine's speed is looked at by."""
 
     coordinate: str  #: Its shaft
+    words: str  #: Its name for people, empty where there is one shaft only
     period: float  #: A turn, or two of a four-stroke engine [rad]
     wanted: float  #: Speed of operation [rad/s]
 
@@ -55,6 +56,12 @@ class FinishedRun(Shown):
     engine: EngineSpeed | None  #: Of an engine
     findings: tuple[str, ...]
     doubts: tuple[Doubt, ...] = ()  #: Of gas and window, that no number of the summary tells
+
+    @property
+    def speed(self) -> Mapping[str, float]:
+        """Mean, least and greatest speed at the end, of the engine's shaft or of the first coordinate [rad/s]."""
+        speeds = self.summary["speeds"]
+        return speeds[self.engine.coordinate if self.engine else next(iter(speeds))]
 
 
 def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> FinishedRun:
@@ -103,8 +110,10 @@ def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") 
 def _engine(case: Case, told: dict[str, Any], period: float) -> EngineSpeed | None:
     if "cycle" not in case.sections or "operation" not in case.sections:
         return None
-    shaft = list(told["speeds"])[-1 if is_train(case.mechanism) else 0]
-    return EngineSpeed(coordinate=shaft, period=period, wanted=case.need("operation").speed)
+    train = is_train(case.mechanism)
+    shaft = list(told["speeds"])[-1 if train else 0]
+    wanted = case.need("operation").speed
+    return EngineSpeed(coordinate=shaft, words="flywheel" if train else "", period=period, wanted=wanted)
 
 
 def _stopped(result: Result, engine: EngineSpeed) -> tuple[str, ...]:

@@ -135,14 +135,15 @@ def optimised_view(found: Optimised) -> View:
 def run_view(run: FinishedRun) -> View:
     """Speeds, end and audit of a run in time."""
     told = run.summary
-    mean, low, high = told["speed_mean"], told["speed_min"], told["speed_max"]
+    mean, low, high = (run.speed[key] for key in ("mean", "min", "max"))
+    where = f"over the last period{f', of the {run.engine.words}' if run.engine and run.engine.words else ''}"
     good = told["status"] not in ("failed", "not converged", "chaotic")
     share = (high - low) / mean if mean else None
     ripple = "–" if share is None else ratio_text(share) if abs(share) < 1e-6 else f"{figure(100 * share, 3)} %"
     cards = [
         Card(name="run", value=told["status"], about=told["reason"], mark="" if good else "no"),
-        Card(name="mean speed", value=quantity_text(mean, "rad/s", 4), about=f"{span(low, high)} over the last period"),
-        Card(name="speed ripple", value=ripple, about="of the last period"),
+        Card(name="mean speed", value=quantity_text(mean, "rad/s", 4), about=f"{span(low, high)} {where}"),
+        Card(name="speed ripple", value=ripple, about=where),
         Card(name="energy residual", value=ratio_text(told["energy_residual"], 2), about="of the work brought in"),
     ]  # fmt: skip
     cards += [Card(name=f"twist of section {s.section}", value=quantity_text(s.twist_peak, "rad", 4), about="peak")
@@ -171,7 +172,7 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
     if engine is not None and len(result.t) > 1:
         see = "Speed over time with its mean over each period, and the last period over the angle."
         found.append(Picture(name="speed", see=see, draw=lambda: speed(
-            result, engine.coordinate, engine.period, engine.wanted)))  # fmt: skip
+            result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
     if run.twist:
         see = "Twist of each shaft section: the peak decides on the shaft."
         found.append(Picture(name="twist", see=see, draw=lambda: plots.twist(result, len(run.twist))))

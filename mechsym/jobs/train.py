@@ -17,12 +17,11 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import gas
 from mechsym.jobs.turn import turn
-from mechsym.machine.loads import PropellerLoad, settle
+from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.traits import is_train
 from mechsym.quantities import record
-from mechsym.simulate.engine import load_value
 from mechsym.simulate.problem import Kinks, Part, Periodic
 
 
@@ -100,8 +99,8 @@ def _kinks(found: Gas, parameters: CrankTrainParameters, starts: tuple[float, ..
     return tuple(rows)
 
 
-def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
-    """The load at the flywheel.
+def load(case: Case, torque: float, speed_start: float) -> Load | None:
+    """The law of the load at the flywheel.
 
     Parameters
     ----------
@@ -118,7 +117,7 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
         A law that pulls a shaft at rest backwards
     """
     if "load" not in case.sections:
-        return ()
+        return None
     law = case.sections["load"]
     if speed_start <= 0 and not isinstance(law, PropellerLoad):
         raise BadInput(
@@ -126,8 +125,7 @@ def load(case: Case, torque: float, speed_start: float) -> tuple[Part, ...]:
             "above 0 rad/s or [load] law = 'propeller'"
         )
     blank = isinstance(law, PropellerLoad) and law.speed is None
-    settled = settle(law, torque, case.need("operation").speed if blank else math.nan)
-    return (Part(name="load", input="M", role="load", value=load_value(settled, -1)),)
+    return settle(law, torque, case.need("operation").speed if blank else math.nan)
 
 
 def remarks(case: Case) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from mechsym.hinge.springs import AirGauge, Coil, absolute_pressure, coil_force,
 from mechsym.hinge.thermal import AirThermal, thermal_pressure
 from mechsym.jobs.export import Ready
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, propeller_torque
-from mechsym.out.block import Block, Curve, Law, Port, block, curve_law
+from mechsym.out.block import Block, Curve, Law, Port, block
 
 _GAS = ("A", "H", "p0", "pa")  # numbers of a gas that exchanges heat which may be tuned; its temperature is a curve
 _ABOUT = {"rho0": "distance of the roller centres with the spring at its free height"}
@@ -19,11 +19,11 @@ _ABOUT = {"rho0": "distance of the roller centres with the spring at its free he
 def block_of(name: str, about: str, ready: Ready) -> Block:
     """The block of a run, with the numbers of its spring and its load as parameters."""
     problem = ready.problem
-    laws = [curve_law(part, Curve(name=part, state=0, poly=poly)) for part, poly in ready.tables.items()]
+    laws: list[Law] = []
     if ready.guide is not None:
         laws.append(hinge_law("hinge", ready.guide, ready.guide.spring))
     if ready.load is not None:
-        laws.append(load_law("load", ready.load, len(problem.mechanism.coordinates)))
+        laws.append(load_law("load", ready.load, 2 * len(problem.mechanism.coordinates) - 1))
     return block(name, about, problem, laws)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mechsym.simulate.result import Result
 from mechsym.simulate.summary import last_period
-from mechsym.style import BLUE, INK, RED, axis_unit, envelope, heading, legend, panels
+from mechsym.style import BLUE, INK, RED, axis_unit, envelope, heading, legend, over_angle, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,7 +16,7 @@ _LEAST = 1e-3  # of the speed: less is not drawn larger
 _PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
-def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Figure":
+def speed(result: Result, coordinate: str, period: float, wanted: float, words: str = "") -> "Figure":
     """Speed of a coordinate that turns.
 
     Parameters
@@ -25,6 +25,8 @@ def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Fig
         A turn, or two for a four-stroke engine [rad]
     wanted : float
         Speed of operation, drawn as a line [rad/s]
+    words : str
+        The coordinate's name for people, where there are several
     """
     figure, (whole, last) = panels(
         9.0, 3.9, 1, 2, "Speed over time and over the angle", width_ratios=(2, 1), sharey=True
@@ -43,11 +45,11 @@ def speed(result: Result, coordinate: str, period: float, wanted: float) -> "Fig
     if high - low < _LEAST * wanted * factor:  # round-off is no ripple
         whole.set_ylim(np.array([-0.5, 0.5]) * _LEAST * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
-    heading(whole, f"speed of {coordinate}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
+    of = f"the {words}, {coordinate}" if words else coordinate
+    heading(whole, f"speed of {of}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
     legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)
-    angle, unit = axis_unit("rad", period)
+    angle = over_angle(last, period, "angle", steps=4)
     last.plot((q[keep] - q[keep][0]) * angle, u[keep] * factor, color=BLUE, lw=1.2)
-    last.set(xlabel=f"angle [{unit}]")
     heading(last, "last period")
     return figure

@@ -136,8 +136,8 @@ def axis_unit(unit: str, *values: Any) -> tuple[float, str]:
     return (1.0 if found == unit else float(f"{scale(unit) / scale(found):.15g}")), unit_words(found)
 
 
-def angle_axis(axis: Any, degrees: float, start: float = 0.0) -> None:
-    """An angle in degrees along an axis, in eighths.
+def angle_axis(axis: Any, degrees: float, start: float = 0.0, steps: int = 8) -> None:
+    """An angle in degrees along an axis, in eighths; in fewer parts where it is narrow.
 
     Parameters
     ----------
@@ -145,10 +145,10 @@ def angle_axis(axis: Any, degrees: float, start: float = 0.0) -> None:
         Last and first angle [deg]
     """
     axis.set_xlim(start, degrees)
-    axis.set_xticks(np.arange(start, degrees + 1, (degrees - start) / 8))
+    axis.set_xticks(np.arange(start, degrees + 1, (degrees - start) / steps))
 
 
-def over_angle(axis: Any, period: float, name: str = "crank angle", start: float = 0.0) -> float:
+def over_angle(axis: Any, period: float, name: str = "crank angle", start: float = 0.0, steps: int = 8) -> float:
     """An angle along an axis with its name, in eighths, in the unit that was chosen.
 
     Parameters
@@ -164,6 +164,6 @@ def over_angle(axis: Any, period: float, name: str = "crank angle", start: float
     factor, unit = axis_unit("rad", period)
     axis.set_xlim(start * factor, period * factor)
     if unit == "deg":
-        angle_axis(axis, period * factor, start * factor)
+        angle_axis(axis, period * factor, start * factor, steps)
     axis.set_xlabel(f"{name} [{unit}]")
     return factor

@@ -21,6 +21,7 @@ from mechsym.torsion.twist import ShaftSection
 _COUNT = 12  # orders above are too weak
 _WEAK = 0.01  # of the largest order's torque on a rigid shaft; a weaker order is no critical
 _NEAR = 0.05  # a critical speed so close to the speed of operation is run at
+_SAME = 0.002  # what is nearer is critical at it
 _RANGE = 0.2  # of the speed of operation, either way: the operating range where a case gives none
 
 
@@ -172,14 +173,15 @@ def words(found: TrainVibration) -> tuple[str, ...]:
     bare, full = (", ".join(figure(f / math.tau, 4) for f in values) for values in (found.natural_bare, found.natural))
     lines = [f"natural frequency {bare} Hz bare, {full} Hz with the mean reciprocating inertia"]
     for c in found.criticals:
-        side = "above" if c.away > 0 else "below"
-        at, carried = quantity_text(c.speed, "rad/s"), quantity_text(c.torque, "N*m", 4)
+        away, side = figure(round(100 * abs(c.away), 1)), "above" if c.away > 0 else "below"
+        where = f"{away} % {side}" if abs(c.away) >= _SAME else "at"
+        at, carried = quantity_text(c.speed, "rad/s", 4), quantity_text(c.torque, "N*m", 4)
         lines.append(
-            f"order {c.order:g} is critical at {at}, {abs(100 * c.away):.1f} % {side} the speed of "
-            f"operation: there the shaft carries {carried} of it, {c.magnification:.3g} times a rigid one's"
+            f"order {c.order:g} is critical at {at}, {where} the speed of operation: "
+            f"there the shaft carries {carried} of it, {c.magnification:.3g} times a rigid one's"
         )
     if not found.criticals:
-        low, high = (quantity_text(speed, "rad/s") for speed in (found.low, found.high))
+        low, high = (quantity_text(speed, "rad/s", 4) for speed in (found.low, found.high))
         lines.append(f"no order is critical from {low} to {high}")
     return tuple(lines)
 

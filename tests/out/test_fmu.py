@@ -352,7 +352,8 @@ def test_each_cylinder_of_a_train_has_its_own_gas(tmp_path):
     case = new_engine("inline", tmp_path, "3")
     run, once = ready(case), turn(case)
     for i in (1, 2, 3):
-        found = run.tables[f"gas_F{i}"](once.phi % once.period)
+        gas = next(part.value.value for part in run.problem.parts if part.name == f"gas_F{i}")
+        found = gas(once.phi % once.period)
         wanted = once.inputs[f"F{i}"]
         assert np.max(np.abs(found - wanted)) < 1e-4 * np.max(np.abs(wanted))
 

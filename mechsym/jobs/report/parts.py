@@ -187,7 +187,8 @@ def _simulate(case: Case) -> ReportPart:
     found = run(case)
     bad = found.summary["status"] in ("failed", "not converged", "chaotic")
     told = found.summary
-    speed = f"over the last period the speed is {span(told['speed_min'], told['speed_max'])}"
+    of = f" of the {found.engine.words}" if found.engine and found.engine.words else ""
+    speed = f"over the last period the speed{of} is {span(found.speed['min'], found.speed['max'])}"
     numbers = {k: v for k, v in told.items() if k != "wall_s"}  # another each time
     end = f"{_ENDS.get(told['end'], 'ended by ' + told['end'])} in {figure(told['t_end'], 3)} s"
     stall = tuple(text for text in found.findings if text.startswith("the shaft stops"))

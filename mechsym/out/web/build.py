@@ -69,10 +69,11 @@ def webassembly(block: Block) -> bytes:
 
 def _data(block: Block) -> dict[str, Any]:
     rows = variables(block)
-    speed = block.states[len(block.states) // 2]
+    speed = _shaft(block)
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
-    if speed.start:
-        sliders.append(_slider(speed, 0.9, 1.1))
+    if speed.start:  # an elastic shaft starts without twist
+        alike = [s.name for s in block.states if s.unit == speed.unit and s.start == speed.start]
+        sliders.append(_slider(speed, 0.9, 1.1) | {"about": "speed at the start", "sets": alike})
     return {
         "name": block.name,
         "about": block.about,
@@ -80,7 +81,7 @@ def _data(block: Block) -> dict[str, Any]:
         "units": {v.port.name: v.port.unit for v in rows},
         "shown": _shown(block),
         "chosen": chosen(),
-        "angle": block.states[0].name,
+        "angle": speed.name[:-1],
         "speed": speed.name,
         "start_speed": speed.start,
         "sliders": sliders,
@@ -92,6 +93,12 @@ def _data(block: Block) -> dict[str, Any]:
         "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         "t_end": _end(block, speed.start),
     }
+
+
+def _shaft(block: Block) -> Port:
+    """The speed that people ask for: of the shaft whose standstill ends a run, else of the first coordinate."""
+    ends = [stop.of for stop in block.stops if stop.name == "stall"]
+    return next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
 
 
 def _period(block: Block) -> float:
@@ -129,9 +136,11 @@ def _shown(block: Block) -> dict[str, tuple[float, str]]:
 
 
 def _slider(port: Port, low: float, high: float) -> dict[str, Any]:
-    about = port.about or ("speed at the start" if port.unit == "rad/s" else port.name)
     ends = sorted((port.start * low, port.start * high))
-    return {"name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1], "about": about}
+    return {
+        "name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1],
+        "about": port.about or port.name, "sets": [port.name],
+    }  # fmt: skip
 
 
 def _end(block: Block, speed: float) -> float:
