@@ -54,15 +54,20 @@ def variants(section: str) -> Mapping[str, Any]:
 
 
 def _rows(section: str, variant: str, cls: Any) -> list[dict[str, Any]]:
-    said, commands = comments(cls), commands_of(section)
+    commands = commands_of(section)
     return [
         {"section": section, "variant": variant, "key": field.name, "kind": kind(field),
          "unit": field.metadata.get("unit"), **{name: field.metadata.get(name) for name in _BOUNDS},
          "options": list(field.metadata.get("options", ())) or None, "default": _default(field),
-         "required": required(field), "about": field.metadata.get("about") or said.get(field.name, ""),
+         "required": required(field), "about": meaning(cls, field),
          "commands": commands}
         for field in dataclasses.fields(cls)
     ]  # fmt: skip
+
+
+def meaning(cls: Any, field: dataclasses.Field) -> str:
+    """What a key of a section's record means."""
+    return field.metadata.get("about") or comments(cls).get(field.name, "")
 
 
 def required(field: dataclasses.Field) -> bool:
@@ -98,7 +103,7 @@ def comments(cls: Any) -> Mapping[str, str]:
         source = textwrap.dedent(inspect.getsource(cls))
     except (OSError, TypeError):  # a record that was made at run time
         return {}
-    lines, said, above = source.splitlines(), {}, ""
+    lines, said, above, beside = source.splitlines(), {}, "", False
     fields = {node.lineno: node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.AnnAssign)}
     for number, line in enumerate(lines, 1):
         text = line.partition("#:")[2].strip()
@@ -106,6 +111,7 @@ def comments(cls: Any) -> Mapping[str, str]:
             name = fields[number].target
             said[getattr(name, "id", "")] = text or above
             above = above if not text and above else ""
+            beside = False
         elif line.strip().startswith("#:"):
-            above = text
+            above, beside = f"{above} {text}" if beside else text, True
     return {name: text for name, text in said.items() if text}

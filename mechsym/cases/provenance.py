@@ -14,12 +14,14 @@ from typing import Any
 
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.keys import meaning
 from mechsym.quantities import record
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import chosen, figure, quantity_text
 
 _SECTION = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w-]+(?:\.[\w-]+)*)\s*=")
 _OPEN, _CLOSED = "[{", "]}"
+_FAR = 1e3  # a length that may be so large is told in metres [m]
 _UNTOLD = "the case file does not say"
 
 
@@ -39,11 +41,13 @@ def sourced(case: Case) -> list[SourcedValue]:
     rows = []
     for section, values in case.sections.items():
         for field in dataclasses.fields(values):
-            shown = _shown(getattr(values, field.name), field.metadata.get("unit", ""))
+            shown = _shown(getattr(values, field.name), field.metadata)
             key = f"{section}.{field.name}"
             if shown:
                 origin = "set for this run" if key in replaced else told.get(key) or _usual(told, key, field)
-                rows.append(SourcedValue(key=key, value=shown, about=field.metadata.get("about", ""), origin=origin))
+                rows.append(
+                    SourcedValue(key=key, value=shown, about=_plain(meaning(type(values), field)), origin=origin)
+                )
     return rows
 
 
@@ -98,12 +102,21 @@ def _usual(told: Mapping[str, str], key: str, field: dataclasses.Field[Any]) -> 
     return next((told[k] for k in written if told[k]), _UNTOLD if written else "usual value of mechsym")
 
 
+def _plain(text: str) -> str:
+    """A comment of a record as a reader's meaning: no marks of code, no capital before a small letter."""
+    words = text.replace("`", "")
+    return words[:1].lower() + words[1:] if words[1:2].islower() else words
+
+
 def _overridden(case: Case) -> set[str]:
     places = [cases.locate(case.path, key) for key in case.overrides]
     return {f"{place.section}.{place.field}" for place in places}
 
 
-def _shown(value: Any, unit: str) -> str:
+def _shown(value: Any, about: Mapping[str, Any]) -> str:
+    unit = about.get("unit") or ""
+    if unit == "m" and (about.get("high") or 0.0) >= _FAR and not chosen() and isinstance(value, (int, float)):
+        return f"{figure(float(value), 6)} m"  # no length of a machine: a height above the sea
     if isinstance(value, bool) or isinstance(value, str):
         text = str(value)
         return Path(text).name if Path(text).is_absolute() else text  # a reader has not the writer's folders

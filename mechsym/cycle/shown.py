@@ -23,9 +23,15 @@ def gas_view(gas: Gas) -> View:
     ]
     if pressure.t_max is not None:
         cards.append(Card(name="peak temperature", value=quantity_text(pressure.t_max, "K", 4)))
-    see = "Absolute pressure over the angle from firing dead centre, and over the volume: the area is the work."
+    see = f"Absolute pressure over the {_angle(gas)}, and over the volume: the area is the work."
     drawn = () if gas.on_shaft else (Picture(name="indicator", see=see, draw=lambda: indicator(gas)),)
     return View(title=f"Gas, {pressure.kind}", cards=tuple(cards), pictures=drawn, columns=lambda: _columns(gas))
+
+
+def _angle(gas: Gas) -> str:
+    """The angle of a pressure in words: nothing fires in a Stirling engine, whose pistons share a gas, or a pump."""
+    fires = not gas.pistons and gas.pressure.kind != "compressor"
+    return "angle from firing dead centre" if fires else "crank angle"
 
 
 def _columns(gas: Gas) -> dict[str, np.ndarray]:
@@ -42,7 +48,7 @@ def indicator(gas: Gas) -> "Figure":
     columns = _columns(gas)
     p, room = columns["pressure"], columns["volume [m^3]"]
     (factor, unit), (scale, room_unit) = axis_unit("Pa", p), axis_unit("m^3", room)
-    angle = over_angle(left, gas.pressure.period, "angle from firing dead centre")
+    angle = over_angle(left, gas.pressure.period, _angle(gas))
     left.plot(columns["phi"] * angle, p * factor, color=BLUE)
     left.set_ylabel(f"absolute pressure [{unit}]")
     right.plot(room * scale, p * factor, color=BLUE)

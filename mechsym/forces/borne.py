@@ -8,7 +8,7 @@ from mechsym.quantities.names import stem_and_unit
 
 # what bears a load, by how its name starts
 _BEARS = {
-    "p": "gas in the cylinder", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from the rod",
+    "p": "gas in the cylinder", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from its load",
     "pin_and_guide": "pin and guides together", "crank_pin": "crank pin, in the crank's frame",
     "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
     "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",

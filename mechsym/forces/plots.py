@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_CURVES = 6
+_SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
 
@@ -43,10 +44,7 @@ def chain(found: Forces) -> "Figure":
     angle = over_angle(axes[3], float(phi[-1] + phi[1]))
     teeth: dict[str, np.ndarray] = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
     _curves(axes[0], phi * angle, found.turn.inputs or {"no gas force": np.zeros_like(phi)}, "gas force")
-    rods: dict[str, np.ndarray] = {}
-    for name in ("two_mass", "terskih") if "two_mass_T" in table else ():
-        rods |= {f"radial, {_label(name)}": -table[f"{name}_Z"], f"tangential, {_label(name)}": table[f"{name}_T"]}
-    exact = {"radial, outwards": radial(pin), "tangential": tangential(pin)}
+    exact, rods = {"radial, outwards": radial(pin), "tangential": tangential(pin)}, lumped(found)
     _curves(axes[1], phi * angle, exact | rods, _label(pin.name), dotted=tuple(rods))
     _curves(axes[2], phi * angle, teeth or found.loads.guides, "teeth" if teeth else "side force")
     factor, unit = axis_unit("N*m", found.turn.torque)
@@ -55,6 +53,15 @@ def chain(found: Forces) -> "Figure":
     axes[3].set_ylabel(f"torque [{unit}]")
     legend(axes[3])
     return figure
+
+
+def lumped(found: Forces) -> dict[str, np.ndarray]:
+    """Crank pin forces of the rod as two masses, where the case has that chain and they are others than the exact."""
+    table, pin, names = found.columns, found.loads.pins[0], ("two_mass", "terskih")
+    rods = {f"radial, {_label(n)}": (-table[f"{n}_Z"], radial(pin)) for n in names if f"{n}_Z" in table}
+    rods |= {f"tangential, {_label(n)}": (table[f"{n}_T"], tangential(pin)) for n in names if f"{n}_T" in table}
+    size = max((float(np.abs(exact).max()) for _, exact in rods.values()), default=0.0)
+    return {name: rod for name, (rod, exact) in rods.items() if np.abs(rod - exact).max() > 1e-6 * size}
 
 
 def polar_diagrams(found: Forces) -> "Figure":
@@ -138,7 +145,9 @@ def _whole(found: Any) -> np.ndarray:
 
 def _order_bars(axis: Any, orders: dict[str, Any], si: str, name: str) -> None:
     factor, unit = axis_unit(si, *map(_whole, orders.values()))
-    shown = distinct({_label(n): _whole(o) for n, o in orders.items()})
+    largest = max(_whole(o).max() for o in orders.values())
+    acting = {_label(n): _whole(o) for n, o in orders.items() if _whole(o).max() > _SEEN * largest}
+    shown = distinct(acting)
     for i, (label, values) in enumerate(shown.items()):
         place = np.arange(1, len(values) + 1) + 0.8 * ((i + 0.5) / len(shown) - 0.5)
         axis.bar(place, values * factor, width=0.7 / len(shown), color=SERIES[i], label=label)

@@ -2,6 +2,7 @@
 
 from mechsym.forces import plots
 from mechsym.forces.result import Forces
+from mechsym.forces.summary import half
 from mechsym.page import Card, Picture, View, shows
 from mechsym.quantities.display import figure, quantity_text
 
@@ -30,12 +31,12 @@ def _cards(found: Forces) -> tuple[Card, ...]:
             where = most.replace("_load", "").replace("_", " ")
             about = "largest" if where in name else f"largest, {where}"
             cards.append(Card(name=name, value=quantity_text(float(fitting[most]), "N", 4), about=about))
-    torque = found.turn.torque
-    about = f"{quantity_text(float(torque.min()), 'N*m', 4)} to {quantity_text(float(torque.max()), 'N*m', 4)}"
+    torque, of = found.turn.torque, "of one piston, " if half(found) else ""
+    about = f"{of}{quantity_text(float(torque.min()), 'N*m', 4)} to {quantity_text(float(torque.max()), 'N*m', 4)}"
     cards.append(Card(name="torque at the shaft", value=quantity_text(float(torque.mean()), "N*m", 4), about=about))
     if found.losses is not None:
         share = found.losses.mechanical_efficiency
-        told = "" if share is None else f"mechanical efficiency {figure(100 * share, 4)} %"
+        told = of.rstrip(", ") if share is None else f"{of}mechanical efficiency {figure(100 * share, 4)} %"
         power = quantity_text(sum(found.losses.places.values()), "W", 4)
         cards.append(Card(name="friction", value=power, about=told))
     weight = found.shaking.counterweight
@@ -47,10 +48,9 @@ def _cards(found: Forces) -> tuple[Card, ...]:
 
 
 def _pictures(found: Forces) -> tuple[Picture, ...]:
+    beside = "; dotted, the rod as two masses" if plots.lumped(found) else ""
     rows = [
-        Picture(name="forces", draw=lambda: plots.chain(found),
-                see="Exact forces over the cycle; dotted, where there is a rod, the printed chain with the rod as two "
-                "masses."),
+        Picture(name="forces", draw=lambda: plots.chain(found), see=f"Exact forces over the cycle{beside}."),
         Picture(name="polar", draw=lambda: plots.polar_diagrams(found),
                 see="The crank pin's load seen from the crank, the main bearing's from the frame: where a bearing is "
                 "never loaded, oil may enter."),

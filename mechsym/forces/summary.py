@@ -96,10 +96,16 @@ def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
     return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
 
 
+def half(found: Forces) -> bool:
+    """Whether the turn is that of one piston of two that share a chamber."""
+    gas = found.turn.gas
+    return bool(gas) and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons
+
+
 def _facts(found: Forces) -> list[str]:
     gas, lost = found.turn.gas, found.losses
     facts = list(gas.pressure.facts) if gas else ["no gas acts: the case has no [cycle]"]
-    if gas and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons:
+    if half(found):
         facts.append("loads, torque and friction are those of one piston with its crank; the engine has two of them")
     if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
         share = 100 * (1 - lost.mechanical_efficiency)

@@ -53,17 +53,22 @@ def parameters_class(name: str) -> Any:
     return known.parameters if known is not None else own.record_of(stored_listing(name))
 
 
+_KINDS = {"N*m": "torque", "N": "force"}  # of an input, by its unit
+
+
 def inputs_class(name: str) -> Any:
     """The record of `[inputs]`: constants for inputs that nothing drives, 0 where they are not given."""
-    found = listing(name)["inputs"]
-    return own.letters_class("Inputs", {n: quantity(unit, default=0.0) for n, unit in found.items()})
+    found = {n: (unit, _KINDS.get(unit, "input")) for n, unit in listing(name)["inputs"].items()}
+    fields = {n: quantity(unit, default=0.0, about=f"constant {kind}") for n, (unit, kind) in found.items()}
+    return own.letters_class("Inputs", fields)
 
 
 def start_class(name: str) -> Any:
     """The record of `[start]`: coordinates and velocities at the start; of dependent coordinates the guesses."""
     units = listing(name)["coordinates"]
-    units = {**units, **{f"{n}d": f"{unit}/s" for n, unit in units.items()}}
-    return own.letters_class("Start", {n: quantity(unit, default=None) for n, unit in units.items()})
+    places = {n: quantity(unit, default=None, about="place at the start") for n, unit in units.items()}
+    speeds = {f"{n}d": quantity(f"{unit}/s", default=None, about="speed at the start") for n, unit in units.items()}
+    return own.letters_class("Start", {**places, **speeds})
 
 
 def by_roles(name: str) -> bool:

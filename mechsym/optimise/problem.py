@@ -23,7 +23,7 @@ class Optimise:
     """Section `[optimise]` of a case."""
 
     objective: str = "efficiency"  #: Figure to make large or small
-    goal: str = choice("maximise", "minimise", default="maximise")
+    goal: str = choice("maximise", "minimise", default="maximise", about="what is best of the objective")
     #: Dotted name of an engine's value to `{low = .., high = ..}`
     variables: dict[str, Any] = dataclasses.field(default_factory=dict)
     #: Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
@@ -31,7 +31,7 @@ class Optimise:
     #: Dotted name of a word of the case to the list of words that are tried, for example "cycle.gas"
     choices: dict[str, Any] = dataclasses.field(default_factory=dict)
     against: str = ""  #: Second figure of a Pareto front, empty for none
-    against_goal: str = choice("maximise", "minimise", default="minimise")
+    against_goal: str = choice("maximise", "minimise", default="minimise", about="what is best of `against`")
     points: float = quantity("-", default=9, low=3, high=101, about="points of the front")
 
     def __post_init__(self) -> None:

@@ -17,7 +17,8 @@ from mechsym.quantities.units import exponents, scale
 
 _USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "m^3": "cm^3",
           "J/kg": "kJ/kg", "Pa*m/s": "MPa*m/s"}  # fmt: skip
-_LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J")}
+_LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J", "N*m/rad")}
+_STIFF = 1e6  # from there on a spring is told in kN/mm [N/m]
 _LONG = 36e3  # a life is told in hours [s]
 _FAR = 100.0  # a height above the sea is told in metres [m]
 SMALLEST = 1e-9  #: A ratio below it is round-off [-]
@@ -97,6 +98,8 @@ def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
         return own or unit
     if unit in _LADDERS:
         return _LADDERS[unit][abs(size) >= 1e3]
+    if unit == "N/m":
+        return "kN/mm" if abs(size) >= _STIFF else "N/mm"
     if unit == "s":
         return "h" if abs(size) >= _LONG else "s"
     if unit == "m" and abs(size) >= _FAR:

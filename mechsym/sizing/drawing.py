@@ -32,7 +32,7 @@ def section(parts: Parts | SliderParts, forces: PartForces | SliderForces, stock
         boxes, labels = hypocycloid_boxes(parts, forces, stock)
     else:
         boxes, labels = slider_crank_boxes(parts, forces)  # type: ignore[arg-type]
-    figure, (axes,) = panels(13, 8, title="Section of the engine at top dead centre, to scale")
+    figure, (axes,) = panels(9, 5.5, title="Section of the engine at top dead centre, to scale")
     for box in boxes:
         for sign in (-1, 1):
             _draw(axes, box, sign)

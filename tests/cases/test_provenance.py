@@ -36,4 +36,11 @@ def test_every_value_of_a_case_has_an_origin():
 
 @pytest.mark.parametrize("name", cases.names())
 def test_no_value_is_without_origin(name):
-    assert all(row.origin and row.value for row in sourced(cases.load(name)))
+    rows = sourced(cases.load(name))
+    assert all(row.origin and row.value for row in rows)
+    assert [row.key for row in rows if not row.about or "`" in row.about] == []  # each with its meaning
+
+
+def test_a_height_above_the_sea_is_no_length_of_a_machine():
+    rows = {row.key: row.value for row in sourced(cases.load("zotov-89", {"scavenging.altitude": "50 m"}))}
+    assert rows["scavenging.altitude"] == "50 m" and rows["cycle.bore"].endswith(" mm")

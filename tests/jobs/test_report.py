@@ -138,3 +138,19 @@ def test_a_refused_part_is_named_and_the_rest_is_there(tmp_path):
     done = run("zotov-89", "--parts", "cycle,hinge", "--set", "retune.case=chmielewski", "--out", str(file))
     text = file.read_text(encoding="utf-8")
     assert done.exit_code == 2 and "could not be computed" in text[: text.index("Contents")] and "Figure 1." in text
+
+
+def test_extremes_have_the_digits_that_the_larger_has():
+    from mechsym.jobs.report.force_part import _extremes
+
+    assert _extremes({"max": 2610.4, "min": 0.7121, "unit": "N"}) == ["2.61 kN", "0.0007 kN"]
+    assert _extremes({"max": -421.04, "min": -30981.0, "unit": "N"}) == ["-0.421 kN", "-30.98 kN"]
+    assert _extremes({"max": 0.0, "min": 0.0, "unit": "N"}) == ["0 N", "0 N"]
+
+
+def test_nothing_fires_in_a_stirling_engine():
+    from mechsym import cases
+    from mechsym.jobs.gas import gas
+
+    told = {name: gas(cases.load(name)).view.pictures[0].see for name in ("alpha-stirling", "zotov-89")}
+    assert "over the crank angle" in told["alpha-stirling"] and "firing dead centre" in told["zotov-89"]

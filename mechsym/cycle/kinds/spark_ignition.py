@@ -43,7 +43,9 @@ class SparkIgnition:
     #: Lower heating value of the fuel [J/kg]
     heating_value: float = quantity("J/kg", above=0, about="lower heating value")
     #: Factor of the fit over the relative air-fuel ratio [-]
-    combustion_efficiency_max: float = quantity("-", default=0.9, above=0, high=1, about="factor of the fit")
+    combustion_efficiency_max: float = quantity(
+        "-", default=0.9, above=0, high=1, about="largest share of fuel that burns"
+    )
     #: `latent_heat`: each kilogram of vapour costs its latent heat and arrives without internal energy (the thesis);
     #: `liquid_energy`: it arrives with the internal energy of the liquid at intake temperature; `none`: the charge is
     #: vapour from the start

@@ -1,11 +1,12 @@
 """Forces in a report: what bears what once, friction, shaking, and what limits."""
 
 import dataclasses
+import math
 
 from mechsym.cases import Case
 from mechsym.forces.borne import borne
 from mechsym.forces.result import Forces
-from mechsym.forces.summary import summary
+from mechsym.forces.summary import half, summary
 from mechsym.jobs.report.part import DONE, INFEASIBLE, ReportPart
 from mechsym.jobs.vibration import vibration
 from mechsym.page import Grid
@@ -36,7 +37,8 @@ def _friction(found: Forces) -> str:
         return "Bearings and guides are without friction: the case has no [friction]"
     power, share = quantity_text(sum(found.losses.places.values()), "W", 4), found.losses.mechanical_efficiency
     told = "" if share is None else f", mechanical efficiency {figure(100 * share, 4)} %"
-    return f"Friction of bearings and guides takes {power}{told}"
+    of = " of one piston" if half(found) else ""
+    return f"Friction of bearings and guides{of} takes {power}{told}"
 
 
 def _borne(numbers: dict) -> Grid:
@@ -60,4 +62,6 @@ def _named(row: dict) -> str:
 def _extremes(row: dict) -> list[str]:
     """Largest and smallest in one unit, that of the larger."""
     values, unit = shown_in([row["max"], row["min"]], row["unit"])
-    return [figure(value, 4) if unit in ("", "-") else f"{figure(value, 4)} {unit}" for value in values]
+    least = 10.0 ** (math.floor(math.log10(max(map(abs, values)) or 1.0)) - 4)  # a digit beyond the last of the larger
+    told = [figure(round(value / least) * least, 4) for value in values]
+    return [text if unit in ("", "-") else f"{text} {unit}" for text in told]

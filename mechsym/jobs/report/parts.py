@@ -48,6 +48,7 @@ _HINGE = (
     "it, with assumed data",
     "rigid links, massless rollers, no play",
 )
+_SAID = {"torque_avg": "mean_torque", "torque_max": "largest_torque"}
 _ENDS = {"turns": "did its turns", "t_end": "came to its end"}
 
 
@@ -76,14 +77,14 @@ def _cycle(case: Case) -> ReportPart:
     )
     rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
     one = {k: v for k, v in (found.get("per_cylinder") or {}).items() if rubs or not k.startswith("brake")}
-    rows = [{"of": "engine", **{k: float(found[k][0]) for k in one}}]
-    rows += [{"of": f"one {each}", **{k: float(v[0]) for k, v in one.items()}}] if many > 1 else []
+    rows = [{"of": "engine", **{_SAID.get(k, k): float(found[k][0]) for k in one}}]
+    rows += [{"of": f"one {each}", **{_SAID.get(k, k): float(v[0]) for k, v in one.items()}}] if many > 1 else []
     facts = () if acting is None else tuple(acting.pressure.facts)
     given = kind_of(case.need("cycle")).given
     return ReportPart(
         name="cycle", title=TITLES["cycle"], view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
         verdict=f"{verdict}.", facts=facts,
-        grids=(grid("Torque and power", rows, ["of", *one]),) if one else (),
+        grids=(grid("Torque and power", rows, list(rows[0])),) if one else (),
         silent=(_MODEL + (_CLOSED if given == "engine" else "what it assumes stands with its figure"),
                 *([_BRAKE] if rubs and "friction_pressure" in case.sections else [])),
         numbers=dict(found), doubts=(*of_cycle(case, found), *of_gas(case, acting)),
