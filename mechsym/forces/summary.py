@@ -99,7 +99,7 @@ def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
 def half(found: Forces) -> bool:
     """Whether the turn is that of one piston of two that share a chamber."""
     gas = found.turn.gas
-    return bool(gas) and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons
+    return gas is not None and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons
 
 
 def _facts(found: Forces) -> list[str]:
