@@ -13,8 +13,12 @@ from mechsym.app.answers import Plotted
 from mechsym.app.told import pretty, told
 from mechsym.cases import Case
 from mechsym.cases.needs import NEEDS, READS
+from mechsym.jobs.own import is_own
+from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.traits import is_train
 from mechsym.quantities import record
 from mechsym.quantities.display import heading
+from mechsym.quantities.names import stem_and_unit
 
 #: command: sections that a case needs for it
 _NEEDS = {
@@ -34,7 +38,8 @@ _TURNS = 12.0  # about two turns [rad]
 #: commands that run again as soon as the sliders rest; the others take long and wait for their button
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
-_TABLES = {"forces": ("forces.csv", "phi_deg"), "simulate": ("series.csv", "t")}
+_TABLES = {"forces": ("forces.csv", "phi"), "cycle": ("cycle.csv", "phi"), "simulate": ("series.csv", "t")}
+_FIRST = ("p", "torque")  # curves that are looked for first
 _HEAD = re.compile(r"^(.*?)(?: \[(.*)\])?$")
 
 
@@ -57,6 +62,19 @@ def tabs(case: Case) -> tuple[str, ...]:
 def reads(command: str) -> frozenset[str]:
     """The sections that a command reads: only their values can move what it says."""
     return frozenset((*NEEDS.get(command, ()), *READS.get(command, ()), *_NEEDS.get(command, ())))
+
+
+def against(mechanism: str) -> str:
+    """A quantity of a mechanism that a formula may be tried against: the travel of its first piston, as a rule.
+
+    Examples
+    --------
+    >>> against("crosshead"), against("rodless"), against("crank_train")
+    ('crosshead.x', 'rodless.x_a', 'crank_throw.x')
+    """
+    if is_train(mechanism):
+        return "crank_throw.x"  # the theory of one of its throws
+    return f"{mechanism}{':' if is_own(mechanism) else '.'}{next(iter(listing(mechanism)['outputs']))}"
 
 
 def words(command: str, name: str, values: Mapping[str, float]) -> list[str]:
@@ -116,7 +134,8 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
              for _, u in named}  # fmt: skip
     moving = [i for i, c in enumerate(columns) if i != place and c and max(c) - min(c) > _ROUNDING * sizes[named[i][1]]]
     # an angle that goes on from turn to turn is a straight line; what swings stands before it
-    moving.sort(key=lambda i: named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS)
+    goes_on = {i for i in moving if named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS}
+    moving.sort(key=lambda i: (named[i][0] not in _FIRST, i in goes_on))
     x_name, x = _axis(*named[place], columns[place])
     shown = ((named[i][0], *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
     return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in shown)
@@ -129,8 +148,11 @@ def _axis(name: str, unit: str, values: tuple[float, ...]) -> tuple[str, tuple[f
 
 
 def _head(head: str) -> tuple[str, str]:
+    """Name and unit of a column, which stands in brackets or ends the name."""
     found = _HEAD.match(head)
-    return (found[1], found[2] or "-") if found else (head, "-")
+    name, unit = (found[1], found[2]) if found else (head, None)
+    stem, carried = stem_and_unit(name)
+    return (name, unit) if unit else (stem, carried or "-")
 
 
 def _numbers(texts: Sequence[str]) -> tuple[float, ...]:

@@ -183,7 +183,7 @@ class AuditPanel(RunPanel):
         """What stands above the button."""
         ui = self.ui
         self.formula = ui.input("formula", placeholder="r*(1 - cos(phi)) + r**2*sin(phi)**2/(2*l)").classes("w-full")
-        self.against = ui.input("against", value=f"{self.mechanism}.x").classes("w-full max-w-96")
+        self.against = ui.input("against", value=commands.against(self.mechanism)).classes("w-full max-w-96")
         self.letters = ui.input("letters, as r=r1+r2,l=l1+l2").classes("w-full max-w-96")
 
     def line(self) -> list[str]:

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -16,7 +17,9 @@ _ORDERS = 4  # orders of a harmonic analysis that are told
 _NAMES = {"component", "quantity"}
 _HARMONIC = {"order", "amplitude", "phase"}
 _AS_ONE = ({"value", "confidence"}, {"limit", "multiplier", "unit"})
-_BARE = dict.fromkeys(("N", "N*m", "J", "kg*m"), 1e-12)  # what is less in any machine of ours is round-off [its unit]
+_PRODUCT = re.compile(r"(?<=\d )k?(N\*m|g\*m(\^2)?)(?![*\w])")  # a unit behind its number
+# what is less in any machine of ours is round-off [its unit]
+_BARE = dict.fromkeys(("N", "N*m", "J"), 1e-9) | dict.fromkeys(("kg*m", "rad", "deg"), 1e-12)
 _ROUNDING = 1e-9  # of the largest number of one unit in a group
 # the first pattern that fits the whole path, without indexes, says the unit (`1`: told as it is); else the last name
 _UNITS = [
@@ -49,7 +52,7 @@ _UNITS = [
         (r"wall_s|(.+\.)?t_(start|end)|losses\.assumed\.tau", "s"),
         (r"bound\.(swing\w*|flywheel)", "kg*m^2"),
         (r".*(order|magnification|away|count|rank|cylinders|steps|iterations|cycle|multiplier|losses\.fill|_mu)", "-"),
-        (r"bound\..+|losses\.extra_fuel|weak_cycles", "-"),
+        (r"bound\..+|verified\.used\..+|losses\.extra_fuel|weak_cycles", "-"),
     )
 ]  # fmt: skip
 
@@ -103,6 +106,17 @@ def pretty(text: str) -> str:
     ('9 kN m', 'kg m²', 'g/(kW h)')
     """
     return text.replace("*", " ").replace("^2", "²").replace("^3", "³")
+
+
+def pretty_words(text: str) -> str:
+    """A sentence with its units as people write them; what may be a formula stays as it is.
+
+    Examples
+    --------
+    >>> pretty_words("the shaft carries 70.21 N*m of it"), pretty_words("2*m*r")
+    ('the shaft carries 70.21 N m of it', '2*m*r')
+    """
+    return _PRODUCT.sub(lambda found: pretty(found[0]), text)
 
 
 def measure(value: float, unit: str) -> str:
@@ -170,18 +184,27 @@ def _rows(prefix: str, found: Any) -> Rows:
         if found and all(map(_harmonic, found.values())):
             return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, found).items()]
         found = _settled(prefix, found)
-        return [row for key, value in found.items() for row in _rows(f"{prefix}.{key}" if prefix else str(key), value)]
+        paths = {f"{prefix}.{key}" if prefix else str(key): value for key, value in found.items()}
+        return _apart([(path, row) for path, value in paths.items() for row in _rows(path, value)])
     if not isinstance(found, list):
         name, unit = unit_of(prefix) if _number(found) else (prefix, "")
         return [(name, _text(found, unit))]
     if isinstance(found[0], str):
-        return [(prefix, value) for value in found]
+        return [(prefix, pretty_words(value)) for value in found]
     if isinstance(found[0], (Mapping, list)):
         told = [row for i, value in enumerate(found[:_MOST]) for row in _entry(f"{prefix}[{i}]", value)]
         left = len(found) - _MOST
         return [*told, (prefix, f"and {left} more in the JSON")] if left > 0 else told
     name, unit = unit_of(prefix)
+    if name.endswith("residual") and all(map(_number, found)):
+        return [(name, f"{measure(max(map(abs, found)), unit)} at most")]
     return [(name, _listed(found, unit))]
+
+
+def _apart(rows: Sequence[tuple[str, tuple[str, str]]]) -> Rows:
+    """Rows by their paths; two that differ in their unit only keep it in their names."""
+    named = Counter(name for path, (name, _) in rows if path != name)
+    return [(path if named[name] > 1 and path.startswith(f"{name}_") else name, text) for path, (name, text) in rows]
 
 
 def _entry(prefix: str, found: Any) -> Rows:
@@ -205,7 +228,9 @@ def _settled(prefix: str, found: Mapping[str, Any]) -> dict[str, Any]:
     """A group whose numbers are 0 where they only round beside the largest of their unit."""
     units = {k: unit_of(f"{prefix}.{k}")[1] for k, v in found.items() if isinstance(v, float)}
     sizes = {u: max(abs(found[k]) for k in units if units[k] == u) for u in {*units.values()} - {"", "-", "1"}}
-    return {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in found.items()}
+    settled = {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in found.items()}
+    nothing = abs(found.get("unbalance") or 0.0) < _BARE["kg*m"] and "unbalance" in found
+    return {k: v for k, v in settled.items() if not (nothing and k.startswith("angle"))}  # nothing has no direction
 
 
 def _listed(values: Sequence[Any], unit: str) -> str:
@@ -248,4 +273,4 @@ def _text(value: Any, unit: str) -> str:
         return f"{value}{_after(unit)}"
     if isinstance(value, float):
         return measure(value, unit)
-    return "-" if value is None else str(value)
+    return "-" if value is None else pretty_words(str(value))

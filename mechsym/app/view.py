@@ -258,6 +258,7 @@ _STYLE = """<style>
 @media (max-width: 767px) {
   .mechsym-sliders { bottom: 0; max-height: 40vh; background: #fff; border-top: 1px solid #888; }
   .body--dark .mechsym-sliders { background: #121212; } }
+.body--dark .q-tab-panels { background: transparent; }
 .mechsym-note { opacity: .7; }
 .mechsym-value { min-width: 5rem; white-space: nowrap; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }

@@ -42,5 +42,8 @@ class CoDesignSettings:
             short = name.rpartition(".")[2]
             if short not in (*FREE, "moving_mass"):
                 raise BadInput(f"free = {name!r} is not an option; options are {', '.join((*FREE, 'moving_mass'))}")
+        if self.springs % 1 or self.knots % 1 or self.angles % 1:
+            given = f"springs = {self.springs:g}, knots = {self.knots:g} and angles = {self.angles:g}"
+            raise BadInput(f"{given} must be whole numbers")
         if len(set(self.speeds)) < len(self.speeds) or not self.speeds:
             raise BadInput("speeds: give at least one, each of them once")

@@ -50,6 +50,7 @@ def found(design: CoDesign, verified: Verified) -> dict[str, Any]:
             "energy_residual": _numbers(verified.energy_residual),
             "difference": verified.difference,
             "broken": list(verified.broken),
+            "used": dict(verified.used),
         },
         "guides": [guide(c, design, s) for s, c in enumerate(verified.contacts)],
         "iterations": design.iterations,

@@ -4,7 +4,7 @@ Ripple: by the programme, by collocation over the angle (`mechsym.simulate.stead
 limits that the programme kept at its angles and hardest point, at half a degree and at every point.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -52,6 +52,7 @@ class Verified:
     energy_residual: np.ndarray  #: of the runs in time [-]
     contacts: tuple[GuideLoads, ...]  #: one for each guide
     broken: tuple[str, ...]  #: limits that are passed, in words
+    used: Mapping[str, float]  #: share of each limit that is used; negative where a path never bends inwards [-]
 
     @property
     def difference(self) -> float:
@@ -96,6 +97,7 @@ def verify(found: CoDesign) -> Verified:
         energy_residual=np.array(residual),
         contacts=contacts,
         broken=tuple(words for c, t in zip(contacts, found.tracks, strict=True) for words in _broken(c, t, found)),
+        used=_used(contacts, found),
     )
 
 
@@ -129,13 +131,18 @@ def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
 
 def passed(found: CoDesign) -> dict[str, float]:
     """Limits that a design passes between the angles of its programme or at its easier points, by what share [-]."""
-    over: dict[str, float] = {}
-    for track in found.tracks:
-        c = contact(track, found.task.points)
+    used = _used([contact(track, found.task.points) for track in found.tracks], found)
+    return {key: share - 1 for key, share in used.items() if share > 1 + _SLACK}
+
+
+def _used(contacts: Sequence[GuideLoads], found: CoDesign) -> dict[str, float]:
+    """Share of each limit that the guide uses which uses most of it [-]."""
+    shares: dict[str, float] = {}
+    for c, track in zip(contacts, found.tracks, strict=True):
         for key, _, value, most, _ in _asked(c, track, found):
-            if key and value > (1 + _SLACK) * most:
-                over[key] = max(over.get(key, 0.0), value / most - 1)
-    return over
+            if key:
+                shares[key] = max(shares.get(key, -np.inf), float(value / most))
+    return shares
 
 
 def _asked(c: GuideLoads, track: Track, found: CoDesign) -> list[tuple[str, str, float, float, str]]:

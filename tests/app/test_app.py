@@ -26,9 +26,10 @@ def test_no_end_of_a_slider_is_refused(name):
             cases.load(name, {slider.key: end})
 
 
-def test_a_whole_number_moves_in_whole_steps():
-    rings = next(s for s in sliders(cases.load("nunes-hypocycloid")) if s.key == "sizing.rings")
-    assert isinstance(rings, Slider) and rings.step == 1 and rings.low == round(rings.low)
+@pytest.mark.parametrize(("name", "key"), [("nunes-hypocycloid", "sizing.rings"), ("zotov-89", "codesign.springs")])
+def test_a_whole_number_moves_in_whole_steps(name, key):
+    whole = next(s for s in sliders(cases.load(name)) if s.key == key)
+    assert isinstance(whole, Slider) and whole.step == 1 and whole.low == round(whole.low)
 
 
 @pytest.mark.parametrize(

@@ -74,3 +74,26 @@ def test_the_unit_of_every_number_is_known(tab, name):
     done = CliRunner().invoke(mechsym, [tab, name, "--json"])
     found = {k: v for k, v in json.loads(done.stdout).items() if k not in ("doubts", "accepted", "min", "max")}
     assert [path for path in numbers("", found) if not unit_of(path)[1]] == []
+
+
+def test_two_units_of_one_name_are_told_apart():
+    assert rows({"heat_in_j": 353.8, "heat_in_kw": 3.54}) == {"heat_in_j": "353.8 J", "heat_in_kw": "3.54 kW"}
+
+
+def test_what_only_rounds_is_no_number():
+    weight = {"unbalance": -5.1e-18, "angle_deg": 177.6, "rms_before": 1.451e-12}
+    given = {"shaking": {"counterweight": weight}, "rodless": {"resultant_off_crank_deg": 8.4e-15}}
+    assert rows(given) == {"shaking.counterweight.unbalance": "0 kg m", "shaking.counterweight.rms_before": "0 N",
+                           "rodless.resultant_off_crank": "0 deg"}  # fmt: skip
+    assert rows({"verified": {"energy_residual": [6.6e-14, -2.3e-13]}}) == {
+        "verified.energy_residual": "0 (below 1e-9) at most"
+    }
+    assert rows({"findings": ["carries 70.21 N*m of it"]}) == {"findings": "carries 70.21 N m of it"}
+
+
+def test_torque_and_pressure_are_drawn_first_in_units_of_people(tmp_path):
+    lines = ["phi_deg,p_pa,x [m],y [m],z [m],force_n,t_k,torque_nm",
+             "0,1e5,0,0,0,1,300,2000", "1,2e6,1,1,1,2,400,-3000"]  # fmt: skip
+    (tmp_path / "cycle.csv").write_text("\n".join(lines), encoding="utf-8")
+    found = commands._curves(tmp_path / "cycle.csv", "phi")
+    assert [c.y_name for c in found][:3] == ["p [MPa]", "torque [kN m]", "x [mm]"] and found[0].x_name == "phi [deg]"

@@ -24,6 +24,11 @@ def run(monkeypatch, *words):
     return stop.value.code or 0
 
 
+def test_parts_of_a_spring_are_refused(monkeypatch, capsys):
+    assert run(monkeypatch, "zotov-89", "--set", "codesign.springs=1.5") == 2
+    assert "springs = 1.5" in capsys.readouterr().err
+
+
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
     """One run with files: its JSON, its figures."""
@@ -50,6 +55,11 @@ def test_json_of_two_speeds(done):
     for way in ("steady_ripple", "time_ripple"):
         assert numbers["verified"][way] == pytest.approx(numbers["speed_ripple"], rel=5e-3)
     assert {row["limit"] for row in numbers["active"]} >= {"ripple"}
+    used, guide = numbers["verified"]["used"], numbers["guides"][0]
+    assert used["spring_pressure"] == pytest.approx(guide["spring_pressure_max"] / 25e6)
+    assert used["closing_share"] == pytest.approx(guide["z_max"] / guide["H"] / 0.9)
+    assert used["hertz_stress"] == pytest.approx(guide["hertz_stress_max"] / 1500e6)
+    assert max(used.values()) < 1.005
     assert [row["ripple"] for row in numbers["pareto"]] == [0.02, 0.05]
     assert all(0.1 < share < 0.25 for share in numbers["losses"]["share"])
     assert numbers["misfire_speed_share"] == [0.0, 0.0]  # so small a flywheel does not survive one
