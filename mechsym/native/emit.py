@@ -111,14 +111,13 @@ def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
     Returns
     -------
     text : str
-        C function `<name>_stage(m, k, state, stage, lane, lanes, next, record)`; states lie `MS_W` apart, lane values
-        and records `lanes`
+        C function `<name>_stage(m, k, state, stage, lane, lanes, record)`; states lie `MS_W` apart and are replaced,
+        lane values and records `lanes`
     """
     states, stages, _ = sizes
     head = (
-        f"static void {name}_stage(const long m, const double *restrict k, const double *restrict state, "
-        "const double *restrict stage, const double *restrict lane, const long lanes, double *restrict next, "
-        "double *restrict record)"
+        f"static void {name}_stage(const long m, const double *restrict k, double *restrict state, "
+        "const double *restrict stage, const double *restrict lane, const long lanes, double *restrict record)"
     )
 
     def source(place: str) -> str:
@@ -129,7 +128,7 @@ def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
 
     def target(place: str) -> str:
         i = int(place)
-        return f"next + {i} * MS_W" if i < states else f"record + {i - states} * lanes"
+        return f"state + {i} * MS_W" if i < states else f"record + {i - states} * lanes"
 
     common = range(states, states + stages)
     return _function(head, [_loop(kernel, f"{name}_0", (source, target), common=common)])
@@ -152,14 +151,19 @@ def _loop(kernel: Kernel, name: str, places: tuple[Place, Place], lanes: int = 1
     same = [i in common for i in kernel.inputs[0]]
     lines = [f"const double *restrict c = k{'' if single else f' + i * {count * lanes}'};"] if count else []
     lines += [f"const double k{j} = c[{j}];" for j in range(count) if lanes == 1]
+    names = {}
     for j, i in enumerate(inputs):
         place = places[0](i)
+        names[place] = f"x{j}"
         # not const: gcc 12 has no vector type for a conditional load of a const double
         lines.append(f"const double x{j} = *({place});" if same[j] else f"double *restrict x{j} = (double *)({place});")
-    lines += [f"double *restrict y{j} = {places[1](o)};" for j, o in enumerate(outputs)]
+    for j, place in enumerate(map(places[1], outputs)):
+        # what is read and written goes by one name, as `restrict` wants it
+        if names.setdefault(place, f"y{j}") == f"y{j}":
+            lines.append(f"double *restrict y{j} = {place};")
     points = [f"k{j}" if lanes == 1 else f"c[{j * lanes} + p]" for j in range(count)]
     points += [f"x{j}" if same[j] else f"x{j}[p]" for j in range(len(inputs))]
-    points += [f"y{j} + p" for j in range(len(outputs))]
+    points += [f"{names[places[1](o)]} + p" for o in outputs]
     lines += ["MS_LANES", "for (long p = 0; p < m; p++)", f"    {name}({', '.join(points)});"]
     head = "{" if single else f"for (int i = 0; i < {len(kernel.inputs)}; i++) {{"
     return "\n    ".join([head, *("    " + line for line in lines), "}"])

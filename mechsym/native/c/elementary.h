@@ -68,12 +68,16 @@ MS_INLINE double ms_tan(double x)
     return s / c;
 }
 
-/* exp(r + tail) 2^k for |r| < 0.35: Taylor series; the power of two in two factors so that the ends are right. */
+/* exp(r + tail) 2^k for |r| < 0.35: Taylor series, summed in pairs; the power of two in two factors so that the ends
+ * are right. */
 MS_INLINE double ms_exp_scaled(double k, double r)
 {
-    const double p = r + r * r * (0.5 + r * (1.0 / 6 + r * (1.0 / 24 + r * (1.0 / 120 + r * (1.0 / 720
-        + r * (1.0 / 5040 + r * (1.0 / 40320 + r * (1.0 / 362880 + r * (1.0 / 3628800 + r * (1.0 / 39916800
-        + r * (1.0 / 479001600 + r * (1.0 / 6227020800.0))))))))))));
+    const double r2 = r * r, r4 = r2 * r2;
+    const double p01 = MS_MADD(r2, MS_MADD(r, 1.0 / 120, 1.0 / 24), MS_MADD(r, 1.0 / 6, 0.5));
+    const double p23 = MS_MADD(r2, MS_MADD(r, 1.0 / 362880, 1.0 / 40320), MS_MADD(r, 1.0 / 5040, 1.0 / 720));
+    const double p45 =
+        MS_MADD(r2, MS_MADD(r, 1.0 / 6227020800.0, 1.0 / 479001600), MS_MADD(r, 1.0 / 39916800, 1.0 / 3628800));
+    const double p = MS_MADD(r2, MS_MADD(r4, MS_MADD(r4, p45, p23), p01), r);
     const double half = floor(0.5 * k), rest = k - half;
     const double one = ms_from_bits(ms_to_bits(half + 4503599627371519.0) << 52);
     const double two = ms_from_bits(ms_to_bits(rest + 4503599627371519.0) << 52);
@@ -100,9 +104,11 @@ MS_INLINE void ms_split(double x, double *k, double *f)
 
 MS_INLINE double ms_log_series(double z)
 {
-    return z * (6.666666666666735130e-01 + z * (3.999999999940941908e-01 + z * (2.857142874366239149e-01
-        + z * (2.222219843214978396e-01 + z * (1.818357216161805012e-01 + z * (1.531383769920937332e-01
-        + z * 1.479819860511658591e-01))))));
+    const double z2 = z * z, l12 = MS_MADD(z, 3.999999999940941908e-01, 6.666666666666735130e-01);
+    const double l34 = MS_MADD(z, 2.222219843214978396e-01, 2.857142874366239149e-01);
+    const double l567 =
+        MS_MADD(z2, 1.479819860511658591e-01, MS_MADD(z, 1.531383769920937332e-01, 1.818357216161805012e-01));
+    return z * MS_MADD(z2, MS_MADD(z2, l567, l34), l12);
 }
 
 MS_INLINE double ms_log(double x)

@@ -7,15 +7,13 @@
 MS_EXPORT void ms_march(long steps, long lanes, const double *k, const double *stage, const double *lane, double *state,
                         double *record)
 {
-    double now[MS_NS][MS_W], next[MS_NS][MS_W];
+    double now[MS_NS][MS_W];
     for (long start = 0; start < lanes; start += MS_W) {
         const long m = lanes - start < MS_W ? lanes - start : MS_W;
         for (int i = 0; i < MS_NS; i++)
             memcpy(now[i], state + i * lanes + start, m * sizeof(double));
-        for (long n = 0; n < steps; n++) {
-            MS_(_stage)(m, k, now[0], stage + n * MS_NK, lane + start, lanes, next[0], record + n * MS_NR * lanes + start);
-            memcpy(now, next, sizeof now);
-        }
+        for (long n = 0; n < steps; n++)
+            MS_(_stage)(m, k, now[0], stage + n * MS_NK, lane + start, lanes, record + n * MS_NR * lanes + start);
         for (int i = 0; i < MS_NS; i++)
             memcpy(state + i * lanes + start, now[i], m * sizeof(double));
     }
