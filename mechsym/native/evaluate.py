@@ -89,14 +89,15 @@ def _check(programs: Sequence[source.Program]) -> None:
 def _record(loaded: ctypes.CDLL, number: int, program: source.Program) -> Compiled:
     tape, constants = program.tape, constant_table(program.kernels)
     found = library.module(loaded._name)
-    scalar = found.bind(number, constants.tobytes(), False) if found else _point(loaded, program, constants)
+    scalar = found.bind(number, constants.tobytes()) if found else _point(loaded, program, constants)
     plain = _batch(loaded, program, constants)
     return Compiled(
         name=tape.name,
         inputs=tape.inputs,
         outputs=tape.outputs,
         scalar=scalar,
-        batch=_marshalled(found.bind(number, constants.tobytes(), True), plain) if found else plain,
+        # columns are looked at in C where all are plain; the rest, and every complaint, is the other's
+        batch=found.bind(number, (constants.tobytes(), np.empty, np.dtype(float), plain)) if found else plain,
         route="C",
         reason="",
     )
@@ -115,17 +116,6 @@ def _point(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
         return result[0] if ny == 1 else tuple(result)
 
     return scalar
-
-
-def _marshalled(fast: Callable[..., Any], plain: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
-    """A batch whose columns are looked at in C where all are plain; the rest, and every complaint, is the other's."""
-
-    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
-        found = fast(np.empty, out, *values)
-        return plain(*values, out=out) if found is None else found
-
-    batch.__dict__["constants"] = plain.__dict__["constants"]
-    return batch
 
 
 def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., np.ndarray]:
@@ -150,5 +140,5 @@ def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
             raise MemoryError(f"{name}: no memory for a batch of {n} points")
         return result
 
-    batch.__dict__["constants"] = constants
+    batch.__dict__["constants"] = constants  # alive as long as it is
     return batch

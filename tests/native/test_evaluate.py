@@ -115,6 +115,8 @@ def test_columns_that_are_not_plain_give_what_plain_ones_give():
     for column in odd:
         np.testing.assert_allclose(made.batch(column, plain), wanted, rtol=1e-6)
         np.testing.assert_allclose(made.batch(plain, column), wanted, rtol=1e-6)
+    whole = np.arange(6)  # as long as doubles, and none
+    np.testing.assert_array_equal(made.batch(whole, plain), [whole + 2 * plain, whole])
     for number in (np.float64(0.5), 0.5, np.array(0.5), np.array([0.5]), [0.5]):
         np.testing.assert_array_equal(made.batch(plain, number), [plain + 1.0, plain])
     read_only = plain.copy()
@@ -122,7 +124,8 @@ def test_columns_that_are_not_plain_give_what_plain_ones_give():
     np.testing.assert_array_equal(made.batch(read_only, read_only), wanted)
     np.testing.assert_array_equal(made.batch(1, True), [[3.0], [1.0]])
     assert made.batch(1.0, 2.0).shape == (2, 1)
-    for target in (read_only.reshape(2, 3), np.empty((2, 6), dtype=np.float32), np.empty((6, 2)), np.empty(12)):
+    wrong = (np.empty((2, 6), dtype=np.float32), np.empty((2, 6), dtype=np.int64))
+    for target in (read_only.reshape(2, 3), *wrong, np.empty((6, 2)), np.empty(12)):
         with pytest.raises((BadInput, ValueError)):
             made.batch(plain, plain, out=target)
     with pytest.raises((TypeError, ValueError)):

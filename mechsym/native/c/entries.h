@@ -44,19 +44,22 @@ static PyObject *MS_(_call)(PyObject *self, PyObject *const *arguments, Py_ssize
     return ms_floats(y, MS_NY);
 }
 
-/* Called with a function that makes arrays, an array for the result or None, and MS_NX columns or numbers; returns
- * None where these are not all plain. */
-static PyObject *MS_(_columns)(PyObject *self, PyObject *const *arguments, Py_ssize_t count)
+/* Called with MS_NX columns or numbers and perhaps out=; self holds the constants, a function that makes arrays, the
+ * kind of doubles, and what is called instead where these are not all plain. */
+static PyObject *MS_(_columns)(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *names)
 {
     enum { nx = MS_NX > 0 ? MS_NX : 1 };
+    PyObject *const doubles = PyTuple_GET_ITEM(self, 2), *const constants = PyTuple_GET_ITEM(self, 0);
     Py_buffer views[nx], target = {.obj = NULL};
     double numbers[nx], *y[MS_NY];
     const double *x[nx];
     _Bool moving[nx];
     Py_ssize_t sizes[nx], n = 1, seen = 0;
-    int plain = count == MS_NX + 2, failed = 0;
+    int failed = 0, named = names && PyTuple_GET_SIZE(names) > 0;
+    int plain = count == MS_NX && (!named || (PyTuple_GET_SIZE(names) == 1
+        && !PyUnicode_CompareWithASCIIString(PyTuple_GET_ITEM(names, 0), "out")));
     for (; plain && seen < MS_NX; seen++) {
-        sizes[seen] = ms_column(arguments[2 + seen], views + seen, numbers + seen, x + seen);
+        sizes[seen] = ms_column(arguments[seen], doubles, views + seen, numbers + seen, x + seen);
         n = sizes[seen] > n ? sizes[seen] : n;
         plain = sizes[seen] > 0;
     }
@@ -65,15 +68,15 @@ static PyObject *MS_(_columns)(PyObject *self, PyObject *const *arguments, Py_ss
         plain = sizes[i] == 1 || sizes[i] == n;
     }
     PyObject *result = NULL;
-    if (plain && arguments[1] == Py_None)
-        result = PyObject_CallFunction(arguments[0], "((in))", MS_NY, n);
+    if (plain && (!named || arguments[MS_NX] == Py_None))
+        result = PyObject_CallFunction(PyTuple_GET_ITEM(self, 1), "((in))", MS_NY, n);
     else if (plain)
-        result = Py_NewRef(arguments[1]);
-    if (result && ms_writable(result, &target, MS_NY, n)) {
+        result = Py_NewRef(arguments[MS_NX]);
+    if (result && ms_writable(result, doubles, &target, MS_NY, n)) {
         for (int i = 0; i < MS_NY; i++)
             y[i] = (double *)target.buf + i * n;
         Py_BEGIN_ALLOW_THREADS
-        failed = MS_(_batch)(n, (const double *)PyBytes_AS_STRING(self), x, moving, y);
+        failed = MS_(_batch)(n, (const double *)PyBytes_AS_STRING(constants), x, moving, y);
         Py_END_ALLOW_THREADS
     } else {
         Py_CLEAR(result);
@@ -86,11 +89,12 @@ static PyObject *MS_(_columns)(PyObject *self, PyObject *const *arguments, Py_ss
     if (!result || failed) {
         PyErr_Clear();
         Py_XDECREF(result);
-        Py_RETURN_NONE;
+        return PyObject_Vectorcall(PyTuple_GET_ITEM(self, 3), arguments, count, names);
     }
     return result;
 }
 
-static PyMethodDef MS_(_batched) = {MS_TEXT, (PyCFunction)(void (*)(void))MS_(_columns), METH_FASTCALL, NULL};
+static PyMethodDef MS_(_batched) = {
+    MS_TEXT, (PyCFunction)(void (*)(void))MS_(_columns), METH_FASTCALL | METH_KEYWORDS, NULL};
 static PyMethodDef MS_(_method) = {MS_TEXT, (PyCFunction)(void (*)(void))MS_(_call), METH_FASTCALL, NULL};
 #endif

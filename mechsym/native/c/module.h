@@ -1,16 +1,16 @@
-/* The file as a Python module `mechsym_native`: bind(number, constants, several) gives a function of floats,
- * or of columns. */
+/* The file as a Python module `mechsym_native`: bind(number, constants) gives a function of floats, and
+ * bind(number, (constants, empty, doubles, otherwise)) one of columns. */
 #ifdef MS_PYTHON
 static PyObject *ms_bind(PyObject *module, PyObject *arguments)
 {
     (void)module;
-    int number, several;
-    PyObject *constants;
-    if (!PyArg_ParseTuple(arguments, "iSp", &number, &constants, &several))
+    int number;
+    PyObject *held;
+    if (!PyArg_ParseTuple(arguments, "iO", &number, &held))
         return NULL;
     if (number < 0 || number >= (int)(sizeof ms_methods / sizeof *ms_methods))
         return PyErr_Format(PyExc_IndexError, "no function %d", number);
-    return PyCFunction_New((several ? ms_batched : ms_methods)[number], constants);
+    return PyCFunction_New((PyTuple_Check(held) ? ms_batched : ms_methods)[number], held);
 }
 
 static PyMethodDef ms_module_methods[] = {{"bind", ms_bind, METH_VARARGS, NULL}, {NULL, NULL, 0, NULL}};

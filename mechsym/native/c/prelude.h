@@ -24,8 +24,19 @@ static PyObject *ms_floats(const double *y, int count)
     return tuple;
 }
 
-/* A number, or a buffer of doubles in one piece. Returns how many numbers, or 0 for anything else. */
-static Py_ssize_t ms_column(PyObject *value, Py_buffer *view, double *number, const double **x)
+/* Whether an array says that it holds doubles; asking for the buffer's format would have numpy write it each time. */
+static int ms_doubles(PyObject *array, PyObject *doubles)
+{
+    static PyObject *name;
+    if (!name && !(name = PyUnicode_InternFromString("dtype")))
+        return 0;
+    PyObject *kind = PyObject_GetAttr(array, name);
+    Py_XDECREF(kind);
+    return kind == doubles;
+}
+
+/* A number, or an array of doubles in one piece. Returns how many numbers, or 0 for anything else. */
+static Py_ssize_t ms_column(PyObject *value, PyObject *doubles, Py_buffer *view, double *number, const double **x)
 {
     view->obj = NULL;
     *x = number;
@@ -33,17 +44,17 @@ static Py_ssize_t ms_column(PyObject *value, Py_buffer *view, double *number, co
         *number = PyFloat_AsDouble(value);
         return *number == -1.0 && PyErr_Occurred() ? 0 : 1;
     }
-    if (PyObject_GetBuffer(value, view, PyBUF_FORMAT | PyBUF_C_CONTIGUOUS))
+    if (!ms_doubles(value, doubles) || PyObject_GetBuffer(value, view, PyBUF_C_CONTIGUOUS))
         return 0;
     *x = view->buf;
-    return view->format && !strcmp(view->format, "d") ? view->len / (Py_ssize_t)sizeof(double) : 0;
+    return view->len / (Py_ssize_t)sizeof(double);
 }
 
 /* The buffer of an array (count, n) of doubles that may be written into. */
-static int ms_writable(PyObject *array, Py_buffer *view, Py_ssize_t count, Py_ssize_t n)
+static int ms_writable(PyObject *array, PyObject *doubles, Py_buffer *view, Py_ssize_t count, Py_ssize_t n)
 {
-    if (PyObject_GetBuffer(array, view, PyBUF_FORMAT | PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE))
+    if (!ms_doubles(array, doubles) || PyObject_GetBuffer(array, view, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE))
         return view->obj = NULL, 0;
-    return view->ndim == 2 && view->shape[0] == count && view->shape[1] == n && !strcmp(view->format, "d");
+    return view->ndim == 2 && view->shape[0] == count && view->shape[1] == n;
 }
 #endif
