@@ -17,6 +17,7 @@ exclude_patterns = ["_build", "gallery"]
 myst_heading_anchors = 3
 myst_enable_extensions = ["colon_fence"]
 html_copy_source = False
+html_show_copyright = False
 _OUTSIDE = re.compile(r"\[([^\]]+)\]\(\.\./[^)]*\)")
 _FENCE = re.compile(r"^```(\w+) [^\n]*$", re.MULTILINE)
 

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 _ENTRY = re.compile(r"^### (?P<verdict>[^:\n]+): (?P<rest>[^\n]+)\n(?P<body>.*?)(?=^##|\Z)", re.S | re.M)
-_SOURCE = re.compile(r"^## (?P<title>[^\n]+)\n+Source `[^`]+` \(`(?P<name>[^`]+)`\)", re.M)
+_SOURCE = re.compile(r"^## (?P<title>[^\n]+)\n+In commands: `(?P<name>[^`]+)`", re.M)
 _ERROR = re.compile(r"Largest relative error ([\d.e+-]+)")
 _SCRIPT = """<p><input id="find" type="search" placeholder="source, equation, word"
 aria-label="search the errata" style="width:100%;font:inherit;padding:.4rem"> <span id="count"></span></p>
@@ -34,8 +34,8 @@ def entries(text: str) -> list[dict[str, str]]:
     for head, end in zip(heads, [*(h.start() for h in heads[1:]), len(text)], strict=True):
         for found in _ENTRY.finditer(text[head.end() : end]):
             where, _, what = found["rest"].partition(", ")
-            error, body = _ERROR.search(found["body"]), found["body"].strip()
-            rows.append({"source": head["name"], "where": where, "what": what, "verdict": found["verdict"].lower(),
+            error, body = _ERROR.search(found["body"]), found["body"].strip().replace(r"\*", "*")
+            rows.append({"source": head["name"], "where": where, "what": what.replace(r"\*", "*"), "verdict": found["verdict"].lower(),
                          "error": error[1].rstrip(".") if error else "", "text": body})  # fmt: skip
     return rows
 

@@ -31,9 +31,9 @@ def make(folder: Path) -> None:
         if not kept.exists() or kept.read_text() != key:
             _page(script, folder)
             kept.write_text(key)
-        cards.append(
-            f'<a class="card" href="{script.stem}.html"><img src="{script.stem}.svg" alt="{title}"><b>{title}</b></a>'
-        )
+        # where Sphinx puts the picture of the script's own page
+        image = f'<img src="../../_images/{script.stem}.svg" alt="{title}">'
+        cards.append(f'<a class="card" href="{script.stem}.html">{image}<b>{title}</b></a>')
     hidden = "```{toctree}\n:hidden:\n" + "\n".join(sorted(p.stem for p in SCRIPTS.glob("*.py"))) + "\n```\n"
     links = "\n".join(cards)
     _write(folder / "index.md", f"# Gallery\n\nEach picture is drawn by the script beside it.\n\n{hidden}\n"

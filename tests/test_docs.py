@@ -63,7 +63,7 @@ def test_the_site_builds_without_a_warning_and_is_all_local(tmp_path):
     for page in tmp_path.rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=.https?://", text), page.name
-        for link in re.findall(r'href="([^"#?:]+)["#?]', text):
+        for link in re.findall(r'(?:href|src)="([^"#?:]+)["#?]', text):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
 
 
@@ -101,6 +101,7 @@ def test_the_errata_are_a_table(pages):
     rows = findings.entries(text)
     assert len(rows) == len(re.findall(r"^### (?!Remarks)", text, re.M)) > 50
     assert {row["source"] for row in rows} == {"zotov2024", "moroianu2017", "chmielewski2015", "prymak", "nunes2017"}
+    assert any("l1*lam/(2*(l1 + l2))*sin(2*phi)" in row["text"].splitlines()[-1] for row in rows)
     page = findings.page(text)
     assert page.count("<tr>") == len(rows) + 1 and "<script>" in page and "http" not in page
 

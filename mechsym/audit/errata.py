@@ -22,10 +22,12 @@ def text(sources: Sequence[Audited], rows: Sequence[Row], found: Mapping[str, An
     for source in sources:
         own = [r for r in rows if r["source"] == source.stem]
         entries = [_entry(r) for r in own if r["verdict"] in _TITLES]
-        parts.append(f"## {source.title}\n\nSource `{source.stem}` (`{source.name}`).")
+        parts.append(f"## {source.title}\n\nIn commands: `{source.name}`.")
         parts += entries or ["Nothing to report."]
         remarks = [
-            f"- {_where(r)}, {r['claim']}: {r['note']}." for r in own if r["note"] and r["verdict"] not in _TITLES
+            f"- {_where(r)}, {_plain(r['claim'])}: {_plain(r['note'])}."
+            for r in own
+            if r["note"] and r["verdict"] not in _TITLES
         ]
         if remarks:
             parts += ["### Remarks on the other relations", "\n".join(remarks)]
@@ -73,13 +75,13 @@ def _summary(sources: Sequence[Audited], rows: Sequence[Row]) -> str:
 
 
 def _entry(row: Row) -> str:
-    parts = [f"### {_TITLES[row['verdict']]}: {_where(row)}, {row['claim']}"]
+    parts = [f"### {_TITLES[row['verdict']]}: {_where(row)}, {_plain(row['claim'])}"]
     if row["printed"]:
         parts.append(f"As printed:\n\n    {row['printed']}")
     if row["correction"]:
         parts.append(f"Corrected:\n\n    {row['correction']}")
     sentence = _numbers(row)
-    parts += [s for s in (sentence, _sentences(row["note"])) if s]
+    parts += [s for s in (sentence, _plain(_sentences(row["note"]))) if s]
     return "\n\n".join(parts)
 
 
@@ -100,6 +102,11 @@ def _numbers(row: Row) -> str:
 
 def _sentences(note: str) -> str:
     return " ".join(f"{_capital(part)}." for part in note.split("; ") if part)
+
+
+def _plain(sentence: str) -> str:
+    """A sentence whose formulas keep their products: in Markdown two stars are the ends of italics."""
+    return sentence.replace("*", r"\*")
 
 
 def _capital(sentence: str) -> str:
