@@ -33,9 +33,9 @@ def entries(text: str) -> list[dict[str, str]]:
     heads = [*_SOURCE.finditer(text)]
     for head, end in zip(heads, [*(h.start() for h in heads[1:]), len(text)], strict=True):
         for found in _ENTRY.finditer(text[head.end() : end]):
-            where, _, what = found["rest"].partition(", ")
+            where, _, what = found["rest"].replace(r"\*", "*").partition(", ")
             error, body = _ERROR.search(found["body"]), found["body"].strip().replace(r"\*", "*")
-            rows.append({"source": head["name"], "where": where, "what": what.replace(r"\*", "*"), "verdict": found["verdict"].lower(),
+            rows.append({"source": head["name"], "where": where, "what": what, "verdict": found["verdict"].lower(),
                          "error": error[1].rstrip(".") if error else "", "text": body})  # fmt: skip
     return rows
 
@@ -51,7 +51,7 @@ def page(text: str) -> str:
     )
     names = "".join(f"<th>{name}</th>" for name in ("source", "equation", "verdict", "largest error", "what"))
     table = f"<table id='findings'><thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
-    about = "Every finding of [the errata](../errata.md) in one table; the error is relative to the right value."
+    about = "Every finding of {doc}`the errata </errata>` in one table; the error is relative to the right value."
     return f"# Errata, to search\n\n{about}\n\n```{{raw}} html\n{_SCRIPT}\n{table}\n```\n"
 
 

@@ -152,7 +152,7 @@ def equations() -> str:
         letters = [f"`{n} [{u}]`" for kind in ("coordinates", "parameters", "inputs") for n, u in stored[kind].items()]
         parts.append(f"Letters: {', '.join(letters)}.\n")
         rows = "".join(f"<p><math display='block'>{row['mathml']}</math></p>" for row in stored["equations"])
-        parts.append(f"```{{raw}} html\n{rows}\n```\n")
+        parts.append(f"```{{raw}} html\n<div style='overflow-x:auto'>{rows}</div>\n```\n")
     return "\n".join(parts) + "\n"
 
 

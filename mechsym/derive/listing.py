@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Eq, Expr, Integer, Symbol, cos, latex, mathml, sin
+from sympy import Eq, Expr, Integer, Mul, Symbol, cos, latex, mathml, sin
 
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import groups
@@ -13,8 +13,9 @@ from mechsym.derive.rates import accelerations, velocities
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
 _LATEX = {"lam": r"\lambda", "phi": r"\varphi", "inertia": "I"}
 _GREEK = {
-    "phi": "\u03c6", "psi": "\u03c8", "theta": "\u03b8", "alpha": "\u03b1", "gamma": "\u03b3", "lam": "\u03bb",
-    "rho": "\u03c1", "omega": "\u03c9", "inertia": "I",
+    "phi": "\u03c6", "psi": "\u03c8", "theta": "\u03b8", "alpha": "\u03b1", "beta": "\u03b2", "gamma": "\u03b3",
+    "delta": "\u03b4", "lam": "\u03bb", "mu": "\u03bc", "xi": "\u03be", "eta": "\u03b7", "rho": "\u03c1",
+    "sigma": "\u03c3", "tau": "\u03c4", "chi": "\u03c7", "omega": "\u03c9", "inertia": "I",
 }  # fmt: skip
 
 
@@ -73,7 +74,8 @@ def _unit(m: Declaration, name: str) -> str:
 def _rows(equations: Equations) -> list[tuple[str, Expr, Expr]]:
     m, rows = equations.mechanism, []
     held = dict.fromkeys(m.joint_list, Integer(0))
-    wanted = [*equations.kinematics.values(), *equations.generalized_force, *equations.bias]
+    masses = [entry for row in equations.mass_matrix for entry in row]
+    wanted = [*equations.kinematics.values(), *equations.generalized_force, *equations.bias, *masses]
     for symbol in m.tape.needed(wanted):
         if not symbol.name.startswith(("sin_", "cos_")) or symbol.name[4:] not in {v.name for v in m.tape.variables}:
             rows.append(("kinematics", symbol, m.tape.entries[symbol].xreplace(held)))
@@ -90,11 +92,20 @@ def _equation(m: Declaration, title: str, left: Expr, right: Expr) -> dict[str, 
     equation = Eq(_physical(m, left), _physical(m, right), evaluate=False)
     names = {s: _latex_name(m, s) for s in equation.free_symbols}
     letters = {s: Symbol(_math_name(m, s)) for s in equation.free_symbols}
+    times = "dot" if any(_has_word(m, product) for product in equation.atoms(Mul)) else None
     return {
         "title": title,
-        "latex": latex(equation, symbol_names=names),
-        "mathml": mathml(equation.xreplace(letters), printer="presentation"),
+        "latex": latex(equation, symbol_names=names, mul_symbol=times),
+        "mathml": mathml(equation.xreplace(letters), printer="presentation", mul_symbol=times),
     }
+
+
+def _has_word(m: Declaration, product: Expr) -> bool:
+    """Whether a word is a factor: without a sign it runs into the next one."""
+    factors = [f.as_base_exp()[0] for f in product.args if not f.is_number]
+    symbols = [f for f in factors if f.is_Symbol and not _circular(m, f)]
+    stems = [_split(_stem(m, m.tape.derived_from(s)[0])[0])[0] for s in symbols]
+    return len(factors) > 1 and any(len(stem) > 1 and stem not in _GREEK for stem in stems)
 
 
 def _physical(m: Declaration, expression: Expr) -> Expr:

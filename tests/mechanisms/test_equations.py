@@ -44,3 +44,10 @@ def test_every_equation_is_parsed_by_mathtext():
     for name in mechanisms.names():
         for row in equations(name).rows:
             parser.parse(f"${row['latex']}$")
+
+
+def test_every_letter_of_a_motion_is_defined_and_words_stand_apart():
+    text = equations("crankshaft_flywheel_printed").latex
+    assert r"\mathrm{slope} &=" in text
+    assert r"m_{0} \cdot r \cdot \mathrm{slope} \cdot \mathrm{transmission}" in text
+    assert r"\ddot{\beta}" in equations("rodless_constraints").latex
