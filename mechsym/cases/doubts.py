@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from mechsym.cases.scales import by_shaft, by_size, by_unit
+from mechsym.cases.scales import MOVING, by_shaft, by_size, by_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.proportions import Proportions
@@ -76,7 +76,10 @@ def judged(sections: Mapping[str, Any], mechanism: str) -> tuple[Doubt, ...]:
         return found
     sizes, area = known.proportions(parameters), _piston_area(sections)
     bore = None if area is None else math.sqrt(4 * area / math.pi)
-    found += _sizes(sections, sizes) + by_size(sections, sizes, bore)
+    alone, together = _sizes(sections, sizes), by_size(sections, sizes, bore)
+    if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once
+        together = tuple(d for d in together if not d.quantity.startswith(MOVING))
+    found += alone + together
     return found + (() if known.shaft is None else by_shaft(known.shaft, parameters))
 
 
@@ -89,6 +92,10 @@ def _largest(value: Any) -> Any:
 def _sizes(sections: Mapping[str, Any], sizes: Proportions) -> tuple[Doubt, ...]:
     """Doubts about an engine by its stroke and the area of its pistons."""
     found = proportions(sizes.stroke, sizes.rod_ratio, getattr(sections.get("operation"), "speed", None))
+    for section, name in (("speeds", "highest"), ("codesign", "full_speed"), ("codesign", "speeds")):
+        fastest = _largest(getattr(sections.get(section), name, None))
+        what = f"mean piston speed at {section}.{name}"
+        found += proportion("piston_speed", what, sizes.stroke * fastest / math.pi) if fastest else ()
     guide, spring = getattr(sections.get("guide"), "rho0", None), getattr(sections.get("spring"), "A", None)
     if guide is not None and sizes.stroke:
         found += proportion("guide_size", "guide.rho0 / stroke", guide / sizes.stroke)

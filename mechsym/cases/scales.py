@@ -20,15 +20,24 @@ _BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
     ("friction", ("radius_piston_pin", "radius_crank_pin", "radius_main"), "bearing_size"),
     ("losses", ("bearing_radius",), "bearing_size"),
     ("rollers", ("radius", "width", "plane_offset"), "roller_size"),
-    ("breathing", ("inlet_diameter", "inlet_lift", "exhaust_diameter", "exhaust_lift"), "valve_size"),
-    ("breathing", ("throttle_diameter", "tailpipe_diameter"), "pipe_size"),
-    ("scavenging", ("valve_diameter", "valve_lift"), "valve_size"),
+    ("breathing", ("inlet_lift", "exhaust_lift"), "valve_lift"),
+    ("breathing", ("inlet_diameter", "exhaust_diameter", "throttle_diameter", "tailpipe_diameter"), "throat_size"),
+    ("scavenging", ("valve_lift",), "valve_lift"),
+    ("scavenging", ("valve_diameter",), "throat_size"),
     ("scavenging", ("port_width",), "port_size"),
     ("rings", ("heights",), "ring_size"),
     ("sizing", ("ring_thickness",), "ring_size"),
+    ("sizing", ("reboring", "fillet", "carrier_wall"), "thin_size"),
+    ("sizing", ("reach",), "part_size"),
     ("part_piston", ("ring_radial", "ring_axial"), "ring_size"),
-    ("sizing", ("reboring", "reach", "fillet", "carrier_wall"), "part_size"),
-    *((f"part_{name}", (), "part_size") for name in ("piston", "cylinder", "gears", "crank")),
+    ("part_piston", ("barrel", "land"), "thin_size"),
+    ("part_piston", ("head", "land_top", "height", "rod", "rod_length"), "part_size"),
+    ("part_cylinder", ("wall",), "thin_size"),
+    ("part_cylinder", ("flange", "length"), "part_size"),
+    ("friction", ("module",), "tooth_size"),
+    ("part_gears", ("module",), "tooth_size"),
+    ("part_gears", ("face", "ring_outside", "pinion_bore"), "part_size"),
+    ("part_crank", (), "part_size"),
     ("part_crosshead", ("pin_diameter", "pin_length", "crank_pin_diameter", "crank_pin_length", "shoe_width",
                         "shoe_length", "rod_diameter", "web_width", "web_thickness", "web_arm"), "part_size"),
     ("stirling", ("heater_diameter", "cooler_diameter"), "tube_share"),
@@ -37,6 +46,8 @@ _BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
 # absolute pressure of the charge, what each kind of cycle calls it
 _CHARGE = (("cycle", "intake_pressure"), ("cycle", "p_s"), ("cycle", "mean_pressure"), ("cycle", "p_suction"),
            ("cycle", "inlet_pressure"), ("cycle", "exhaust_pressure"))  # fmt: skip
+MOVING = "moving mass"
+_ATMOSPHERE = 101325.0  # [Pa]
 _Told = tuple[str, str, float]  # kind, what it is, value
 
 
@@ -49,10 +60,12 @@ def by_size(sections: Mapping[str, Any], sizes: Proportions, bore: float | None)
         Of the piston; None where it is not known [m]
     """
     told = [*_inertias(sections, sizes), *_by_stroke(sections, sizes), *_fitted(sections)]
+    # without a bore the stroke stands for it
+    told.append(
+        ("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / ((bore or sizes.stroke) ** 2 * sizes.stroke))
+    )
     if bore:
         told += [*_lengths(sections, bore), *_volumes(sections, bore, sizes.stroke), *_areas(sections, sizes, bore)]
-    else:  # with a bore the area of the piston tells it
-        told.append(("mass_density", "moving mass / stroke^3", sizes.mass / sizes.stroke**3))
     return _doubts(told)
 
 
@@ -138,8 +151,8 @@ def _fitted(sections: Mapping[str, Any]) -> Iterator[_Told]:
 def _areas(sections: Mapping[str, Any], sizes: Proportions, bore: float) -> Iterator[_Told]:
     """Pressures, forces and stiffnesses by the area of a piston."""
     area = math.pi / 4 * bore**2
-    charge = next((p for p in (_number(sections, *key) for key in _CHARGE) if p), 0.0)
-    for section, name in (("cycle", "p_back"), ("chamber", "back_pressure")) if charge else ():
+    charge = next((p for p in (_number(sections, *key) for key in _CHARGE) if p), _ATMOSPHERE)
+    for section, name in (("cycle", "p_back"), ("chamber", "back_pressure")):
         yield "back_pressure_share", f"{section}.{name} / charge", _number(sections, section, name) / charge
     faces = getattr(sections.get("faces"), "areas", ())
     swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (_number(sections, "chamber", "pistons") or 1)
@@ -168,7 +181,7 @@ def _areas(sections: Mapping[str, Any], sizes: Proportions, bore: float) -> Iter
 def _lengths(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
     for section, names, code in _BY_BORE:
         fields = _fields(sections.get(section))
-        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m" and "ring_" not in f.name]:
+        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m"]:
             value = getattr(sections.get(section), name, None) or 0.0
             for length in set(value) if isinstance(value, tuple) else (value,):
                 yield code, f"{section}.{name} / bore", length / bore

@@ -91,6 +91,15 @@ def test_a_wrong_unit_is_refused_or_doubted(diagram_file, engine, factor):
         assert "scale" in codes(diagram, cylinder, measured)
 
 
+@pytest.mark.parametrize(("factor", "doubted"), [(1.0, False), (3.5, True)])
+def test_a_scale_that_no_inlet_pressure_checks_is_doubted_beyond_a_free_engine(diagram_file, engine, factor, doubted):
+    cylinder, p = engine
+    _, plain = read(diagram_file, cylinder, p)
+    # this engine starts from its own pressure: brought to one bar first
+    diagram, measured = read(diagram_file, cylinder, p * factor * 1e5 / plain.bottom)
+    assert ("scale" in codes(diagram, cylinder, measured)) == doubted
+
+
 def test_a_dead_centre_given_wrong_is_doubted(diagram_file, engine):
     cylinder, p = engine
     diagram, measured = read(diagram_file, cylinder, p, alignment="given", tdc_offset=394 * DEG)

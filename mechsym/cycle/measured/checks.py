@@ -26,6 +26,7 @@ _GAMMA, _R, _T_CLOSED = 1.35, 287.0, 330.0
 _SPEED = (0.05, 3.0)  # from cranking by hand to overspeed
 _FLOOR = 75 * _DEG  # inlet valves close at most 70 degrees behind the dead centre, then the pressure rises
 _BURNT, _OPENS = 0.97, 110 * _DEG
+_FREE = (0.2, 2.5)  # an engine that breathes freely, or with a small charger [bar]
 _Z = 1.96
 
 
@@ -65,8 +66,8 @@ def _scale(diagram: Diagram, measured: MeasuredCycles) -> Doubt | None:
             "scale", f"factor on the pressure by scale = {diagram.scale!r} [-]", measured.scale, USUAL_SCALE, why
         )
     if diagram.inlet_pressure is None:
-        usual = (0.2, 5.0)
-        return _doubt("scale", "compression line at BDC [bar]", measured.bottom / 1e5, usual, "sensor or unit is wrong")
+        why = "sensor or unit is wrong; of a charged engine give its inlet_pressure, and the scale is checked by that"
+        return _doubt("scale", "compression line at BDC [bar]", measured.bottom / 1e5, _FREE, why)
     ratio = measured.bottom / diagram.inlet_pressure
     why = "the sensor's scale, its unit or inlet_pressure is wrong; scale = 'exhaust' or 'trapped' corrects the first"
     return _doubt("scale", "compression line at BDC by inlet_pressure [-]", ratio, USUAL_SCALE, why)
