@@ -21,6 +21,7 @@ from mechsym.out.cad.curve import cubic, nurbs, offset
 
 ezdxf = pytest.importorskip("ezdxf", reason="the extra cad is not installed")
 
+from mechsym.out.cad import check  # noqa: E402
 from mechsym.out.cad.check import measured  # noqa: E402
 from mechsym.out.cad.dxf import text, write  # noqa: E402
 
@@ -52,6 +53,7 @@ def test_a_file_read_again_keeps_its_tolerance(shops, tmp_path, name, tolerance)
         assert row.gap == 0.0
         assert row.deviation <= tolerance
         assert row.area_error * row.area <= tolerance * row.length
+        assert row.stated_error < 1e-11
 
 
 @pytest.mark.slow
@@ -76,12 +78,26 @@ def test_a_spoiled_file_is_noticed(shops, tmp_path):
     assert found["OUTER"] > 1.5e-7 >= found["INNER"]
 
 
+def test_a_file_states_length_and_area_of_the_exact_curves(shops):
+    """At any tolerance: what the text says is not what the splines enclose."""
+    shop = shops("zotov-89")
+    document = ezdxf.read(io.StringIO(text(track(shop.guide, shop.rollers, 1e-5, shop.kinks), 0.06, ["a"])))
+    stated = check._stated(e.dxf.text for e in document.modelspace().query("TEXT"))
+    assert stated.keys() == {"CENTRES", "INNER", "OUTER"}
+    for layer, side in {"CENTRES": 0.0, "INNER": -1.0, "OUTER": 1.0}.items():
+        true = check.true_size(shop.guide.rho, side * shop.rollers.radius)
+        assert stated[layer] == pytest.approx(true, rel=1e-11)
+
+
 def test_a_circle_is_an_arc_of_known_error():
     """A cubic over the angle h misses a circle by r h^4 / 384 of the radius, a constant that is not ours."""
     circle = offset(PPoly([[2.0]], [0.0, 2 * math.pi], extrapolate="periodic"), 0.5)
     found = cubic("circle", circle, np.linspace(0, 2 * math.pi, 13), 1e-3)
     h = 2 * math.pi / 12
     assert found.deviation == pytest.approx(2.5 * h**4 / 384, rel=0.05)
+    assert found.length == pytest.approx(5 * math.pi, rel=1e-14) and found.area == pytest.approx(
+        6.25 * math.pi, rel=1e-14
+    )
     points, knots = nurbs(found)
     assert len(knots) == len(points) + 4 and np.allclose(np.hypot(*found.points.T), 2.5, rtol=1e-15)
 

@@ -1,11 +1,14 @@
 """A DXF file read again and measured against the path of the guide: `python -m mechsym.out.cad.check FILE CASE`.
 
 Nothing here comes from the writer: the file is read by ezdxf, its splines are evaluated by ezdxf, and each point's
-distance to the true path is found by Newton's method.
+distance to the true path is found by Newton's method. A curve within a tolerance has length and area within it too, so
+the file also states those of the exact curve, which are compared with the path to the last digits.
 """
 
 import math
+import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +20,8 @@ from mechsym.jobs.export import guide_named
 from mechsym.quantities import record
 
 _POINTS = 4000  # of each spline
+_DIGITS = 1e-9  # of the length and area that the text states
+_STATED = re.compile(r"(\w+): exact length (\S+) mm, area (\S+) mm\^2")
 _LAYERS = {"CENTRES": 0.0, "INNER": -1.0, "OUTER": 1.0}
 
 
@@ -32,6 +37,7 @@ class DrawnCurve:
     area: float  #: inside [m^2]
     length_error: float  #: as a share of the true length [-]
     area_error: float  #: as a share of the true area [-]
+    stated_error: float  #: of the length and area that the text states, the larger; nan where it states none [-]
 
 
 def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple[list[DrawnCurve], int]:
@@ -40,11 +46,20 @@ def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple
     document = ezdxf.readfile(path)
     if document.units != ezdxf.units.MM:
         raise BadInput(f"{path}: units are not millimetres")
-    rows = [_curve(e, rho, radius) for e in document.modelspace().query("SPLINE")]
+    stated = _stated(e.dxf.text for e in document.modelspace().query("TEXT"))
+    rows = [_curve(e, rho, radius, stated) for e in document.modelspace().query("SPLINE")]
     return rows, len(document.audit().errors)
 
 
-def _curve(entity: Any, rho: "scipy.interpolate.PPoly", radius: float) -> DrawnCurve:
+def _stated(texts: Iterable[str]) -> dict[str, tuple[float, float]]:
+    """Length [m] and area [m^2] of the exact curve by layer, as the text states them."""
+    found = [match for text in texts if (match := _STATED.fullmatch(text))]
+    return {match[1]: (1e-3 * float(match[2]), 1e-6 * float(match[3])) for match in found}
+
+
+def _curve(
+    entity: Any, rho: "scipy.interpolate.PPoly", radius: float, stated: dict[str, tuple[float, float]]
+) -> DrawnCurve:
     layer = entity.dxf.layer
     side, turned = _LAYERS[layer.removesuffix("_2")], math.pi if layer.endswith("_2") else 0.0
     tool = entity.construction_tool()
@@ -56,10 +71,12 @@ def _curve(entity: Any, rho: "scipy.interpolate.PPoly", radius: float) -> DrawnC
     ends = [complex(p.x, p.y) * 1e-3 for p in tool.points([0.0, tool.max_t])]
     length, area = np.sum(nodes[1] * np.abs(dz)), np.sum(nodes[1] * np.imag(np.conj(z) * dz)) / 2
     true_length, true_area = true_size(rho, side * radius)
+    told = stated.get(layer.removesuffix("_2"), (math.nan, math.nan))
     return DrawnCurve(
         layer=layer, points=len(entity.control_points), gap=abs(ends[1] - ends[0]),
         deviation=float(np.max(np.abs(distance(z, rho) - side * radius))), length=float(length), area=float(area),
         length_error=abs(float(length) / true_length - 1), area_error=abs(float(area) / true_area - 1),
+        stated_error=max(abs(told[0] / true_length - 1), abs(told[1] / true_area - 1)),
     )  # fmt: skip
 
 
@@ -106,8 +123,8 @@ def main(arguments: list[str]) -> int:
     print(f"audit: {errors} errors")
     for row in rows:
         print(f"{row.layer}: {row.points} points, gap {row.gap:.2g} m, deviation {row.deviation:.3g} m, length error "
-              f"{row.length_error:.2g}, area error {row.area_error:.2g}")  # fmt: skip
-    return int(errors > 0)
+              f"{row.length_error:.2g}, area error {row.area_error:.2g}, as stated {row.stated_error:.2g}")  # fmt: skip
+    return int(errors > 0 or not all(row.stated_error <= _DIGITS for row in rows))
 
 
 def _ezdxf() -> Any:

@@ -22,6 +22,8 @@ from mechsym.quantities import record
 _TURN = 2 * math.pi
 _FIRST = 12  # pieces at least, in a turn
 _LEVELS = 24  # halvings at most
+_NONE = np.empty(0)
+_NODES = 16  # of Gauss in a piece
 _INSIDE = np.linspace(0, 1, 19)[1:-1]  # where a piece is compared with the truth
 
 Point = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -36,6 +38,8 @@ class CubicPath:
     points: np.ndarray  #: shape (n + 1, 2) [m]
     tangents: np.ndarray  #: shape (n + 1, 2) [m/rad]
     deviation: float  #: largest distance from the truth that was seen [m]
+    length: float  #: of the true curve [m]
+    area: float  #: inside the true curve [m^2]
 
 
 @record
@@ -70,8 +74,10 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequ
         raise BadInput(f"tolerance = {tolerance:g} m is not allowed; it is a length from 1e-10 m to 1e-3 m")
     _refuse_crossing(rho, rollers.radius)
     edges = np.unique([*np.linspace(0, _TURN, _FIRST + 1), *(k % _TURN for k in kinks)])
+    turns = round(_TURN / float(rho.x[-1]))
+    breaks = np.concatenate([rho.x + k * rho.x[-1] for k in range(turns)])
     curves = [
-        cubic(name, offset(rho, d), edges, tolerance)
+        cubic(name, offset(rho, d), edges, tolerance, breaks)
         for name, d in (("centre", 0.0), ("inner", -rollers.radius), ("outer", rollers.radius))
     ]
     centre, inner, outer = curves
@@ -103,8 +109,16 @@ def offset(rho: "scipy.interpolate.PPoly", distance: float) -> Point:
     return at
 
 
-def cubic(name: str, curve: Point, edges: np.ndarray, tolerance: float) -> CubicPath:
-    """A closed curve as cubic pieces within a tolerance [m]; `edges` are angles that must be ends of pieces [rad]."""
+def cubic(name: str, curve: Point, edges: np.ndarray, tolerance: float, breaks: np.ndarray = _NONE) -> CubicPath:
+    """A closed curve as cubic pieces within a tolerance [m].
+
+    Parameters
+    ----------
+    edges : ndarray
+        Angles that must be ends of pieces [rad]
+    breaks : ndarray
+        Angles where the formula of the curve changes, for its length and area [rad]
+    """
     done, largest = [], 0.0
     left, right = edges[:-1], edges[1:]
     for _ in range(_LEVELS):
@@ -116,10 +130,21 @@ def cubic(name: str, curve: Point, edges: np.ndarray, tolerance: float) -> Cubic
             theta = np.append(np.sort(np.concatenate(done)), edges[-1])
             points, tangents = curve(theta)
             points[-1] = points[0]  # closed to the last digit
-            return CubicPath(name=name, theta=theta, points=points, tangents=tangents, deviation=largest)
+            length, area = _size(curve, np.unique([*theta, *(b for b in breaks if 0 < b < theta[-1])]))
+            return CubicPath(name=name, theta=theta, points=points, tangents=tangents, deviation=largest, length=length,
+                             area=area)  # fmt: skip
         middle = (left[~good] + right[~good]) / 2
         left, right = np.concatenate([left[~good], middle]), np.concatenate([middle, right[~good]])
     raise BadInput(f"{name}: {tolerance:g} m cannot be kept near {np.degrees(left[0]):.6g} deg; allow more")
+
+
+def _size(curve: Point, theta: np.ndarray) -> tuple[float, float]:
+    """Length [m] and area inside [m^2] of a closed curve, by Gauss points between angles [rad]."""
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    half = np.diff(theta)[:, None] / 2
+    (x, y), (dx, dy) = (v.T for v in curve((theta[:-1, None] + half * (nodes + 1)).ravel()))
+    weight = (half * weights).ravel()
+    return float(weight @ np.hypot(dx, dy)), float(weight @ (x * dy - y * dx)) / 2
 
 
 def _error(curve: Point, left: np.ndarray, right: np.ndarray) -> np.ndarray:

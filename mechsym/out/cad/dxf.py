@@ -28,7 +28,8 @@ def text(track: Groove, bore: float, lines: Sequence[str]) -> str:
     bore : float
         Diameter of the hole for the shaft, 0 for none [m]
     lines : sequence of str
-        What the drawing says: case, spring, tolerance
+        What the drawing says: case, spring, tolerance; below it length and area of the exact curves, by which whoever
+        reads the file sees that nothing was lost on the way
     """
     ezdxf = _ezdxf()
     document = ezdxf.new("R2010", units=ezdxf.units.MM)
@@ -43,8 +44,15 @@ def text(track: Groove, bore: float, lines: Sequence[str]) -> str:
         space.add_circle(start, _MM * track.roller_radius, dxfattribs={"layer": "ROLLERS"})
     if bore:
         space.add_circle((0, 0), _MM * bore / 2, dxfattribs={"layer": "HOLES"})
-    _frame(space, track, lines)
+    _frame(space, track, [*lines, *_sizes(track)])
     return _written(document)
+
+
+def _sizes(track: Groove) -> list[str]:
+    """A line for each curve: length and area of the exact one, in all digits that count."""
+    curves = {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}
+    return [f"{layer}: exact length {_MM * c.length:.13g} mm, area {_MM**2 * c.area:.13g} mm^2"
+            for layer, c in curves.items()]  # fmt: skip
 
 
 def _spline(space: Any, path: CubicPath, angle: float, layer: str) -> None:
