@@ -22,14 +22,12 @@ _Joined = tuple[Outputs, ca.SX]
 
 @record
 class _Symbols:
-    # q, u, a: columns of one symbol a throw and one of the flywheel; in the rigid train all are the same
+    # q, u, a: one symbol a throw and one of the flywheel; in the rigid train all are the same
     names: tuple[str, ...]
-    q: ca.SX
-    u: ca.SX
-    a: ca.SX
-    forces: ca.SX
-    load: ca.SX
-    inputs: dict[str, list[ca.SX]]  #: Symbols of coordinates, velocities, accelerations and forces
+    q: list[ca.SX]
+    u: list[ca.SX]
+    a: list[ca.SX]
+    forces: list[ca.SX]  #: On the pistons, and the load at the end
 
 
 def build(p: CrankTrainParameters) -> Mechanism:
@@ -81,15 +79,16 @@ def _rigid(p: CrankTrainParameters, s: _Symbols, rows: list[ca.SX]) -> _Joined:
     return dict(zip(("mass_matrix", "bias", "generalized_force"), totals, strict=True)), torques
 
 
-def _sections(column: ca.SX) -> ca.SX:
+def _sections(values: list[ca.SX]) -> ca.SX:
+    column = ca.vertcat(*values)
     return column[:-1] - column[1:]
 
 
 def _symbols(names: tuple[str, ...], discs: int, cylinders: int) -> _Symbols:
-    made = {letter: [ca.SX.sym(f"{n}{dots}") for n in names] for letter, dots in (("q", ""), ("u", "d"), ("a", "dd"))}
-    made["F"] = [*(ca.SX.sym(f"F{i + 1}") for i in range(cylinders)), ca.SX.sym("M")]
-    q, u, a = (ca.vertcat(*(made[n] * (discs if len(names) == 1 else 1))) for n in "qua")
-    return _Symbols(names=names, q=q, u=u, a=a, forces=ca.vertcat(*made["F"][:-1]), load=made["F"][-1], inputs=made)
+    repeated = discs // len(names)
+    q, u, a = ([ca.SX.sym(f"{n}{dots}") for n in names] * repeated for dots in ("", "d", "dd"))
+    forces = [*(ca.SX.sym(f"F{i + 1}") for i in range(cylinders)), ca.SX.sym("M")]
+    return _Symbols(names=names, q=q, u=u, a=a, forces=forces)
 
 
 # the same for all trains
@@ -97,39 +96,40 @@ def _symbols(names: tuple[str, ...], discs: int, cylinders: int) -> _Symbols:
 def _throw(group: str) -> ca.Function:
     """A function of the derived throw, from its state and its letters, no torque on it, to all outputs."""
     module = generated("crank_throw")
-    state, letters = ca.SX.sym("state", len(_STATE)), ca.SX.sym("letters", len(module.PARAMETERS))
-    symbols = [*ca.vertsplit(state), *ca.vertsplit(letters), ca.SX(0)]
-    given = dict(zip((*_STATE, *module.PARAMETERS, "M"), symbols, strict=True))
+    state, letters = ca.SX.sym("state", len(_STATE)), ca.SX.sym("letters", len(module.PARAMETERS) + 1)
+    symbols = [*ca.vertsplit(state), *ca.vertsplit(letters)]
+    given = dict(zip((*_STATE, *module.PARAMETERS, "shift"), symbols, strict=True)) | {"M": ca.SX(0)}
+    given["phi"] += given["shift"]
     arguments, _ = module.FUNCTIONS[group]
     found: list[ca.SX] = list(getattr(module, group)(**{n: given[n] for n in arguments}))
     return ca.Function(group, [state, letters], [ca.vertcat(*found)])
 
 
-def _tables(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
+def _tables(s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
     """What gives the outputs of a group, a row each, for all parts, a column each."""
-    throw, cylinder = [part.throw for part in all_parts], [part.cylinder - 1 for part in all_parts]
-    letters = generated("crank_throw").PARAMETERS
-    values = np.array([[part.letters[n] for part in all_parts] for n in letters])
-    angle = s.q[throw] + np.array([part.shift for part in all_parts])
-    # a crank alone has no cylinder: -1 stands for the zero at the end
-    state = ca.horzcat(angle, s.u[throw], s.a[throw], ca.vertcat(s.forces, 0)[cylinder]).T
-    return lambda group: _throw(group).map(len(throw))(state, values)
+    names, n = generated("crank_throw").PARAMETERS, len(s.q)
+    letters = np.array([[*(part.letters[name] for name in names), part.shift] for part in all_parts]).T
+    # nothing pushes a crank that is alone
+    every, nothing = ca.vertcat(*s.q, *s.u, *s.a, *s.forces, 0), 3 * n + len(s.forces)
+    rows = [
+        (p.throw, n + p.throw, 2 * n + p.throw, 3 * n + p.cylinder - 1 if p.cylinder else nothing) for p in all_parts
+    ]
+    state = ca.reshape(every[[place for row in rows for place in row]], len(_STATE), len(rows))
+    return lambda group: _throw(group).map(len(rows))(state, letters)
 
 
 def _rows(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart], table: ca.SX) -> list[ca.SX]:
     """Inertia, bias and force of every throw and of the flywheel, of the table of the dynamics."""
-    throw = [part.throw for part in all_parts]
-    joining = ca.DM.triplet(list(range(len(throw))), throw, ca.DM.ones(len(throw)), len(throw), max(throw) + 1)
-    sums = ca.mtimes(table, joining)
-    ends: tuple[ca.SX, ...] = (ca.SX(p.I_f), ca.SX(0), -s.load)
-    return [ca.vertcat(row.T, end) for row, end in zip(ca.vertsplit(sums), ends, strict=True)]
+    throw = [*(part.throw for part in all_parts), max(p.throw)]
+    joining = ca.DM.triplet(throw, list(range(len(throw))), ca.DM.ones(len(throw)), throw[-1] + 1, len(throw))
+    return ca.horzsplit(ca.mtimes(joining, ca.horzcat(table, ca.vertcat(p.I_f, 0, -s.forces[-1])).T))
 
 
 def _mechanism(
     p: CrankTrainParameters, s: _Symbols, join: Callable[[CrankTrainParameters, _Symbols, list[ca.SX]], _Joined]
 ) -> Mechanism:
     all_parts = parts(p)
-    tables = _tables(p, s, all_parts)
+    tables = _tables(s, all_parts)
 
     def throws(group: str) -> Instances:
         names, columns = generated("crank_throw").FUNCTIONS[group][1], ca.horzsplit(tables(group))
@@ -152,19 +152,17 @@ def _mechanism(
         found, flywheel = forces.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
         return found | {"angular_momentum_rate": found["angular_momentum_rate"] + flywheel}
 
-    groups: dict[str, tuple[str, Callable[[], Outputs]]] = {
-        "kinematics": ("q", lambda: forces.kinematics(throws("kinematics"), s.names)),
-        "dynamics": ("quF", lambda: joined()[0]),
-        "energy": ("qu", energy),
-        "reactions": ("quaF", reactions),
-        "momentum": ("qua", momentum),
+    q, u, a = (values[: len(s.names)] for values in (s.q, s.u, s.a))
+    groups: dict[str, tuple[list[ca.SX], Callable[[], Outputs]]] = {
+        "kinematics": (q, lambda: forces.kinematics(throws("kinematics"), s.names)),
+        "dynamics": ([*q, *u, *s.forces], lambda: joined()[0]),
+        "energy": ([*q, *u], energy),
+        "reactions": ([*q, *u, *a, *s.forces], reactions),
+        "momentum": ([*q, *u, *a], momentum),
     }
-    makers = {
-        name: functools.partial(_made, name, [v for kind in kinds for v in s.inputs[kind]], outputs)
-        for name, (kinds, outputs) in groups.items()
-    }
+    makers = {name: functools.partial(_made, name, *group) for name, group in groups.items()}
     return Mechanism(
-        name="crank_train", coordinates=s.names, inputs=tuple(map(str, s.inputs["F"])),
+        name="crank_train", coordinates=s.names, inputs=tuple(map(str, s.forces)),
         parameters={f.name: getattr(p, f.name) for f in dataclasses.fields(p)}, functions=LazyFunctions(makers),
     )  # fmt: skip
 
