@@ -192,22 +192,16 @@ def _stages(wanted: Balance, ratio: float) -> tuple[np.ndarray, np.ndarray]:
 def _march(stage: ca.SX, lane: ca.SX, found: ca.SX, stages: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     """Where around the turn each quantity is largest."""
     state, number = ca.SX.sym("state", 2 * _PEAKS), ca.SX.sym("number")
-    # what is the same at all angles is computed once for each design
-    found, letters, once = ca.extract_parametric(found, lane)
-    beside = compiled(ca.Function("design_lanes", [lane], [ca.vertcat(*once)]))
     best, place = state[:_PEAKS], state[_PEAKS:]
     larger = found > best
     step = ca.vertcat(ca.fmax(best, found), *[ca.if_else(larger[i], number, place[i]) for i in range(_PEAKS)])
-    lanes = ca.vertcat(lane, *letters)
-    run = marcher(ca.Function("design_turn", [state, ca.vertcat(stage, number), lanes], [step]))
+    run = marcher(ca.Function("design_turn", [state, ca.vertcat(stage, number), lane], [step]))
     numbered = np.column_stack([stages, np.arange(len(stages), dtype=float)])
 
     def places(columns: np.ndarray) -> np.ndarray:
         start = np.zeros((2 * _PEAKS, columns.shape[1]))
         start[:_PEAKS] = -np.inf
-        with np.errstate(all="ignore"):
-            whole = np.concatenate([columns, beside.batch(*columns)])
-        return run(start, numbered, whole)[0][_PEAKS:].astype(int)
+        return run(start, numbered, columns)[0][_PEAKS:].astype(int)
 
     return places
 

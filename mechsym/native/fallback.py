@@ -98,7 +98,7 @@ def numpy_text(tape: Tape) -> str:
             lines.append(f"t{i} = {expression(NUMPY, op, [names[a] for a in args], exponent)}")
             names.append(f"t{i}")
     lines += [f"y[{i}][:] = {names[r]}" for i, r in enumerate(tape.results)]
-    return "\n".join(["def function(x, y):", *("    " + line for line in lines)])
+    return "\n".join(["def function(x, y):", *("    " + line for line in lines or ["pass"])])
 
 
 def numpy_function(tape: Tape) -> Callable[[Any, Any], None]:

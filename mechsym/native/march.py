@@ -10,8 +10,11 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.native import emit, fallback, library
 from mechsym.native.compiler import NoCompiler
+from mechsym.native.dialects import NUMPY
 from mechsym.native.kernels import constant_table, whole
-from mechsym.native.source import Program, header, preamble, program
+from mechsym.native.source import header, preamble, program
+from mechsym.native.stages import cut
+from mechsym.native.tape import CHEAP, Tape
 
 _LOG = logging.getLogger("mechsym.native")
 
@@ -42,11 +45,13 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
         The function is no step
     """
     sizes, found = _sizes(step), program(step, mode)
+    once, turn = separated(found.tape, sizes)
     try:
-        advance = _compiled(found, sizes, mode)
+        advance = _compiled(turn, sizes, mode)
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
-        advance = _interpreted(found)
+        advance = _interpreted(turn)
+    before = fallback.numpy_function(once)
 
     def march(start: np.ndarray, stages: np.ndarray, lanes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         state = np.array(start, dtype=float, order="C")
@@ -57,14 +62,38 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
                 f"shape {state.shape}, stages {stages.shape}, lanes {lanes.shape}"
             )
         record = np.empty((len(stages), len(found.tape.outputs) - sizes[0], state.shape[1]))
-        advance(state, stages, lanes, record)
+        known = np.empty((len(once.outputs), state.shape[1]))
+        with np.errstate(all="ignore"):
+            before([None] * (sizes[0] + sizes[1]) + [*lanes], known)
+        advance(state, stages, np.concatenate([lanes, known]), record)
         return state, record
 
     return march
 
 
-def _compiled(found: Program, sizes: tuple[int, int, int], mode: str) -> Callable[..., None]:
-    loaded, constants = library.load(text(found, sizes), mode), constant_table((whole(found.tape),))
+def separated(tape: Tape, sizes: tuple[int, int, int]) -> tuple[Tape, Tape]:
+    """What a lane's own values decide, to be computed once, and the step, which takes it as further lane values.
+
+    Parameters
+    ----------
+    sizes : tuple of int
+        Numbers of states, stage values, lane values
+    """
+    # whether a node is the lane's own, and whether it is worth a place in memory
+    own: list[bool] = []
+    dear: list[bool] = []
+    kept = set(tape.results)
+    for op, args in tape.nodes:
+        leaf = op in ("input", "constant")
+        mine = args[0] >= sizes[0] + sizes[1] if op == "input" else op == "constant" or all(own[a] for a in args)
+        own.append(mine and (leaf or op in NUMPY))
+        dear.append(not leaf and (op not in CHEAP or any(dear[a] for a in args)))
+        kept.update(() if leaf or own[-1] else args)
+    return cut(tape, sorted(i for i in kept if own[i] and dear[i]))
+
+
+def _compiled(turn: Tape, sizes: tuple[int, int, int], mode: str) -> Callable[..., None]:
+    loaded, constants = library.load(text(turn, sizes), mode), constant_table((whole(turn),))
 
     def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
         places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, stages, lanes, state, record)]
@@ -73,8 +102,8 @@ def _compiled(found: Program, sizes: tuple[int, int, int], mode: str) -> Callabl
     return advance
 
 
-def _interpreted(found: Program) -> Callable[..., None]:
-    run = fallback.numpy_function(found.tape)
+def _interpreted(turn: Tape) -> Callable[..., None]:
+    run = fallback.numpy_function(turn)
 
     def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
         following = np.empty_like(state)
@@ -86,17 +115,17 @@ def _interpreted(found: Program) -> Callable[..., None]:
     return advance
 
 
-def text(found: Program, sizes: tuple[int, int, int]) -> str:
-    """A file that exports `ms_march` for a step.
+def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
+    """A file that exports `ms_march` for the step of `separated`.
 
     Parameters
     ----------
     sizes : tuple of int
         Numbers of states, stage values, lane values
     """
-    name, kernel = found.tape.name, whole(found.tape)
-    states, stages, lanes = sizes
-    records = len(found.tape.outputs) - states
+    name, kernel = turn.name, whole(turn)
+    states, stages, _ = sizes
+    lanes, records = len(turn.inputs) - states - stages, len(turn.outputs) - states
     return "\n".join(
         [
             preamble(),

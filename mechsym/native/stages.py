@@ -28,7 +28,11 @@ def split(tape: Tape) -> tuple[Tape, Tape] | None:
     for i, (op, args) in enumerate(tape.nodes):
         if mixed[i] and op not in ("input", "constant"):
             kept |= {a for a in args if labels[a] and not mixed[a]}
-    values = sorted(kept)
+    return cut(tape, sorted(kept))
+
+
+def cut(tape: Tape, values: list[int]) -> tuple[Tape, Tape]:
+    """A program that gives the values of some nodes, and the rest, which takes them behind its inputs."""
     nodes, results = prune(list(tape.nodes), values)
     first = dataclasses.replace(
         tape, name=f"{tape.name}_first", outputs=tuple(f"v{i}" for i in range(len(values))), nodes=tuple(nodes),

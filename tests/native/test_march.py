@@ -6,7 +6,8 @@ import pytest
 
 from mechsym.errors import BadInput
 from mechsym.native import library
-from mechsym.native.march import marcher
+from mechsym.native.march import marcher, separated
+from mechsym.native.source import program
 
 
 def step(records: bool = True) -> ca.Function:
@@ -61,3 +62,27 @@ def test_shapes_are_checked():
         marcher(step())(start[:1], stages, lanes)
     with pytest.raises(BadInput, match="is no step"):
         marcher(ca.Function("f", [ca.SX.sym("x")], [1]))
+
+
+def test_what_a_lane_decides_alone_is_computed_once():
+    once, turn = separated(program(step(), "strict").tape, (2, 2, 1))
+    assert {op for op, _ in once.nodes} == {"input", "constant", "mul", "exp"}
+    assert "exp" not in {op for op, _ in turn.nodes}
+    assert len(turn.inputs) == len(once.inputs) + 1
+
+
+@pytest.mark.parametrize("route", ["fast", "numpy"])
+def test_lanes_that_decide_nothing_or_everything_alone(route, monkeypatch):
+    if route == "numpy":
+        monkeypatch.setenv("CC", "no-such-compiler")
+        library.load.cache_clear()
+    x, s, z = (ca.SX.sym(n) for n in "xsz")
+    start, stages, lanes = np.ones((1, 3)), np.ones((4, 1)), np.array([[1.0, 4.0, 9.0]])
+    plain = marcher(ca.Function("plain", [x, s, z], [x + s * z]))
+    np.testing.assert_array_equal(plain(start, stages, lanes)[0], start + 4 * lanes)
+    alone = marcher(ca.Function("alone", [x, s, z], [ca.sqrt(z), ca.sqrt(z)]))
+    state, record = alone(start, stages, lanes)
+    np.testing.assert_array_equal(state, np.sqrt(lanes))
+    np.testing.assert_array_equal(record, np.sqrt([lanes] * 4))
+    erf = marcher(ca.Function("erf", [x, s, z], [x * ca.erf(z / z)])) if route == "fast" else None
+    assert erf is None or erf(start, stages, lanes)[0] == pytest.approx(np.full((1, 3), 0.8427007929497149**4))
