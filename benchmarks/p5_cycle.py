@@ -140,13 +140,12 @@ def _hand(stages: np.ndarray, omega: np.ndarray) -> np.ndarray:
 
 
 def _casadi(stages: np.ndarray, omega: np.ndarray) -> Callable[[], np.ndarray]:
-    many = _step().mapaccum("cycle", len(stages)).map(len(omega))
+    many = _step().fold(len(stages)).map(len(omega))
     start, speeds = _start(omega), np.repeat(omega, len(stages))[None]
     table = np.tile(stages.T, len(omega))
 
     def run() -> np.ndarray:
-        history = np.asarray(many(start, table, speeds))
-        return _map(history[:, len(stages) - 1 :: len(stages)])
+        return _map(np.asarray(many(start, table, speeds)))
 
     return run
 
