@@ -138,7 +138,8 @@ def _row(row: dict) -> str:
     limits = ", ".join(f"{sign} {row[name]:g}" for name, sign in bounds if row[name] is not None)
     limits = limits or ", ".join(row["options"] or ()) or (row["kind"] if row["unit"] is None else "")
     usual = "**needed**" if row["required"] else "" if row["default"] in (None, [], "") else f"`{row['default']}`"
-    return f"| `{row['key']}` | {row['unit'] or ''} | {limits} | {usual} | {row['about'].replace('|', '/')} |"
+    unit = (row["unit"] or "").replace("*", "\\*")
+    return f"| `{row['key']}` | {unit} | {limits} | {usual} | {row['about'].replace('|', '/')} |"
 
 
 def equations() -> str:

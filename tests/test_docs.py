@@ -48,6 +48,7 @@ def test_rooms_and_sections_are_told_in_full(pages):
         module = importlib.import_module(f"mechsym.{room}")
         names = [n for n in getattr(module, "__all__", ()) if type(getattr(module, n)).__name__ != "module"]
         assert all(f"### {room}.{name}\n" in text for name in names), room
+    assert r"| N\*m\*s/rad |" in pages.sections()
     assert "| `bore` | m | \\> 0 | **needed** | cylinder bore |" in pages.sections()
 
 
