@@ -65,7 +65,13 @@ def by_size(sections: Mapping[str, Any], sizes: Proportions, bore: float | None)
         ("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / ((bore or sizes.stroke) ** 2 * sizes.stroke))
     )
     if bore:
-        told += [*_lengths(sections, bore), *_volumes(sections, bore, sizes.stroke), *_areas(sections, sizes, bore)]
+        told.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
+        told += [
+            *_lengths(sections, bore),
+            *_valves(sections, bore),
+            *_volumes(sections, bore, sizes.stroke),
+            *_areas(sections, sizes, bore),
+        ]
     return _doubts(told)
 
 
@@ -134,6 +140,8 @@ def _by_stroke(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Tol
             "losses.bearing_radius / rollers.radius",
             (_number(sections, "losses", "bearing_radius") / roller),
         )
+    for letter, ratio in sizes.unequal.items():
+        yield "unequal", f"largest parameters.{letter} / least", ratio
     if sizes.span is not None:
         yield "opposed_span", "distance of the shafts / (r + l1 + l2 of both)", sizes.span
 
@@ -176,6 +184,17 @@ def _areas(sections: Mapping[str, Any], sizes: Proportions, bore: float) -> Iter
         )
     if sizes.pitch is not None:
         yield "cylinder_pitch", "least distance of two cylinders / bore", sizes.pitch / bore or 1e-9
+
+
+def _valves(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
+    """Valves by each other, and together by the bore."""
+    for section, valve in (("breathing", "inlet"), ("breathing", "exhaust"), ("scavenging", "valve")):
+        if width := _number(sections, section, f"{valve}_diameter"):
+            about = f"{section}.{valve}_lift / {valve}_diameter"
+            yield "lift_share", about, _number(sections, section, f"{valve}_lift") / width
+    squares = sum(_number(sections, "breathing", f"{valve}_diameter") ** 2 for valve in ("inlet", "exhaust"))
+    about = "breathing.valves * (inlet_diameter^2 + exhaust_diameter^2) / bore^2"
+    yield "valve_area", about, _number(sections, "breathing", "valves") * squares / bore**2
 
 
 def _lengths(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:

@@ -31,6 +31,7 @@ class Proportions:
     parts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     unbalances: Mapping[str, float] = field(default_factory=dict)  #: By their letter [kg*m]
     pistons: int = 1  #: How many drive its shaft
+    unequal: Mapping[str, float] = field(default_factory=dict)  #: Largest over least of a list, by its letter [-]
     #: Least distance of two cylinders of a shaft, None where their places are not given [m]
     pitch: float | None = None
     #: Distance of the shafts of opposed pistons over the length of both rods and throws, None without such [-]

@@ -52,6 +52,8 @@ INPUTS = (
     Usual(code="ignition", keys=("ignition",), unit="rad", low=math.radians(-60), high=math.radians(20),
           lowest=math.radians(-120), highest=math.radians(120),
           why="combustion starts 0 to 40 degrees before firing top dead centre; earlier is negative, '-20 deg'"),
+    Usual(code="ignition", keys=("soc",), unit="rad", low=math.radians(-40), high=math.radians(25), section="cycle",
+          why="diesels burn from 10 degrees before top dead centre to 10 behind it"),
     Usual(code="gravity", keys=("g",), unit="m/s^2", low=0, high=12, section="parameters",
           why="9.81 m/s^2 on the ground, 0 leaves gravity away"),
     Usual(code="tilt", keys=("axis_tilt",), unit="rad", low=-2 * math.pi, high=2 * math.pi, lowest=-4 * math.pi,

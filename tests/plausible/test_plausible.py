@@ -69,6 +69,7 @@ IMPOSSIBLE = [
     ("nunes-hypocycloid", "part_crank.pin_bore=30 mm"),
     ("nunes-slider-crank", "speeds.step=80000 rpm"),
     ("chmielewski", "drive.time=-1 s"),
+    ("chmielewski", "simulation.window=1e-6 s"),
 ]
 
 
@@ -168,6 +169,11 @@ DOUBTED = [
     ("nunes-hypocycloid", "friction.module=25.4 mm", "tooth_size"),
     ("nunes-hypocycloid", "sizing.head=1500", "safety"),
     ("zotov-89", "codesign.full_load=20", "full_load"),
+    ("zotov-89", "cycle.soc=50 deg", "ignition"),
+    ("zotov-89", "friction.radius_crank_pin=0.55 m", "bearing_size"),
+    ("generator-breathing", "inlet_lift=20 mm", "lift_share"),
+    ("generator-breathing", "breathing.valves=4", "valve_area"),
+    ("nunes-hypocycloid", "chamber.bore=10.2 mm", "stroke_ratio"),
     ("zotov-89", "codesign.full_speed=1420 rpm", "piston_speed"),
 ]
 # lists, which only a file can give
@@ -176,6 +182,8 @@ LISTED = [
     ("balandin", "areas", '["25 cm^2", "25 cm^2", "25 cm^2", "25 cm^2"]', "face_area"),
     ("zotov-89", "heights", '["50 mm", "7 mm", "7 mm", "7 mm"]', "ring_size"),
     ("opposed-pistons", "axis_x", '["0 m", "0.3 m"]', "opposed_span"),
+    ("opposed-pistons", "r", '["40 mm", "4 mm"]', "unequal"),
+    ("opposed-pistons", "I0", "[0.01, 1.0]", "unequal"),
     ("opposed-pistons", "axis_x", '["0 m", "4.6 m"]', "opposed_span"),
 ]
 

@@ -11,7 +11,7 @@ from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.assembly import build, build_driven, build_rigid, listing
 from mechsym.mechanisms.crank_train.firing import gas_forces, refuse_wrong_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.crank_train.spacing import pitch, span
+from mechsym.mechanisms.crank_train.spacing import pitch, span, unequal
 from mechsym.mechanisms.proportions import Proportions, Reciprocating
 from mechsym.mechanisms.proportions import slider_crank as crank_and_rod
 from mechsym.mechanisms.train_drawing import crank_train
@@ -120,6 +120,7 @@ def _proportions(p: CrankTrainParameters) -> Proportions:
         r, l1 + l2, moving, mass=m0 + m_rod + piston, shafts={"I0": max(each(p, "I0")), "I_f": p.I_f},
         parts={"I_rod": (max(each(p, "I_rod")), m_rod * (l1 + l2) ** 2)},
         unbalances={"u0": max(each(p, "u0"), key=abs)}, pistons=len(p.throw), pitch=pitch(p), span=span(p),
+        unequal=unequal(p),
     )  # fmt: skip
 
 

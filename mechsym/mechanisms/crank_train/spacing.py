@@ -1,10 +1,11 @@
-"""How far apart the cylinders of a crank train stand: the least distance of two, and that of opposed shafts."""
+"""How the cylinders of a crank train stand to each other: the least distance of two, opposed shafts, unlike values."""
 
 import math
 from itertools import combinations
 
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 
+_ALIKE = ("r", "l1", "l2", "m_rod", "m_piston", "I_rod", "I0", "m0")
 _Place = tuple[float, float, float]
 
 
@@ -16,6 +17,12 @@ def pitch(p: CrankTrainParameters) -> float | None:
     middles = [_half(p, i) for i in range(len(p.throw))]
     near = [math.dist(middles[i], middles[j]) for i, j in combinations(range(len(middles)), 2) if at[i] == at[j]]
     return min(near, default=None)
+
+
+def unequal(p: CrankTrainParameters) -> dict[str, float]:
+    """Largest over least of what is alike in all cylinders and throws, by letter; zeros leave parts away."""
+    lists = {name: [value for value in each(p, name) if value > 0] for name in _ALIKE}
+    return {name: max(values) / min(values) for name, values in lists.items() if values}
 
 
 def span(p: CrankTrainParameters) -> float | None:
