@@ -50,26 +50,37 @@ def make_folder(path: Path) -> Path:
 
 def try_folder(path: Path) -> Path:
     """Refuse a folder that could not take results, as `make_folder` does, and leave nothing behind."""
-    missing = [p for p in (path, *path.parents) if not p.exists()]
+    missing = _missing(path)
     try:
         return make_folder(path)
     finally:
-        for made in missing:
-            with contextlib.suppress(OSError):
-                made.rmdir()
+        _remove(missing)
+
+
+def _missing(path: Path) -> list[Path]:
+    return [p for p in (path, *path.parents) if not p.exists()]
+
+
+def _remove(made: list[Path]) -> None:
+    """Remove folders, the innermost first, as far as they are empty."""
+    for folder in made:
+        with contextlib.suppress(OSError):
+            folder.rmdir()
 
 
 @contextlib.contextmanager
 def together(folder: Path) -> Iterator[None]:
     """Files written below `folder` in the block appear at its end all at once; a failed write or bad input drops them.
 
-    An interrupt keeps what is complete.
+    Folders that were made for them go too where nothing else is in them. An interrupt keeps what is complete.
     """
+    missing = _missing(folder)
     _folders.append(folder.absolute())
     try:
         yield
     except (OSError, MemoryError, BadInput):
         _drop()
+        _remove(missing)
         raise
     finally:
         _folders.pop()

@@ -6,10 +6,12 @@ from typing import Any
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
+from mechsym.style import DARK, QUIET
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
 _SENTENCE = 40  # letters
-_GREY = "#767676"  # 4.5 on white, 4.1 on the dark page: no one grey has 4.5 on both
+# no one grey has a contrast of 4.5 on both papers: the browser chooses
+_GREY = f"document.body.classList.contains('body--dark') ? '{DARK[QUIET]}' : '{QUIET}'"
 # in the picture: it tells its angle, and stands where it is told to
 _LINK = """<script>
 const [label, angle, play] = ["label", "angle", "play"].map(id => document.getElementById(id));
@@ -83,12 +85,13 @@ def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
          "data": [list(p) for p in zip(c.x, c.y, strict=True)]}
         for i, (c, style) in enumerate(curves)
     ]  # fmt: skip
-    labels = {"axisLabel": {"color": _GREY}, "nameTextStyle": {"color": _GREY}}
-    last = {"axisLabel": {"color": _GREY, "showMaxLabel": first.x[-1] % 10 == 0}}  # 359.5 would touch the one before it
-    lines = {"splitLine": {"lineStyle": {"color": _GREY, "opacity": 0.25}}}
+    labels = {"axisLabel": {":color": _GREY}, "nameTextStyle": {":color": _GREY}}
+    # 359.5 would touch the one before it
+    last = {"axisLabel": {":color": _GREY, "showMaxLabel": first.x[-1] % 10 == 0}}
+    lines = {"splitLine": {"lineStyle": {":color": _GREY, "opacity": 0.25}}}
     return {
         "animation": False, "tooltip": {"trigger": "axis"},
-        "title": {"text": first.y_name, "textStyle": {"fontSize": 12, "color": _GREY}},
+        "title": {"text": first.y_name, "textStyle": {"fontSize": 12, ":color": _GREY}},
         "grid": {"left": 70, "right": 15, "top": 30, "bottom": 40},
         "xAxis": {"type": "value", "name": first.x_name, "nameLocation": "middle", "nameGap": 25, "min": first.x[0],
                   "max": first.x[-1], **labels, **last, **lines},

@@ -143,7 +143,9 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
     if count > 1:
         about = f"Two-stroke engine, {count} cylinders in line with crossheads, bore {1e3 * bore:g} mm"
         head = _head("crank_train", about, stroke, "crosshead")
-        return head + _train(in_line(count, turns=1), bore, stroke, 4.6) + _fill(TWO_STROKE_LARGE, bore=bore * 1e3)
+        # slow pistons under a high pressure: ten times the flywheel of a fast engine for a ripple of a few per cent
+        train = _train(in_line(count, turns=1), bore, stroke, 4.6, flywheel=1600)
+        return head + train + _fill(TWO_STROKE_LARGE, bore=bore * 1e3)
     # masses, spring, guide and limits of an engine of bore 0.3 m and stroke 1 m that can be built, scaled
     size, area = bore**2 * stroke / 0.09, bore**2 / 0.09
     head = _head("crosshead", f"Two-stroke crosshead engine, bore {1e3 * bore:g} mm", stroke, "crosshead")
@@ -195,8 +197,8 @@ def _four_stroke(bore: float) -> str:
     return _fill(FOUR_STROKE, bore=bore * 1e3, ratio=next(ratio for widest, ratio in _COMPRESSION if bore <= widest))
 
 
-def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> str:
-    """Section `[parameters]` of a crank train, with rods of `ratio` crank radii."""
+def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, flywheel: float = 160.0) -> str:
+    """Section `[parameters]` of a crank train: rods of `ratio` crank radii, a flywheel of so many piston masses."""
     radius, rod = stroke / 2, ratio * stroke / 2
     piston, rod_mass = 780 * bore**3, 900 * bore**3
     throws = max(layout.throw)
@@ -204,6 +206,7 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> 
     unbalance = [-turning * layout.throw.count(k + 1) for k in range(throws)]
     pins = [[p for p, k in zip(layout.phase, layout.throw, strict=True) if k == t + 1] for t in range(throws)]
     inertia = 11 * piston * radius**2
+    heavy = flywheel * (2 if throws < 3 else 1)  # few throws push unevenly
     stiffness = 0.5 * 80e9 * math.pi / 32 * (0.6 * bore) ** 4 / (1.2 * bore)
     # first natural frequency of equal throws on equal sections whose flywheel stands still
     first = 2 * math.sqrt(stiffness / inertia) * math.sin(math.pi / (4 * throws + 2))
@@ -216,7 +219,7 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float) -> 
     numbers = {
         "period": layout.period, "r": radius * 1e3, "l1": rod / 3 * 1e3, "l2": rod * 2 / 3 * 1e3, "rod": rod_mass,
         "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": inertia, "k": stiffness,
-        "c": 2 * _DAMPING * stiffness / first, "I_f": 160 * piston * radius**2 * (2 if throws < 3 else 1),
+        "c": 2 * _DAMPING * stiffness / first, "I_f": heavy * piston * radius**2, "heavy": heavy,
         "ratio": ratio, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
     }  # fmt: skip
     return _fill(TRAIN, **lists, **numbers)

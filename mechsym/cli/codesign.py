@@ -127,7 +127,7 @@ def _text(numbers: dict[str, Any], files: list[Path]) -> str:
         {"speed": n * RPM, "mep": load, **{name: p[k] for name, p in zip(names, numbers["p0"], strict=True)},
          "ripple [%]": numbers["speed_ripple"][k], "steady [%]": found["steady_ripple"][k],
          "in time [%]": found["time_ripple"][k], "with losses [%]": numbers["losses"]["speed_ripple"][k],
-         "losses [%]": numbers["losses"]["share"][k], "after misfire": numbers["misfire_speed_share"][k]}
+         "losses [%]": numbers["losses"]["share"][k], "after misfire [%]": numbers["misfire_speed_share"][k]}
         for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
     ]  # fmt: skip
     rows = [{key: _percent(v) if key.endswith("[%]") else v for key, v in row.items()} for row in rows]

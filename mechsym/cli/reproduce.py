@@ -75,9 +75,15 @@ def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     from mechsym.papers.page import round_off
 
     return [
-        row | {"rel_error": None if row["rel_error"] is None else f"{row['rel_error']:+.1e}",
+        row | {"rel_error": _away(row["rel_error"]),
                "computed": "0 (below 1e-9)" if round_off(row["computed"]) else row["computed"]} for row in rows
     ]  # fmt: skip
+
+
+def _away(error: float | None) -> str | None:
+    from mechsym.papers.page import round_off
+
+    return None if error is None else "0" if error == 0 or round_off(error) else f"{error:+.1e}"
 
 
 def _notes(rows: list[dict[str, Any]]) -> str:

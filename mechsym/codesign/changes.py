@@ -15,7 +15,7 @@ from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running
 from mechsym.codesign.scenarios import Scenario, not_running, steady_speed, told
 from mechsym.codesign.task import CoDesign
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import per_cent, quantity_text
 
 _LEAK, _OFF = 0.10, 0.10  # share of the pressure that is lost, or off when a controller begins
 _TURNS = 10.0  # turns in which a leak is watched
@@ -55,7 +55,7 @@ def _scavenge_step(found: CoDesign, machine: Running, scavenged: Point, k: int) 
         return _STOPPED if motion is None else motion
 
     best = scipy.optimize.minimize_scalar(ripple, bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-4})
-    words = f"ripple {ripple(1.0):.4f}, at {best.x:.3f} of the pressures {best.fun:.4f}"
+    words = f"ripple {per_cent(ripple(1.0))}, with {per_cent(best.x)} of the pressures {per_cent(best.fun)}"
     return told(name, about, k, start[1], run, lambda r: words)
 
 
@@ -67,7 +67,7 @@ def _leak(machine: Running, k: int) -> Scenario:
     low = dataclasses.replace(machine, pressures=tuple((1 - _LEAK) * p for p in machine.pressures))
     run = running.run(low, start[0], _TURNS)
     ripple = running.ripple_of_last_turn(run, machine.point.period) or _STOPPED
-    return told(name, about, k, start[1], run, lambda r: f"ripple {ripple:.4f} after {_TURNS:g} turns")
+    return told(name, about, k, start[1], run, lambda r: f"ripple {per_cent(ripple)} after {_TURNS:g} turns")
 
 
 def _controlled(found: CoDesign, k: int) -> Scenario:
@@ -75,7 +75,7 @@ def _controlled(found: CoDesign, k: int) -> Scenario:
     held, point = hold(found, k, _OFF, turns=4), found.task.points[k]
     about = f"pressures {_OFF:.0%} off, set after each turn from the speed of that turn"
     errors = ", ".join(f"{100 * e:.2f}" for e in np.abs(held.pressure_error).max(axis=1))
-    words = f"error {errors} % turn by turn, ripple {held.ripple[0]:.4f} to {held.ripple[-1]:.4f}"
+    words = f"error {errors} % turn by turn, ripple {per_cent(held.ripple[0])} to {per_cent(held.ripple[-1])}"
     return told("controller", about, k, point.omega, held.run, lambda r: words)
 
 
@@ -86,7 +86,7 @@ def _start(machine: Running, k: int) -> Scenario:
     pushed = quantity_text(torque, "N*m", 3)
     about = f"from rest under a constant {pushed}, {_PUSH:g} of what just turns the shaft; no fuel, no load"
     return told("start", about, k, machine.point.omega, run,
-                lambda r: f"{r.omega[-1] / machine.point.omega:.2f} of the speed after two turns")  # fmt: skip
+                lambda r: f"{per_cent(r.omega[-1] / machine.point.omega)} of the speed after two turns")  # fmt: skip
 
 
 def _stop(machine: Running, k: int) -> Scenario:

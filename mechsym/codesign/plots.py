@@ -15,7 +15,6 @@ from mechsym.style import (
     GREY,
     INK,
     ORANGE,
-    PAPER,
     RED,
     SERIES,
     VIOLET,
@@ -169,6 +168,9 @@ def scenarios(result: CoDesignResult) -> Figure | None:
     return figure
 
 
+_MARK = "#fefefe"  # over a range of colours, the same on dark paper
+
+
 def ripple_map(result: CoDesignResult) -> Figure | None:
     """Ripple and best pressure over speed and load; None where they were not computed."""
     if result.map is None:
@@ -184,7 +186,8 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     figure.colorbar(drawn, ax=right, label=f"p0 [{unit}]")
     for axis in (left, right):
         at = [(p.omega * turning, p.load * pressing) for p in result.design.task.points]
-        axis.plot(*zip(*at, strict=True), "o-", color=PAPER, markersize=3, linewidth=0.8)
+        axis.plot(*zip(*at, strict=True), "o-", color=_MARK, markersize=4, linewidth=0.9, markeredgecolor="black",
+                  markeredgewidth=0.6)  # fmt: skip
         axis.set(xlabel=f"speed [{rpm}]", ylabel=f"mean indicated pressure [{pressure}]")
     return figure
 

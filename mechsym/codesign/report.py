@@ -79,6 +79,10 @@ def _first_page(result: CoDesignResult) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _share(value: float | None) -> float | None:
+    return None if value is None else 100 * value
+
+
 def _points(result: CoDesignResult, numbers: dict[str, Any]) -> Grid:
     """What the design holds at each point."""
     tracks, checked = result.design.tracks, result.verified
@@ -90,7 +94,8 @@ def _points(result: CoDesignResult, numbers: dict[str, Any]) -> Grid:
          "over the angle [%]": 100 * float(checked.steady_ripple[k]),
          "run in time [%]": 100 * float(checked.time_ripple[k]),
          "energy residual": ratio_text(float(checked.energy_residual[k]), 2),
-         "losses [%]": 100 * float(numbers["losses"]["share"][k]), "after a misfire": numbers["misfire_speed_share"][k]}
+         "losses [%]": 100 * float(numbers["losses"]["share"][k]),
+         "speed after a misfire [%]": _share(numbers["misfire_speed_share"][k])}
         for k, p in enumerate(result.design.task.points)
     ]  # fmt: skip
     units = {"speed": "rad/s", "mean pressure": "Pa", **dict.fromkeys(springs, "Pa")}

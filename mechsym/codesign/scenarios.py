@@ -17,7 +17,7 @@ from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import per_cent, quantity_text
 
 _GOVERNED = 20  # turns after which a governor has answered
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
@@ -122,7 +122,9 @@ def _lost_combustion(machine: Running, point: Point, k: int) -> Scenario:
         return not_running(name, about, k)
     without = dataclasses.replace(machine, torque=point.misfire, kinks=point.misfire_kinks)
     run = running.run(without, start[0], point.period / (2 * np.pi))
-    return told(name, about, k, start[1], run, lambda r: f"lowest speed {r.omega.min() / start[1]:.3f} of the mean")
+    return told(
+        name, about, k, start[1], run, lambda r: f"lowest speed {per_cent(r.omega.min() / start[1])} of the mean"
+    )
 
 
 def _load_step(machine: Running, k: int) -> Scenario:
@@ -133,7 +135,9 @@ def _load_step(machine: Running, k: int) -> Scenario:
         return not_running(name, about, k)
     heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
     run = running.run(heavier, start[0], 10.0)
-    return told(name, about, k, start[1], run, lambda r: f"speed {r.omega[-1] / start[1]:.3f} of before after 10 turns")
+    return told(
+        name, about, k, start[1], run, lambda r: f"{per_cent(r.omega[-1] / start[1])} of the speed after 10 turns"
+    )
 
 
 def _governed(machine: Running, k: int) -> Scenario:
@@ -144,7 +148,7 @@ def _governed(machine: Running, k: int) -> Scenario:
     heavier = dataclasses.replace(machine, load=_heavier(machine.load, 1.1))
     run = manoeuvres.governed(heavier, start[0], 40)
     return told(
-        name, about, k, start[1], run, lambda r: f"speed {_last_turn(r) / start[1]:.4f} of before after 40 turns"
+        name, about, k, start[1], run, lambda r: f"{per_cent(_last_turn(r) / start[1])} of the speed after 40 turns"
     )
 
 
@@ -166,7 +170,7 @@ def _astern(machine: Running, k: int) -> Scenario:
     name, about = "astern", "turned the other way on the same guide, propeller or constant load as ahead"
     motion = running.steady(manoeuvres.astern(machine))
     words = "there is no steady motion: the shaft stops" if motion.speed_ripple is None else (
-        f"ripple {motion.speed_ripple:.3f}")  # fmt: skip
+        f"ripple {per_cent(motion.speed_ripple)}")  # fmt: skip
     return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None, outcome=words)
 
 
@@ -185,7 +189,7 @@ def _scatter(machine: Running, k: int, share: float) -> Scenario:
     factors = 1 + share * np.random.default_rng(20).standard_normal(20)
     run = _turn_by_turn(machine, start[0], factors)
     return told(
-        name, about, k, start[1], run, lambda r: f"speed over all turns {np.ptp(r.omega) / start[1]:.4f} of mean"
+        name, about, k, start[1], run, lambda r: f"ripple over all turns {per_cent(np.ptp(r.omega) / start[1])}"
     )
 
 

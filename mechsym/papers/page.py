@@ -13,7 +13,7 @@ from mechsym.papers.sources import Source
 from mechsym.style import svg
 
 _DPI = 110
-_ROUND_OFF = 1e-12  # computed numbers are sized as the papers print them
+_ROUND_OFF = 1e-10  # computed numbers are sized as the papers print them
 
 
 def write(

@@ -188,6 +188,17 @@ def ratio_text(value: float | None, digits: int = 3) -> str:
     return figure(value, digits)
 
 
+def per_cent(share: float, digits: int = 3) -> str:
+    """A share for people.
+
+    Examples
+    --------
+    >>> per_cent(0.2123), per_cent(1.00004)
+    ('21.2 %', '100 %')
+    """
+    return f"{figure(100 * share, digits)} %"
+
+
 def column_text(values: Sequence[Any], least: int = _LEAST) -> list[str]:
     """Cells of a table's column: four digits, more where neighbours differ in them only; whole numbers as they are.
 

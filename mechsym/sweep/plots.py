@@ -56,7 +56,7 @@ def _words(result: Sweep, axes: list[int]) -> bool:
 def _panels(result: Sweep, shown: Mapping[str, Any], rows: int = 1) -> tuple[Figure, Any]:
     columns = len(shown) if rows > 1 else {4: 2}.get(len(shown), min(len(shown), 3))
     down = rows if rows > 1 else -(-len(shown) // columns)
-    figure = Figure(figsize=(max(4.4, 3.5 * columns), 3.0 * down + 0.4), layout="constrained")
+    figure = Figure(figsize=(3.5 * columns if columns > 1 else 7.0, 3.0 * down + 0.4), layout="constrained")
     axes = np.atleast_1d(figure.subplots(down, columns)).ravel()
     for axis in axes:
         bare(axis)
@@ -122,7 +122,10 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
             label = None if other is None else _value(other, other.values[k])
             # nothing lies between two words, and many dots hide the line
             style = "o" if isinstance(along.values[0], str) else "o-" if len(x) <= 25 else "-"
-            axis.plot(x, y, style, color=SERIES[k % len(SERIES)], markersize=3, label=label)
+            (drawn_line,) = axis.plot(x, y, style, color=SERIES[k % len(SERIES)], markersize=3, label=label)
+            alike = [i for i, other_y in enumerate(values) if np.allclose(y, other_y, rtol=1e-3, equal_nan=True)]
+            if len(alike) > 1 and style != "o":  # curves on each other take turns, so that each is seen
+                drawn_line.set_linestyle((4 * alike.index(k), (4, 4 * (len(alike) - 1))))
         gaps = np.isnan(values).any(axis=0)
         if gaps.any():
             foot = axis.get_xaxis_transform()

@@ -7,9 +7,13 @@ from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.app import commands
-from mechsym.app.markup import table
+from mechsym.app.answers import Plotted
+from mechsym.app.markup import chart, table
 from mechsym.app.told import told, unit_of
 from mechsym.cli import mechsym
+from mechsym.style import DARK, QUIET, contrast
+
+_DARK_PAGE = "#121212"  # of the browser's framework
 
 
 def rows(found, units=None):
@@ -97,3 +101,9 @@ def test_torque_and_pressure_are_drawn_first_in_units_of_people(tmp_path):
     (tmp_path / "cycle.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "cycle.csv", "phi")
     assert [c.y_name for c in found][:3] == ["p [MPa]", "torque [kN m]", "x [mm]"] and found[0].x_name == "phi [deg]"
+
+
+def test_grey_text_can_be_read_on_both_papers():
+    assert contrast(QUIET, "#ffffff") >= 4.5 and contrast(DARK[QUIET], _DARK_PAGE) >= 4.5
+    told = str(chart([(Plotted(name="a", chart="c", x=(0.0, 1.0), y=(0.0, 1.0), x_name="t", y_name="p"), "solid")]))
+    assert told.count("':color'") == 7 and QUIET in told and DARK[QUIET] in told  # the browser knows which paper it is

@@ -5,9 +5,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from mechsym import cases
-from mechsym.cli import main
+from mechsym.cli import main, mechsym
+from mechsym.errors import BadInput
 
 # every row: what is wrong, the arguments, words that the line must contain (the value found, and what is allowed)
 COMMAND_LINE = [
@@ -239,3 +241,13 @@ def test_as_a_process(argv, words):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert words in checked(done.stdout, done.stderr)
+
+
+@pytest.mark.parametrize("words", ["hinge zotov-89 --diagram none.csv", "forces chmielewski"])
+def test_a_refusal_leaves_no_empty_folder(words, tmp_path):
+    there = tmp_path / "there"
+    there.mkdir()
+    for out in (tmp_path / "new" / "below", there):
+        done = CliRunner().invoke(mechsym, [*words.split(), "--out", str(out)])
+        assert isinstance(done.exception, BadInput), done.output
+    assert list(tmp_path.iterdir()) == [there]

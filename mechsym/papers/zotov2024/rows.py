@@ -32,6 +32,7 @@ from mechsym.papers.zotov2024.computed import (
     retuned,
 )
 from mechsym.periodic import even_angles
+from mechsym.quantities.display import ratio_text
 
 FACTOR = 1.9  # caption of Fig. 6
 _NO_FORCE = "the gas force is not printed; computed with the cycle of zotov-89 and zotov-142"
@@ -92,7 +93,8 @@ def _integral_rows(found: Engines) -> list[dict[str, Any]]:
         lines.append(
             _claim(
                 f"integral of M_h over a turn, option {letter}, over 2 pi times its peak", "0", exact,
-                max(exact, printed) < _ZERO, f"{printed:.0e} with (8) as printed; 0 by (4) and (5) for any gas force",
+                max(exact, printed) < _ZERO,
+                f"{ratio_text(printed)} with (8) as printed; 0 by (4) and (5) for any gas force",
             )
         )  # fmt: skip
     return lines
