@@ -191,6 +191,11 @@ def ratio_text(value: float | None, digits: int = 3) -> str:
 def per_cent(share: float, digits: int = 3) -> str:
     """A share for people.
 
+    Parameters
+    ----------
+    share : float
+        Of the whole [-]
+
     Examples
     --------
     >>> per_cent(0.2123), per_cent(1.00004)
