@@ -222,7 +222,8 @@ def acceleration_function(mechanism: Mechanism) -> ca.Function:
     dynamics = mechanism.functions["dynamics"]
     inputs = [ca.SX.sym(dynamics.name_in(i)) for i in range(dynamics.n_in())]
     mass, bias, force = dynamics(*inputs)
-    solved = ca.solve(mass, force - bias) if mass.shape != (1, 1) else (force - bias) / mass
+    apart = mass.sparsity().is_diag()
+    solved = (force - bias) / ca.diag(mass) if apart else ca.solve(mass, force - bias)
     return ca.Function("acceleration", inputs, [solved], dynamics.name_in(), ["acceleration"])
 
 

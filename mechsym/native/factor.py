@@ -110,7 +110,7 @@ def _written(work: _Factoring, factors: list[int]) -> int:
         constants = [_put(work, "constant", (math.prod([work.nodes[f][1][0] for f in constants]),))]
     # what is known first is multiplied first, so that the latest value waits for one product only; equal ones keep
     # their order, so that equal parts of a program stay equal
-    product, *more = sorted(constants + others, key=lambda f: work.ready[f])
+    product, *more = sorted(constants + others, key=work.ready.__getitem__)
     for f in more:
         product = _put(work, "sq", (f,)) if f == product else _put(work, "mul", (product, f))
     return product

@@ -68,7 +68,8 @@ def build_rigid(p: CrankTrainParameters) -> Mechanism:
 def _elastic(p: CrankTrainParameters, s: _Symbols, rows: list[ca.SX]) -> _Joined:
     mass, bias, force = rows
     torques = ca.DM(each(p, "k")) * _sections(s.q) + ca.DM(each(p, "c")) * _sections(s.u)
-    joined = force - ca.vertcat(torques, 0) + ca.vertcat(0, torques)
+    ends = ca.vertcat(0, torques, 0)
+    joined = force - ends[1:] + ends[:-1]
     return {"mass_matrix": ca.diag(mass), "bias": bias, "generalized_force": joined}, torques
 
 
