@@ -145,9 +145,9 @@ def _sympy(throws: int) -> Callable[..., Any]:
     u = [a.diff() for a in q]
     forces, load = sympy.symbols(f"F:{throws}"), sympy.Symbol("M")
     kinetic, potential, travels = _lagrangian(throws, list(q), u, sympy)
-    frame, torques = ReferenceFrame("N"), [0] * n
+    frame, torques, c = ReferenceFrame("N"), [0] * n, models.train(throws).c
     for i, (travel, force) in enumerate(zip(travels, forces, strict=True)):
-        torque = models.train(throws).c * (u[i] - u[i + 1])
+        torque = c * (u[i] - u[i + 1])
         torques[i] += force * travel.diff(q[i]) - torque
         torques[i + 1] += torque
     torques[-1] -= load

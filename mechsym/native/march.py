@@ -17,7 +17,10 @@ from mechsym.native.stages import cut
 from mechsym.native.tape import CHEAP, Tape
 
 _LOG = logging.getLogger("mechsym.native")
-
+# gcc then puts chains that do not wait for each other side by side: at 97 and 116 nodes it takes 8 and 17 % off a march,
+# at 211 it adds 7 %, because the registers no longer hold what is begun
+_SHORT = 150
+_SCHEDULED = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("schedule-insns")\n#endif'
 
 March = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
@@ -128,6 +131,7 @@ def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
     lanes, records = len(turn.inputs) - states - stages, len(turn.outputs) - states
     return "\n".join(
         [
+            _SCHEDULED if len(turn.nodes) < _SHORT else "",
             preamble(),
             emit.bodies((kernel,), name),
             "enum { MS_W = 64 };",
