@@ -17,8 +17,8 @@ from mechsym.native.stages import cut
 from mechsym.native.tape import CHEAP, Tape
 
 _LOG = logging.getLogger("mechsym.native")
-# gcc then puts chains that do not wait for each other side by side: at 97 and 116 nodes it takes 8 and 17 % off a march,
-# at 211 it adds 7 %, because the registers no longer hold what is begun
+# gcc then puts chains that do not wait for each other side by side: of a march it takes 8 and 17 % off at 97 and 116
+# nodes, and adds 7 % at 211, because the registers no longer hold what is begun
 _SHORT = 150
 _SCHEDULED = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("schedule-insns")\n#endif'
 
