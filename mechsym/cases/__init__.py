@@ -210,7 +210,8 @@ def _read(name: str) -> tuple[str, str]:
     try:
         return str(Path(name)), read_text(name)
     except BadInput as error:
-        why = f"case {shown(name, 300)} is neither built in nor a readable file ({str(error).rpartition(': ')[2]})"
+        reason = str(error).rpartition(": ")[2].removeprefix("cannot be read (").removesuffix(")")
+        why = f"case {shown(name, 300)} is neither built in nor a readable file ({reason})"
         raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
 
 

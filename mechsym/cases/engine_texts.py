@@ -50,7 +50,7 @@ alpha_n = "25 deg"     # pressure angle of the teeth
 [flywheel]
 inertia = "<flywheel> kg*m^2"   # assumed: 320 piston masses at half the stroke carry one cylinder over its compression
 
-[speeds]               # for mechsym compare and size
+[speeds]               # for mechsym compare
 lowest = "1000 rpm"
 highest = "4000 rpm"
 step = "500 rpm"
@@ -60,6 +60,7 @@ mu_guide = 0.05               # assumed
 mu_pin = 0.003                # assumed: rolling bearings
 mu_main = 0.003               # assumed
 mu_mesh = 0.06                # assumed: lubricated case-hardened teeth
+module = "<module> mm"        # assumed: 26 teeth on the planet
 radius_piston_pin = "<pin> mm"   # assumed: a quarter of the bore
 radius_crank_pin = "<pin> mm"
 radius_main = "<pin> mm"

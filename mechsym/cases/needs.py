@@ -26,6 +26,8 @@ NEEDS: Mapping[str, tuple[str, ...]] = {
     "size": ("parameters", "operation", "cycle"),
 }
 
+_PARTS = ("part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_masses")
+
 # command: sections that it reads where they stand
 READS: Mapping[str, tuple[str, ...]] = {
     "codesign": ("torque", "flywheel", "load", "losses", "scavenging"),
@@ -45,8 +47,8 @@ READS: Mapping[str, tuple[str, ...]] = {
                  "scavenging"),
     "simulate": ("torque", "drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation",
                  "inputs", "start", *_GUIDE, "flywheel", "stirling", "scavenging", "gas_limits"),
-    "size": ("sizing", "part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_crosshead",
-             "part_masses", "chamber", "gas", "heat_transfer", "speeds", "friction", "scavenging"),
+    "size": ("sizing", *_PARTS, "part_crosshead", "chamber", "gas", "heat_transfer", "speeds", "friction",
+             "scavenging"),
 }  # fmt: skip
 
 
@@ -120,8 +122,11 @@ def _quoted(names: tuple[str, ...]) -> str:
 def _of_size(mechanism: str, tables: Mapping[str, Any]) -> list[str]:
     if not rules_of(mechanism):
         return [f"mechanism = {_quoted(with_trait(lambda known: known.rules))}"]
-    printed = rules_of(mechanism) == "slider crank" and "part_crosshead" in tables
-    return [] if printed or "speeds" in tables else ["[speeds]"]
+    slider = rules_of(mechanism) == "slider crank"
+    if slider and "part_crosshead" in tables:
+        return []
+    # the parts of a planet are sized beside printed ones
+    return [f"[{section}]" for section in ("speeds", *(() if slider else _PARTS)) if section not in tables]
 
 
 def _of_cycle(command: str, kind: str, given: str) -> list[str]:

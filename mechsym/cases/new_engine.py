@@ -160,7 +160,8 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
 
 
 def _inline(bore: float, stroke: float, count: int) -> str:
-    about = f"Four-stroke engine, {count} in line, bore {1e3 * bore:g} mm"
+    cylinders = f"{count} in line" if count > 1 else "one cylinder"
+    about = f"Four-stroke engine, {cylinders}, bore {1e3 * bore:g} mm"
     return _spark(in_line(count, turns=2), about, bore, stroke)
 
 
@@ -186,9 +187,9 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
         raise BadInput(f"--cylinders {count}: the mechanism hypocycloid has one piston; give --cylinders 1")
     head = _head("hypocycloid", f"Four-stroke geared hypocycloid, bore {1e3 * bore:g} mm", stroke, "four-stroke")
     size = bore**3
-    text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, I1=30 * size * stroke**2, piston=780 * size, planet=300 * size,
-                 I2=300 * size * (stroke / 4) ** 2 / 2, pin=bore * 1e3 / 4,
-                 flywheel=320 * 780 * size * (stroke / 2) ** 2)  # fmt: skip
+    text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, module=stroke / 52 * 1e3, I1=30 * size * stroke**2,
+                 piston=780 * size, planet=300 * size, I2=300 * size * (stroke / 4) ** 2 / 2,
+                 pin=bore * 1e3 / 4, flywheel=320 * 780 * size * (stroke / 2) ** 2)  # fmt: skip
     return head + text + _four_stroke(bore)
 
 

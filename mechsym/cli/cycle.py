@@ -9,7 +9,8 @@ from mechsym.cli import cycle_breathing, cycle_stirling
 from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, progress, set_option, table
 from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.errors import BadInput
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import quantity_text, ratio_text
+from mechsym.quantities.names import stem_and_unit
 
 _SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
 _SCAVENGED = ("speed_rpm", "p_in_kpa", "t_in_k", "p_out_kpa", "t_turbine_k", "t_evc_k", "delivery_ratio",
@@ -162,13 +163,20 @@ def _text(found: dict[str, Any], units: dict[str, str]) -> str:
     if every > 1:
         lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
     if count > 1 and shown[0] == "speed_rpm":
-        peaks = ((name, int(found[name].argmax())) for name in ("torque_avg", "torque_max", "power_kw", "p_max_mpa"))
-        lines += [f"largest {name} {found[name][k]:.6g} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks]
+        peaks = [(n, int(found[n].argmax())) for n in ("torque_avg", "torque_max", "power_kw", "p_max_mpa")]
+        lines += [
+            f"largest {_peak(name, float(found[name][k]))} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks
+        ]
     worst = abs(found["energy_residual"]).max()
     if "delivery_ratio" in found:
         lines += ["", "turbocharger and scavenging", _rows(found, list(_SCAVENGED), every, {})]
     closed = f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"
     return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
+
+
+def _peak(name: str, value: float) -> str:
+    stem, unit = stem_and_unit(name)
+    return f"{stem} {quantity_text(value, unit)}"
 
 
 def _rows(found: dict[str, Any], names: list[str], every: int, units: dict[str, str]) -> str:

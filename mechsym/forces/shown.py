@@ -27,7 +27,8 @@ def _cards(found: Forces) -> tuple[Card, ...]:
     for name, start, end in _LARGEST:
         fitting = {k: abs(v).max() for k, v in found.columns.items() if k.startswith(start) and k.endswith(end)}
         if fitting:
-            most = max(fitting, key=lambda k: float(fitting[k]))
+            largest = max(map(float, fitting.values()))
+            most = next(k for k, v in fitting.items() if v >= (1 - 1e-6) * largest)  # the first of equal ones
             where = most.replace("_load", "").replace("_", " ")
             about = "largest" if where in name else f"largest, {where}"
             cards.append(Card(name=name, value=quantity_text(float(fitting[most]), "N", 4), about=about))
@@ -40,8 +41,8 @@ def _cards(found: Forces) -> tuple[Card, ...]:
         power = quantity_text(sum(found.losses.places.values()), "W", 4)
         cards.append(Card(name="friction", value=power, about=told))
     weight = found.shaking.counterweight
-    largest = max((float(abs(v).max()) for k, v in found.columns.items() if k != "phi_deg"), default=1.0)
-    shaken = 0.0 if weight.rms_before < 1e-9 * largest else weight.rms_before
+    size = max((float(abs(v).max()) for k, v in found.columns.items() if k != "phi_deg"), default=1.0)
+    shaken = 0.0 if weight.rms_before < 1e-9 * size else weight.rms_before
     cards.append(Card(name="shaking force", value=quantity_text(shaken, "N", 4),
                       about="root mean square, without a further counterweight"))  # fmt: skip
     return tuple(cards)

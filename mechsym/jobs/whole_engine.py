@@ -140,6 +140,8 @@ def of_engine(case: Case, found: Mapping[str, Any], omega: Sequence[float] | np.
     counted = cylinders(case)
     own = {name: found[name] for name in (*_ADD, _NOT_LARGER) if name in found}
     if counted.count == 1:
+        if is_train(case.mechanism) and omega is not None and _NOT_LARGER in found:  # with the rod's mass
+            found = {**found, _NOT_LARGER: largest_torque(case, omega)}
         return {**found, "cylinders": 1, "each": counted.each, "per_cylinder": own}
     whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
     whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)

@@ -8,6 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
+from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import cycle
@@ -103,3 +104,9 @@ def test_opposed_pistons_share_a_chamber(six):
 def test_unlike_cylinders_have_no_common_cycle(six):
     with pytest.raises(BadInput, match="r differs between the cylinders"):
         cycle(cases.load(six(r="[0.045, 0.045, 0.045, 0.045, 0.045, 0.05]")))
+
+
+def test_one_cylinder_is_as_heavy_in_the_cycle_as_in_the_force_chain(tmp_path):
+    path = write_engine("inline", 0.04, 0.0392, 1, tmp_path / "one.toml")[0]
+    case = cases.load(str(path))
+    assert cycle(case)["torque_max"][0] == pytest.approx(float(turn(case).torque.max()), rel=1e-9)  # with its rod
