@@ -8,13 +8,14 @@ from mechsym.cases import Case
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import piston_motion, piston_roles, top_of
+from mechsym.cycle.motion import piston_motion, piston_roles
 from mechsym.errors import BadInput
 from mechsym.jobs import own
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.gas import one_cylinder
 from mechsym.jobs.machine import heavier, kept_flywheel
 from mechsym.jobs.own import is_own
+from mechsym.jobs.own_gas import firing as own_firing
 from mechsym.jobs.own_gas import travel_of
 from mechsym.jobs.span import count_loop, simulation_of
 from mechsym.jobs.starts import guesses
@@ -102,7 +103,7 @@ def _own(case: Case) -> tuple[Mechanism, tuple[LoopCylinder, ...], str]:
         raise BadInput(f"{case.file}: nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)")
     q, values, found = mechanism.coordinates[0], asdict(case.need("parameters")), []
     for number, role in enumerate(piston_roles(case.mechanism)):
-        firing = (top_of(travel_of(mechanism, role["travel"])) + float(role["fires"])) % (4 * math.pi)
+        firing = own_firing(case, role, travel_of(mechanism, role["travel"])) % (4 * math.pi)
         motion = piston_motion(case.mechanism, values, guesses(case), number) if number else None
         found.append(LoopCylinder(input=role["force"], coordinate=q, firing=firing, motion=motion))
     return mechanism, tuple(found), loads[0]

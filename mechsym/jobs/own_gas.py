@@ -31,6 +31,7 @@ from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import record
 
 _TURN = 2 * np.pi
+_OFF = 1e-4  # of the stroke, below a top dead centre where a piston may fire: about a degree
 
 
 @record
@@ -86,7 +87,7 @@ def _require_force(case: Case, mechanism: Mechanism, role: Mapping[str, Any]) ->
 
 def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int) -> Piston:
     travel = travel_of(mechanism, role["travel"])
-    start = top_of(travel) + float(role.get("fires", 0.0))
+    start = firing(case, role, travel)
     phi = ca.SX.sym("phi")
     shifted = ca.Function("travel", [phi], from_top(travel).call([phi])[:2], ["phi"], ["x", "dx_dphi"])
     cycle = case.sections["cycle"]
@@ -107,6 +108,20 @@ def _piston(case: Case, mechanism: Mechanism, role: dict[str, Any], number: int)
         except (BadInput, TypeError) as error:
             raise BadInput(f"{case.file}: [cycle]: {error}") from None
     return Piston(name=role["name"], input=role["force"], start=start, gas=gas)
+
+
+def firing(case: Case, role: Mapping[str, Any], travel: ca.Function) -> float:
+    """Angle at which a piston fires, which has to be a top dead centre of its own [rad]."""
+    top, later = top_of(travel), float(role.get("fires", 0.0))
+    x = np.asarray(travel(np.array([[top, top + later, *np.linspace(0, _TURN, 91)]]))[0]).ravel()
+    below, stroke = float(x[1] - x[0]), float(np.ptp(x[2:]))
+    if below > _OFF * stroke:
+        raise BadInput(
+            f"{case.file}: the piston {role['name']} fires {np.degrees(later):.4g} deg after its own top dead centre "
+            f"at {np.degrees(top):.4g} deg, where it stands {1e3 * below:.4g} mm below it; `fires` counts from there: "
+            "write fires=0 or fires=2*pi"
+        )
+    return top + later
 
 
 def stirling(case: Case, mechanism: Mechanism, omega: float) -> StirlingEngine:

@@ -1,5 +1,6 @@
 """Engines on mechanisms from files: the numbers of the built-in mechanism of the same data, and closed forms."""
 
+import sys
 from dataclasses import replace
 from importlib import resources
 
@@ -23,6 +24,7 @@ from mechsym.jobs.unlike import _together
 from mechsym.jobs.whole_engine import cylinders
 from mechsym.simulate.loop.run import run_loop
 
+loop_room = sys.modules["mechsym.jobs.loop"]
 SLIDER = """from mechsym.derive import Mechanism, cos, sin
 
 
@@ -399,6 +401,22 @@ def test_a_piston_that_its_force_does_not_push_is_refused(folder, change):
     case = written(folder, name, declaration, f'mechanism = "./{name}.py"\n{COMPRESSOR}')
     with pytest.raises(BadInput, match="the force F of the piston p does not act along its travel x; write m.force"):
         own_turn.turn(case)
+
+
+@pytest.mark.parametrize("room", [own_gas, loop_room])
+def test_a_piston_fires_at_its_own_dead_centres_only(monkeypatch, slider, room):
+    """A turn later is one; anywhere else energy in and out would differ by a third."""
+    roles = room.piston_roles(slider.mechanism)
+
+    def starts(fires):
+        monkeypatch.setattr(room, "piston_roles", lambda name: [role | {"fires": fires} for role in roles])
+        if room is loop_room:
+            return [c.firing for c in loop(slider).cylinders]
+        return [p.start for p in own_gas.pistons(slider, own.one_coordinate(slider))]
+
+    assert starts(2 * np.pi) == pytest.approx([2 * np.pi])
+    with pytest.raises(BadInput, match="p fires 114.6 deg after its own top dead centre at 0 deg, .* mm below it"):
+        starts(2.0)
 
 
 def test_the_report_has_the_forces_of_a_mechanism_from_a_file(folder):
