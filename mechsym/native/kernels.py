@@ -132,16 +132,16 @@ def _part(tape: Tape, outputs: list[int]) -> _Part:
 
 
 def _order(tape: Tape, root: int, done: dict[int, int]) -> list[int]:
-    # operands before their users, visited from left to right: equal programs come out in equal order
+    # operands before their users, visited from left to right: equal programs come out in equal order; what is found
+    # has no number in `done` yet
     order: list[int] = []
-    seen: set[int] = set()
     stack = [root]
     while stack:
         node = stack.pop()
         if node < 0:
             order.append(~node)
-        elif node not in seen and node not in done:
-            seen.add(node)
+        elif node not in done:
+            done[node] = -1
             op, args = tape.nodes[node]
             if op in ("input", "constant"):
                 order.append(node)

@@ -154,12 +154,13 @@ def prune(nodes: list[tuple[str, tuple]], results: list[int]) -> tuple[list[tupl
                 needed[a] = True
     if all(needed):
         return nodes, results
-    place: dict[int, int] = {}
+    place = [-1] * len(nodes)
     kept: list[tuple[str, tuple]] = []
-    for i, (op, args) in enumerate(nodes):
+    for i, node in enumerate(nodes):
         if needed[i]:
             place[i] = len(kept)
-            kept.append((op, args if op in ("input", "constant") else tuple(place[a] for a in args)))
+            leaf = node[0] in ("input", "constant")
+            kept.append(node if leaf else (node[0], tuple([place[a] for a in node[1]])))
     return kept, [place[r] for r in results]
 
 
