@@ -11,9 +11,11 @@ from mechsym.errors import BadInput
 from mechsym.hinge import guide
 from mechsym.hinge import limits as feasibility
 from mechsym.hinge.springs import AirGauge, Coil
+from mechsym.hinge.thermal import AirThermal
 from mechsym.papers.zotov2024.family import family
 
 LIMITS = section("limits")
+THERMAL = AirThermal(A=0.031, H=1.0, p0=5e6, tau=1.0)
 
 
 def verdict(name=LOWER, limits=LIMITS, **changes):
@@ -39,6 +41,19 @@ def test_numbers_of_the_design_are_consistent():
     assert found.spring_force_max == pytest.approx(spring.A * found.spring_pressure_max)
     assert found.roller_reaction_max >= found.spring_force_max * (1 - 1e-6)
     assert found.tilting_couple_max == pytest.approx(0.15 * found.roller_reaction_max)
+
+
+def test_limits_that_are_kept_say_by_how_much():
+    texts = {check.name: check.text for check in verdict().checks}
+    assert texts["closure"] == "the path closes within a billionth of its radius"
+    force = 0.031 * ((5e6 + 101325) * 0.99**-1.25 - 101325)  # a closing of 10 mm of 1 m
+    assert texts["spring_force"] == f"smallest spring force {force / 1e3:.4g} kN"
+    heated = feasibility._spring_checks({"z_min": 0.01, "z_max": 0.2, "spring_pressure_max": None}, THERMAL, LIMITS)
+    assert {check.name: check.text for check in heated}["spring_force"] == "the spring pushes"
+
+
+def test_a_path_that_does_not_close_tells_its_gap():
+    assert feasibility._closure_check(2e-9, 1e-9).text == "gap of the path 2e-09 of at most 1e-09 m"
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mechsym.errors import BadInput
 from mechsym.hinge import losses
 
 PHI = np.linspace(0, 2 * np.pi, 3601)[:-1]
@@ -45,3 +46,32 @@ def test_guide_friction_has_no_sign():
 def test_all_of_them():
     made = losses.LossTorques(bearing=1.0, seal=2.0, guide=3.0, rolling=4.0, gas=5.0)
     assert made.total == 15.0
+
+
+def test_assumed_values_are_those_that_are_told():
+    assumed = losses.HingeLosses()
+    assert (assumed.bearing_mu, assumed.bearing_radius, assumed.seal_mu, assumed.guide_mu) == (0.0018, 0.0, 0.01, 0.05)
+    assert (assumed.tau, assumed.gamma, assumed.wall_temperature) == (0.0, 1.4, 320.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "inside", "outside"),
+    [
+        ("bearing_mu", 0.1, 0.105), ("bearing_mu", 0.0, -1e-9), ("bearing_radius", 0.0, -1e-9), ("seal_mu", 0.5, 0.51),
+        ("seal_mu", 0.0, -1e-9), ("guide_mu", 0.5, 0.51), ("guide_mu", 0.0, -1e-9), ("tau", 0.0, -1e-9),
+        ("gamma", 1.01, 1.0), ("gamma", 1.99, 2.0), ("wall_temperature", 201.0, 200.0),
+        ("wall_temperature", 799.0, 800.0),
+    ],
+)  # fmt: skip
+def test_settings_end_where_the_unit_must_be_wrong(name, inside, outside):
+    assert getattr(losses.HingeLosses(**{name: inside}), name) == inside
+    with pytest.raises(BadInput, match=f"{name} = .* is out of range"):
+        losses.HingeLosses(**{name: outside})
+
+
+@pytest.mark.parametrize("name", ["bearing", "seal", "guide", "rolling", "gas"])
+def test_a_loss_gives_nothing(name):
+    none = dict.fromkeys(("bearing", "seal", "guide", "rolling", "gas"), 0.0)
+    assert losses.LossTorques(**none).total == 0.0
+    with pytest.raises(BadInput, match=name):
+        losses.LossTorques(**none | {name: -1e-9})
