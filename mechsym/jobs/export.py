@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import scipy
@@ -19,6 +19,7 @@ from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide, cut
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.torque import Hinge, torque
+from mechsym.jobs import own, own_gas
 from mechsym.jobs.gas import engine_with, one_cylinder
 from mechsym.jobs.machine import load, machine
 from mechsym.jobs.own import is_own
@@ -39,6 +40,7 @@ from mechsym.simulate.settings import Simulation
 TURNS = 10  # of a run where the case says nothing
 _PIECE = math.radians(3.0)  # of a gas that is known as a table
 _SAMPLES = 12  # in a piece
+_Force = Callable[[np.ndarray], np.ndarray]  # angle [rad] to net force of the gas [N]
 _INSIDE = 1e-9  # where the end of a piece is asked for [rad]
 
 
@@ -55,7 +57,8 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
     """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
     hinged = {"spring", "guide"} <= set(case.sections)
     if is_own(case.mechanism) and not hinged or "drive" in case.sections:
-        return Ready(problem=problem_of(_running(case)))
+        problem = problem_of(_running(case))
+        return Ready(problem=_splined(case, problem) if is_own(case.mechanism) and _by_spark(case) else problem)
     if is_train(case.mechanism):
         return _elastic(case)
     if is_own(case.mechanism) or case.mechanism in with_hinge() and not _by_spark(case):
@@ -161,30 +164,52 @@ def _at_speed(case: Case) -> Ready:
     return Ready(problem=problem, load=law)
 
 
+def _splined(case: Case, problem: Problem) -> Problem:
+    """The gas of spark ignition on a mechanism from a file as splines between its kinks, each piston's its own."""
+    parts, kinks = list(problem.parts), {k.coordinate: set(k.angles) for k in problem.kinks}
+    for number, piston in enumerate(own_gas.pistons(case, own.one_coordinate(case))):
+        period = piston.gas.pressure.period
+        angles = tuple(sorted({round((a + piston.start) % period, 14) for a in _closed_angles(case, number)}))
+        place, part = next((i, p) for i, p in enumerate(parts) if p.input == piston.input)
+        assert isinstance(part.value, Periodic)
+        table = _table(piston.force, angles, period)
+        parts[place] = dataclasses.replace(part, value=dataclasses.replace(part.value, value=table, kinks=angles))
+        kinks[part.value.coordinate].update(angles)
+    asked = tuple(dataclasses.replace(k, angles=tuple(sorted(kinks[k.coordinate]))) for k in problem.kinks)
+    return dataclasses.replace(problem, parts=tuple(parts), kinks=asked)
+
+
+def _closed_angles(case: Case, number: int = 0) -> tuple[float, ...]:
+    """Ends of the closed period of a piston and of its combustion, from its firing dead centre [rad]."""
+    engine = engine_with(case, NoFriction(), number)
+    closed = closed_period(engine, {"omega": case.need("operation").speed})
+    return closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
+
+
 def _gas(once: Turn, name: str, coordinate: str, kinks: tuple[float, ...]) -> Part:
     """A gas force as splines over an angle."""
-    value = Periodic(coordinate=coordinate, value=_table(once, name, kinks), period=once.period, kinks=kinks)
+    table = _table(lambda phi: at(once.drive, once.gas, once.omega, phi).inputs[name], kinks, once.period)
+    value = Periodic(coordinate=coordinate, value=table, period=once.period, kinks=kinks)
     return Part(name=f"gas_{name}", input=name, value=value)
 
 
-def _table(once: Turn, name: str, kinks: tuple[float, ...]) -> "scipy.interpolate.PPoly":
-    """A gas force as splines between its kinks: the cycle behind it is a table too."""
-    edges = np.unique([0.0, *kinks, once.period])
-    pieces = [_spline(once, name, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+def _table(force: _Force, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":
+    """A gas force as splines between its kinks over its period [rad]: the cycle behind it is a table too."""
+    edges = np.unique([0.0, *kinks, period])
+    pieces = [_spline(force, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
     rows = np.concatenate([p.c for p in pieces], axis=1)
-    breaks = np.concatenate([*(p.x[:-1] for p in pieces), [once.period]])
+    breaks = np.concatenate([*(p.x[:-1] for p in pieces), [period]])
     return scipy.interpolate.PPoly(rows, breaks, extrapolate="periodic")
 
 
-def _spline(once: Turn, name: str, first: float, last: float) -> "scipy.interpolate.PPoly":
+def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPoly":
     """A smooth curve through a piece of the table: of degree 7, so that an integrator of order 8 keeps its order."""
     pieces = max(round((last - first) / _PIECE), 1)
     phi = np.linspace(first, last, _SAMPLES * pieces + 1)
     asked = phi.copy()
     asked[[0, -1]] += np.array([_INSIDE, -_INSIDE])  # the force may jump at an edge
-    force = at(once.drive, once.gas, once.omega, asked).inputs[name]
     knots = np.concatenate([[first] * 7, np.linspace(first, last, pieces + 1), [last] * 7])
-    poly = scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_lsq_spline(phi, force, knots, k=7))
+    poly = scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_lsq_spline(phi, force(asked), knots, k=7))
     return scipy.interpolate.PPoly(poly.c[:, 7:-7], poly.x[7:-7])
 
 
@@ -192,6 +217,5 @@ def _kinks(case: Case, once: Turn, *firing: float) -> tuple[float, ...]:
     """Angles in a period where a gas force is not smooth [rad]: ends of the closed period and of its combustion."""
     angles = list(once.gas.pressure.kinks if once.gas else ())
     if _by_spark(case):
-        closed = closed_period(engine_with(one_cylinder(case), NoFriction()), {"omega": once.omega})
-        angles = [closed.closes, closed.starts, closed.starts + closed.duration, closed.opens]
+        angles = list(_closed_angles(one_cylinder(case)))
     return tuple(sorted({float(a + f) % once.period for a in angles for f in firing}))

@@ -14,6 +14,7 @@ from mechsym.hinge.price import misfire_share
 from mechsym.hinge.torque import torque
 from mechsym.jobs import own, own_gas, own_turn
 from mechsym.jobs.cycle import cycle
+from mechsym.jobs.export import ready
 from mechsym.jobs.flywheel import flywheel
 from mechsym.jobs.indicated import common_gas, indicated
 from mechsym.jobs.loop import loop
@@ -417,6 +418,18 @@ def test_a_piston_fires_at_its_own_dead_centres_only(monkeypatch, slider, room):
     assert starts(2 * np.pi) == pytest.approx([2 * np.pi])
     with pytest.raises(BadInput, match="p fires 114.6 deg after its own top dead centre at 0 deg, .* mm below it"):
         starts(2.0)
+
+
+def test_gas_by_spark_leaves_as_few_splines(slider):
+    """The table behind the cycle is no polynomial: fitted to round-off it had 17000 pieces and an FMU of 6 MB."""
+    run = ready(slider).problem
+    (piston,) = own_gas.pistons(slider, own.one_coordinate(slider))
+    value = next(p for p in run.parts if p.input == piston.input).value.value
+    phi = np.linspace(0, 4 * np.pi, 20001)
+    near = np.min(np.abs(phi[:, None] - np.array(run.kinks[0].angles)), axis=1) < 1e-3
+    off = np.abs(value(phi) - piston.force(phi))[~near]
+    assert value.c.shape[1] < 300 and len(run.kinks[0].angles) == 4
+    assert off.max() < 1e-4 * np.abs(piston.force(phi)).max()  # the table is straight between its angles, by so much
 
 
 def test_the_report_has_the_forces_of_a_mechanism_from_a_file(folder):
