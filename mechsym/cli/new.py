@@ -55,8 +55,8 @@ def _engine(
     if kind is None:
         raise BadInput(f"an engine needs --kind: {', '.join(KINDS)}")
     if out.suffix == ".toml" and not out.is_dir():
-        if name is not None:
-            raise BadInput(f"NAME {name} and --out {out} both name the file; leave one away")
+        if name is not None and name.removesuffix(".toml") != out.stem:
+            raise BadInput(f"NAME {name} and --out {out} both name the file, differently; leave one away")
         out, name = out.parent, out.stem
     if out.is_file():
         raise BadInput(f"--out {out} is a file that exists; give a folder, or a file that ends in .toml")

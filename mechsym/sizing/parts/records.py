@@ -28,7 +28,7 @@ class CylinderPart:
     flange: float = quantity("m", above=0, about="thickness of the flange")
     length: float = quantity("m", above=0, about="length")
     bolts: float = quantity("-", low=2, about="number of bolts")
-    thread_mm: float = quantity("-", above=0, about="nominal diameter of the thread in mm")
+    thread_mm: float = quantity("-", above=0, about="metric thread M, by its nominal diameter in mm")
 
 
 @record
