@@ -24,6 +24,7 @@ ezdxf = pytest.importorskip("ezdxf", reason="the extra cad is not installed")
 from mechsym.out.cad import check  # noqa: E402
 from mechsym.out.cad.check import measured  # noqa: E402
 from mechsym.out.cad.dxf import text, write  # noqa: E402
+from mechsym.out.cad.sheet import periodic, sheet  # noqa: E402
 
 WITH_GUIDE = ("zotov-89", "zotov-142", "generator")
 
@@ -142,6 +143,16 @@ def test_sheet_and_answer_of_the_command(tmp_path):
     assert svg.read_text().startswith("<?xml") and "</svg>" in svg.read_text()
     first = svg.read_bytes()
     assert CliRunner().invoke(mechsym, words).exit_code == 0 and svg.read_bytes() == first
+
+
+def test_words_of_two_arrows_do_not_meet(shops, monkeypatch):
+    """Arrows near the axis, to opposite sides."""
+    shop = shops("zotov-89")
+    monkeypatch.setattr(periodic, "extremes", lambda path: (0.63, 3.05, 0.79, 0.09))
+    figure = sheet(shop, track(shop.guide, shop.rollers, 1e-5, shop.kinks), 0.06)
+    figure.draw_without_rendering()
+    low, high = (t.get_window_extent() for t in figure.axes[0].texts if " rho " in t.get_text())
+    assert not low.overlaps(high)
 
 
 def test_sheet_says_what_errors_cost(shops):

@@ -135,6 +135,7 @@ def test_matlab_by_octave(cases_of, tmp_path, name):
 
 WORDS = {n: getattr(np, n) for n in ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "sign")}
 WORDS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "abs": np.abs}
+WORDS["atan"] = lambda y, *x: np.arctan2(y, *x) if x else np.arctan(y)  # in Julia of one or two numbers
 WORDS |= {"min": np.minimum, "max": np.maximum, "ifelse": np.where, "hypot": np.hypot}
 
 

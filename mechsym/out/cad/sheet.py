@@ -25,6 +25,7 @@ _SPRINGS = {
     Coil: "coil spring",
 }
 _MM = 1e3
+_ALONG = 0.55  # of an arrow, where its words stand
 _EVERY = 10  # degrees between the rows of the table
 _LIFE = 20_000.0  # hours that the rollers are asked for
 _FORMATS = (".svg", ".pdf")
@@ -82,12 +83,14 @@ def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     reach = 1.15 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
     axis.plot([-reach, reach], [0, 0], "-.", [0, 0], [-reach, reach], "-.", color="#8a8f98", linewidth=0.7)
     low, at_low, high, at_high = periodic.extremes(centre_path(shop.guide))
-    for rho, angle, word in ((low, at_low, "smallest"), (high, at_high, "largest")):
+    for rho, angle, word, side in ((low, at_low, "smallest", "bottom"), (high, at_high, "largest", "top")):
         end = _MM * rho * np.array([math.cos(angle), math.sin(angle)])
         axis.annotate("", end, (0, 0), arrowprops={"arrowstyle": "<->", "color": "#b5342b"})
         told = f"{word} rho {_MM * rho:.4f} mm\nat {math.degrees(angle):.3f}°"
-        # beside the arrow, not on it
-        axis.annotate(told, 0.22 * end, (8, 8), textcoords="offset points", va="bottom", color="#b5342b")
+        # along its own arrow, one above and one below, so that neither stands on the other
+        turned = (math.degrees(angle) + 90) % 180 - 90
+        axis.text(*(_ALONG * end), told, rotation=turned, rotation_mode="anchor", ha="center", va=side, color="#b5342b",
+                  bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0}, zorder=2.5)  # fmt: skip
 
 
 def _dense(curve: Any) -> np.ndarray:
@@ -125,7 +128,7 @@ def _notes(shop: Workshop) -> list[str]:
         f"material: E = {rollers.E / 1e9:.4g} GPa, nu = {rollers.nu:g}; contact stress up to "
         f"{np.max(c.hertz_stress) / 1e6:.4g} MPa",
         f"roller force {np.min(c.reaction_1) / 1e3:.4g} to {np.max(c.reaction_1) / 1e3:.4g} kN at "
-        f"{speed / RPM:.4g} rpm; equivalent over a turn {load / 1e3:.4g} kN (ISO 281)",
+        f"{speed / RPM:.5g} rpm; equivalent over a turn {load / 1e3:.4g} kN (ISO 281)",
         f"rating C of the roller's bearing for {_LIFE:,.0f} h: at least {rating / 1e3:.4g} kN".replace(",", " "),
         f"limits: {shop.verdict.reason}",
     ]
