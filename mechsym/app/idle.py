@@ -10,7 +10,7 @@ from mechsym.cycle.kinds.schmidt import Schmidt
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.jobs.own import is_own
-from mechsym.mechanisms.traits import is_train, rules_of
+from mechsym.mechanisms.traits import rules_of
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
@@ -47,7 +47,7 @@ def _fuel(case: Case, data: Any) -> str | None:
 
 
 def _untold_fuel(case: Case, data: Any) -> str | None:
-    untold = is_own(case.mechanism) or is_train(case.mechanism)  # of others the facts tell the temperature
+    untold = is_own(case.mechanism)  # of others the facts tell the temperature
     return _fuel(case, data) if untold else None
 
 
