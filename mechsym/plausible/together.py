@@ -2,7 +2,6 @@
 
 from mechsym.plausible.ranges import Usual
 
-# one number each, so without names of values
 PROPORTIONS = (
     Usual(code="rod_ratio", keys=(), unit="-", low=1.8, high=8,
           why="rods of engines are 3 to 5 crank radii long"),
