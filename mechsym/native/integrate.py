@@ -25,8 +25,8 @@ LANES = (1, 8, 16)
 # 7.1 ms at 1e-8. Three: 8.7 against 6.8 at 1e-8, 20.9 against 18.3 at 1e-10 with results, 11.2 against 16.6 at 1e-12.
 _FEW, _FEW_TIGHT, _TIGHT = 2, 3, 1e-11
 # Where steps that look back win: 16 start-ups of 99 s take 3.1 against 4.4 ms each at 1e-8, 6.0 against 12.2 at 1e-12,
-# with 236 wanted times a second 8.4 against 8.1 and 11.4 against 19.3, at a quarter of the error; three angles with
-# damping the same.
+# with 236 wanted times a second 8.4 against 8.1 and 11.4 against 19.3, at no larger error (a quarter of it at 1e-8);
+# three angles with damping the same.
 _MOST_ANGLES = 2
 _UNSOLVED = (5, 6)  # indices into STATUS: what explicit steps may still do
 
