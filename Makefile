@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all derive check-derive audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz nearby mutate dist lint format clean
+.PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
 
 setup: $(READY)
 
@@ -29,6 +29,7 @@ check-derive: | $(READY)
 	PYTHONHASHSEED=2 $(BIN)/mechsym derive --check
 
 audit: | $(READY)
+	$(BIN)/python -m benchmarks.auditor
 	$(BIN)/mechsym audit --write
 
 # every exact verdict of the sources, checked by Coq
@@ -41,6 +42,10 @@ reproduce: | $(READY)
 # the site, offline, to docs/_build/html; a warning is an error
 docs: | .venv/ready-all
 	$(BIN)/python -m sphinx -W -q -b html docs docs/_build/html
+
+# the pictures of the README, from real runs, in the Chromium of the machine
+pictures: | .venv/ready-all
+	$(BIN)/python docs/pictures.py
 
 demo: | $(READY)
 	$(BIN)/mechsym hinge zotov-89 --out demo
@@ -64,6 +69,17 @@ test-step: .venv-step/ready
 	.venv-step/bin/python -m pip install --quiet --disable-pip-version-check -e '.[step,dev]'
 	@touch $@
 
+# every command on every case, before a change and after it: make record, make compare [ONLY="hinge zotov-89/*"] [ONLY=--all]
+record: | $(READY)
+	$(BIN)/python -m tests.matrix --write build/baseline $(ONLY)
+
+compare: | $(READY)
+	$(BIN)/python -m tests.matrix --compare build/baseline $(ONLY)
+
+# what commands give, as tests/recorded keeps it: written anew where a result was to change [ONLY="hinge zotov-89/*"]
+records: | $(READY)
+	$(BIN)/python -m tests.matrix --write tests/recorded --light $(ONLY)
+
 bench: | $(READY)
 	$(BIN)/python -m benchmarks
 
@@ -79,13 +95,39 @@ dist: | .venv/ready-all
 fuzz: | $(READY)
 	$(BIN)/python -m fuzz
 
+# hostile command lines and records, by a generator that shares nothing with fuzz/: make hostile [COUNT=3000] [SEED=1]
+hostile: | $(READY)
+	$(BIN)/python tests/hostile.py lines $(or $(COUNT),3000) $(or $(SEED),1)
+	$(BIN)/python tests/hostile.py traces $(or $(COUNT),1000) $(or $(SEED),1)
+
+# slips and neutral twins as typed, and how many come out right: make slips [LIST=hand] [HALF=seen]
+slips: | $(READY)
+	$(BIN)/python tests/hand.py $(or $(LIST),peers) $(or $(HALF),all)
+
 # what is doubted with one value of a built-in case 5 % up or down: make nearby [CASES="zotov-89 moroianu"]
 nearby: | $(READY)
 	$(BIN)/python -m fuzz.nearby $(CASES)
 
-# small mistakes in a module: make mutate MODULE=mechsym.hinge.springs [TESTS=tests/hinge/test_springs.py]
+# small mistakes in a module, a room or all, hours long; goes on where it stopped: make mutate MODULE=mechsym.hinge
+# [COUNT=30] [TESTS=tests/hinge/test_springs.py] [MOVES="hinge"]
 mutate: | $(READY)
-	$(BIN)/python -m fuzz.mutants $(MODULE) $(if $(TESTS),--tests "$(TESTS)")
+	$(BIN)/python -m fuzz.mutants $(or $(MODULE),mechsym) $(COUNT) $(if $(TESTS),--tests "$(TESTS)") $(if $(MOVES),--moves "$(MOVES)")
+
+# the n-th call that changes a file fails, for every n: make faults [ONLY="hinge export"]
+faults: | $(READY)
+	$(BIN)/python -m tests.faults $(ONLY)
+
+# Ctrl-C at 20 random times in each command: make interrupts [ONLY="sweep study"]
+interrupts: | .venv/ready-all
+	$(BIN)/python -m tests.interrupts $(ONLY)
+
+# known holes of the smallest versions that pyproject.toml allows, and of those installed
+audit-deps: | .venv/ready-all
+	$(BIN)/python -m tests.floors
+
+# the state of the package in figures: lines, switches over kinds, floors, errors of strict types
+house: | $(READY)
+	$(BIN)/python tests/house.py
 
 lint: | $(READY)
 	$(BIN)/ruff check .

@@ -18,7 +18,7 @@ from benchmarks.measure import Route, Row, take_turns
 from mechsym import native
 from mechsym.mechanisms import crank_train
 from mechsym.mechanisms.record import acceleration_function
-from mechsym.native import library, source
+from mechsym.native import cache, source
 
 THROWS = (1, 2, 3, 6, 12, 96)
 _SLOW = 12  # the largest machine that sympy is given
@@ -70,7 +70,7 @@ def _called(make: Callable[[], Any], x: np.ndarray) -> None:
 
 
 def _warm(throws: int) -> Callable[..., Any]:
-    library.load.cache_clear()
+    cache.load.cache_clear()
     source.stored_program.cache_clear()
     mechanism = crank_train.build(models.train(throws))
     return native.compiled(acceleration_function(mechanism)).scalar

@@ -10,7 +10,7 @@ from typing import Any
 
 from benchmarks.measure import Row
 from mechsym.files import to_json, write_text
-from mechsym.native.info import info
+from mechsym.native.cache import info
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

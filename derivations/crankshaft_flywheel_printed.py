@@ -4,6 +4,8 @@ The transmission in (6) is exact, the piston's acceleration (11) is truncated: t
 neither kinematics, so it is declared by its equations and has no energies. The trailing "= 0" of (6) is a misprint.
 """
 
+from mechsym.derivations.crankshaft_flywheel import letters, sketch
+
 from mechsym.derive import Mechanism, Rational, cos, given_equations, output, sin, sqrt, velocities
 
 
@@ -12,11 +14,7 @@ def crankshaft_flywheel_printed():
         "crankshaft_flywheel_printed", source="002_d7297926d6c52225", about="Crankshaft and flywheel, as (6) prints it."
     )
     phi0, phi2 = m.coordinates("phi0 phi2")
-    I0, I2 = m.parameters("I0 I2", "kg*m^2")
-    r, l = m.parameters("r l", "m")
-    m0 = m.parameters("m0", "kg")
-    k1 = m.parameters("k1", "N*m/rad")
-    c1 = m.parameters("c1", "N*m*s/rad")
+    I0, I2, r, l, m0, k1, c1 = letters(m)
     M = m.inputs("M", "N*m")
     phi0d, phi2d = velocities(m)
 
@@ -35,4 +33,5 @@ def crankshaft_flywheel_printed():
         force=[M - shaft, shaft],
     )
     output(m, x0)
+    sketch(m, r, l, phi0)
     return m

@@ -5,6 +5,8 @@ pin force of the crank on the link (pin_x, pin_y) and the guide reactions on the
 along x). Rank 3 of 4: no multiplier is determined by the rigid mechanism alone.
 """
 
+from mechsym.derivations.rodless import letters, sketch
+
 from mechsym.derive import Mechanism, cos, output, sin
 
 
@@ -17,12 +19,7 @@ def rodless_constraints():
     alpha = m.coordinates("alpha")
     x_C, y_C = m.coordinates("x_C y_C", "m")
     beta = m.coordinates("beta")
-    r = m.parameters("r", "m")
-    I1 = m.parameters("I1", "kg*m^2")
-    u1 = m.parameters("u1", "kg*m")
-    m_link = m.parameters("m_link", "kg")
-    I_link = m.parameters("I_link", "kg*m^2")
-    m_a, m_b = m.parameters("m_a m_b", "kg")
+    r, I1, u1, m_link, I_link, m_a, m_b = letters(m)
     F_a, F_b = m.inputs("F_a F_b", "N")
     M = m.inputs("M", "N*m")
 
@@ -44,4 +41,5 @@ def rodless_constraints():
     m.constraint("guide_b", y_b)
     output(m, x_a, order=1)
     output(m, x_b, order=1)
+    sketch(m, r, alpha)
     return m

@@ -5,6 +5,7 @@ import importlib
 import inspect
 import json
 import os
+import re
 import tempfile
 from importlib import resources
 from pathlib import Path
@@ -29,6 +30,7 @@ EXAMPLES = {
     "eval": "eval crosshead --case zotov-89 --set phi=1",
     "flywheel": "flywheel zotov-89 --ripple 2%",
     "fmu": "fmu zotov-89 --out engine.fmu",
+    "balance": "balance zotov-89 --shafts 1,2",
     "forces": "forces moroianu",
     "guide": "guide zotov-89 --dxf guide.dxf",
     "hinge": "hinge zotov-89",
@@ -55,6 +57,7 @@ ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
     "torsion forces optimise codesign cases jobs sweep audit papers out"
 ).split()
+_UNIT = re.compile(r"typing\.Annotated\[([^\[\],]+), '([^']+)'\]")  # of a number in a signature
 
 
 def make(folder: Path) -> None:
@@ -77,7 +80,7 @@ def commands(kept: Path) -> str:
     kept.mkdir(exist_ok=True)
     package = gallery.digest_of_package()
     parts = ["# Commands\n\nThe output stands as the program printed it when this page was made.\n"]
-    for name in sorted(COMMANDS):
+    for name in COMMANDS:
         parts.append(f"## {name}\n\n{_block(_printed(kept, package, f'{name} --help'))}\n")
         if name in EXAMPLES:
             lines = [line for line in (BEFORE.get(name), EXAMPLES[name]) if line]
@@ -178,6 +181,8 @@ def _signature(found: object) -> str:
     if not callable(found):
         return ""
     try:
-        return str(inspect.signature(found))
+        return _UNIT.sub(
+            lambda m: f"{'float' if m[1].startswith('~') else m[1]} [{m[2]}]", str(inspect.signature(found))
+        )
     except (TypeError, ValueError):
         return "(..)"

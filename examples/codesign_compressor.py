@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mechsym import codesign
+from mechsym import codesign, hinge
 
 BORE, STROKE, CLEARANCE, N = 0.3, 0.25, 0.12, 1.35  # one single-acting cylinder, all assumed
 SUCTION = (1.0e5, 2.0e5)  # two suction pressures of the plant [Pa]
@@ -25,10 +25,11 @@ def torque(suction: float, phi: np.ndarray) -> np.ndarray:
 def main() -> None:
     phi = np.arange(720) * np.pi / 360
     points = tuple(codesign.from_curve(phi, torque(p, phi), 6.0, SPEED) for p in SUCTION)
-    hardware = codesign.Hardware(A=0.004, H=0.25, n=1.4, p0=3e6, rho0=0.25, radius=0.04, width=0.04, moving_mass=4.0)
-    bounds = codesign.Bounds(spring_pressure=25e6, closing_share=0.9, pressure_angle=0.52, profile_radius=2e-3,
-                             roller_reaction=60e3, hertz_stress=1.5e9)  # fmt: skip
-    task = codesign.CoDesignTask(points=points, hardware=hardware, bounds=bounds, ripple=RIPPLE)
+    spring = hinge.AirAbsolute(A=0.004, H=0.25, n=1.4, p0=3e6)
+    hardware = codesign.Hardware(spring=spring, rho0=0.25, radius=0.04, width=0.04, moving_mass=4.0)
+    limits = hinge.Limits(spring_pressure=25e6, closing_share=0.9, pressure_angle=0.52, profile_radius=2e-3,
+                          roller_reaction=60e3, hertz_stress=1.5e9)  # fmt: skip
+    task = codesign.CoDesignTask(points=points, hardware=hardware, bounds=limits, ripple=RIPPLE)
     design, bare = codesign.solve(task), codesign.bare_flywheel(points, RIPPLE)
     print(f"{design.status}: flywheel {design.flywheel:.2f} kg m2 for {PULSATION:.0%} of current, bare {bare:.2f}")
 

@@ -16,12 +16,12 @@ def main(half: str, full: str) -> None:
         print(f"{file}: {points[-1].load / 1e5:.2f} bar, load torque {points[-1].load_torque:.2f} N m")
     case = cases.load("generator")
     hardware = codesign.hardware(case.need("spring"), case.need("guide"), case.need("rollers"), 0.3)  # kg, assumed
-    bounds = codesign.bounds(case.need("limits"))
-    task = codesign.CoDesignTask(points=tuple(points), hardware=hardware, bounds=bounds, ripple=RIPPLE)
+    task = codesign.CoDesignTask(points=tuple(points), hardware=hardware, bounds=case.need("limits"), ripple=RIPPLE)
     bare, design = codesign.bare_flywheel(task.points, RIPPLE), codesign.solve(task)
     verified = codesign.verify(design)
     print(
-        f"{design.status}: flywheel {design.flywheel:.4f} kg m2 beside a bare {bare:.4f}; {verified.broken or 'kept'}"
+        f"{design.reason}: flywheel {design.flywheel:.4f} kg m2 beside a bare {bare:.4f}; limits "
+        f"{verified.broken or 'kept'}, without losses"
     )
     for k in range(len(points)):
         found = codesign.misfire(design, k)

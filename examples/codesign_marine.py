@@ -12,13 +12,13 @@ def main(folder: Path) -> None:
     case = cases.load("zotov-89", CHANGES)
     task = jobs.codesign_task(case)
     print(f"without a hinge {codesign.bare_flywheel(task.points, task.ripple):.0f} kg m2")
-    print(f"no guide with one spring leaves less than {codesign.rank(task.points).swing[0]:.1f} kg m2 of swing")
+    print(f"the best shape of one spring leaves {codesign.rank(task.points).swing[0]:.1f} kg m2 of swing")
 
     design = codesign.solve(task)
     verified = codesign.verify(design)
-    can = "can be built" if design.status == "optimal" and not verified.broken else "cannot be built"
-    print(f"{can}: flywheel {design.flywheel:.0f} kg m2, ripple {verified.steady_ripple.max():.4f} over the angle, "
-          f"{verified.time_ripple.max():.4f} in time")  # fmt: skip
+    can = "can be cut" if design.status == "optimal" and not verified.broken else "cannot be built"
+    print(f"{can}: flywheel {design.flywheel:.0f} kg m2, ripple without losses {verified.steady_ripple.max():.4f} over "
+          f"the angle, {verified.time_ripple.max():.4f} in time")  # fmt: skip
     for k, point in enumerate(task.points):
         lost = codesign.misfire(design, k)
         print(f"{point.omega * 9.549:.0f} rpm: p0 {design.tracks[0].p0[k] / 1e6:.2f} MPa, one misfire: {lost.outcome}")

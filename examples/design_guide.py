@@ -23,7 +23,7 @@ def main(folder: Path) -> None:
     for name, spring in SPRINGS.items():
         guide = hinge.cut(wanted, spring, case.need("guide"))
         verdict = hinge.judge(guide, rollers, limits)
-        print(f"{name:12} {'can be built' if verdict.feasible else 'cannot be built'}: {verdict.reason}")
+        print(f"{name:12} {'can be cut' if verdict.feasible else 'cannot be built'}: {verdict.reason}")
         if guide.status == "cut":
             turn = hinge.at_angles(guide, rollers, np.linspace(0, 2 * np.pi, 721))
             x, y = hinge.parallel(turn.rho, turn.drho, turn.theta, rollers.radius)

@@ -14,11 +14,11 @@ def main(folder: Path) -> None:
     hinge, verdict = found.hinge, found.verdict
     print(f"load torque        {hinge.load_torque:.0f} N*m")
     print(f"hinge torque       {hinge.torque_min:.0f} to {hinge.torque_max:.0f} N*m")
-    print(f"guide              {'can' if verdict.feasible else 'cannot'} be built: {verdict.reason}")
+    print(f"{found.answer}; {verdict.reason}")
     for trial in found.trials:
         ripple = "stops" if trial.speed_ripple is None else f"speed ripple {trial.speed_ripple:.2g}"
         print(f"{trial.about:40} {ripple}")
-    print(f"flywheel saved     {found.flywheels.steady.inertia:.0f} kg*m^2")
+    print(f"an ideal hinge saves {found.flywheels.steady.inertia:.0f} kg*m^2")
 
     files = report.write(found, folder)
     print(f"open {files[0]}")

@@ -15,7 +15,7 @@ def main(folder: Path) -> None:
     margin = sweep.columns(found)["guide.margin"]
     best = int(np.nanargmax(margin))
     values = ", ".join(f"{a.key} = {v:g} {a.unit}" for a, v in zip(found.axes, found.points[best], strict=True))
-    print(f"{np.sum(margin > 0)} of {len(margin)} springs can be built; widest margin {margin[best]:.3f} at {values}")
+    print(f"{np.sum(margin > 0)} of {len(margin)} springs can be cut; widest margin {margin[best]:.3f} at {values}")
 
     for index, reason in sweep.failures(found).items():
         print(f"no result at {found.points[index]}: {reason}")

@@ -18,7 +18,8 @@ CORPUS = Path(__file__).parent.parent / "tests" / "corpus"
 STEP = 100  # inputs from one line of figures to the next: nothing is lost where the run is cut
 # imported once, so that a forked process starts at once
 WARM = (
-    "scipy.optimize", "scipy.integrate", "scipy.interpolate", "sympy", "mechsym.audit.formula", "mechsym.cli.audit",
+    "scipy.optimize", "scipy.integrate", "scipy.interpolate", "sympy", "mechsym.audit.hosts.formula",
+    "mechsym.cli.audit",
     "mechsym.cli.cycle", "mechsym.cli.cycle_measured", "mechsym.cli.flywheel", "mechsym.cli.forces",
     "mechsym.cli.hinge", "mechsym.cli.simulate", "mechsym.cli.size", "mechsym.cli.sweep",
     "mechsym.codesign.task", "mechsym.jobs.cycle",

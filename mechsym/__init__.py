@@ -18,8 +18,8 @@ __all__ = [
     "derive", "convert", "mechanisms", "native",
     # physics, each room from records and numbers
     "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise", "codesign",
-    # data files, and one page a command
-    "cases", "jobs", "sweep",
+    # data files, one page a command, all of a case on one page, and at many points
+    "cases", "jobs", "report", "sweep",
     # published formulas and numbers, and what other programs read
     "audit", "papers", "out",
 ]  # fmt: skip

@@ -2,14 +2,19 @@
 
 import difflib
 from collections.abc import Iterable
-from typing import Any
 
 
 class BadInput(ValueError):
     """Input that cannot be used.
 
-    The message is one line: what was found (file, key, value, unit), what is allowed, and the way out.
+    The message is one line: what was found (file, key, value, unit), what is allowed, and the way out. What a reader of
+    the error has to know stands beside it.
     """
+
+    def __init__(self, why: str = "", way: str = "", *, key: str = "", reason: str = "") -> None:
+        """An error of a key, told by why it is one and the way out; reason: that of the system, in a few words."""
+        super().__init__(f"{why}; {way}" if way else why)
+        self.why, self.way, self.key, self.reason = why, way, key, reason
 
 
 class MissingSection(BadInput):
@@ -23,10 +28,7 @@ class MissingExtra(BadInput):
 def suggest(word: str, options: Iterable[str]) -> str:
     """What is allowed in place of a word that is not, the nearest first.
 
-    Returns
-    -------
-    text : str
-        For example ``did you mean 'bore'? allowed are bore, stroke``
+    Returns text: for example ``did you mean 'bore'? allowed are bore, stroke``.
 
     Examples
     --------
@@ -39,7 +41,7 @@ def suggest(word: str, options: Iterable[str]) -> str:
     return f"{hint}allowed are {', '.join(options)}"
 
 
-def shown(value: Any, longest: int = 60) -> str:
+def shown(value: object, longest: int = 60) -> str:
     """A value as a message shows it, cut where it is very long."""
     text = repr(value)
     return text if len(text) <= longest else f"{text[: longest - 3]}..."

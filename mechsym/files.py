@@ -1,6 +1,7 @@
 """Writing results so that nothing half-written is ever seen."""
 
 import contextlib
+import contextvars
 import csv
 import dataclasses
 import errno
@@ -8,6 +9,7 @@ import hashlib
 import json
 import math
 import os
+import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,23 +19,36 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities.display import heading
+from mechsym.transaction import SUMMARY as SUMMARY
+from mechsym.transaction import Transaction, hidden, missing, remove_empty, sweep_up, sync_folder
 
 # what another place or name mends; any other failure (disk full, device broken) is the system's
 _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
-# a path that names no file; any other failure to read one is the system's
-_NO_FILE = (FileNotFoundError, IsADirectoryError, NotADirectoryError)
-SUMMARY = "summary.json"
-_folders: list[Path] = []  # folders whose files wait for each other
-_waiting: dict[Path, str] = {}  # file: its temporary name, complete and on the disk
+Json = dict[str, Any]  # what JSON has by name: numbers, texts, lists and more of the same
+
+
+def user_cache() -> Path:
+    """What the program keeps for a user; it need not exist.
+
+    Returns path: XDG_CACHE_HOME/mechsym, or what the platform has instead.
+    """
+    home = Path.home()
+    match sys.platform:
+        case "win32":
+            base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
+        case "darwin":
+            base = home / "Library" / "Caches"
+        case _:
+            base = home / ".cache"
+    named = os.environ.get("XDG_CACHE_HOME", "")
+    # the standard says to ignore a relative path
+    return (Path(named) if os.path.isabs(named) else base) / "mechsym"
 
 
 def make_folder(path: Path) -> Path:
     """Make a folder for results, before the work whose results it takes.
 
-    Parameters
-    ----------
-    path : Path
-        Folder; its parents are made when they are missing
+    path: folder; its parents are made when they are missing.
 
     Raises
     ------
@@ -50,87 +65,51 @@ def make_folder(path: Path) -> Path:
 
 def try_folder(path: Path) -> Path:
     """Refuse a folder that could not take results, as `make_folder` does, and leave nothing behind."""
-    missing = _missing(path)
+    new = missing(path)
     try:
         return make_folder(path)
     finally:
-        _remove(missing)
+        remove_empty(new)
 
 
-def _missing(path: Path) -> list[Path]:
-    return [p for p in (path, *path.parents) if not p.exists()]
-
-
-def _remove(made: list[Path]) -> None:
-    """Remove folders, the innermost first, as far as they are empty."""
-    for folder in made:
-        with contextlib.suppress(OSError):
-            folder.rmdir()
+_open: contextvars.ContextVar[Transaction | None] = contextvars.ContextVar("open", default=None)
 
 
 @contextlib.contextmanager
 def together(folder: Path) -> Iterator[None]:
-    """Files written below `folder` in the block appear at its end all at once; a failed write or bad input drops them.
+    """Files written below `folder` in the block appear at its end all at once; any exception drops them.
 
-    Folders that were made for them go too where nothing else is in them. An interrupt keeps what is complete.
+    An interrupt drops them too: what `publish` was told of stays. A block inside another gives its files to that one.
     """
-    missing = _missing(folder)
-    _folders.append(folder.absolute())
+    sweep_up(folder)  # a run that is refused leaves nothing of a killed one either
+    block = Transaction(folder, _open.get())
+    token = _open.set(block)
     try:
         yield
-    except (OSError, MemoryError, BadInput):
-        _drop()
-        _remove(missing)
+        block.publish()
+    except BaseException:
+        block.drop()
         raise
     finally:
-        _folders.pop()
-        appear()
+        _open.reset(token)
 
 
-def appear() -> None:
-    """Move the files that wait for each other into place."""
-    try:
-        while _waiting:
-            path = next(iter(_waiting))
-            os.replace(_waiting[path], path)
-            del _waiting[path]
-    finally:
-        _drop()
+def publish() -> None:
+    """Move the files that wait for each other into place: they are complete, whatever happens later."""
+    block = _open.get()
+    if block is not None:
+        block.publish()
 
 
-def _drop() -> None:
-    while _waiting:
-        Path(_waiting.popitem()[1]).unlink(missing_ok=True)
+#: Lists of the files that are read, each by name with its digest, which `mechsym.inputs` opens and fills
+read_lists: contextvars.ContextVar[tuple[dict[str, str], ...]] = contextvars.ContextVar("read_lists", default=())
 
 
-def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: str = "utf-8") -> str:
-    """Text of a file that the user names.
-
-    Parameters
-    ----------
-    option : str
-        What the path was given for, set before it in the message
-    way_out : str
-        What to give in its place
-
-    Raises
-    ------
-    BadInput
-        There is no such file, or no text in it
-    OSError
-        The system does not give it: no permission, device broken
-    """
-    said, more = f"{option} {path}".strip(), f"; {way_out}" if way_out else ""
-    try:
-        return Path(path).read_text(encoding=encoding)
-    except UnicodeDecodeError as error:
-        raise BadInput(f"{said}: not UTF-8 text (byte {error.start}){more}") from None
-    except (*_NO_FILE, ValueError) as error:  # a path may hold a zero byte, which is a ValueError
-        raise BadInput(f"{said}: cannot be read ({getattr(error, 'strerror', None) or error}){more}") from None
-    except OSError as error:
-        if error.errno == errno.ENAMETOOLONG:
-            raise BadInput(f"{said}: cannot be read ({error.strerror}){more}") from None
-        raise OSError(error.errno, error.strerror, str(path)) from None
+def refuse_waiting(path: Path) -> None:
+    """Refuse to read a file that waits to appear: what is on the disk is older."""
+    block = _open.get()
+    if block is not None and _true(path) in block.all_waiting():
+        raise RuntimeError(f"{path} waits to appear, and what is on the disk is older: use what was written")
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -146,55 +125,88 @@ def write_bytes(path: Path, data: bytes) -> Path:
 def write_with(path: Path, write: Callable[[Path], Any]) -> Path:
     """Let `write` fill a temporary name beside `path`, and move it into place when it is on the disk.
 
-    Parameters
-    ----------
-    write : callable
-        Writes the file whose path it is given
+    write: callable, writes the file whose path it is given.
     """
     path = Path(path)
+    # refuse to write over a file that was read: a result would take the place of what it comes from
+    names = (name for read in read_lists.get() for name in read if Path(name).name == path.name)
+    if any(_true(Path(name)) == _true(path) for name in names):
+        raise BadInput(f"{path} was read for this and would be written over; give another folder with --out")
+    block = _open.get()
+    home = block.home(_true(path)) if block else None
+    part = hidden(path)
     try:
+        if home:
+            home.made = [*missing(path.parent), *home.made]
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        # who may read it is for the umask to say, as of any other file
+        handle = os.open(part, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
     except _MENDABLE as error:
         raise _unwritable(path, error) from error
     try:
-        write(Path(name))
+        write(part)
         os.fsync(handle)
-        os.chmod(name, 0o644)
-        _place(name, path)
+        if home:
+            home.add(_true(path), part)
+        else:
+            part.replace(path)
+            sync_folder(path.parent)
+            sweep_up(path.parent)
     except BaseException:
-        Path(name).unlink(missing_ok=True)
+        part.unlink(missing_ok=True)
         raise
     finally:
         os.close(handle)
     return path
 
 
-def _place(name: str, path: Path) -> None:
-    target = path.absolute()
-    if not any(target.is_relative_to(folder) for folder in _folders):
-        os.replace(name, path)
-        return
-    if target in _waiting:
-        Path(_waiting[target]).unlink(missing_ok=True)
-    _waiting[target] = name
+def _true(path: Path) -> Path:
+    """The one absolute path of a name in a folder, whichever way the folder was named."""
+    return path.parent.resolve() / path.name
 
 
-def write_summary(folder: Path, numbers: Mapping[str, Any]) -> Path:
+def write_summary(folder: Path, numbers: Mapping[str, Any], command: str, read: Mapping[str, str]) -> Path:
     """Write `summary.json`: the numbers, and the files of this run in a folder by the digest of what is in them.
+
+    What the run of the same command before left there, as its summary tells, goes when the files of this one appear.
 
     Notes
     -----
-    `run.id` is the digest of all of them: a folder whose files do not give it holds files of several runs.
+    `run.id` is the digest of all of them: a folder whose files do not give it holds files of several runs. `run.beside`
+    has the files that other commands left in the folder, `run.inputs` those that were `read` for it.
     """
-    root = folder.absolute()
-    parts = {path: Path(part) for path, part in sorted(_waiting.items()) if path.is_relative_to(root)}
-    digests = {p.relative_to(root).as_posix(): _digest(q.read_bytes()) for p, q in parts.items() if p.name != SUMMARY}
-    run = {"id": _digest(json.dumps([to_json(numbers), digests]).encode())[:16], "files": digests}
+    root, block = folder.resolve(), _open.get()
+    parts = {p: part for p, part in sorted(block.all_waiting().items()) if p.is_relative_to(root)} if block else {}
+    digests = {p.relative_to(root).as_posix(): digest(q.read_bytes()) for p, q in parts.items() if p.name != SUMMARY}
+    before = _left(root)
+    if block:
+        block.stale |= {root / name for name in before.pop(command, {}).keys() - digests.keys()}
+    beside = {name: {f: d for f, d in files.items() if f not in digests} for name, files in before.items()}
+    run = {"id": digest(json.dumps([to_json(numbers), digests]).encode())[:16], "command": command, "files": digests}
+    run |= {"inputs": {name: content for name, content in sorted(read.items()) if content}}
+    run |= {"beside": {name: files for name, files in beside.items() if files}} if any(beside.values()) else {}
     return write_text(folder / SUMMARY, to_json({**numbers, "run": run}) + "\n")
 
 
-def _digest(data: bytes) -> str:
+def _left(root: Path) -> dict[str, dict[str, str]]:
+    """Files by command that earlier runs left in a folder and nobody has changed since, with their digests."""
+    try:
+        run = json.loads((root / SUMMARY).read_text(encoding="utf-8"))["run"]
+        listed = {**run.get("beside", {}), run["command"]: run["files"]}
+        return {name: {f: d for f, d in files.items() if _is(root, f, d)} for name, files in listed.items()}
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):  # no summary, or none of ours
+        return {}
+
+
+def _is(root: Path, name: str, content: str) -> bool:
+    path = (root / name).resolve()
+    return path.is_relative_to(root) and path.is_file() and digest(path.read_bytes()) == content
+
+
+def digest(data: bytes) -> str:
+    """What tells a content from any other."""
     return hashlib.sha256(data).hexdigest()
 
 
@@ -202,20 +214,17 @@ def _unwritable(path: Path, error: OSError) -> BadInput:
     return BadInput(f"{path}: cannot be written ({error.strerror}); choose another folder with --out")
 
 
-def write_csv(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -> Path:
+def write_csv(path: Path, columns: Mapping[str, Sequence[object] | np.ndarray]) -> Path:
     """Write equally long columns, SI units unless the column's name says otherwise.
 
-    Parameters
-    ----------
-    columns : mapping of str to sequence
-        Column name to values; all of one length
+    columns: column name to values; all of one length.
     """
     import io
 
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows(zip(*[_cells(values) for values in columns.values()], strict=True))
+    writer.writerows(zip(*[[_cell(v) for v in values] for values in columns.values()], strict=True))
     return write_text(path, buffer.getvalue())
 
 
@@ -224,65 +233,53 @@ def write_quantities(
 ) -> Path:
     """Write equally long columns with their units in the headings, `rho [m]`: SI, or what the user has chosen.
 
-    Parameters
-    ----------
-    units : mapping of str to str, optional
-        SI unit of columns whose name does not tell it
+    units: SI unit of columns that do not know theirs and whose name does not tell it.
     """
-    headed = (heading(name, values, asked=True, unit=(units or {}).get(name)) for name, values in columns.items())
+    known = units or getattr(columns, "units", {})
+    headed = (heading(name, values, asked=True, unit=known.get(name)) for name, values in columns.items())
     return write_csv(path, dict(headed))
-
-
-def _cells(values: Sequence[float] | np.ndarray) -> list[Any]:
-    return [_cell(v) for v in values]
 
 
 _FLOATS = (float, np.floating)
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: object) -> Any:
     if not isinstance(value, _FLOATS):
         return value
     # a gap is an empty cell; only what is not a number differs from itself
     return "" if value != value else format(value, ".12g")
 
 
-def to_json(value: Any) -> str:
+def to_json(value: object) -> str:
     """JSON text of nested records, arrays and numbers; a number that is not finite becomes null.
 
-    Parameters
-    ----------
-    value : object
-        Mappings, sequences, arrays, numbers, text, booleans, None
+    value: mappings, sequences, arrays, numbers, text, booleans, None.
     """
     return json.dumps(plain(value), indent=2, allow_nan=False)
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """The same value in plain Python types, with null for what is not finite.
 
-    Parameters
-    ----------
-    value : object
-        Mappings, sequences, arrays, numbers, text, booleans, None
-
-    Returns
-    -------
-    value : object
-        dict, list, str, int, float, bool or None
+    value: mappings, sequences, arrays, numbers, text, booleans, None. Returns value: dict, list, str, int, float, bool
+    or None.
     """
+    if isinstance(value, float):  # most values of long lists: first
+        return float(value) if math.isfinite(value) else None
+    if value is None or isinstance(value, (str, bool)):
+        return value
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        value = dataclasses.asdict(value)
+        from mechsym.quantities.results import tell  # most commands write plain values
+
+        value = tell(value)
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
     if isinstance(value, (list, tuple)):
         return [plain(v) for v in value]
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, np.bool_):
         return bool(value)
     if isinstance(value, (int, np.integer)):
         return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    return value
+    return plain(float(value)) if isinstance(value, np.floating) else value

@@ -57,3 +57,13 @@ def four_stroke(kink=0.3):
 @cache
 def built_four_stroke():
     return hinge_of(four_stroke(), 20.0)
+
+
+def monotone_seal_torque(swing, mu):
+    """Mean torque of seals that slip once each way in a turn: 2 mu swing / 2 pi [N*m]."""
+    return mu * swing / np.pi
+
+
+def small_stroke_index(x, gamma=1.4):
+    """Index of a gas spring for small strokes, its imaginary part the loss; x = omega tau [rad]."""
+    return 1 + (gamma - 1) * complex(x**2, x) / (1 + x**2)

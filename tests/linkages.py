@@ -5,8 +5,9 @@ from mechsym.derive import Mechanism, pi
 MASSES = {"m1": 0.8, "m2": 1.3, "m3": 0.6, "I1": 0.02, "I2": 0.015, "I3": 0.011, "g": 9.81}
 
 
-def start(name):
+def start(name, by_constraint=False):
     m = Mechanism(name)
+    m.guessed = by_constraint  # a closed form takes no guess
     phi = m.coordinates("phi")
     a, b, c, d, e = m.parameters("a b c d e", "m", above=0)
     m1, m2, m3 = m.parameters("m1 m2 m3", "kg", low=0)
@@ -20,12 +21,12 @@ def start(name):
     return m, crank, (a, b, c, d, e), ((m2, I2), (m3, I3))
 
 
-def link(m, name, mass, centre, **more):
-    return m.link(name, mass=mass[0], inertia=mass[1], centre=centre, **more)
+def link(m, name, mass, centre, guess=0.0):
+    return m.link(name, mass=mass[0], inertia=mass[1], centre=centre, guess=guess if m.guessed else None)
 
 
 def rrr(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("rrr")
+    m, crank, (a, b, c, d, e), (one, two) = start("rrr", by_constraint)
     rod, rocker = link(m, "rod", one, (b / 2, e), guess=0.5), link(m, "rocker", two, (c / 3, -e), guess=1.2)
     m.pin("B", crank.at(a, e / 7), rod)
     m.pin("D", *((rocker, m.frame.at(d, e)) if flip else (m.frame.at(d, e), rocker)))
@@ -37,7 +38,7 @@ def rrr(by_constraint=False, flip=False):
 
 
 def rrp(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("rrp")
+    m, crank, (a, b, c, d, e), (one, two) = start("rrp", by_constraint)
     rod, block = link(m, "rod", one, (b / 2, e), guess=-0.2), link(m, "block", two, (e / 2, e / 3), guess=0.5)
     m.pin("B", crank.at(a), rod)
     lines = m.frame.line(0, e, angle=pi / 12), block.line(e / 8, e / 6, angle=pi / 9)
@@ -49,7 +50,7 @@ def rrp(by_constraint=False, flip=False):
 
 
 def rpr(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("rpr")
+    m, crank, (a, b, c, d, e), (one, two) = start("rpr", by_constraint)
     block, rocker = link(m, "block", one, (e / 3, e / 2), guess=-0.5), link(m, "rocker", two, (c / 3, e / 4), guess=2.5)
     m.pin("B", crank.at(a), block.at(e / 7, e / 9))
     m.pin("D", m.frame.at(d, e), rocker)
@@ -61,7 +62,7 @@ def rpr(by_constraint=False, flip=False):
 
 
 def prp(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("prp")
+    m, crank, (a, b, c, d, e), (one, two) = start("prp", by_constraint)
     one_, two_ = link(m, "across", one, (e, 0)), link(m, "up", two, (0, e), guess=0.2)
     m.slider("G", crank.line(0, e, angle=pi / 3), one_.line(0, e / 3))
     m.slider("H", m.frame.line(d, 0, angle=pi / 2), two_)
@@ -73,7 +74,7 @@ def prp(by_constraint=False, flip=False):
 
 
 def rpp(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("rpp")
+    m, crank, (a, b, c, d, e), (one, two) = start("rpp", by_constraint)
     block, yoke = link(m, "block", one, (e / 2, e / 3)), link(m, "yoke", two, (c / 2, e))
     m.pin("B", crank.at(a), block.at(e / 8, 0))
     m.slider("G", m.frame.line(0, e / 4), yoke.line(0, e / 2))
@@ -86,7 +87,7 @@ def rpp(by_constraint=False, flip=False):
 
 
 def slotted(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("slotted")
+    m, crank, (a, b, c, d, e), (one, two) = start("slotted", by_constraint)
     rocker, yoke = link(m, "rocker", one, (c / 2, e), guess=2.6), link(m, "yoke", two, (c / 2, e / 2), guess=0.2)
     m.pin("D", m.frame.at(d, e), rocker)
     m.slider("G", m.frame.line(0, 2 * d, angle=pi / 10), yoke)
@@ -100,7 +101,7 @@ def slotted(by_constraint=False, flip=False):
 
 
 def pins_in_grooves(by_constraint=False, flip=False):
-    m, crank, (a, b, c, d, e), (one, two) = start("pins_in_grooves")
+    m, crank, (a, b, c, d, e), (one, two) = start("pins_in_grooves", by_constraint)
     rod, yoke = link(m, "rod", one, (b / 2, e), guess=-0.2), link(m, "yoke", two, (e, e), guess=0.5)
     m.pin("B", crank.at(a), rod)
     m.slider("G", m.frame.line(0, -d, angle=pi / 15), yoke)

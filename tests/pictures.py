@@ -1,4 +1,4 @@
-"""What is wrong with a figure: texts on each other or out of the paper, as matplotlib's renderer places them; ids."""
+"""What is wrong with a figure: texts that meet or leave the paper, as the renderer places them; ids; contrast."""
 
 import functools
 import itertools
@@ -101,3 +101,15 @@ def ids(page):
 def colours(text):
     """Colours of lines, filled areas and letters in a figure."""
     return set(re.findall(r"(?:fill|stroke): (#[0-9a-f]{6})", re.sub(r"<style>.*?</style>", "", text)))
+
+
+def contrast(one, other):
+    """Contrast of two colours `#rrggbb` by WCAG 2.1, from 1, the same, to 21, black on white [-]."""
+    dark, light = sorted((_luminance(one), _luminance(other)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def _luminance(colour):
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return sum(k * c for k, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))

@@ -279,3 +279,47 @@ def bound(r, between):
         inverse = np.linalg.inv((whole / size).T @ (whole / size))
         found.append(math.sqrt(inverse[0, 0]) / size[0])
     return np.array(found)
+
+
+@dataclasses.dataclass
+class EncoderRecords:
+    """Records of one engine with one encoder and one sensor, each at a speed and a load of its own."""
+
+    engines: list[Engines]  # of one engine and many cycles each
+    file_angle: np.ndarray  # (n,) ascending angles of every file [rad]
+    rows: list[np.ndarray]  # (cycles, n) measured pressure of each record [Pa]
+    dead_centre: np.ndarray  # (records,) of each: the sensor's lag moves it with the speed [rad]
+    pressures: list[np.ndarray]  # (n,) what the mean cycle of each really was, over the true angle `file_angle` [Pa]
+
+
+def encoder_records(rng, cycles, speeds=(0.5, 0.75, 1.0, 1.3), of=100):
+    """Records of one engine and encoder at several speeds; the noise of `cycles` says as much as that of `of`."""
+    e = drawn(rng, 1, cycles)
+    lag, membrane = rng.uniform(0, LAG) / e.omega[0, 0], MEMBRANE * abs(rng.standard_normal())
+    by, where = ENCODER * abs(rng.standard_normal()), rng.uniform(0, 2 * math.pi)
+    size = 0.002 * math.exp(0.6 * rng.standard_normal()) * math.sqrt(cycles / of)
+    made = EncoderRecords([], np.array([]), [], np.array([]), [])
+    for factor in speeds:
+        each = dataclasses.replace(
+            e,
+            omega=e.omega * factor,
+            p_closed=e.p_closed * rng.uniform(0.55, 1.0),
+            t_closed=e.t_closed + rng.uniform(-10, 10),
+            burn_start=e.burn_start + rng.uniform(-4, 4) * DEG,
+            burn_length=e.burn_length * (1 + 0.08 * rng.standard_normal((1, cycles))),
+        )
+        phi, p = whole_cycle(each, (0.97 * each.p_closed.mean(axis=1, keepdims=True))[..., None], 1.1e5)
+        swing = float(np.ptp(p, axis=-1).mean())
+        y = sensed(p, np.broadcast_to(each.omega, (1, cycles)), np.full((1, 1), lag), np.full((1, cycles), membrane))
+        y = y + swing * (
+            DRIFT * rng.standard_normal() * phi / (4 * math.pi)
+            + rng.uniform(-0.2, 1.0, (1, cycles, 1))
+            + size * rng.standard_normal(y.shape)
+        )
+        made.file_angle = phi[::2]
+        true = made.file_angle - by * np.sin(made.file_angle + where)
+        made.engines.append(each)
+        made.rows.append(np.array([np.interp(true, phi, row) for row in y[0]]))
+        made.pressures.append(p[0].mean(axis=0)[::2])
+        made.dead_centre = np.append(made.dead_centre, by * math.sin(where) + lag * float(each.omega[0, 0]))
+    return made

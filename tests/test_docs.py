@@ -4,6 +4,7 @@ import importlib
 import json
 import os
 import re
+import runpy
 import shlex
 import subprocess
 import sys
@@ -39,6 +40,47 @@ def test_what_a_page_says_to_type_runs(page, tmp_path, monkeypatch):
 def test_examples_are_of_commands_that_are_there(pages):
     assert COMMANDS.keys() == pages.EXAMPLES.keys() >= pages.BEFORE.keys()
     assert all(shlex.split(line)[0] == name for name, line in pages.EXAMPLES.items())
+
+
+README = (DOCS.parent / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_product_is_seen_before_any_benchmark():
+    pictures = re.findall(r"!\[[^]]+\]\(([^)]+)\)", README)
+    assert pictures[-1] == "benchmarks/chart.svg"
+    assert {Path(name).name for name in pictures[:-1]} == {"fourbar.svg", "report.png", "hinge.svg", "workbench.png"}
+    assert all((DOCS.parent / name).stat().st_size < 150_000 for name in pictures[:-1])
+    assert README.index("An elastic hinge is ") < README.index("41,519")
+
+
+@pytest.mark.slow
+def test_the_moving_pictures_are_what_is_drawn_now():
+    drawn = runpy.run_path(str(DOCS / "pictures.py"))
+    for name in ("hinge", "fourbar"):
+        kept = (DOCS / "pictures" / f"{name}.svg").read_text(encoding="utf-8")
+        now = drawn[name]()
+        assert re.sub(r"[\d.]+", "", now) == re.sub(r"[\d.]+", "", kept)
+        numbers = ([float(n) for n in re.findall(r"\d+\.?\d*", text)] for text in (now, kept))
+        assert all(abs(a - b) <= 1.0 for a, b in zip(*numbers, strict=True))  # thousandths of its width
+
+
+def _codesign(*more):
+    done = CliRunner().invoke(mechsym, ["codesign", "zotov-89", *more, "--json"], catch_exceptions=False)
+    return json.loads(done.stdout)
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+def test_the_numbers_of_the_readme_are_those_of_its_commands():
+    ideal, inside = _codesign(), _codesign("--losses", "inside")
+    told = README[README.index("What a co-designed hinge is worth") : README.index("```sh")]
+    kg = (ideal["flywheel_inertia_bare"], inside["flywheel_inertia"], ideal["flywheel_inertia"], ideal["total_inertia"],
+          ideal["bound"]["total_inertia"][0], ideal["bound"]["estimate"][0])  # fmt: skip
+    assert [n for n in (f"{value:,.0f}" for value in kg) if n not in told] == []
+    assert f"{100 * max(ideal['losses']['speed_ripple']):.1f} %" in told
+    share = inside["losses"]["share"]
+    assert f"{100 * min(share):.0f} to {100 * max(share):.0f} % of the torque" in told
+    assert f"to {min(inside['misfire_speed_share']):.1g} of its mean" in told
 
 
 @pytest.mark.slow

@@ -51,7 +51,7 @@ def test_runs(stem, tmp_path):
     command = [sys.executable, FOLDER / f"{stem}.py", tmp_path]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert "can be built" in done.stdout
+    assert "can be cut" in done.stdout
     assert (tmp_path / FILES[stem]).exists()
 
 
@@ -60,4 +60,4 @@ def test_example_of_the_readme_runs(tmp_path):
     (code,) = re.findall(r"```python\n(.*?)```", readme, re.S)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert "can be built: True" in done.stdout
+    assert "can be cut: True" in done.stdout

@@ -13,14 +13,16 @@ PAGES = ("docs/house.md", "CONTRIBUTING.md")
 NAMED = re.compile(r"`([\w./]+\.(?:py|md|toml))(?::(\w+))?`|\]\(([\w./]+\.md)\)")
 
 
+def bound(node):
+    """The names that an assignment binds."""
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+    return [n.id for target in targets for n in ast.walk(target) if isinstance(n, ast.Name)]
+
+
 def names_of(path):
     """What a file of Python defines at its top."""
     for node in ast.parse(path.read_text()).body:
-        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-            yield node.name
-        elif isinstance(node, (ast.Assign, ast.AnnAssign)):
-            for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
-                yield from (n.id for n in ast.walk(target) if isinstance(n, ast.Name))
+        yield from [node.name] if isinstance(node, (ast.FunctionDef, ast.ClassDef)) else bound(node)
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +45,26 @@ def test_every_path_is_held(page, pages):
     """No path in the text that the test above does not read."""
     loose = re.sub(NAMED, "", pages[page])
     assert not re.findall(r"[\w/]+\.py\b", loose.replace("/NAME.py", "").replace(FORM, ""))
+
+
+ANSWERS = re.findall(
+    r"^\| (.+?\?) \| `([\w/]+\.py):(\w+)` \| `(.+)` \|$", (ROOT.parent / "docs/house.md").read_text(), re.M
+)
+
+
+def test_the_questions_of_a_reader_are_answered():
+    questions = [question for question, *_ in ANSWERS]
+    assert len(set(questions)) == len(questions) >= 24
+
+
+@pytest.mark.parametrize("question, file, name, words", ANSWERS)
+def test_the_answer_stands_where_the_page_says(question, file, name, words):
+    text = (ROOT.parent / file).read_text()
+    for node in ast.parse(text).body:
+        if name == getattr(node, "name", None) or name in bound(node):
+            assert words in ast.get_source_segment(text, node), question
+            return
+    pytest.fail(f"{file} has no {name}")
 
 
 def test_the_order_is_the_one_that_imports_are_checked_against(pages):
@@ -70,6 +92,15 @@ def test_make_targets_exist(pages, pytestconfig):
 def test_the_package_names_its_rooms():
     there = {p.stem for p in ROOT.iterdir() if p.stem in ORDER}
     assert set(mechsym.__all__) <= there
-    assert there - set(mechsym.__all__) <= {"cli", "app", "plausible"}  # for commands, and for other rooms
+    assert there - set(mechsym.__all__) <= {
+        "cli",
+        "app",
+        "budget",
+        "plausible",
+        "inputs",
+        "transaction",
+        "interrupts",
+        "trust",
+    }  # for commands, and for other rooms
     assert {name for name in mechsym.__all__ if getattr(mechsym, name).__name__ != f"mechsym.{name}"} == set()
     assert set(dir(mechsym)) == {*mechsym.__all__, "__version__"}

@@ -16,12 +16,12 @@ OUTSIDE = ("generated", "derivations")  # plain functions and declarations: no r
 FILES = sorted(p for p in ROOT.rglob("*.py") if not set(OUTSIDE) & set(p.parts))
 # each room may import what stands before it; docs/house.md says what is in each
 ORDER = (
-    "errors quantities files periodic style page plausible "
+    "errors quantities budget interrupts transaction files inputs trust periodic style page plausible "
     "derive convert native mechanisms cycle sizing machine simulate hinge torsion forces optimise codesign "
-    "cases jobs sweep audit papers out app cli"
+    "cases jobs report sweep audit papers out app cli"
 ).split()
 SYMBOLIC = ("derive", "convert", "audit", "papers")
-READS_CASES = ("cases", "jobs", "sweep", "papers", "app", "cli")
+READS_CASES = ("cases", "jobs", "report", "sweep", "papers", "app", "cli")
 PLAIN = {"mechsym.cases.numbers.numbers", "mechsym.cases.numbers.usual"}  # numbers by letter, no case
 _TEXT = re.compile(r"mechsym(?:\.\w+)+(?::\w+)")
 

@@ -29,7 +29,7 @@ def test_changes_of_a_function():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["hinge/springs", "hinge/guide", "files"])
+@pytest.mark.parametrize("name", ["hinge/springs/air", "hinge/guide", "files"])
 def test_every_mutant_compiles_and_differs(name):
     tree = ast.parse((ROOT / "mechsym" / f"{name}.py").read_text(encoding="utf-8"))
     whole, found = ast.unparse(tree), places(tree)
@@ -40,7 +40,7 @@ def test_every_mutant_compiles_and_differs(name):
         compile(text, name, "exec")
 
 
-@pytest.mark.parametrize("arguments", [[], ["mechsym.no.module"], ["mechsym.hinge.springs", "--tests", "tests/no"]])
+@pytest.mark.parametrize("arguments", [[], ["mechsym.no.module"], ["mechsym.hinge.springs.air", "--tests", "tests/no"]])
 def test_what_is_not_there_is_refused(arguments, capsys):
     assert main(arguments) == 2
     assert capsys.readouterr().err.count("\n") == 1

@@ -12,7 +12,7 @@ from mechsym.cycle.heat import Adiabatic
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.mixture import ConstantGamma
-from mechsym.forces.rings import NoRings
+from mechsym.forces.friction import NoRings
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.quantities import RPM
 

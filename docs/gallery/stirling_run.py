@@ -8,5 +8,5 @@ From the shell: mechsym simulate alpha-stirling
 from mechsym import cases, jobs
 
 run = jobs.run(cases.load("alpha-stirling", {"simulation.turns": 5}), check="none")
-print(run.summary["end"], "after", round(run.summary["t_end"], 2), "s; columns:", *list(run.table())[:4])
+print(run.summary.end, "after", round(run.summary.t_end, 2), "s; columns:", *list(run.table())[:4])
 figure = run.plot("speed")

@@ -5,6 +5,7 @@ answers     what is shown as a slider moves: the hinge with its limits, curves a
 commands    the slow part: a command of mechsym in a process of its own, its result as rows
 saving      the case with moved values as a text; report, drawing and FMU by their commands
 uploads     a case from a stranger: what it may hold
+door        who may speak to the server: the browser that has its address, no page from elsewhere
 view        the page, panels its tabs, markup their tables and charts; server shows it; needs the extra `app`
 """
 

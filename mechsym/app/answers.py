@@ -10,6 +10,7 @@ from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
 from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.limits import ALL_KEPT
 from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
@@ -53,7 +54,7 @@ class Bar:
 class Answer:
     """What is known of a case at once."""
 
-    good: bool  #: can be built
+    good: bool  #: can be cut and keeps the ripple with losses
     words: str
     rows: tuple[tuple[str, str], ...] = ()  #: name and value with its unit
     bars: tuple[Bar, ...] = ()
@@ -68,22 +69,20 @@ class Answer:
 def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
     """The hinge of a case with other values; what is impossible is an answer too, in words.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        By key, as `--set` takes them [SI unit of the key]
+    values: by key, as `--set` takes them [SI unit of the key].
     """
     try:
         case = cases.load(name, values)
         design = hinge(case)
     except BadInput as refused:
-        return Answer(good=False, words=str(refused))
+        return Answer(good=False, words=f"no hinge: {refused}")
     verdict = design.verdict
     doubts = tuple(
         f"{d.quantity} = {d.value:g}, usual is {d.usual}: {d.why}" for d in sifted(case.doubts, case.acceptances)[0]
     )
+    words = f"{design.answer} ({verdict.reason.removeprefix(ALL_KEPT)})"
     return Answer(
-        good=verdict.feasible, words=verdict.reason, rows=_rows(design), doubts=doubts,
+        good=design.target.met, words=words, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
         curves=_curves(design), drawn=functools.partial(_drawing, design),
         turns=round(design.hinge.period / (2 * math.pi)), ratio=design.guide.parameters.shaft_ratio,
@@ -99,8 +98,10 @@ def moving(answer: Answer, title: str) -> str | None:
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:
     phi = np.linspace(0, design.hinge.period, _POINTS)
     torque, verdict = design.hinge.torque(phi), design.verdict
-    rows = [("load torque", measure(design.hinge.load_torque, "N*m")),
-            ("hinge torque", span(float(torque.min()), float(torque.max()), "N*m"))]  # fmt: skip
+    rows = [
+        ("load torque", measure(design.hinge.load_torque, "N*m")),
+        ("hinge torque", span(float(torque.min()), float(torque.max()), "N*m")),
+    ]
     if verdict.rho_min is not None:
         rows += [
             ("guide, radius", f"{1e3 * verdict.rho_min:.4g} to {1e3 * (verdict.rho_max or 0):.4g} mm"),
@@ -135,8 +136,9 @@ def _bare(design: Design, inertia: np.ndarray) -> str:
 
 def _curves(design: Design) -> tuple[Plotted, ...]:
     phi = np.linspace(0, design.hinge.period, _POINTS)
-    curves = [_curve("wanted", "hinge torque", "crank angle [deg]", "kN m", np.degrees(phi),
-                     design.hinge.torque(phi) / 1e3)]  # fmt: skip
+    curves = [
+        _curve("wanted", "hinge torque", "crank angle [deg]", "kN m", np.degrees(phi), design.hinge.torque(phi) / 1e3)
+    ]
     if design.guide.rho is not None:
         turn, angle = guide_turn(design, _POINTS), "angle of the guide [deg]"
         theta = np.degrees(turn.theta)

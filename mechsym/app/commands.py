@@ -12,24 +12,16 @@ from pathlib import Path
 from mechsym.app.answers import Plotted
 from mechsym.app.told import pretty, told
 from mechsym.cases import Case
-from mechsym.cases.needs import NEEDS, READS
-from mechsym.jobs.own import is_own
+from mechsym.cases.facts import facts_of
+from mechsym.cases.needs import COMMANDS, lacking
+from mechsym.mechanisms.own import quantity_of
+from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.traits import is_train
+from mechsym.page import Finding
 from mechsym.quantities import record
-from mechsym.quantities.display import heading
-from mechsym.quantities.names import stem_and_unit
+from mechsym.quantities.display import heading, stem_and_unit
 
-#: command: sections that a case needs for it
-_NEEDS = {
-    "hinge": ("spring", "guide", "rollers", "limits"),
-    "simulate": ("parameters",),
-    "forces": ("parameters", "operation"),
-    "cycle": ("cycle",),
-    "size": ("sizing",),
-    "codesign": ("codesign",),
-}
-_ALSO = {"size": "part_crosshead"}  # a section that is enough by itself
+_TABS = ("hinge", "simulate", "forces", "cycle", "size", "codesign")
 _MOST_ROWS = 400  # more than any command says of a case of ours
 _MOST_CURVES = 6
 _MOST_POINTS = 600  # of a curve
@@ -51,17 +43,18 @@ class Run:
     words: str  #: its error or verdict, empty when there is nothing to say
     rows: tuple[tuple[str, str], ...] = ()  #: names and values of its JSON, the lists in short
     curves: tuple[Plotted, ...] = ()  #: of its table, where it has one
+    findings: tuple[Finding, ...] = ()  #: what has to be known first
 
 
 def tabs(case: Case) -> tuple[str, ...]:
-    """Commands that the sections of a case allow."""
-    return tuple(name for name, sections in _NEEDS.items()
-                 if _ALSO.get(name) in case.sections or all(s in case.sections for s in sections))  # fmt: skip
+    """Commands that can run on a case."""
+    missing = lacking(facts_of(case.mechanism, case.sections))
+    return tuple(name for name in _TABS if not missing[name])
 
 
-def reads(command: str) -> frozenset[str]:
-    """The sections that a command reads: only their values can move what it says."""
-    return frozenset((*NEEDS.get(command, ()), *READS.get(command, ()), *_NEEDS.get(command, ())))
+def reads(command: str, case: Case) -> set[str]:
+    """The sections of a case that a command reads: only their values can move what it says."""
+    return COMMANDS[command].reads(facts_of(case.mechanism, case.sections)) if command in COMMANDS else set()
 
 
 def against(mechanism: str) -> str:
@@ -72,9 +65,8 @@ def against(mechanism: str) -> str:
     >>> against("crosshead"), against("rodless"), against("crank_train")
     ('crosshead.x', 'rodless.x_a', 'crank_throw.x')
     """
-    if is_train(mechanism):
-        return "crank_throw.x"  # the theory of one of its throws
-    return f"{mechanism}{':' if is_own(mechanism) else '.'}{next(iter(listing(mechanism)['outputs']))}"
+    theory = plan_of(mechanism).theory
+    return quantity_of(theory, next(iter(listing(theory)["outputs"])))
 
 
 def words(command: str, name: str, values: Mapping[str, float]) -> list[str]:
@@ -87,7 +79,7 @@ async def run(line: Sequence[str]) -> Run:
     table = _TABLES.get(line[0])
     with tempfile.TemporaryDirectory() as folder:
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "mechsym", *line, "--json", *(("--out", folder) if table else ()),
+            sys.executable, "-m", "mechsym", *line, "--json", "--with-units", *(("--out", folder) if table else ()),
             stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
         )  # fmt: skip
         try:
@@ -98,7 +90,24 @@ async def run(line: Sequence[str]) -> Run:
             raise
         curves = _curves(Path(folder) / table[0], table[1]) if table else ()
         units = _units(Path(folder) / table[0]) if table else {}
-    return _read(process.returncode or 0, out.decode(), said.decode(), curves, units)
+    return run_of(process.returncode or 0, out.decode(), said.decode(), curves, units)
+
+
+def run_of(
+    status: int, out: str, said: str, curves: tuple[Plotted, ...] = (), columns: Mapping[str, str] | None = None
+) -> Run:
+    """What a command said with `--json --with-units`; columns: units of those of its table."""
+    try:
+        answer = json.loads(out)
+    except ValueError:
+        return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
+    units = {f"max.{name}": unit for name, unit in (columns or {}).items()} | answer["units"]
+    return Run(status=status, words=said.strip(), rows=tuple(told(answer["value"], units)[:_MOST_ROWS]), curves=curves,
+               findings=_findings(answer["value"]))  # fmt: skip
+
+
+def _findings(value: object) -> tuple[Finding, ...]:
+    return tuple(Finding(**one) for one in value.get("headline", ())) if isinstance(value, Mapping) else ()
 
 
 def _units(file: Path) -> dict[str, str]:
@@ -107,14 +116,6 @@ def _units(file: Path) -> dict[str, str]:
         return {}
     with file.open(encoding="utf-8", newline="") as stream:
         return dict(_head(head) for head in next(csv.reader(stream)))
-
-
-def _read(status: int, out: str, said: str, curves: tuple[Plotted, ...], units: Mapping[str, str] | None = None) -> Run:
-    try:
-        found = json.loads(out)
-    except ValueError:
-        return Run(status=status, words=said.strip().splitlines()[-1] if said.strip() else "no answer")
-    return Run(status=status, words=said.strip(), rows=tuple(told(found, units or {}))[:_MOST_ROWS], curves=curves)
 
 
 def _curves(file: Path, along: str) -> tuple[Plotted, ...]:

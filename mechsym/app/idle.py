@@ -6,16 +6,18 @@ from typing import Any
 from mechsym.app.letters import rubbing, unread
 from mechsym.cases import Case
 from mechsym.cycle.friction import MechanismFriction
-from mechsym.cycle.kinds.schmidt import Schmidt
-from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
-from mechsym.cycle.measured.diagram import Diagram
-from mechsym.jobs.own import is_own
-from mechsym.mechanisms.traits import rules_of
+from mechsym.cycle.kinds import kind_of
+from mechsym.mechanisms import roles_of
+from mechsym.quantities.records import moved
+from mechsym.quantities.records import unread as unread_keys
 
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
     """Keys of a case that move nothing in a tab, each with the reason."""
-    found: dict[str, str] = {}
+    found = {f"{s}.{name}": why for s, data in case.sections.items() for name, why in unread_keys(data).items()}
+    found |= {
+        f"{s}.{name}": f"{key} tells it" for s, data in case.sections.items() for name, key in moved(data).items()
+    }
     for section, names, tabs, reason in _RULES:
         data = case.sections.get(section)
         why = None if data is None or (tabs and tab not in tabs) else reason(case, data)
@@ -27,28 +29,27 @@ def idle(case: Case, tab: str) -> Mapping[str, str]:
     return found | {f"parameters.{name}": why for name, why in unread(case, tab).items()}
 
 
-def _unless(field: str, value: str) -> Callable[[Case, Any], str | None]:
+Idle = Callable[[Case, Any], str | None]  # why a section of a case is not read
+
+
+def _unless(field: str, value: str) -> Idle:
     """A reason while a choice of the same section is another one."""
 
-    def reason(case: Case, data: Any) -> str | None:
+    def reason(case: Case, data: object) -> str | None:
         chosen = getattr(data, field, value)
         return None if chosen == value else f"{field} is {chosen}"
 
     return reason
 
 
-def _said(words: str) -> Callable[[Case, Any], str | None]:
+def _said(words: str) -> Idle:
     return lambda case, data: words
 
 
-def _fuel(case: Case, data: Any) -> str | None:
-    given = isinstance(data, TwoStrokeMarine) and data.mean_indicated_pressure
+def _fuel(case: Case, data: object) -> str | None:
+    kind = kind_of(data)
+    given = kind.facts and getattr(data, kind.load)
     return "the mean pressure is given: it tells temperatures and fuel only" if given else None
-
-
-def _untold_fuel(case: Case, data: Any) -> str | None:
-    untold = is_own(case.mechanism)  # of others the facts tell the temperature
-    return _fuel(case, data) if untold else None
 
 
 def _no_friction(case: Case, data: Any) -> str | None:
@@ -56,45 +57,39 @@ def _no_friction(case: Case, data: Any) -> str | None:
     return "the rollers have no friction" if free else None
 
 
-def _schmidt(case: Case, data: Any) -> str | None:
-    return "kind is schmidt, without losses" if isinstance(case.sections.get("cycle"), Schmidt) else None
+def _schmidt(case: Case, data: object) -> str | None:
+    return "kind is schmidt, without losses" if "cycle" in case.sections and kind_of(case.need("cycle")).ideal else None
 
 
-def _scavenge(case: Case, data: Any) -> str | None:
-    under = getattr(data, "crank_side", "atmosphere")
-    return None if under == "atmosphere" else f"crank_side is {under}"
-
-
-def _opposed(case: Case, data: Any) -> str | None:
+def _opposed(case: Case, data: object) -> str | None:
     return "it acts on both ends of a slider" if "faces" in case.sections else None
 
 
-def _measured(case: Case, data: Any) -> str | None:
-    return "the cycle is measured" if isinstance(case.sections.get("cycle"), Diagram) else None
+def _measured(case: Case, data: object) -> str | None:
+    measured = "cycle" in case.sections and kind_of(case.need("cycle")).measured
+    return "the cycle is measured" if measured else None
 
 
-def _no_joints(case: Case, data: Any) -> str | None:
+def _no_joints(case: Case, data: object) -> str | None:
     """The cycle asks for the friction of the joints only where its mean pressure is made of it."""
     law = case.sections.get("friction_pressure")
     return None if isinstance(law, MechanismFriction) else "the cycle is without the friction of the joints"
 
 
-def _own(case: Case, data: Any) -> str | None:
-    return "of a mechanism of one's own the roles tell where it rubs" if is_own(case.mechanism) else None
-
-
-def _anew(words: str) -> Callable[[Case, Any], str | None]:
+def _anew(words: str) -> Idle:
     """A reason where rules size the parts anew; parts that a case gives are checked under all of its loads."""
-    return lambda case, data: words if rules_of(case.mechanism) and "part_crosshead" not in case.sections else None
+    return lambda case, data: (
+        words if roles_of(case.mechanism).rules and "part_crosshead" not in case.sections else None
+    )
 
 
-def _chosen(case: Case, data: Any) -> str | None:
+def _chosen(case: Case, data: object) -> str | None:
     return (
         None if "part_crosshead" in case.sections else "the part is sized anew, of the given one only masses are read"
     )
 
 
-def _kept(case: Case, data: Any) -> str | None:
+def _kept(case: Case, data: object) -> str | None:
     return "pins, guide and rod are checked" if "part_crosshead" in case.sections else None
 
 
@@ -103,12 +98,12 @@ def _fine(case: Case, data: Any) -> str | None:
     return "sizing.speed_step is wider" if wanted and _REACH * data.step <= wanted.speed_step else None
 
 
-def _weighed(case: Case, data: Any) -> str | None:
-    anew = rules_of(case.mechanism) == "slider crank" and "part_crosshead" not in case.sections
+def _weighed(case: Case, data: object) -> str | None:
+    anew = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" not in case.sections
     return "sized parts weigh what they weigh" if anew else None
 
 
-def _family(case: Case, data: Any) -> str | None:
+def _family(case: Case, data: object) -> str | None:
     return "codesign.scavenge tells it at each load" if case.need("codesign").scavenge else None
 
 
@@ -116,25 +111,20 @@ _REACH = 2.0  # as far as sliders go, times the value
 _NO_PLACE = "the mechanism has no such place that rubs"
 
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds
-_RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Callable[[Case, Any], str | None]], ...] = (
+_RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("scavenging", (), (), _unless("source", "turbocharger")),
-    ("rollers", ("rolling_arm",), (), _unless("friction", "rolling")),
     ("rollers", (), ("simulate",), _no_friction),
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
     ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
     ("cycle", ("lhv",), ("size",), _fuel),
     ("cycle", ("octane",), ("simulate", "forces", "size", "hinge", "codesign"), _said("the tab cycle tells the knock")),
-    ("cycle", ("c_v", "lhv", "R", "T_evc"), ("forces",), _untold_fuel),
-    ("cycle", ("p_back",), (), _scavenge),
     ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
     ("cycle", ("p_back",), ("cycle",), _measured),
     ("stirling", (), (), _schmidt),
     ("operation", ("speed",), ("cycle",), _measured),
     ("friction", (), ("cycle",), _no_joints),
     ("rings", (), ("cycle",), _no_joints),
-    ("rings", (), ("forces",), _own),
-    ("shaking", (), ("forces",), _own),
     ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
     ("chamber", ("back_pressure",), ("forces", "simulate"), _opposed),
     ("shaking", ("limit",), ("forces",), _said("it only judges")),

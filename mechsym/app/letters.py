@@ -1,204 +1,127 @@
-"""Parameters of a mechanism that enter nothing of which a tab speaks: its own functions are asked, whatever it is.
+"""Parameters of a mechanism that enter nothing of which a tab speaks, as its own functions have them.
 
-Each number is moved a little and the functions are compared at a few states, with what is zero lifted off zero. A
-letter that changes none of them can move nothing that follows from them.
+The functions are built with every letter that has a slider left free; a letter is in what they give where its exact
+derivative is more than round-off at a few states. A zero is taken as a small number there: it may hide another letter.
 """
 
-import dataclasses
-import functools
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from types import SimpleNamespace
+from typing import cast
 
 import casadi as ca
 import numpy as np
 
+from mechsym import mechanisms
 from mechsym.app.sliders import numbers
 from mechsym.cases import Case
 from mechsym.cycle.friction import MechanismFriction
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.motion import piston_roles
 from mechsym.errors import BadInput
-from mechsym.forces.turn import chain_of
+from mechsym.forces.friction import rubbing as places_of
 from mechsym.forces.turn import turn as turn_of
-from mechsym.jobs import own
-from mechsym.jobs.gas import one_cylinder
-from mechsym.jobs.own import is_own
-from mechsym.jobs.turn import drive_of
-from mechsym.jobs.whole_engine import cylinders
-from mechsym.mechanisms import build
-from mechsym.mechanisms.record import Mechanism, accelerations, bind, evaluate, listing
-from mechsym.mechanisms.traits import is_train, traits_of
+from mechsym.jobs.cycle import cylinders
+from mechsym.jobs.machine import drive_of
+from mechsym.mechanisms.closing import closed
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import Mechanism, accelerations, velocities
+from mechsym.mechanisms.roles import FaceRole, PistonRole
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Scalar
 
-Seen = Mapping[str, np.ndarray]
-
-_PHI = np.array([0.3, 1.1, 2.0, 2.9, 3.8, 4.7, 5.6])  # no dead centre, no symmetry [rad]
 _SPEED = 10.0  # at which nothing is out of proportion [rad/s]
-_MOVED = 1.01  # times a number
-_LIFT = 0.05  # of the largest number of the same unit, in place of a zero
-_ROUNDING = 1e-11  # of the largest value of an output
+_STATES = np.array([0.3, 1.1, 2.0, 2.9, 3.8, 4.7, 5.6])  # no dead centre, no symmetry [SI]
+_SMALL = 1e-3  # in place of a zero [SI]
+_ROUNDING = 1e-12  # of the largest value of an output
 _ALL = "no output of the mechanism depends on it"
 _HELD = "the speed is held"
 _GAS = "of the mechanism only what moves the pistons, and what moves with them, acts here"
-_PLACES = {"guides": ("mu_guide",), "teeth": ("mu_mesh", "module", "contact_ratio"),
-           "piston_pins": ("mu_pin", "radius_piston_pin"), "crank_pins": ("mu_pin", "radius_crank_pin")}  # fmt: skip
-_SHAFT = ("mu_main", "radius_main")
 
 
-def unread(case: Case, tab: str) -> Mapping[str, str]:
+def unread(case: Case, tab: str) -> dict[str, str]:
     """Parameters that stand alone and enter nothing that a tab shows, each with the reason."""
     asked = {"forces": (_held, _HELD), "cycle": (_of_gas, _GAS), "simulate": (_free, _ALL)}.get(tab)
-    if asked is None or "parameters" not in case.sections:
+    offered = numbers(case, "parameters") if "parameters" in case.sections else []
+    if asked is None or not offered:
         return {}
-    seen, reason = asked
-    return dict.fromkeys(_still(case, seen), reason)
+    entering, reason = asked
+    try:
+        acting = entering(case)
+    except BadInput:  # the command says it
+        return {}
+    return {field.name: reason for field in offered if field.name not in acting}
 
 
 def rubbing(case: Case) -> frozenset[str]:
     """The values of `[friction]` that act at a place where parts of the mechanism rub."""
-    if is_own(case.mechanism):
-        bearings, guides = own.roles(case, "bearing"), own.roles(case, "guide")
-        found = {"mu_pin": bearings, "radius_crank_pin": [b for b in bearings if b["radius"] is None],
-                 "mu_guide": guides}  # fmt: skip
-        return frozenset(name for name, places in found.items() if places)
-    one = turn_of(drive_of(_with(case, _lifted(case))), None, _SPEED)
-    rubs = chain_of(one.drive).rubbing(one, chain_of(one.drive).loads(one))
-    return frozenset(n for r in rubs if np.any(r.force) and np.any(r.speed) for n in _PLACES[r.place]) | {*_SHAFT}
+    one = turn_of(drive_of(case), None, _SPEED)
+    return frozenset(n for r in places_of(one) if np.any(r.force) and np.any(r.speed) for n in r.reads)
 
 
-def _still(case: Case, seen: Callable[[Case], Seen]) -> list[str]:
-    """Numbers among the parameters that change nothing of what is seen; none where it cannot be seen at all."""
-    data = _lifted(case)
-    if _seen(case, data, seen) is None:  # a zero may be wanted, as an offset that a cycle refuses
-        data = _lifted(case, lambda other: _seen(case, other, seen) is not None)
-    before = _seen(case, data, seen)
-    if before is None:
-        return []
-    moved = {f.name: _moved(data, f.name) for f in numbers(case, "parameters")}
-    return [n for n, other in moved.items() if other and _same(before, _seen(case, other, seen))]
+def _open(case: Case, rigid: bool) -> Mechanism:
+    """The mechanism with its sliders' letters free, on a shaft that does not twist where it is put together so."""
+    plan, free = plan_of(case.mechanism), {f.name: ca.SX.sym(f.name) for f in numbers(case, "parameters")}
+    letters = cast(Record, SimpleNamespace(**vars(case.need("parameters")) | free))
+    rigid = rigid and bool(mechanisms.lists(case.mechanism))
+    return plan.rigid(letters, {}) if rigid else plan.build(letters)
 
 
-def _seen(case: Case, parameters: Any, seen: Callable[[Case], Seen]) -> Seen | None:
-    try:
-        return seen(_with(case, parameters))
-    except BadInput:
-        return None
+def _entering(case: Case, groups: Sequence[str], held: bool = True, only: Sequence[str] = ()) -> set[str]:
+    """Letters in outputs of groups of functions and, unless only some are named, in the equations of motion."""
+    mechanism = _open(case, held)
+    for role in mechanisms.roles_of(case.mechanism).closings if "reactions" in groups else ():
+        mechanism = closed(mechanism, role, case.need("closing"))
+    q, a = mechanism.coordinates, accelerations(mechanism)
+    still = {name for name, of in zip(a, q, strict=True) if held and of not in mechanism.dependents}
+    state = {n: ca.SX(0) if n in still else ca.SX.sym(n) for n in (*q, *velocities(mechanism), *a, *mechanism.inputs)}
+    parameters: Mapping[str, Scalar] = mechanism.parameters  # numbers, or letters left free
+    free = {name: value for name, value in parameters.items() if isinstance(value, ca.SX)}
+
+    def outputs(group: str) -> dict[str, ca.SX]:
+        function, known = mechanism.functions[group], state | free
+        return function(**{n: known[n] for n in function.name_in()})
+
+    values = [v for g in groups if g in mechanism.functions for n, v in outputs(g).items()
+              if g != "kinematics" or not only or n in only]  # fmt: skip
+    if not only:
+        motion, rates = outputs("dynamics"), ca.vertcat(*(state[name] for name in a))
+        values.append(motion["mass_matrix"] @ rates + motion["bias"] - motion["generalized_force"])
+    inside = _inside(ca.vertcat(*map(ca.vec, values)), [v for v in state.values() if v.is_symbolic()], free, case)
+    return set(np.array(list(free))[inside])
 
 
-def _same(one: Seen, other: Seen | None) -> bool:
-    return other is not None and all(_alike(value, other[name]) for name, value in one.items())
+def _inside(values: ca.SX, state: Sequence[ca.SX], free: Mapping[str, ca.SX], case: Case) -> np.ndarray:
+    """Whether each letter moves one of some values, by its derivative at a few states."""
+    letters, own = ca.vertcat(*free.values()), np.array([getattr(case.need("parameters"), n) for n in free])
+    function = ca.Function("moved", [ca.vertcat(*state), letters], [values, ca.jacobian(values, letters)])
+    rows = [function(at + 0.1 * np.arange(len(state)), np.where(own, own, _SMALL)) for at in _STATES]
+    # a loop may be open in a pose
+    size, slope = (np.nanmax([np.abs(np.asarray(row[i])) for row in rows], axis=0, initial=0.0) for i in (0, 1))
+    return (slope * np.where(own, np.abs(own), 1.0) > _ROUNDING * size).any(axis=0)
 
 
-def _alike(one: np.ndarray, other: np.ndarray) -> bool:
-    closed = np.isfinite(one) & np.isfinite(other)  # a loop may be open in a pose
-    size = np.abs(one[closed]).max(initial=0.0)
-    return not one.size or bool(closed.any() and np.abs(other - one)[closed].max() <= _ROUNDING * size)
+def _held(case: Case) -> set[str]:
+    roles = mechanisms.roles_of(case.mechanism)
+    acting = _entering(case, ("kinematics", "constraints", "reactions", "momentum"))
+    acting |= {b.radius for b in roles.bearings if b.radius and "friction" in case.sections}
+    # the shaft of an engine is judged too
+    return acting | (_free(case) if roles.shafts and "cycle" in case.sections else set())
 
 
-def _with(case: Case, parameters: Any) -> Case:
-    return dataclasses.replace(case, sections={**case.sections, "parameters": parameters})
+def _free(case: Case) -> set[str]:
+    return _entering(case, ("constraints",), held=False)
 
 
-def _numbers(data: Any) -> list[str]:
-    return [f.name for f in dataclasses.fields(data) if isinstance(getattr(data, f.name), float)]
-
-
-def _lifted(case: Case, allowed: Callable[[Any], bool] = lambda data: True) -> Any:
-    """The parameters with a small value in place of each zero that has a slider and may have one."""
-    data = case.need("parameters")
-    for name in (f.name for f in numbers(case, "parameters") if getattr(data, f.name) == 0):
-        other = _replaced(data, name, _small(data, name))
-        data = other if other is not None and allowed(other) else data
-    return data
-
-
-def _small(data: Any, name: str) -> float:
-    units = {f.name: f.metadata.get("unit") for f in dataclasses.fields(data)}
-    return _LIFT * (max(abs(getattr(data, n)) for n in _numbers(data) if units[n] == units[name]) or 1.0)
-
-
-def _moved(data: Any, name: str) -> Any:
-    value = getattr(data, name)
-    ends = (value * _MOVED, value / _MOVED) if value else (_small(data, name), -_small(data, name))
-    return _replaced(data, name, ends[0]) or _replaced(data, name, ends[1])
-
-
-def _replaced(data: Any, name: str, value: float) -> Any:
-    try:
-        return dataclasses.replace(data, **{name: value})
-    except BadInput:
-        return None
-
-
-def _states(mechanism: Mechanism, held: bool) -> dict[str, Any]:
-    """Angles, speeds and inputs, all different [SI]; accelerations too, of what is not held at its speed."""
-    n = len(_PHI)
-    found: dict[str, Any] = {}
-    for i, q in enumerate(mechanism.coordinates):
-        pushed = 0.0 if held and q not in mechanism.dependents else 7.0 + i
-        found |= {q: _PHI + 0.1 * i, f"{q}d": np.full(n, _SPEED + i), f"{q}dd": np.full(n, pushed)}
-    return found | {name: np.full(n, 1.0 + 0.1 * i) for i, name in enumerate(mechanism.inputs)}
-
-
-@functools.lru_cache(maxsize=16)
-def _symbolic(name: str) -> Mechanism:
-    """A mechanism that takes its parameters as inputs, so that it is built once."""
-    return bind(name, {letter: ca.SX.sym(letter) for letter in listing(name)["parameters"]})
-
-
-def _told(case: Case, mechanism: Mechanism, groups: Sequence[str], held: bool = True) -> dict[str, np.ndarray]:
-    """Outputs of groups of functions at the states, and what is left of the equations of motion there."""
-    letters = {n: getattr(case.need("parameters"), n) for n in _numbers(case.need("parameters"))}
-    given = letters | _states(mechanism, held)
-    found: dict[str, np.ndarray] = {}
-    for group in (g for g in ("dynamics", *groups) if g in mechanism.functions):
-        names = mechanism.functions[group].name_in()
-        values = evaluate(mechanism, group, **{n: given[n] for n in names if n in given})
-        found |= {f"{group} {name}": value for name, value in values.items()}
-    n = len(mechanism.coordinates)
-    mass, bias, force = (found.pop(f"dynamics {name}") for name in ("mass_matrix", "bias", "generalized_force"))
-    rates = np.array([given[a] for a in accelerations(mechanism)])
-    return found | {"motion": np.einsum("ijk,jk->ik", mass.reshape(n, n, -1), rates) + (bias - force).reshape(n, -1)}
-
-
-def _built(case: Case) -> Mechanism:
-    assembled = is_train(case.mechanism)
-    return build(case.mechanism, case.need("parameters")) if assembled else _symbolic(case.mechanism)
-
-
-def _rigid(case: Case) -> Mechanism:
-    """The mechanism with every reaction, of a train on a rigid shaft."""
-    known = traits_of(case.mechanism)
-    closed = known is not None and known.chain is not None and known.chain.rigid is not None
-    return drive_of(case).mechanism if closed else _symbolic(case.mechanism)
-
-
-def _held(case: Case) -> Seen:
-    if not is_own(case.mechanism):
-        found = _told(case, _rigid(case), ("reactions", "momentum"))
-        elastic = is_train(case.mechanism) and "cycle" in case.sections  # its shaft is judged too
-        return found | ({f"free {n}": v for n, v in _free(case).items()} if elastic else {})
-    bearings = own.roles(case, "bearing") if "friction" in case.sections else []
-    radii = {b["radius"]: getattr(case.need("parameters"), b["radius"]) for b in bearings if b["radius"]}
-    found = _told(case, _rigid(case), ("kinematics", "constraints", "reactions", "momentum"))
-    return found | {f"radius {name}": np.array([value]) for name, value in radii.items()}
-
-
-def _free(case: Case) -> Seen:
-    return _told(case, _built(case), ("constraints",), held=False)
-
-
-def _of_gas(case: Case) -> Seen:
-    """Travels of the pistons and what moves with them; torque where a figure is made of it."""
+def _of_gas(case: Case) -> set[str]:
+    """What moves the pistons and moves with them; torque where a figure is made of it."""
     if isinstance(case.sections.get("friction_pressure"), MechanismFriction):
         return _held(case)
-    seen, train = one_cylinder(case), kind_of(case.need("cycle")).given == "train"
-    roles, told = piston_roles(seen.mechanism), _told(seen, _symbolic(seen.mechanism), ("kinematics", "constraints"))
-    wanted = {f"kinematics {role['travel']}" for role in roles}
-    found = {n: v for n, v in told.items() if n in wanted or n.startswith("constraints")}
-    if isinstance(case.need("cycle"), Diagram):
-        return found
-    if train or (len(roles) if is_own(case.mechanism) else cylinders(case).count) > 1:
-        return found | {"motion": _told(case, _rigid(case), ())["motion"]}
-    data = seen.need("parameters")
-    return found | {f"mass {m}": np.array([getattr(data, m)]) for r in roles for m in r.get("masses", ())}
+    kind, plan = kind_of(case.need("cycle")), plan_of(case.mechanism)
+    parts = plan.parts(case.need("parameters"))
+    heads: tuple[PistonRole | FaceRole, ...] = (*parts.pistons, *parts.faces)
+    acting = _entering(case, ("kinematics", "constraints"), only=[head.travel for head in heads])
+    if kind.measured:
+        return acting
+    stands_in = plan.alone(case.need("parameters"))[0] != case.mechanism
+    if kind.shared or stands_in or len(parts.pistons) > 1 or cylinders(case).count > 1:
+        return acting | _entering(case, ())
+    return acting | {mass for head in heads for mass in head.masses if isinstance(mass, str)}

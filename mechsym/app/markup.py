@@ -2,10 +2,10 @@
 
 import html
 from collections.abc import Sequence
-from typing import Any
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
+from mechsym.files import Json
 from mechsym.style import DARK, QUIET
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
@@ -72,11 +72,13 @@ def run_table(found: Run, pinned: Run | None = None) -> str:
     """What a command said."""
     state = {0: "done", 1: "done: infeasible, or a check failed", 2: "refused", 3: "done, with doubts"}
     words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
-    said = f"<p class='mechsym-note'>exit status {found.status}: {state.get(found.status, 'failed')}</p>"
-    return said + words + table(found.rows, pinned.rows if pinned else ())
+    said = f"<p class='mechsym-note'>{state.get(found.status, 'failed')}</p>"
+    colours = {"no": "text-red-7", "open": "text-orange-9"}
+    first = "".join(f"<p class='text-lg {colours.get(f.mark, '')}'>{html.escape(f.line)}</p>" for f in found.findings)
+    return first + said + words + table(found.rows, pinned.rows if pinned else ())
 
 
-def chart(curves: list[tuple[Plotted, str]]) -> dict[str, Any]:
+def chart(curves: list[tuple[Plotted, str]]) -> Json:
     """Curves with their line styles as the options of a chart."""
     first = curves[0][0]
     series = [

@@ -3,12 +3,16 @@
 import asyncio
 import json
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mechsym.app import commands
 from mechsym.app.answers import Answer, Plotted, hinge_answer, moving
 from mechsym.app.commands import Run
 from mechsym.app.markup import bars, chart, frame, run_table, table
+
+if TYPE_CHECKING:
+    from nicegui.element import Element
+    from nicegui.elements.echart import EChart
 
 AUDIT = "audit"
 _REST = 0.4  # sliders rest so long before what is slow begins [s]
@@ -20,7 +24,7 @@ class Panel:
 
     def __init__(self, ui: Any, name: str, path: str, mechanism: str) -> None:
         self.ui, self.name, self.path, self.mechanism = ui, name, path, mechanism
-        self.drawn: dict[str, Any] = {}
+        self.drawn: dict[str, EChart] = {}
         self.charts: Any = None
         self.build()
 
@@ -52,7 +56,7 @@ class Panel:
                     self.drawn[name] = self.ui.echart(chart(found)).classes("h-64 w-full")
                 self.linked(self.drawn[name], found[0][0])
 
-    def linked(self, made: Any, curve: Plotted) -> None:
+    def linked(self, made: "Element", curve: Plotted) -> None:
         """Link the cursor of a new chart with the picture."""
 
 
@@ -88,7 +92,7 @@ class HingePanel(Panel):
 
     def _show(self, answer: Answer) -> None:
         self.answer = answer
-        self.verdict.text = ("can be built: " if answer.good else "cannot be built: ") + answer.words
+        self.verdict.text = answer.words
         self.verdict.classes(replace=f"text-lg text-{'green' if answer.good else 'red'}-7")
         self.doubts.text = "\n".join(f"doubt: {d}" for d in answer.doubts)
         self.rows.set_content(table(answer.rows, self.pinned.rows if self.pinned else ()))
@@ -99,7 +103,7 @@ class HingePanel(Panel):
         """Keep what is shown beside what comes."""
         self.pinned = self.answer
 
-    def linked(self, made: Any, curve: Plotted) -> None:
+    def linked(self, made: "Element", curve: Plotted) -> None:
         """Link the cursor of a new chart with the picture."""
         ratio = self.answer.ratio if self.answer and "guide" in curve.x_name else 1.0
         self.ui.run_javascript(f"mechsymLink({json.dumps(made.id)}, {json.dumps(ratio)})")

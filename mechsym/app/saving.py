@@ -23,10 +23,7 @@ FILES = {
 def case_text(name: str, values: Mapping[str, float]) -> str:
     """The text of a case with other values in their lines, the rest and its comments as they are.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        By section.name [SI unit of the key]
+    values: by section.name [SI unit of the key].
     """
     wanted, text = cases.load(name, values), cases.text(name)
     for key, value in values.items():

@@ -4,13 +4,13 @@ import dataclasses
 import math
 import tomllib
 from collections.abc import Mapping
-from typing import Any
 
 from mechsym import cases
 from mechsym.app import uploads
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.records import Field, Record
 
 _REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
 _STEPS = 200
@@ -44,7 +44,7 @@ def sliders(case: Case) -> tuple[Slider, ...]:
     return tuple(found)
 
 
-def numbers(case: Case, section: str) -> list[dataclasses.Field]:
+def numbers(case: Case, section: str) -> list[Field]:
     """The fields of a section that stand in the text of the case as one number with a unit."""
     given, data = tomllib.loads(cases.text(case.path)).get(section), case.sections[section]
     if not dataclasses.is_dataclass(data) or not isinstance(given, dict):
@@ -56,17 +56,9 @@ def numbers(case: Case, section: str) -> list[dataclasses.Field]:
 def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     """Values from an address in the browser, which anybody may have written.
 
-    Parameters
-    ----------
-    name : str
-        Case that the address names: a built-in one, an upload of this browser, or `own`, with which it was started
-    texts : mapping of str to str
-        Keys and SI values as text
-
-    Returns
-    -------
-    values : dict of str to float
-        Only numbers of keys that have a slider, so no file can be named [unit of the key]
+    name: case that the address names: a built-in one, an upload of this browser, or `own`, with which it was started.
+    texts: keys and SI values as text. Returns values: only numbers of keys that have a slider, so no file can be named
+    [unit of the key].
     """
     upload = uploads.kept(name)
     if name != own and name not in cases.names() and upload is None:
@@ -85,13 +77,13 @@ def safe(name: str, own: str, texts: Mapping[str, str]) -> dict[str, float]:
     return values
 
 
-def _from_zero(data: Any, unit: str) -> float:
+def _from_zero(data: Record, unit: str) -> float:
     """How far the slider of a zero among the values of a section goes [`unit`]."""
     alike = [getattr(data, f.name) for f in dataclasses.fields(data) if f.metadata.get("unit") == unit]
     return _FROM_ZERO.get(unit) or max((abs(v) for v in alike if isinstance(v, (int, float))), default=0.0) or 1.0
 
 
-def _slider(case: Case, key: str, field: dataclasses.Field, value: float, reach: float) -> Slider:
+def _slider(case: Case, key: str, field: Field, value: float, reach: float) -> Slider:
     """The slider of a value, as far as a reach in its unit on the side away from zero [unit of the key]."""
     meta = field.metadata
     low, high = sorted((value / _REACH, math.copysign(reach, value))) if value else (-reach, reach)

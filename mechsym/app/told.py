@@ -6,12 +6,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
-from mechsym.quantities.names import stem_and_unit
+from mechsym.files import Json
+from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in, without_unit
 
 Rows = list[tuple[str, str]]
 
-_SILENT = ("files", "written", "units")  # of a folder that is gone; units stand beside their values
+_SILENT = ("files", "written", "units", "final_state")  # of a folder that is gone; beside their values; ends of curves
 _MOST = 8  # entries of a list that are told
 _ORDERS = 4  # orders of a harmonic analysis that are told
 _NAMES = {"component", "quantity"}
@@ -21,80 +21,44 @@ _PRODUCT = re.compile(r"(?<=\d )k?(N\*m|g\*m(\^2)?)(?![*\w])")  # a unit behind 
 # what is less in any machine of ours is round-off [its unit]
 _BARE = dict.fromkeys(("N", "N*m", "J"), 1e-9) | dict.fromkeys(("kg*m", "rad", "deg"), 1e-12)
 _ROUNDING = 1e-9  # of the largest number of one unit in a group
-# the first pattern that fits the whole path, without indexes, says the unit (`1`: told as it is); else the last name
-_UNITS = [
-    (re.compile(pattern), unit)
-    for pattern, unit in (
-        (r"(fractions|two_mass|weight)\..+|per_degree\.(work|heat)|uncertainty\.(work|heat)", "-"),
-        (r"per_degree\.burn_50|uncertainty\.burn_50", "rad"),
-        (r"dead_centre\.deg", "deg"),
-        (r".*(residual|difference|efficiency|share|ripple|residual_gas)", "-"),
-        (r"tolerance|knock", "1"),
-        (r"energy\..+|mean\.(heat|work)", "J"),
-        (r"friction\.(power|places\..+|indicated_power)", "W"),
-        (r"friction\.friction_mean_pressure|mean\.(mean_indicated|p_max)|compression_line\.(rms|pressure\..+)", "Pa"),
-        (r"mean\.(phi_p_max|burn_angles)|(double_)?wiebe\.(start|duration\w*)\..+|compression_line\.tdc\..+", "rad"),
-        (r"(double_)?wiebe\..+|compression_line\.n\..+|scale|(.+\.)?n_(compression|expansion)", "-"),
-        (r"trapped_mass|guides\.moving_mass", "kg"),
-        (r"air_kg_h", "kg/h"),
-        (r"speeds\..+|(.+\.)?(rigid_speed_end|speed|speed_(mean|min|max)(_end)?)|vibration\.(low|high|omega)", "rad/s"),
-        (r"(.+\.)?held_below_c1|.*\bc1", "N*m*s/rad"),
-        (r"(.+\.)?natural(_bare|_frequencies)?", "Hz"),
-        (r"(.+\.)?twist_\w+", "rad"),
-        (r".+\.torque_rigid|torque_orders|shaking\.orders\.(roll|rocking_[xy])|losses\.(bearing|seal|guide|rolling|gas)",
-         "N*m"),
-        (r"shaking\.orders\.force_[xy]|shaking\.counterweight\.rms_\w+|rodless\.inertia_resultant_\w+", "N"),
-        (r"shaking\.(counterweight|planes)\.unbalance", "kg*m"),
-        (r"flywheel_inertia\w*", "kg*m^2"),
-        (r"guides\.(H|rho0|roller_\w+us|roller_width|rho_m\w+|z_m\w+)|losses\.assumed\.bearing_radius", "m"),
-        (r"guides\.A", "m^2"),
-        (r"guides\.(spring_pressure|hertz_stress)_max|load|p0", "Pa"),
-        (r"wall_s|(.+\.)?t_(start|end)|losses\.assumed\.tau", "s"),
-        (r"bound\.(swing\w*|flywheel)", "kg*m^2"),
-        (r".*(order|magnification|away|count|rank|cylinders|steps|iterations|cycle|multiplier|losses\.fill|_mu)", "-"),
-        (r"bound\..+|verified\.used\..+|losses\.extra_fuel|weak_cycles", "-"),
-    )
-]  # fmt: skip
+_FREQUENCIES = ("natural", "natural_bare", "natural_frequencies")  # told in Hz
+_PLAIN = ("tolerance", "knock")  # pure numbers that are no ratios
+Units = Mapping[str, str]  # of numbers by their paths
 
 
-def told(found: Any, units: Mapping[str, str]) -> Rows:
-    """Rows of what a command said.
-
-    Parameters
-    ----------
-    units : mapping of str to str
-        SI units of the columns of its table, where it has one
-    """
+def told(found: Json | list[Json], units: Units) -> Rows:
+    """Rows of what a command said; units: of its numbers by path, `speeds.phi.mean`."""
     if isinstance(found, list):
-        return _checks(found)
+        return _checks(found, units)
     rows = [
         (word, f"{d['quantity']} = {figure(d['value'])}, usual is {d['usual']}: {d['why']}")
-        for word, key in (("doubt", "doubts"), ("accepted", "accepted")) for d in found.get(key) or ()
-    ]  # fmt: skip
+        for word, key in (("doubt", "doubts"), ("accepted", "accepted"))
+        for d in found.get(key) or ()
+    ]
     spans = isinstance(found.get("min"), Mapping) and isinstance(found.get("max"), Mapping)
-    hidden = {"doubts", "accepted", *_SILENT, *(("min", "max", "angle_of_max_deg") if spans else ())}
+    hidden = {"doubts", "accepted", "headline", *_SILENT, *(("min", "max", "angle_of_max_deg") if spans else ())}
     rest = {k: v for k, v in found.items() if k not in hidden}
     inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
     said = {k: v for k, v in inner.items() if isinstance(v, list) and v and isinstance(v[0], str)}
-    rows += _rows("", {k: v for k, v in rest.items() if k not in inner}) + _rows("", said)
-    return rows + (_spans(found, units) if spans else []) + _rows("", {k: v for k, v in inner.items() if k not in said})
+    rows += _rows("", {k: v for k, v in rest.items() if k not in inner}, units) + _rows("", said, units)
+    others = {k: v for k, v in inner.items() if k not in said}
+    return rows + (_spans(found, units) if spans else []) + _rows("", others, units)
 
 
-def unit_of(path: str) -> tuple[str, str]:
+def unit_of(path: str, units: Units) -> tuple[str, str]:
     """The path of a number without the unit that it carries, and its unit: `-` of a pure number, empty where unknown.
 
     Examples
     --------
-    >>> unit_of("per_cylinder.power_kw"), unit_of("energy.work.gas"), unit_of("friction.places.guides")
-    (('per_cylinder.power', 'kW'), ('energy.work.gas', 'J'), ('friction.places.guides', 'W'))
+    >>> unit_of("per_cylinder.power_kw", {"per_cylinder.power_kw": "kW"}), unit_of("power", {})
+    (('per_cylinder.power', 'kW'), ('power', ''))
     """
-    bare = re.sub(r"\[\d+\]", "", path)
-    known = next((unit for pattern, unit in _UNITS if pattern.fullmatch(bare)), None)
-    if known is not None:
-        return path, known
+    last = path.rpartition(".")[2].partition("[")[0]
+    unit = units.get(path) or units.get(re.sub(r"(\[\d+\])+$", "", path), "")
+    if last in _FREQUENCIES and unit == "rad/s":
+        return path, "Hz"
     front, dot, last = path.rpartition(".")
-    stem, unit = stem_and_unit(last)
-    return f"{front}{dot}{stem}", unit
+    return f"{front}{dot}{without_unit(last, unit) if unit else last}", "1" if last in _PLAIN else unit
 
 
 def pretty(text: str) -> str:
@@ -122,10 +86,7 @@ def pretty_words(text: str) -> str:
 def measure(value: float, unit: str) -> str:
     """A number with its unit for people; frequencies in Hz, what rounds to nothing is said to be.
 
-    Parameters
-    ----------
-    value : float
-        In SI, a frequency in rad/s [unit]
+    value: in SI, a frequency in rad/s [unit].
     """
     if unit in ("", "-", "1"):
         return ratio_text(value, 5) if unit == "-" else figure(value)
@@ -139,13 +100,13 @@ def span(low: float, high: float, unit: str) -> str:
     return f"{figure(a)} to {figure(b)}{_after(shown)}"
 
 
-def _spans(found: Mapping[str, Any], units: Mapping[str, str]) -> Rows:
+def _spans(found: Json, units: Units) -> Rows:
     """Least and largest of each quantity in one row, and where it is largest."""
     low, high, where = found["min"], found["max"], found.get("angle_of_max_deg") or {}
     rows = []
     for key in (k for k in high if k in low and k != "phi_deg"):
         at = f", largest at {figure(where[key])} deg" if key in where else ""
-        rows.append((key, span(low[key], high[key], units.get(key) or stem_and_unit(key)[1]) + at))
+        rows.append((key, span(low[key], high[key], unit_of(f"max.{key}", units)[1]) + at))
     return rows
 
 
@@ -153,49 +114,51 @@ def _after(unit: str | None) -> str:
     return "" if unit in (None, "", "-") else f" {pretty(unit or '')}"
 
 
-def _checks(found: Sequence[Any]) -> Rows:
+def _checks(found: Sequence[Json], units: Units) -> Rows:
     """Rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first."""
     if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
-        return _rows("", list(found))
+        return _rows("", list(found), units)
     order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
     return [(f"{r['component']}: {r['quantity']}", _beside(r)) for r in order]
 
 
-def _beside(row: Mapping[str, Any]) -> str:
+def _beside(row: Json) -> str:
     unit = row["unit"] or "-"
     if not isinstance(row["value"], (int, float)):
         return _text(row["value"], unit)
     if row["limit"] is None:
         return measure(row["value"], unit)
     word = "" if row["holds"] else ", BELOW what is wanted"
-    return (f"{measure(row['value'], unit)}, limit {measure(row['limit'], unit)}, "
-            f"factor {figure(row['safety_factor'])}{word}")  # fmt: skip
+    return (
+        f"{measure(row['value'], unit)}, limit {measure(row['limit'], unit)}, "
+        f"factor {figure(row['safety_factor'])}{word}"
+    )
 
 
-def _rows(prefix: str, found: Any) -> Rows:
+def _rows(prefix: str, found: object, units: Units) -> Rows:
     """Numbers and texts by dotted name; sentences each in a row, of a long list its length and ends."""
     if found in (None, "") or (isinstance(found, list) and all(value is None for value in found)):
         return []  # what this case does not have
     if isinstance(found, Mapping):
         if found.keys() in _AS_ONE:
-            return [(prefix, _as_one(found, unit_of(f"{prefix}.value")[1]))]
+            return [(prefix, _as_one(found, unit_of(f"{prefix}.value", units)[1]))]
         if _harmonic(found):
             found = {"": found}
         if found and all(map(_harmonic, found.values())):
-            return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, found).items()]
-        found = _settled(prefix, found)
+            return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, found, units).items()]
+        found = _settled(prefix, found, units)
         paths = {f"{prefix}.{key}" if prefix else str(key): value for key, value in found.items()}
-        return _apart([(path, row) for path, value in paths.items() for row in _rows(path, value)])
+        return _apart([(path, row) for path, value in paths.items() for row in _rows(path, value, units)])
     if not isinstance(found, list):
-        name, unit = unit_of(prefix) if _number(found) else (prefix, "")
+        name, unit = unit_of(prefix, units) if _number(found) else (prefix, "")
         return [(name, _text(found, unit))]
     if isinstance(found[0], str):
         return [(prefix, pretty_words(value)) for value in found]
     if isinstance(found[0], (Mapping, list)):
-        told = [row for i, value in enumerate(found[:_MOST]) for row in _entry(f"{prefix}[{i}]", value)]
+        told = [row for i, value in enumerate(found[:_MOST]) for row in _entry(f"{prefix}[{i}]", value, units)]
         left = len(found) - _MOST
         return [*told, (prefix, f"and {left} more in the JSON")] if left > 0 else told
-    name, unit = unit_of(prefix)
+    name, unit = unit_of(prefix, units)
     if name.endswith("residual") and all(map(_number, found)):
         return [(name, f"{measure(max(map(abs, found)), unit)} at most")]
     return [(name, _listed(found, unit))]
@@ -207,9 +170,9 @@ def _apart(rows: Sequence[tuple[str, tuple[str, str]]]) -> Rows:
     return [(path if named[name] > 1 and path.startswith(f"{name}_") else name, text) for path, (name, text) in rows]
 
 
-def _entry(prefix: str, found: Any) -> Rows:
+def _entry(prefix: str, found: object, units: Units) -> Rows:
     """An entry of a list: in one row where it holds plain values only."""
-    rows = _rows(prefix, found)
+    rows = _rows(prefix, found, units)
     flat = isinstance(found, Mapping) and not any(isinstance(v, (Mapping, list)) for v in found.values())
     if not flat or len(rows) < 2:
         return rows
@@ -224,9 +187,9 @@ def _as_one(found: Mapping[str, Any], unit: str) -> str:
     return f"{_text(found['value'], unit)} \u00b1 {_text(found['confidence'], unit)}"
 
 
-def _settled(prefix: str, found: Mapping[str, Any]) -> dict[str, Any]:
+def _settled(prefix: str, found: Mapping[str, Any], known: Units) -> Json:
     """A group whose numbers are 0 where they only round beside the largest of their unit."""
-    units = {k: unit_of(f"{prefix}.{k}")[1] for k, v in found.items() if isinstance(v, float)}
+    units = {k: unit_of(f"{prefix}.{k}", known)[1] for k, v in found.items() if isinstance(v, float)}
     sizes = {u: max(abs(found[k]) for k in units if units[k] == u) for u in {*units.values()} - {"", "-", "1"}}
     settled = {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in found.items()}
     nothing = abs(found.get("unbalance") or 0.0) < _BARE["kg*m"] and "unbalance" in found
@@ -244,17 +207,17 @@ def _listed(values: Sequence[Any], unit: str) -> str:
     return ", ".join(short) + _after(shown)
 
 
-def _harmonic(found: Any) -> bool:
+def _harmonic(found: object) -> bool:
     """Whether something is a harmonic analysis."""
     return isinstance(found, Mapping) and found.keys() == _HARMONIC and isinstance(found["order"], list)
 
 
-def _orders(prefix: str, group: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+def _orders(prefix: str, group: Mapping[str, Mapping[str, Any]], units: Units) -> dict[str, str]:
     """Mean and largest orders of each analysis of a group; what is round-off beside the largest of all is left out."""
     size = max((abs(a) for one in group.values() for a in one["amplitude"] if a is not None), default=0.0)
     told = {}
     for name, one in group.items():
-        unit = unit_of(f"{prefix}.{name}".rstrip("."))[1]
+        unit = unit_of(f"{prefix}.{name}".rstrip(".") + ".amplitude", units)[1]
         seen = [(n, a) for n, a in zip(one["order"], one["amplitude"], strict=True) if a and abs(a) > _ROUNDING * size]
         largest = sorted((p for p in seen if p[0]), key=lambda p: -abs(p[1]))[:_ORDERS]
         parts = [f"mean {measure(a, unit)}" for n, a in seen if not n]
@@ -262,11 +225,11 @@ def _orders(prefix: str, group: Mapping[str, Mapping[str, Any]]) -> dict[str, st
     return told
 
 
-def _number(value: Any) -> bool:
+def _number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _text(value: Any, unit: str) -> str:
+def _text(value: object, unit: str) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int):

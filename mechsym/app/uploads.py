@@ -9,7 +9,6 @@ import tempfile
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from mechsym import cases, mechanisms
 from mechsym.cases.keys import keys
@@ -72,7 +71,7 @@ def harmless(data: bytes) -> str:
     return text
 
 
-def _texts(place: str, value: Any) -> Iterator[tuple[str, str]]:
+def _texts(place: str, value: object) -> Iterator[tuple[str, str]]:
     """Every text of a table under its dotted place; elements of lists under that of their list."""
     if isinstance(value, dict):
         for key, inner in value.items():

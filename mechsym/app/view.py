@@ -5,7 +5,7 @@ import time
 from collections.abc import Mapping
 from functools import partial
 from importlib import resources
-from typing import Any
+from typing import TYPE_CHECKING
 from urllib.parse import urlencode
 
 from mechsym import cases
@@ -17,6 +17,10 @@ from mechsym.app.sliders import Slider, safe, sliders
 from mechsym.app.told import pretty
 from mechsym.errors import BadInput
 from mechsym.quantities.display import quantity_text
+
+if TYPE_CHECKING:
+    from nicegui.element import Element
+    from nicegui.events import UploadEventArguments
 
 _ONE_MOVE = 1.0  # moves of one slider that follow each other so fast are one step of undo [s]
 
@@ -38,9 +42,9 @@ class Page:
         self.before: list[dict[str, float]] = []
         self.moved = 0
         self.last = ("", 0.0)
-        self.controls: dict[str, Any] = {}
-        self.sections: dict[str, Any] = {}
-        self.rows: dict[str, Any] = {}
+        self.controls: dict[str, Element] = {}
+        self.sections: dict[str, Element] = {}
+        self.rows: dict[str, Element] = {}
         self.panels: dict[str, Panel] = {}
 
     def build(self) -> None:
@@ -54,6 +58,7 @@ class Page:
         self.tab = self.tab if self.tab in self.tabs else self.tabs[0]
         self.knobs = {s.key: s for s in sliders(case)}
         self.idle: dict[str, Mapping[str, str]] = {}
+        self.read: dict[str, set[str]] = {}
         self._head()
         ui.label(case.about).classes("opacity-70")
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
@@ -103,7 +108,7 @@ class Page:
             for key in own:
                 self._slider(self.knobs[key])
 
-    def _unfold(self, section: str, own: list[str], _: Any) -> None:
+    def _unfold(self, section: str, own: list[str], _: object) -> None:
         if own[0] not in self.controls:
             self._fill(section, own)
             self._offer()
@@ -144,13 +149,18 @@ class Page:
 
         tab = self.tab
         if tab not in self.idle:
-            self.idle[tab] = await run.io_bound(lambda: idle(cases.load(self.path), tab)) or {}
+            self.idle[tab], self.read[tab] = await run.io_bound(self._said, tab) or ({}, set())
         self._offer()
         await self.update()
 
+    def _said(self, tab: str) -> tuple[Mapping[str, str], set[str]]:
+        """Keys that move nothing in a tab, and the sections that it reads."""
+        case = cases.load(self.path)
+        return idle(case, tab), commands.reads(tab, case)
+
     def _offer(self) -> None:
         """Show a slider only where it moves something; say of the others why it does not."""
-        still, read = self.idle.get(self.tab, {}), commands.reads(self.tab)
+        still, read = self.idle.get(self.tab, {}), self.read.get(self.tab, set())
         here = [key for key in self.knobs if key.partition(".")[0] in read]
         for section, box in self.sections.items():
             box.visible = any(key.startswith(f"{section}.") and key not in still for key in here)
@@ -208,7 +218,7 @@ class Page:
         else:
             self.ui.download(text.encode(), f"{self.name}-changed.toml")
 
-    async def upload(self, event: Any) -> None:
+    async def upload(self, event: "UploadEventArguments") -> None:
         """Take a case in, as from a stranger."""
         try:
             name = uploads.keep(await event.file.read())

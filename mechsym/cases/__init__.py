@@ -11,20 +11,40 @@ import functools
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
+from mechsym.cases.laws import Records
 from mechsym.cases.values import Place, convert, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
-from mechsym.files import read_text
+from mechsym.files import Json
+from mechsym.inputs import read_text
 from mechsym.mechanisms import own
 from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
 
 __all__ = ["Case", "load", "locate", "names", "text", "underlaid", "written"]
 _HEAD = ("mechanism", "source", "about")
+
+
+class Sections(dict[str, Any]):
+    """Section name to its checked record; it keeps the names of those that were asked for."""
+
+    def __init__(self, records: Records, read: set[str]) -> None:
+        super().__init__(records)
+        self.read = read
+
+    def __getitem__(self, name: str) -> Any:
+        self.read.add(name)
+        return super().__getitem__(name)
+
+    def get(self, name: str, default: object = None) -> Any:
+        """The record of a section, or a default; as `dict` has it."""
+        return self[name] if name in self else default
 
 
 @record
@@ -37,12 +57,17 @@ class Case:
     mechanism: str
     source: str
     about: str
-    sections: Mapping[str, Any]  #: Section name to its checked record
+    sections: Records
     #: What `load` was given: name or path, and values that replace the file's
     path: str = ""
-    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    overrides: Mapping[str, object] = dataclasses.field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()  #: What of its values is possible and not usual, accepted or not
     acceptances: Mapping[str, Acceptance] = dataclasses.field(default_factory=dict)  #: Section `[doubts]`, by code
+    #: Sections that were asked for, of this case and of those made of it by `dataclasses.replace`
+    read: set[str] = dataclasses.field(default_factory=set, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self.__dict__["sections"] = Sections(self.sections, self.read)
 
     def need(self, section: str) -> Any:
         """The record of a section that the caller cannot do without.
@@ -78,10 +103,7 @@ def _built_in() -> tuple[str, ...]:
 def text(name: str) -> str:
     """The TOML text of a built-in case, or of a file.
 
-    Parameters
-    ----------
-    name : str
-        Name of a built-in case or a path
+    name: name of a built-in case or a path.
 
     Raises
     ------
@@ -91,15 +113,11 @@ def text(name: str) -> str:
     return _read(name)[1]
 
 
-def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
+def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """Read a case and check every key, unit and range.
 
-    Parameters
-    ----------
-    name : str
-        Name of a built-in case or a path to a TOML file
-    overrides : mapping, optional
-        Values to replace, by dotted key; a bare key works if it is unique
+    name: name of a built-in case or a path to a TOML file. overrides: mapping, optional, values to replace, by dotted
+    key; a bare key works if it is unique.
 
     Raises
     ------
@@ -116,53 +134,53 @@ def load(name: str, overrides: Mapping[str, Any] | None = None) -> Case:
     try:
         accepted = acceptances(_tables(*_read(name)).get("doubts", {}))
         records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
-        found = judged(records, head["mechanism"])
+        doubts = judged(records, head["mechanism"])
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     short = Path(name).stem if name not in names() else name
+    mechanism, source, about = (head[key] for key in _HEAD)
     return Case(
-        name=short, file=file, sections=records, path=name, overrides=overrides or {}, doubts=found,
-        acceptances=accepted, **head,
-    )  # fmt: skip
+        name=short,
+        file=file,
+        mechanism=mechanism,
+        source=source,
+        about=about,
+        sections=records,
+        path=name,
+        overrides=overrides or {},
+        doubts=doubts,
+        acceptances=accepted,
+    )
 
 
-def _beside(found: Any, name: str) -> Any:
+def _beside(record: Record, name: str) -> Record:
     """The record with its paths of files that lie beside the case file and not in the working folder."""
-    written = {name: getattr(found, name) for name in paths(found.__class__)}
+    written = {name: getattr(record, name) for name in paths(record.__class__)}
     if not any(written.values()):
-        return found
+        return record
     folder = Path(str(_folder())) if name in names() else Path(name).parent
     moved = {k: str(folder / v) for k, v in written.items() if v and not Path(v).exists() and (folder / v).exists()}
-    return dataclasses.replace(found, **moved) if moved else found
+    return dataclasses.replace(record, **moved) if moved else record
 
 
-def underlaid(case: Case, settings: Mapping[str, Any]) -> Case:
+def underlaid(case: Case, settings: Mapping[str, object]) -> Case:
     """A case read again with settings below what the user has replaced.
 
-    Parameters
-    ----------
-    settings : mapping
-        Values to replace, by dotted key, where the user has not
+    settings: values to replace, by dotted key, where the user has not.
     """
-    return load(case.path, {**settings, **case.overrides})
+    return dataclasses.replace(load(case.path, {**settings, **case.overrides}), read=case.read)
 
 
-def written(case: Case) -> Mapping[str, Any]:
+def written(case: Case) -> Json:
     """The sections of a case as its file has them, with what is replaced, not read into records."""
     return _raw(case.path, case.overrides)[2]
 
 
-def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, option: str = "--set") -> Place:
+def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, option: str = "--set") -> Place:
     """Where a key belongs in a case, and in which unit its value is.
 
-    Parameters
-    ----------
-    name : str
-        Name of a built-in case or a path to a TOML file
-    key : str
-        Dotted key; a bare key works if it is unique
-    option : str
-        Where the key was written, for messages
+    name: name of a built-in case or a path to a TOML file. key: dotted key; a bare key works if it is unique. option:
+    where the key was written, for messages.
 
     Raises
     ------
@@ -182,7 +200,7 @@ def locate(name: str, key: str, overrides: Mapping[str, Any] | None = None, opti
         raise BadInput(f"{file}: {error}") from None
 
 
-def _raw(name: str, overrides: Mapping[str, Any] | None) -> tuple[str, dict[str, str], dict[str, Any]]:
+def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[str, str], Json]:
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
     tables = _tables(file, content)
@@ -195,7 +213,7 @@ def _raw(name: str, overrides: Mapping[str, Any] | None) -> tuple[str, dict[str,
     return file, head, sections
 
 
-def _folder() -> Any:
+def _folder() -> Traversable:
     return resources.files("mechsym.cases")
 
 
@@ -210,14 +228,13 @@ def _read(name: str) -> tuple[str, str]:
     try:
         return str(Path(name)), read_text(name)
     except BadInput as error:
-        reason = str(error).rpartition(": ")[2].removeprefix("cannot be read (").removesuffix(")")
-        why = f"case {shown(name, 300)} is neither built in nor a readable file ({reason})"
-        raise BadInput(f"{why}; {suggest(name, names())} and paths") from None
+        why = f"case {shown(name, 300)} is neither built in nor a readable file ({error.reason})"
+        raise BadInput(why, f"{suggest(name, names())} and paths", reason=error.reason) from None
 
 
 # the points of a sweep read one file; `_raw` copies the sections before it changes them
 @functools.lru_cache(maxsize=8)
-def _tables(file: str, content: str) -> dict[str, Any]:
+def _tables(file: str, content: str) -> Json:
     try:
         return tomllib.loads(content)
     except RecursionError:
@@ -226,7 +243,7 @@ def _tables(file: str, content: str) -> dict[str, Any]:
         raise BadInput(f"{file}: not valid TOML: {error}; see 'mechsym cases zotov-89' for one that is") from None
 
 
-def _head(tables: dict[str, Any], key: str, file: str) -> str:
+def _head(tables: Json, key: str, file: str) -> str:
     if key not in tables:
         raise BadInput(f'{file}: key {key} is missing at the top; write {key} = "..." above the first section')
     if not isinstance(tables[key], str):
@@ -234,25 +251,22 @@ def _head(tables: dict[str, Any], key: str, file: str) -> str:
     return tables[key]
 
 
-def _section(mechanism: str, section: str, table: Any) -> Any:
+def _section(mechanism: str, section: str, table: object) -> Record:
     # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
-    return (_made if own.is_file(mechanism) else _kept)(mechanism, section, _Written(table, repr(table)))
+    return (_record_of if own.is_file(mechanism) else _record_once)(
+        mechanism, section, _Written(text=repr(table), values=table)
+    )
 
 
+@record
 class _Written:
     """The keys of a section, equal where they are written alike."""
 
-    def __init__(self, values: Any, text: str) -> None:
-        self.values, self.text = values, text
-
-    def __hash__(self) -> int:
-        return hash(self.text)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Written) and self.text == other.text
+    text: str
+    values: Any = dataclasses.field(compare=False)
 
 
-def _made(mechanism: str, section: str, written: _Written) -> Any:
+def _record_of(mechanism: str, section: str, written: _Written) -> Record:
     table = written.values
     cls = _record_class(mechanism, section, table)
     values = _values(cls, section, table)
@@ -262,10 +276,10 @@ def _made(mechanism: str, section: str, written: _Written) -> Any:
         raise BadInput(f"[{section}] {error}") from None
 
 
-_kept = functools.lru_cache(maxsize=256)(_made)
+_record_once = functools.lru_cache(maxsize=256)(_record_of)
 
 
-def _record_class(mechanism: str, section: str, table: Any) -> Any:
+def _record_class(mechanism: str, section: str, table: object) -> type[Record]:
     if section not in schema.sections():
         raise BadInput(f"section [{section}] is not known; {suggest(section, schema.sections())}")
     if not isinstance(table, dict):
@@ -276,15 +290,15 @@ def _record_class(mechanism: str, section: str, table: Any) -> Any:
         raise BadInput(f"[{section}] {error}") from None
 
 
-def _values(cls: Any, section: str, table: dict[str, Any]) -> dict[str, Any]:
+def _values(cls: type[Record], section: str, table: Json) -> Json:
     fields = {f.name: f for f in dataclasses.fields(cls)}
-    values: dict[str, Any] = {}
+    values: Json = {}
     for key, raw in table.items():
         if key == schema.selector(section) and key not in fields:
             continue
         name, value = without_unit(key, raw, fields)
         if name not in fields:
-            raise BadInput(f"key {section}.{key} is not known; {suggest(key, fields)}")
+            raise BadInput(f"key {section}.{key} is not known; {schema.instead(key, fields)}")
         if name in values:
             raise BadInput(f"key {section}.{name} is given twice, once with its unit in the key; keep one")
         values[name] = convert(fields[name], value, f"{section}.{key}")

@@ -1,24 +1,28 @@
 """All problems of a case file at once, and what each command still lacks; nothing of the file is executed.
 
-A case that is loaded stops at its first problem; someone who writes one wants to see them all.
+A case that is loaded stops at its first problem; someone who writes one wants to see them all; and what a case says
+that nothing reads.
 """
 
 import dataclasses
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from mechsym import cases, mechanisms
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
-from mechsym.cases.keys import kind, required
-from mechsym.cases.needs import lacking
+from mechsym.cases.facts import CaseFacts, facts_of
+from mechsym.cases.keys import required, takes
+from mechsym.cases.laws import Records
+from mechsym.cases.needs import COMMANDS, in_words, lacking, read_by
 from mechsym.cases.values import convert, without_unit
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.files import Json
 from mechsym.mechanisms import own
-from mechsym.quantities import allowed, record
-from mechsym.quantities.records import check_value
+from mechsym.plausible import Doubt
+from mechsym.quantities import record
+from mechsym.quantities.records import Record, check_value, moved, unread
 
 _HEAD = ("mechanism", "source", "about")
 
@@ -38,18 +42,16 @@ class Checked:
 
     problems: tuple[CaseProblem, ...]
     commands: Mapping[str, list[str]]  #: What each command lacks; empty where it can run
+    reasons: Mapping[str, str]  #: The same in words, of those that cannot run
     skipped: tuple[str, ...] = ()  #: Sections that only the mechanism's own file could judge
+    doubts: tuple[Doubt, ...] = ()  #: Sections and keys that nothing reads
 
 
 def check_file(name: str, trust: bool = False) -> Checked:
     """Check a case.
 
-    Parameters
-    ----------
-    name : str
-        Name of a built-in case or a path to a TOML file
-    trust : bool
-        Whether a mechanism file that the case names may be run to learn its letters
+    name: name of a built-in case or a path to a TOML file; trust: whether a mechanism file that the case names may be
+    run to learn its letters.
 
     Raises
     ------
@@ -60,29 +62,34 @@ def check_file(name: str, trust: bool = False) -> Checked:
     try:
         tables = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        return Checked(problems=(CaseProblem(key="", why=f"not valid TOML: {error}"),), commands={})
+        return Checked(problems=(CaseProblem(key="", why=f"not valid TOML: {error}"),), commands={}, reasons={})
     head, mechanism = list(_head(tables)), _mechanism(tables, name)
     sections = {k: v for k, v in tables.items() if k not in (*_HEAD, "doubts")}
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
-    found, records = [*head], dict[str, Any]()
+    problems, records = [*head], dict[str, Record]()
     for section, table in sections.items():
         if section not in skipped:
-            wrong, made = _section(mechanism or "", section, table)
-            found += wrong
-            records |= {section: made} if made is not None else {}
-    found += _whole(tables.get("doubts", {}), records, mechanism or "")
-    commands = lacking(mechanism or "", sections)
-    return Checked(problems=tuple(found), commands=commands, skipped=skipped)
+            wrong, record = _section(mechanism or "", section, table)
+            problems += wrong
+            if record is not None:
+                records[section] = record
+    problems += _whole(tables.get("doubts", {}), records, mechanism or "")
+    kind = sections["cycle"].get("kind", "") if isinstance(sections.get("cycle"), dict) else ""
+    every = {name: records.get(name) for name in sections}
+    facts = facts_of(mechanism or "", every, kind=str(kind), trust=trust)
+    unread = unused(facts, sections)
+    commands = lacking(facts)
+    reasons = {command: "; ".join(in_words(facts, missing)) for command, missing in commands.items() if missing}
+    return Checked(problems=tuple(problems), commands=commands, reasons=reasons, skipped=skipped, doubts=unread)
 
 
-def _head(tables: Mapping[str, Any]) -> Iterator[CaseProblem]:
+def _head(tables: Json) -> Iterator[CaseProblem]:
     for key in _HEAD:
         mine = own.is_file(str(tables.get("mechanism"))) and key != "mechanism"
         if key not in tables and not mine:
-            yield CaseProblem(
-                key=key, why="is missing at the top", allowed=f'write {key} = ".." above the first section'
-            )
+            way = f'write {key} = ".." above the first section'
+            yield CaseProblem(key=key, why="is missing at the top", allowed=way)
         elif key in tables and not isinstance(tables[key], str):
             yield CaseProblem(key=key, why=f"{shown(tables[key])} is not a text", allowed=f'write {key} = ".."')
     name = tables.get("mechanism")
@@ -90,16 +97,14 @@ def _head(tables: Mapping[str, Any]) -> Iterator[CaseProblem]:
         yield CaseProblem(key="mechanism", why=f"{name!r} is not known", allowed=suggest(name, mechanisms.names()))
 
 
-def _mechanism(tables: Mapping[str, Any], name: str) -> str | None:
-    found = tables.get("mechanism")
-    if not isinstance(found, str):
-        return None
-    if own.is_file(found):
-        return own.located(found, Path(name).parent)
-    return found if found in mechanisms.names() else None
+def _mechanism(tables: Json, name: str) -> str | None:
+    mechanism = tables.get("mechanism")
+    if isinstance(mechanism, str) and own.is_file(mechanism):
+        return own.located(mechanism, Path(name).parent)
+    return mechanism if mechanism in mechanisms.names() else None
 
 
-def _section(mechanism: str, section: str, table: Any) -> tuple[list[CaseProblem], Any]:
+def _section(mechanism: str, section: str, table: object) -> tuple[list[CaseProblem], Record | None]:
     """What is wrong with a section, and its record where nothing is."""
     if section not in schema.sections():
         return [CaseProblem(key=section, why="is no section", allowed=suggest(section, schema.sections()))], None
@@ -108,8 +113,8 @@ def _section(mechanism: str, section: str, table: Any) -> tuple[list[CaseProblem
     try:
         cls = schema.record(mechanism, section, table)
     except BadInput as error:
-        why, _, way = str(error).partition("; ")
-        return [CaseProblem(key=f"{section}.{schema.selector(section) or ''}".rstrip("."), why=why, allowed=way)], None
+        where = f"{section}.{schema.selector(section) or ''}".rstrip(".")
+        return [CaseProblem(key=where, why=error.why, allowed=error.way)], None
     wrong, values = _values(cls, section, table)
     if wrong:
         return wrong, None
@@ -119,22 +124,21 @@ def _section(mechanism: str, section: str, table: Any) -> tuple[list[CaseProblem
         return [CaseProblem(key=section, why=str(error))], None
 
 
-def _values(cls: Any, section: str, table: dict[str, Any]) -> tuple[list[CaseProblem], dict[str, Any]]:
+def _values(cls: type[Record], section: str, table: Json) -> tuple[list[CaseProblem], Json]:
     fields = {f.name: f for f in dataclasses.fields(cls)}
     wrong: list[CaseProblem] = []
-    values: dict[str, Any] = {}
+    values: Json = {}
     for key, raw in table.items():
         if key == schema.selector(section) and key not in fields:
             continue
         name, value = without_unit(key, raw, fields)
         where = f"{section}.{key}"
         if name not in fields:
-            wrong.append(CaseProblem(key=where, why="is not known", allowed=suggest(key, fields)))
+            wrong.append(CaseProblem(key=where, why="is not known", allowed=schema.instead(key, fields)))
             continue
         if name in values:
-            wrong.append(
-                CaseProblem(key=where, why="is given twice, once with its unit in the key", allowed="keep one")
-            )
+            twice = "is given twice, once with its unit in the key"
+            wrong.append(CaseProblem(key=where, why=twice, allowed="keep one"))
         try:
             values[name] = convert(fields[name], value, name)
             check_value(fields[name], values[name])
@@ -146,27 +150,54 @@ def _values(cls: Any, section: str, table: dict[str, Any]) -> tuple[list[CasePro
     return wrong, values
 
 
-def takes(field: dataclasses.Field) -> str:
-    """What a key takes, in words: `number in m, > 0`."""
-    meta = field.metadata
-    if "options" in meta:
-        return ", ".join(str(option) for option in meta["options"])
-    unit = meta.get("unit")
-    inside = f" in {unit}" if unit and unit != "-" else ""
-    bounds = allowed(meta) if unit else ""
-    return f"{kind(field)}{inside}" + (f", {bounds}" if bounds else "")
-
-
-def _whole(doubts: Any, records: Mapping[str, Any], mechanism: str) -> list[CaseProblem]:
+def _whole(doubts: object, records: Records, mechanism: str) -> list[CaseProblem]:
     """What is wrong only when keys are seen together: doubts that are no doubts, nonsense."""
-    found = []
+    problems = []
     try:
         acceptances(doubts)
     except BadInput as error:
-        found.append(CaseProblem(key="doubts", why=str(error)))
+        problems.append(CaseProblem(key="doubts", why=str(error)))
     try:
         judged(records, mechanism)
     except BadInput as error:
-        key, _, why = str(error).partition(" = ")
-        found.append(CaseProblem(key=key if why and " " not in key else "", why=str(error)))
-    return found
+        problems.append(CaseProblem(key=error.key, why=str(error)))
+    return problems
+
+
+def unused(case: CaseFacts, written: Json) -> tuple[Doubt, ...]:
+    """Doubts about what a case says and nothing that runs on it reads.
+
+    written: mapping of str to dict, sections with the keys that the case gives.
+    """
+    lacks, read = lacking(case), set().union(*read_by(case).values())
+    others = {name: COMMANDS[name].reads(case) for name, missing in lacks.items() if missing}
+    doubts = []
+    for section in case.sections.keys() - read - {"report"}:
+        wanted = [f"{name} lacks {'; '.join(lacks[name])}" for name, all_of in others.items() if section in all_of]
+        reason = f": {wanted[0]}" if wanted else ""
+        why = f"no command that can run on this case reads it{reason}; leave it out, or mend the case"
+        doubts.append(doubt(f"[{section}]", len(written.get(section) or ()), why))
+    for section in read & case.sections.keys():
+        doubts += _keys(section, case.sections[section], written.get(section) or {})
+    return tuple(sorted(doubts, key=lambda one: one.quantity))
+
+
+def _keys(section: str, record: object, written: Json) -> Iterator[Doubt]:
+    """Keys that the choices of their own section leave unread; one that says what is usual harms nobody."""
+    if not dataclasses.is_dataclass(record) or isinstance(record, type):
+        return
+    fields = {field.name: field for field in dataclasses.fields(record)}
+    given = {without_unit(key, 0.0, fields)[0] for key in written}
+    for name, key in moved(record).items():
+        if name in given:
+            yield doubt(f"{section}.{name}", 1, f"it is not read any more: {key} tells it; leave it out")
+    for name, chosen in unread(record).items():
+        if name in given and getattr(record, name) != fields[name].default:
+            yield doubt(
+                f"{section}.{name}", 1, f"it is not read while {section}.{chosen}; leave it out, or change that"
+            )
+
+
+def doubt(what: str, keys: int, why: str) -> Doubt:
+    """A doubt about keys that a case has and that are not read."""
+    return Doubt(code="unused", quantity=f"unread keys: {what}", value=float(keys), usual="0", why=why)

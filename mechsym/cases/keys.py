@@ -1,30 +1,27 @@
-"""Every section and key that a case may have, read off the records: unit, range, default, meaning."""
+"""Every section and key that a case may have, read off the records: as rows, and as JSON Schema for editors."""
 
-import ast
 import dataclasses
-import functools
-import inspect
-import textwrap
 from collections.abc import Mapping
-from typing import Any
 
 from mechsym import mechanisms
 from mechsym.cases import schema
 from mechsym.cases.needs import commands_of
 from mechsym.errors import BadInput, suggest
-from mechsym.quantities import load
+from mechsym.files import Json
+from mechsym.quantities import allowed, load
+from mechsym.quantities.comments import comments
+from mechsym.quantities.records import Field, Record
 
-_BOUNDS = ("above", "below", "low", "high")
+# bounds of a value, as JSON Schema calls them
+_BOUNDS = {"above": "exclusiveMinimum", "below": "exclusiveMaximum", "low": "minimum", "high": "maximum"}
+_NUMBER = {"type": "string", "pattern": r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*[^\d\s]*.*$"}
 
 
-def keys(section: str | None = None) -> list[dict[str, Any]]:
+def keys(section: str | None = None) -> list[Json]:
     """Rows for people and programs: one for each key of each section and variant.
 
-    Returns
-    -------
-    rows : list of dict
-        Keys `section`, `variant` (such as `law = coil`; empty), `key`, `kind`, `unit`, `above`, `below`, `low`,
-        `high`, `options`, `default`, `required`, `about`, `commands`
+    Returns rows: list of dict, keys `section`, `variant` (such as `law = coil`; empty), `key`, `kind`, `unit`, `above`,
+    `below`, `low`, `high`, `options`, `default`, `required`, `about`, `commands`.
 
     Raises
     ------
@@ -37,7 +34,7 @@ def keys(section: str | None = None) -> list[dict[str, Any]]:
     return [row for name in wanted for variant, cls in variants(name).items() for row in _rows(name, variant, cls)]
 
 
-def variants(section: str) -> Mapping[str, Any]:
+def variants(section: str) -> Mapping[str, type[Record]]:
     """The records that a section may become, by what chooses them: `law = coil`, `mechanism = crosshead`, or nothing.
 
     Sections of the mechanism's own letters are listed for the built-in mechanisms.
@@ -53,7 +50,7 @@ def variants(section: str) -> Mapping[str, Any]:
     return {"": load(entry)}
 
 
-def _rows(section: str, variant: str, cls: Any) -> list[dict[str, Any]]:
+def _rows(section: str, variant: str, cls: type[Record]) -> list[Json]:
     commands = commands_of(section)
     return [
         {"section": section, "variant": variant, "key": field.name, "kind": kind(field),
@@ -65,17 +62,17 @@ def _rows(section: str, variant: str, cls: Any) -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def meaning(cls: Any, field: dataclasses.Field) -> str:
+def meaning(cls: object, field: Field) -> str:
     """What a key of a section's record means."""
     return field.metadata.get("about") or comments(cls).get(field.name, "")
 
 
-def required(field: dataclasses.Field) -> bool:
+def required(field: Field) -> bool:
     """Whether a key has to be given."""
     return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
 
 
-def kind(field: dataclasses.Field) -> str:
+def kind(field: Field) -> str:
     """What a key takes: number, list of numbers, word, text, whole number, true or false, table."""
     text = str(getattr(field.type, "__name__", "") if isinstance(field.type, type) else field.type)
     if "options" in field.metadata:
@@ -90,28 +87,93 @@ def kind(field: dataclasses.Field) -> str:
     return f"list: {single}" if many else single
 
 
-def _default(field: dataclasses.Field) -> Any:
+def takes(field: Field) -> str:
+    """What a key takes, in words: `number in m, > 0`."""
+    meta = field.metadata
+    if "options" in meta:
+        return ", ".join(str(option) for option in meta["options"])
+    unit = meta.get("unit")
+    inside = f" in {unit}" if unit and unit != "-" else ""
+    bounds = allowed(meta) if unit else ""
+    return f"{kind(field)}{inside}" + (f", {bounds}" if bounds else "")
+
+
+def _default(field: Field) -> object:
     if field.default is not dataclasses.MISSING:
         return list(field.default) if isinstance(field.default, tuple) else field.default
     return field.default_factory() if field.default_factory is not dataclasses.MISSING else None
 
 
-@functools.lru_cache(maxsize=256)
-def comments(cls: Any) -> Mapping[str, str]:
-    """What a `#:` comment says of each field of a record, beside it or above it."""
-    try:
-        source = textwrap.dedent(inspect.getsource(cls))
-    except (OSError, TypeError):  # a record that was made at run time
-        return {}
-    lines, said, above, beside = source.splitlines(), {}, "", False
-    fields = {node.lineno: node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.AnnAssign)}
-    for number, line in enumerate(lines, 1):
-        text = line.partition("#:")[2].strip()
-        if number in fields:
-            name = fields[number].target
-            said[getattr(name, "id", "")] = text or above
-            above = above if not text and above else ""
-            beside = False
-        elif line.strip().startswith("#:"):
-            above, beside = f"{above} {text}" if beside else text, True
-    return {name: text for name, text in said.items() if text}
+def json_schema() -> Json:
+    """The schema, draft 7, of every case that `mechsym check` may find nothing wrong with."""
+    sections = {name: _section(name) for name in schema.sections() if name not in schema.LETTERS}
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "mechsym case",
+        "type": "object",
+        "required": ["mechanism"],
+        "properties": {
+            "mechanism": {"type": "string", "description": "name of a mechanism, or ./FILE.py"},
+            "source": {"type": "string", "description": "where the data come from"},
+            "about": {"type": "string", "description": "one line"},
+            "doubts": {"type": "object", "description": "accepted doubts by their code: { up_to, why }"},
+            **{name: {"type": "object"} for name in schema.LETTERS},
+            **sections,
+        },
+        "allOf": [_of_mechanism(variant) for variant in variants("parameters")],
+        "additionalProperties": False,
+    }
+
+
+def _of_mechanism(variant: str) -> Json:
+    own = {section: variants(section) for section in schema.LETTERS}
+    letters = {section: _record(records[variant], "") for section, records in own.items() if variant in records}
+    name = variant.partition(" = ")[2]
+    return {"if": {"properties": {"mechanism": {"const": name}}}, "then": {"properties": letters}}
+
+
+def _section(name: str) -> Json:
+    records, selector = variants(name), schema.selector(name)
+    if not selector:
+        return _record(records[""], "")
+    names, choices = [], []
+    for variant, cls in records.items():
+        names.append(variant.partition(" = ")[2])
+        choices.append({"if": {"properties": {selector: {"const": names[-1]}}}, "then": _record(cls, selector)})
+    return {"type": "object", "required": [selector], "properties": {selector: {"enum": names}}, "allOf": choices}
+
+
+def _record(cls: type[Record], selector: str) -> Json:
+    properties: Json = {}
+    with_unit: Json = {}
+    needed: list[Json] = []
+    for field in dataclasses.fields(cls):
+        alone: Json = {"required": [field.name]}
+        properties[field.name] = _field(field, meaning(cls, field))
+        if "unit" in field.metadata:
+            # a key may name its unit, as speed_rpm does; then the key alone is not there
+            pattern = f"^{field.name}_[A-Za-z%]+$"
+            with_unit[pattern] = {}
+            alone = {"anyOf": [alone, {"not": {"propertyNames": {"not": {"pattern": pattern}}}}]}
+        if required(field):
+            needed.append(alone)
+    if selector:
+        properties.setdefault(selector, {})
+    known = {"properties": properties, "patternProperties": with_unit, "additionalProperties": False}
+    return {"type": "object", **known} | ({"allOf": needed} if needed else {})
+
+
+def _field(field: Field, about: str) -> Json:
+    described, takes_kind = {"description": f"{about} ({takes(field)})".strip()}, kind(field)
+    if "options" in field.metadata:
+        return described | {"enum": list(field.metadata["options"])}
+    if "unit" in field.metadata:
+        bounds = {name: field.metadata[k] for k, name in _BOUNDS.items() if field.metadata.get(k) is not None}
+        one: Json = {"anyOf": [{"type": "number", **bounds}, _NUMBER]}
+        many: Json = {"type": "array", "items": one}
+        either = {"anyOf": [*one["anyOf"], many]}
+        return described | {"number": one, "list of numbers": many}.get(takes_kind, either)
+    simple = {"text": "string", "whole number": "integer", "true or false": "boolean", "table": "object"}
+    if takes_kind.startswith("list: "):
+        return described | {"type": "array", "items": {"type": simple[takes_kind.removeprefix("list: ")]}}
+    return described | {"type": simple[takes_kind]}

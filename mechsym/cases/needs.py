@@ -1,139 +1,273 @@
-"""Which sections each command reads, and which of them it cannot do without."""
+"""What each command asks of a case, and which of its sections it reads: a job begins with `require`, `check` lists it.
 
-from collections.abc import Mapping
+What is lacking is a section, `[spring]`, a key, `simulation.turns`, or a sentence where the mechanism or the gas itself
+cannot. What is read is held to what a case records when a command runs on it (`Case.read`).
+"""
+
+import functools
+import re
+from collections.abc import Callable, Mapping
 from typing import Any
 
+from mechsym import mechanisms
+from mechsym.cases import reads
+from mechsym.cases.facts import CaseFacts, facts_of
 from mechsym.cycle.kinds import KINDS
-from mechsym.mechanisms import by_roles
-from mechsym.mechanisms.traits import Traits, rules_of, with_chain, with_hinge, with_trait
+from mechsym.errors import MissingSection
+from mechsym.mechanisms.plan import plan_of, with_chain
+from mechsym.quantities import load, record
 
-_GUIDE = ("spring", "guide", "rollers", "limits")
-_FLAT = tuple(name for name, kind in KINDS.items() if kind.given == "chamber")
+_SECTION = re.compile(r"^\[\w+\]$")
+NO_FILE = "the diagram has no file; name it with cycle.file, or --diagram FILE"
+SPEEDS = "[speeds] or --speeds"
+_ACTS = "[drive] or [cycle]: nothing turns the shaft"
+_STILL = "simulation.t_end or speed_start, or [cycle] or [torque]"
+_SPARK = "[cycle] kind = 'spark-ignition'"
 
-# command: sections that it cannot do without; `_extra` adds what mechanism and kind of cycle ask for
-NEEDS: Mapping[str, tuple[str, ...]] = {
-    "codesign": ("parameters", "operation", "cycle", *_GUIDE, "codesign"),
-    "compare": ("parameters", "cycle", "speeds"),
-    "cycle": ("parameters", "operation", "cycle"),
-    "eval": ("parameters",),
-    "flywheel": ("parameters", "operation"),
-    "forces": ("parameters", "operation"),
-    "guide": ("parameters", "operation", "cycle", *_GUIDE),
-    "hinge": ("parameters", "operation", "cycle", *_GUIDE),
-    "identify": ("parameters",),
-    "optimise": ("parameters", "operation", "cycle", "optimise"),
-    "simulate": ("parameters", "simulation"),
-    "size": ("parameters", "operation", "cycle"),
-}
 
-_PARTS = ("part_piston", "part_cylinder", "part_gears", "part_crank", "part_bearings", "part_masses")
+def require(case: Any, command: str, given: str = "") -> None:
+    """Refuse a case that lacks what a command needs.
 
-# command: sections that it reads where they stand
-READS: Mapping[str, tuple[str, ...]] = {
-    "codesign": ("torque", "flywheel", "load", "losses", "scavenging"),
-    "compare": ("chamber", "gas", "heat_transfer", "friction_pressure", "friction", "rings"),
-    "cycle": ("chamber", "gas", "heat_transfer", "friction_pressure", "stirling", "friction", "rings", "combustion",
-              "measured", "faces", "closing", "load", "scavenging", "gas_limits"),
-    "eval": ("inputs", "start"),
-    "flywheel": ("torque", "drive", "inputs", "start", "cycle", "chamber", "gas", "heat_transfer", "load",
-                 "flywheel", "faces", "closing", "scavenging"),
-    "forces": ("torque", "cycle", "chamber", "gas", "heat_transfer", "friction", "rings", "shaking", "comparison",
-               "faces", "closing", "inputs", "stirling", "scavenging", "gas_limits"),
-    "guide": ("torque", "flywheel", "load", "scavenging"),
-    "hinge": ("torque", "drive", "inputs", "start", "flywheel", "load", "trials", "retune", "losses",
-              "scavenging", "gas_limits"),
-    "identify": ("drive", "simulation"),
-    "optimise": ("chamber", "gas", "heat_transfer", "friction_pressure", "gas_limits", "stirling", "breathing", "boost",
-                 "scavenging"),
-    "simulate": ("torque", "drive", "cycle", "chamber", "gas", "heat_transfer", "load", "startup", "operation",
-                 "inputs", "start", *_GUIDE, "flywheel", "stirling", "scavenging", "gas_limits"),
-    "size": ("sizing", *_PARTS, "part_crosshead", "chamber", "gas", "heat_transfer", "speeds", "friction",
-             "scavenging"),
-}  # fmt: skip
+    given: what an option of the command gives in place of the case.
+
+    Raises
+    ------
+    MissingSection
+        Names all that is missing
+    """
+    facts = facts_of(case.mechanism, case.sections)
+    missing = COMMANDS[command].lacks(facts)
+    if missing := [what for what in dict.fromkeys(missing) if what != given]:
+        told = [_SECTION.sub(r"section \g<0> is missing", what) for what in in_words(facts, missing)]
+        told = [f"{command} needs {what}" if what.startswith(("[", "simulation.")) else what for what in told]
+        raise MissingSection(f"{case.file}: {'; '.join(told)}; see 'mechsym check' and 'mechsym cases'")
+
+
+def in_words(case: CaseFacts, missing: list[str]) -> list[str]:
+    """What a command lacks, for people: sections that describe one thing together stand behind its name."""
+    kind = "engine" if case.roles is None or case.roles.pistons or case.roles.faces else "machine"
+    for thing, names in {"hinge": reads.GUIDE, "sizes of its parts": reads.PARTS}.items():
+        sections = [f"[{name}]" for name in names]
+        if all(one in missing for one in sections):
+            rest = [what for what in missing if what not in sections]
+            missing = [f"this kind of {kind} has no {thing} ({', '.join(sections)})", *rest]
+    return missing
+
+
+def lacking(case: CaseFacts) -> dict[str, list[str]]:
+    """What each command still lacks to run on a case; empty where it can run."""
+    return {name: list(dict.fromkeys(COMMANDS[name].lacks(case))) for name in sorted(COMMANDS)}
+
+
+def read_by(case: CaseFacts) -> dict[str, set[str]]:
+    """Sections of a case that each command reads which can run on it."""
+    can = (name for name, missing in lacking(case).items() if not missing)
+    return {name: COMMANDS[name].reads(case) & case.sections.keys() for name in can}
 
 
 def commands_of(section: str) -> list[str]:
-    """The commands that read a section."""
-    if section == "report":
-        return ["all"]
-    return sorted(name for name in NEEDS if section in NEEDS[name] or section in READS[name])
+    """The commands that read a section of some case."""
+    return ["all"] if section == "report" else sorted(name for name, all_of in _of_any().items() if section in all_of)
 
 
-def lacking(mechanism: str, tables: Mapping[str, Any]) -> dict[str, list[str]]:
-    """What each command still lacks to run on a case, given its sections with their raw values.
-
-    Returns
-    -------
-    missing : dict of str to list of str
-        Sections, or what else has to change in words; empty where the command can run
-    """
-    return {name: _lacking(name, mechanism, tables) for name in sorted(NEEDS)}
-
-
-def _lacking(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
-    missing = [f"[{section}]" for section in NEEDS[command] if section not in tables]
-    if command == "simulate" and {"cycle", "operation"} <= tables.keys():
-        missing = [section for section in missing if section != "[simulation]"]  # an engine runs without it
-    kind = str((tables.get("cycle") or {}).get("kind", "")) if isinstance(tables.get("cycle"), dict) else ""
-    given = KINDS[kind].given if kind in KINDS else ""
-    if by_roles(mechanism):
-        return _of_own(command, missing, tables)
-    missing += _of_mechanism(command, mechanism, tables)
-    if given == "engine" and command in ("cycle", "compare", "flywheel", "forces", "optimise", "size"):
-        missing += [f"[{section}]" for section in ("chamber", "heat_transfer") if section not in tables]
-    missing += _of_cycle(command, kind, given)
-    if command == "size" and kind and given != "engine" and "part_crosshead" not in tables:
-        missing += ['[cycle] kind = "spark-ignition"']
-    return list(dict.fromkeys(missing))
+@functools.lru_cache(maxsize=1)
+def _of_any() -> Mapping[str, set[str]]:
+    """Sections that each command reads of any case: of every mechanism and gas, with and without what turns it."""
+    fitted = load("mechsym.cycle.friction:MechanismFriction")()
+    known = {name: mechanisms.roles_of(name) for name in mechanisms.names()} | {"own.py": None}
+    every: dict[str, Any] = {**dict.fromkeys(("cycle", "spring", "guide")), "friction_pressure": fitted}
+    cases = [
+        CaseFacts(
+            mechanism=name,
+            sections=every | dict.fromkeys(more),
+            kind=kind,
+            roles=roles,
+            free=1 if roles is None else plan_of(name).free,
+        )
+        for name, roles in known.items()
+        for kind in (None, *KINDS.values())
+        for more in ((), ("drive",), ("part_crosshead",))
+    ]
+    own_ways = COMMANDS.keys() - {"app", "report", "sweep"}  # those run the others
+    return {name: set().union(*map(COMMANDS[name].reads, cases)) for name in own_ways}
 
 
-def _of_own(command: str, missing: list[str], tables: Mapping[str, Any]) -> list[str]:
-    """A machine of the user's own may do without a cycle: a torque, a drive, weights and springs act on it too."""
-    if command == "simulate" and {"torque", "operation"} <= tables.keys():
-        return [section for section in missing if section != "[simulation]"]
-    if command in ("guide", "hinge", "size"):
-        return [section for section in missing if section != "[cycle]"]
-    return ["[cycle] or [torque]" if command == "codesign" and s == "[cycle]" else s for s in missing]
+def _missing(case: CaseFacts, *names: str) -> list[str]:
+    return [f"[{name}]" for name in names if name not in case.sections]
 
 
-def _of_mechanism(command: str, mechanism: str, tables: Mapping[str, Any]) -> list[str]:
-    if command in ("hinge", "codesign", "guide") and mechanism not in with_hinge():
-        return [f"mechanism = {_quoted(with_hinge())}"]
-    if command == "size":
-        return _of_size(mechanism, tables)
-    if command in ("cycle", "compare", "flywheel", "forces", "optimise") and mechanism not in with_chain():
-        return [f"a mechanism with a piston: {', '.join(with_chain())}"]
-    if mechanism in with_trait(_undetermined) and command in ("forces", "flywheel"):
-        with_gas = ["faces"] if "cycle" in tables else []
-        return [f"[{section}]" for section in ("closing", *with_gas) if section not in tables]
-    if command == "simulate" and mechanism in {*with_hinge(), *with_trait(lambda known: known.shaft)}:
-        return [] if {"drive", "cycle"} & tables.keys() else ["[drive] or [cycle]"]
-    return []
-
-
-def _undetermined(known: Traits) -> bool:
-    return known.chain is not None and known.chain.overconstrained
-
-
-def _quoted(names: tuple[str, ...]) -> str:
-    return " or ".join(f'"{name}"' for name in names)
-
-
-def _of_size(mechanism: str, tables: Mapping[str, Any]) -> list[str]:
-    if not rules_of(mechanism):
-        return [f"mechanism = {_quoted(with_trait(lambda known: known.rules))}"]
-    slider = rules_of(mechanism) == "slider crank"
-    if slider and "part_crosshead" in tables:
+def _gas(case: CaseFacts) -> list[str]:
+    """What the gas of `[cycle]` still lacks; nothing without that section."""
+    if not case.has("cycle"):
         return []
-    # the parts of a planet are sized beside printed ones
-    return [f"[{section}]" for section in ("speeds", *(() if slider else _PARTS)) if section not in tables]
+    if case.roles is not None:
+        count = len(case.roles.pistons) + len(case.roles.faces)
+        if not count:
+            return [_no_piston(case)]
+        if case.shared and count != 2 and case.sections.get("parameters") is not None:
+            return [f"a Stirling cycle needs two pistons, hot one or displacer first; {count} declared"]
+    if case.kind is not None and case.kind.measured and case.value("cycle", "file") == "":
+        return [NO_FILE]
+    return _missing(case, *(case.kind.needs if case.kind else ()))
 
 
-def _of_cycle(command: str, kind: str, given: str) -> list[str]:
-    if not kind:
-        return []
-    if command in ("hinge", "codesign", "guide") and given != "chamber":
-        return [f"[cycle] kind = {' or '.join(_FLAT)}"]
-    if command == "compare" and given != "engine":
-        return ['[cycle] kind = "spark-ignition"']
-    return []
+def _no_piston(case: CaseFacts) -> str:
+    said = f"mechanism {case.mechanism} has no piston for an engine cycle"
+    return f"{said}; declare one with m.piston(name, travel=x, force=F), or take {', '.join(with_chain())}"
+
+
+def _turning(case: CaseFacts, *names: str) -> list[str]:
+    """What one turn at constant speed lacks."""
+    if case.has("cycle") and _gas(case) == [_no_piston(case)]:
+        return [*_missing(case, "parameters", "operation", *names), _no_piston(case)]
+    if case.free != 1:
+        way = f"this command takes a mechanism with one, as {', '.join(with_chain())}"
+        return [f"the {case.free} coordinates of {case.mechanism} are free; {way}"]
+    closing = ("closing", *(("faces",) if case.has("cycle") else ())) if case.undetermined else ()
+    return [*_missing(case, "parameters", "operation", *names, *closing), *_gas(case)]
+
+
+def _cycle(case: CaseFacts) -> list[str]:
+    if case.roles is not None and not (case.roles.pistons or case.roles.faces):
+        return [*_missing(case, "parameters", "operation", "cycle"), _no_piston(case)]
+    if case.kind is not None and not case.shared and case.undetermined:
+        return [*_missing(case, "parameters", "operation", "cycle", "closing", "faces"), *_gas(case)]
+    return _turning(case, "cycle")
+
+
+def _hinge(case: CaseFacts) -> list[str]:
+    """What a hinge on the shaft lacks."""
+    return _turning(case, *reads.GUIDE)
+
+
+def _codesign(case: CaseFacts) -> list[str]:
+    acts = case.has("cycle") or case.has("torque")
+    return _hinge(case) + ([] if acts else ["[cycle] or [torque]"])
+
+
+def _size(case: CaseFacts) -> list[str]:
+    if not case.rules or not case.closed:
+        given = case.rules == "slider crank" and case.has("part_crosshead")
+        return _turning(case, *(("cycle",) if given else ()))
+    return _turning(case, "cycle", "speeds", *(() if case.rules == "slider crank" else reads.PARTS))
+
+
+def _spark(case: CaseFacts) -> list[str]:
+    return [_SPARK] if case.kind is not None and not case.closed else []
+
+
+def _compare(case: CaseFacts) -> list[str]:
+    if case.twists:
+        return [
+            "an engine on a shaft that twists is no single cylinder; 'mechsym cycle' gives its figures over the speeds"
+        ]
+    wanted = [] if case.has("speeds") else [SPEEDS]
+    return [*_spark(case), *_missing(case, "parameters", "cycle"), *wanted, *_gas(case)]
+
+
+def _hinged(case: CaseFacts) -> bool:
+    return case.has("spring", "guide") and not case.twists and case.value("simulation", "hinge") != "none"
+
+
+def _simulate(case: CaseFacts) -> list[str]:
+    simulation = ["simulation"] if not case.has("simulation") and not case.has("operation") else []
+    if case.in_loop:
+        faces = ["faces"] if case.undetermined else []
+        return [*_missing(case, "parameters", "operation", *simulation, *faces), *_gas(case), *_loop_load(case)]
+    explained = _missing(case, "drive") if case.has("startup") else []
+    return [*_missing(case, *simulation), *explained, *_run(case)]
+
+
+def _loop_load(case: CaseFacts) -> list[str]:
+    return (
+        []
+        if case.roles is None or case.roles.load
+        else ["nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)"]
+    )
+
+
+def _run(case: CaseFacts) -> list[str]:
+    """What a run in time lacks whose gas hangs on the angle alone."""
+    if case.twists and not {"drive", "cycle", "inputs", "start"} & case.sections.keys():
+        return [*_missing(case, "parameters"), *([] if case.value("simulation", "speed_start") else [_ACTS])]
+    if case.has("cycle") or case.has("torque") or _hinged(case):
+        return _turning(case)
+    length = case.value("simulation", "t_end") or case.value("simulation", "speed_start")
+    return [*_missing(case, "parameters"), *([] if length else [_STILL])]
+
+
+def _export(case: CaseFacts) -> list[str]:
+    if case.held:
+        return [
+            f"{case.mechanism} is closed by constraints and an export takes independent coordinates; simulate it with "
+            "mechsym"
+        ]
+    return _run(case)
+
+
+def meant(case: CaseFacts) -> str:
+    """What a sweep computes where nothing is said; empty where nothing can be."""
+    # a case that says how long to run means its elastic shaft, whatever turns it
+    if case.has("drive") or (case.has("simulation") and case.twists):
+        return "simulate"
+    if case.has("spring", "guide"):
+        return "hinge"
+    if case.has("cycle"):
+        return "cycle"
+    # its weight or constants of [inputs] move it
+    return "simulate" if case.has("simulation") else ""
+
+
+def _sweep(case: CaseFacts) -> list[str]:
+    return COMMANDS[meant(case)].lacks(case) if meant(case) else [_ACTS]
+
+
+def _optimise(case: CaseFacts) -> list[str]:
+    return [*_cycle(case), *_missing(case, "optimise")]
+
+
+def _identify(case: CaseFacts) -> list[str]:
+    if case.roles is not None and mechanisms.lists(case.mechanism):
+        return [
+            f"{case.mechanism} is put together from lists, and identify takes mechanisms with one value a letter; take "
+            "chmielewski, or declare the shaft in a file of its own"
+        ]
+    if case.held:
+        return [f"{case.mechanism} has loops that close by constraint; identify takes those that close in closed form"]
+    return _missing(case, "parameters")
+
+
+def _reads_report(case: CaseFacts) -> set[str]:
+    parts = (COMMANDS[name] for name in ("cycle", "hinge", "forces", "size", "simulate"))
+    return {"report"}.union(*(part.reads(case) for part in parts if not part.lacks(case)))
+
+
+@record
+class Command:
+    """A command that takes a case."""
+
+    lacks: Callable[[CaseFacts], list[str]]
+    reads: Callable[[CaseFacts], set[str]]  #: Whatever the case has of these
+
+
+COMMANDS: Mapping[str, Command] = {
+    "app": Command(lacks=lambda case: [], reads=_reads_report),
+    "balance": Command(lacks=_turning, reads=lambda case: reads.of_turn(case) | {"shaft"}),
+    "codesign": Command(lacks=_codesign, reads=lambda case: reads.guide(case) | {"codesign", "losses"}),
+    "compare": Command(lacks=_compare, reads=lambda case: reads.of_turn(case) | reads.of_friction(case) | {"speeds"}),
+    "cycle": Command(lacks=_cycle, reads=reads.cycle),
+    "eval": Command(lacks=lambda case: _missing(case, "parameters"), reads=lambda case: {"parameters"}),
+    "export": Command(lacks=_export, reads=reads.run),
+    "flywheel": Command(lacks=_turning, reads=reads.flywheel),
+    "fmu": Command(lacks=_export, reads=reads.run),
+    "forces": Command(lacks=_turning, reads=reads.forces),
+    "guide": Command(lacks=_hinge, reads=reads.guide),
+    "hinge": Command(lacks=_hinge, reads=reads.hinge),
+    "identify": Command(lacks=_identify, reads=reads.identify),
+    "optimise": Command(lacks=_optimise, reads=lambda case: reads.cycle(case) | {"optimise"}),
+    "page": Command(lacks=_export, reads=reads.run),
+    "report": Command(lacks=lambda case: [], reads=_reads_report),
+    "simulate": Command(lacks=_simulate, reads=reads.simulate),
+    "size": Command(lacks=_size, reads=reads.size),
+    "sweep": Command(lacks=_sweep, reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set()),
+}

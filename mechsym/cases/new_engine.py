@@ -5,22 +5,20 @@ are a start to replace, not a design.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from importlib import resources
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from mechsym.cases.engine_texts import (
-    CROSSHEAD,
-    FOUR_STROKE,
-    HINGE,
-    HYPOCYCLOID,
-    TRAIN,
-    TWO_STROKE_LARGE,
-    TWO_STROKE_SMALL,
-)
+from mechsym.cases import load
+from mechsym.cycle.kinds import four_stroke
 from mechsym.errors import BadInput
 from mechsym.files import write_text
 from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles
+from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, record
+from mechsym.quantities.units import Metre, Pure
+from mechsym.torsion.modes import stiffness_factor
 
 # usual orders of engines in line; others go up through the odd cylinders and down through the even ones
 _ORDERS = {
@@ -30,6 +28,8 @@ _ORDERS = {
 _BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
 _MOST = 12
 _COMPRESSION = ((0.1, 10), (0.14, 9), (math.inf, 8))  # widest bore [m], compression ratio below knock
+PISTON_MASS = 780  # mass of a piston by the cube of the bore [kg/m^3]
+ROD_MASS = 900  # of a rod by the same
 _DAMPING = 0.12  # of the first mode: no order up to 12 is magnified by more than 5, wherever it is critical
 # mean piston speed at the speed of operation, usual at full power [m/s]
 _PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
@@ -39,41 +39,66 @@ _PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
 class CylinderLayout:
     """Cylinders of a crank train: angles in degrees, one a cylinder, and one place along the shaft for each throw."""
 
-    throw: tuple[int, ...]
-    bank: tuple[float, ...]  #: [deg]
-    firing: tuple[float, ...]  #: [deg]
-    phase: tuple[float, ...]  #: [deg]
+    throw: tuple[int, ...]  #: which each cylinder stands on, from 1
+    bank: tuple[float, ...]  #: where the axis of each cylinder points [deg]
+    firing: tuple[float, ...]  #: of each cylinder [deg]
+    phase: tuple[float, ...]  #: angle of the pin of each cylinder [deg]
     period: float  #: of a cycle [deg]
     opposed: bool = False
 
 
-def write_engine(kind: str, bore: float, stroke: float, cylinders: int | None, out: Path, name: str = "") -> list[Path]:
+def write_engine(
+    kind: str, bore: Metre, stroke: Metre, cylinders: int | None, out: Path, name: str = "", gas: str = "exchange"
+) -> list[Path]:
     """Write the case of a new engine; nothing that exists is overwritten.
 
-    Parameters
-    ----------
-    bore, stroke : float
-        Of a cylinder; of opposed pistons and of a hypocycloid the stroke of one piston [m]
-    name : str
-        Stem of the file; kind and number of cylinders when left out
+    bore, stroke: of a cylinder; of opposed pistons and of a hypocycloid the stroke of one piston. name: stem of the
+    file; kind and number of cylinders when left out. gas: of a four-stroke engine, a word of `GASES`.
     """
     count = _CYLINDERS[kind] if cylinders is None else cylinders
     if not 1 <= count <= _MOST:
         raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
-    text = _KINDS[kind](bore, stroke, count)
+    text = _detuned(_KINDS[kind](bore, stroke, count) + _load_of(kind, gas, bore, stroke), bore, stroke)
     file = out / f"{name or f'{kind}-{count}'}.toml"
     if file.exists():
         raise BadInput(f"{file} exists; choose another NAME or remove it")
     return [write_text(file, text)]
 
 
+def _detuned(text: str, bore: float, stroke: float) -> str:
+    """The text with the shaft of its crank train, if it has one, away from its major orders."""
+    if "<k>" not in text:
+        return text
+    with TemporaryDirectory() as folder:
+        first = Path(folder) / "first.toml"
+        first.write_text(fill(text, **_shaft(bore, stroke, 1, 1.0)), encoding="utf-8")
+        case = load(str(first))
+    parameters, turns = case.need("parameters"), 2 if four_stroke(case.need("cycle")) else 1
+    factor = stiffness_factor(parameters, case.need("operation").speed, 2 * math.pi * turns)
+    return fill(text, **_shaft(bore, stroke, max(parameters.throw), factor or 1.0))
+
+
+def _shaft(bore: float, stroke: float, throws: int, factor: Pure) -> dict[str, float]:
+    """Stiffness [N*m/rad] and damping [N*m*s/rad] of a section, and the width of its shaft by the bore [-].
+
+    factor: of the stiffness, by that of a shaft of 0.6 bores.
+    """
+    wide = 0.6 * factor**0.25
+    stiffness = 0.5 * 80e9 * math.pi / 32 * (wide * bore) ** 4 / (1.2 * bore)
+    # first natural frequency of equal throws on equal sections whose flywheel stands still
+    first = 2 * math.sqrt(stiffness / _throw_inertia(bore, stroke)) * math.sin(math.pi / (4 * throws + 2))
+    return {"k": stiffness, "c": 2 * _DAMPING * stiffness / first, "wide": wide}
+
+
+def _throw_inertia(bore: float, stroke: float) -> float:
+    """Of a throw with its share of a rod: 11 piston masses at the crank radius [kg*m^2]."""
+    return 11 * PISTON_MASS * bore**3 * (stroke / 2) ** 2
+
+
 def in_line(count: int, turns: int) -> CylinderLayout:
     """Cylinders in line, evenly fired, one throw each.
 
-    Parameters
-    ----------
-    turns : int
-        1 for two-stroke, 2 for four-stroke
+    turns: 1 for two-stroke, 2 for four-stroke.
     """
     order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
     firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
@@ -133,7 +158,13 @@ def _head(mechanism: str, about: str, stroke: float, usual: str) -> str:
     )
 
 
-def _fill(text: str, **values: float | str) -> str:
+def _start(name: str) -> str:
+    """Sections of a case in `starts/`; `<name>` in it is a number or a list."""
+    return "\n" + resources.files("mechsym.cases").joinpath(f"starts/{name}.toml").read_text("utf-8")
+
+
+def fill(text: str, **values: float | str) -> str:
+    """The text with words, and numbers [each in the unit behind its place], in the places `<name>`."""
     for name, value in values.items():
         text = text.replace(f"<{name}>", value if isinstance(value, str) else f"{value:.4g}")
     return text
@@ -145,18 +176,20 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
         head = _head("crank_train", about, stroke, "crosshead")
         # slow pistons under a high pressure: ten times the flywheel of a fast engine for a ripple of a few per cent
         train = _train(in_line(count, turns=1), bore, stroke, 4.6, flywheel=1600)
-        return head + train + _fill(TWO_STROKE_LARGE, bore=bore * 1e3)
+        return head + train + fill(_start("two_stroke_large"), bore=bore * 1e3)
     # masses, spring, guide and limits of an engine of bore 0.3 m and stroke 1 m that can be built, scaled
     size, area = bore**2 * stroke / 0.09, bore**2 / 0.09
     head = _head("crosshead", f"Two-stroke crosshead engine, bore {1e3 * bore:g} mm", stroke, "crosshead")
     mass = {"m1": 80 * size, "m2": 150 * size, "m3": 150 * size, "m4": 200 * size, "m5": 110 * size}
     inertia = {"I01": 30 * size * stroke**2, "IC2": 50 * size * stroke**2}
-    values = {"bore": bore * 1e3, "stroke": stroke * 1e3, "area": 0.031 * area, "force": 600 * area,
-              "width": 100 * area / stroke, "offset": 150 * area / stroke}  # fmt: skip
-    lengths = {"r1": 200, "r2": 300, "l1": 800, "l2": 750, "H": 1000, "rho0": 800, "margin": 10, "roller": 100,
-               "pin": 120, "crank": 140, "ring": 7}  # fmt: skip
+    values = {"bore": bore * 1e3, "stroke": stroke * 1e3, "area": 0.031 * area, "force": 600 * area}
+    values |= {"width": 100 * area / stroke, "offset": 150 * area / stroke}
+    lengths = {"r1": 200, "r2": 300, "l1": 800, "l2": 750, "H": 1000, "rho0": 800, "margin": 10, "roller": 100}
+    lengths |= {"pin": 120, "crank": 140, "ring": 7}
     scaled = {name: value * stroke for name, value in lengths.items()}
-    return _fill(head + CROSSHEAD + TWO_STROKE_LARGE + HINGE, **mass, **inertia, **values, **scaled)
+    return fill(
+        head + _start("crosshead") + _start("two_stroke_large") + _start("hinge"), **mass, **inertia, **values, **scaled
+    )
 
 
 def _inline(bore: float, stroke: float, count: int) -> str:
@@ -173,13 +206,13 @@ def _v(bore: float, stroke: float, count: int) -> str:
 
 def _spark(layout: CylinderLayout, about: str, bore: float, stroke: float) -> str:
     head = _head("crank_train", about, stroke, "four-stroke")
-    return head + _train(layout, bore, stroke, 3.5) + _four_stroke(bore)
+    return head + _train(layout, bore, stroke, 3.5)
 
 
 def _opposed(bore: float, stroke: float, count: int) -> str:
     about = f"Two-stroke engine, {count} cylinder{'s' * (count > 1)} with two opposed pistons, bore {1e3 * bore:g} mm"
     head = _head("crank_train", about, stroke, "small")
-    return head + _train(opposed(count), bore, stroke, 3.75) + _fill(TWO_STROKE_SMALL, bore=bore * 1e3)
+    return head + _train(opposed(count), bore, stroke, 3.75) + fill(_start("two_stroke_small"), bore=bore * 1e3)
 
 
 def _hypocycloid(bore: float, stroke: float, count: int) -> str:
@@ -187,43 +220,63 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
         raise BadInput(f"--cylinders {count}: the mechanism hypocycloid has one piston; give --cylinders 1")
     head = _head("hypocycloid", f"Four-stroke geared hypocycloid, bore {1e3 * bore:g} mm", stroke, "four-stroke")
     size = bore**3
-    text = _fill(HYPOCYCLOID, e=stroke / 4 * 1e3, module=stroke / 52 * 1e3, I1=30 * size * stroke**2,
-                 piston=780 * size, planet=300 * size, I2=300 * size * (stroke / 4) ** 2 / 2,
-                 pin=bore * 1e3 / 4, flywheel=320 * 780 * size * (stroke / 2) ** 2)  # fmt: skip
-    return head + text + _four_stroke(bore)
+    values = {"e": stroke / 4 * 1e3, "module": stroke / 52 * 1e3, "pin": bore * 1e3 / 4, "I1": 30 * size * stroke**2}
+    values |= {"piston": 780 * size, "planet": 300 * size, "I2": 300 * size * (stroke / 4) ** 2 / 2}
+    values["flywheel"] = 320 * 780 * size * (stroke / 2) ** 2
+    text = fill(_start("hypocycloid"), **values)
+    return head + text
 
 
-def _four_stroke(bore: float) -> str:
-    """Chamber and cycle; a wide chamber burns longer at its low speed, so that it knocks at a lower compression."""
-    return _fill(FOUR_STROKE, bore=bore * 1e3, ratio=next(ratio for widest, ratio in _COMPRESSION if bore <= widest))
+def compression_below_knock(bore: Metre) -> Pure:
+    """A usual compression ratio of mixture: a wide chamber burns longer."""
+    return next(ratio for widest, ratio in _COMPRESSION if bore <= widest)
+
+
+def _load_of(kind: str, gas: str, bore: float, stroke: float) -> str:
+    """Chamber, cycle and load of a four-stroke engine, those of others stand with their kind.
+
+    A wide chamber burns longer at its low speed, so that it knocks at a lower compression.
+    """
+    if kind not in _FOUR_STROKES:
+        if gas != "exchange":
+            raise BadInput(f"--gas {gas}: an engine of kind {kind} has two strokes, its gas is closed for its mean "
+                           "pressure; leave --gas away")  # fmt: skip
+        return ""
+    inlet, exhaust, swept = 0.34 * bore * 1e3, 0.3 * bore * 1e3, math.pi / 4 * bore**2 * stroke * 1e6
+    return fill(
+        _start(GASES[gas]), bore=bore * 1e3, ratio=compression_below_knock(bore),
+        inlet=inlet, inlet_lift=inlet / 4, exhaust=exhaust, exhaust_lift=exhaust / 4, throttle=0.55 * bore * 1e3,
+        tailpipe=0.45 * bore * 1e3, plenum=1.5 * swept, manifold=3 * swept,
+    )  # fmt: skip
 
 
 def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, flywheel: float = 160.0) -> str:
-    """Section `[parameters]` of a crank train: rods of `ratio` crank radii, a flywheel of so many piston masses."""
+    """Section `[parameters]` of a crank train but for its shaft: rods of `ratio` crank radii, the flywheel's masses."""
     radius, rod = stroke / 2, ratio * stroke / 2
-    piston, rod_mass = 780 * bore**3, 900 * bore**3
+    piston, rod_mass = PISTON_MASS * bore**3, ROD_MASS * bore**3
     throws = max(layout.throw)
     turning = rod_mass * 2 / 3 * radius  # the big end's share, with the centre of mass a third from it
     unbalance = [-turning * layout.throw.count(k + 1) for k in range(throws)]
-    pins = [[p for p, k in zip(layout.phase, layout.throw, strict=True) if k == t + 1] for t in range(throws)]
-    inertia = 11 * piston * radius**2
+    middles = []  # angle half way between the pins of each throw [deg]
+    for number in range(1, throws + 1):
+        pins = [math.radians(p) for p, k in zip(layout.phase, layout.throw, strict=True) if k == number]
+        there = sum(complex(math.cos(p), math.sin(p)) for p in pins)
+        angle = round(math.degrees(math.atan2(there.imag, there.real)) % 360, 6)
+        middles.append(angle if abs(there) > 1e-9 else 0.0)
     heavy = flywheel * (2 if throws < 3 else 1)  # few throws push unevenly
-    stiffness = 0.5 * 80e9 * math.pi / 32 * (0.6 * bore) ** 4 / (1.2 * bore)
-    # first natural frequency of equal throws on equal sections whose flywheel stands still
-    first = 2 * math.sqrt(stiffness / inertia) * math.sin(math.pi / (4 * throws + 2))
     far = 2 * (radius + rod + bore) + 0.02 * stroke
     lists = {
-        "throw": str(list(layout.throw)), "bank": _angles(layout.bank), "phase": _angles(layout.phase),
-        "firing": _angles(layout.firing), "order": _order(layout), "u0": _numbers(unbalance, "kg*m"),
-        "u_phase": _angles([_mean(pin) for pin in pins]), "z": _places(layout, bore), "axes": _axes(layout, far),
+        "throw": str(list(layout.throw)), "bank": _numbers(layout.bank, "deg"), "phase": _numbers(layout.phase, "deg"),
+        "firing": _numbers(layout.firing, "deg"), "order": _order(layout), "u0": _numbers(unbalance, "kg*m"),
+        "u_phase": _numbers(middles, "deg"), "z": _places(layout, bore), "axes": _axes(layout, far),
     }  # fmt: skip
     numbers = {
         "period": layout.period, "r": radius * 1e3, "l1": rod / 3 * 1e3, "l2": rod * 2 / 3 * 1e3, "rod": rod_mass,
-        "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": inertia, "k": stiffness,
-        "c": 2 * _DAMPING * stiffness / first, "I_f": heavy * piston * radius**2, "heavy": heavy,
+        "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": _throw_inertia(bore, stroke),
+        "I_f": heavy * piston * radius**2, "heavy": heavy,
         "ratio": ratio, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
     }  # fmt: skip
-    return _fill(TRAIN, **lists, **numbers)
+    return fill(_start("train"), **lists, **numbers)
 
 
 def _places(layout: CylinderLayout, bore: float) -> str:
@@ -250,22 +303,40 @@ def _order(layout: CylinderLayout) -> str:
     return " and ".join(shown) if len(set(layout.firing)) == 1 and len(shown) > 1 else "-".join(shown)
 
 
-def _mean(pins: list[float]) -> float:
-    """Angle half way between the pins of a throw [deg]."""
-    there = sum(complex(math.cos(math.radians(p)), math.sin(math.radians(p))) for p in pins)
-    return round(math.degrees(math.atan2(there.imag, there.real)) % 360, 6) if abs(there) > 1e-9 else 0.0
-
-
-def _angles(values: tuple[float, ...] | list[float]) -> str:
-    return _numbers(values, "deg")
-
-
-def _numbers(values: tuple[float, ...] | list[float], unit: str) -> str:
+def _numbers(values: Sequence[float], unit: str) -> str:
     return "[" + ", ".join(f'"{v + 0.0:.6g} {unit}"' for v in values) + "]"
 
 
+def judged(kind: str, bore: Metre, stroke: Metre) -> tuple[Doubt, ...]:
+    """Sizes by those in which engines of a kind are built.
+
+    Examples
+    --------
+    >>> [d.quantity for d in judged("two-stroke-crosshead", 0.086, 0.3)]
+    ['--bore']
+    """
+    narrow, wide, short, long = _BUILT.get(kind, _FOUR_STROKE)
+    why = f"engines of kind {kind} are built in other sizes: a slip of the unit, or another --kind?"
+    found = []
+    if not narrow <= bore <= wide:
+        found.append(Doubt(code="bore", quantity="--bore", value=bore, usual=f"{narrow:g} to {wide:g} m", why=why))
+    if not short <= stroke / bore <= long:
+        about, usual = "--stroke / --bore", f"{short:g} to {long:g}"
+        found.append(Doubt(code="stroke_ratio", quantity=about, value=stroke / bore, usual=usual, why=why))
+    return tuple(found)
+
+
+# least and largest bore [m], least and largest stroke by bore; a crosshead is for strokes too long for a trunk piston
+_BUILT = {
+    "two-stroke-crosshead": (0.25, 1.1, 1.3, 5.5),
+    "opposed": (0.05, 0.45, 0.8, 2.5),
+    "hypocycloid": (0.01, 0.3, 0.4, 2.0),
+}
+_FOUR_STROKE = (0.01, 0.65, 0.35, 1.8)
 _KINDS: Mapping[str, Callable[[float, float, int], str]] = {
     "two-stroke-crosshead": _crosshead, "inline": _inline, "v": _v, "opposed": _opposed, "hypocycloid": _hypocycloid,
 }  # fmt: skip
 _CYLINDERS = {"two-stroke-crosshead": 1, "inline": 4, "v": 2, "opposed": 1, "hypocycloid": 1}
+_FOUR_STROKES = ("inline", "v", "hypocycloid")
+GASES = {"exchange": "four_stroke", "closed": "four_stroke_closed"}  #: Gas of a four-stroke engine, and its start
 KINDS = tuple(_KINDS)

@@ -38,21 +38,13 @@ def _same(one: str, other: str) -> bool:
 def numbers(case: str, mechanism: str = "") -> dict[str, float]:
     """Values of the parameters of a case, and its speed of operation.
 
-    Parameters
-    ----------
-    mechanism : str
-        Mechanism that the case must be of; empty takes any
-
-    Returns
-    -------
-    values : dict of str to float
-        By letter, and `speed` [SI]
+    mechanism: mechanism that the case must be of; empty takes any. Returns values: by letter, and `speed` [SI].
     """
-    found = cases.load(case)
-    if mechanism and not _same(found.mechanism, mechanism):
+    data = cases.load(case)
+    if mechanism and not _same(data.mechanism, mechanism):
         raise BadInput(
-            f"case {case} is of the mechanism {found.mechanism}, not of {mechanism}; name another with --case"
+            f"case {case} is of the mechanism {data.mechanism}, not of {mechanism}; name another with --case"
         )
-    values = {k: v for k, v in dataclasses.asdict(found.need("parameters")).items() if isinstance(v, float)}
-    operation = found.sections.get("operation")
+    values = {k: v for k, v in dataclasses.asdict(data.need("parameters")).items() if isinstance(v, float)}
+    operation = data.sections.get("operation")
     return values | ({"speed": operation.speed} if operation else {})

@@ -37,17 +37,17 @@ class SourcedValue:
 
 def sourced(case: Case) -> list[SourcedValue]:
     """The values of a case with unit, meaning and origin, section by section."""
-    told, replaced = comments(cases.text(case.path)), _overridden(case)
+    origins = comments(cases.text(case.path))
+    places = [cases.locate(case.path, key) for key in case.overrides]
+    replaced = {f"{place.section}.{place.field}" for place in places}
     rows = []
     for section, values in case.sections.items():
         for field in dataclasses.fields(values):
-            shown = _shown(getattr(values, field.name), field.metadata)
-            key = f"{section}.{field.name}"
+            key, shown = f"{section}.{field.name}", _shown(getattr(values, field.name), field.metadata)
             if shown:
-                origin = "set for this run" if key in replaced else told.get(key) or _usual(told, key, field)
-                rows.append(
-                    SourcedValue(key=key, value=shown, about=_plain(meaning(type(values), field)), origin=origin)
-                )
+                origin = "set for this run" if key in replaced else origins.get(key) or _usual(origins, key)
+                about = _plain(meaning(type(values), field))
+                rows.append(SourcedValue(key=key, value=shown, about=about, origin=origin))
     return rows
 
 
@@ -59,7 +59,7 @@ def comments(text: str) -> dict[str, str]:
     >>> comments('[operation]\\nspeed = "89 rpm" # a; b')
     {'operation.speed': 'a; b'}
     """
-    found: dict[str, str] = {}
+    origins: dict[str, str] = {}
     section, source = "", ""
     for line, comment in _joined(text):
         if heading := _SECTION.match(line):
@@ -67,15 +67,15 @@ def comments(text: str) -> dict[str, str]:
         elif key := _KEY.match(line):
             same = re.match(r"same\b", comment)
             source = source if same or not comment else comment
-            found[f"{section}.{key[1]}"] = source.partition(":")[0] + comment[4:] if same else comment
-    return found
+            origins[f"{section}.{key[1]}"] = source.partition(":")[0] + comment[4:] if same else comment
+    return origins
 
 
 def _joined(text: str) -> Iterator[tuple[str, str]]:
     """Lines without their comments, an array over several lines as one, and the comments."""
     held, notes = "", list[str]()
     for raw in text.splitlines():
-        line, _, comment = _parted(raw)
+        line, comment = _parted(raw)
         held += line
         notes += [comment.strip()] if comment.strip() else []
         if sum(held.count(c) for c in _OPEN) <= sum(held.count(c) for c in _CLOSED):
@@ -83,7 +83,7 @@ def _joined(text: str) -> Iterator[tuple[str, str]]:
             held, notes = "", []
 
 
-def _parted(line: str) -> tuple[str, str, str]:
+def _parted(line: str) -> tuple[str, str]:
     """A line at the # that is not in a text."""
     quote = ""
     for i, letter in enumerate(line):
@@ -92,14 +92,14 @@ def _parted(line: str) -> tuple[str, str, str]:
         elif letter in "\"'":
             quote = letter
         elif letter == "#":
-            return line[:i], "#", line[i + 1 :]
-    return line, "", ""
+            return line[:i], line[i + 1 :]
+    return line, ""
 
 
-def _usual(told: Mapping[str, str], key: str, field: dataclasses.Field[Any]) -> str:
+def _usual(origins: Mapping[str, str], key: str) -> str:
     # a key may carry its unit: speed_rpm = 142
-    written = [k for k in told if k == key or k.startswith(f"{key}_")]
-    return next((told[k] for k in written if told[k]), _UNTOLD if written else "usual value of mechsym")
+    written = [k for k in origins if k == key or k.startswith(f"{key}_")]
+    return next((origins[k] for k in written if origins[k]), _UNTOLD if written else "usual value of mechsym")
 
 
 def _plain(text: str) -> str:
@@ -108,12 +108,7 @@ def _plain(text: str) -> str:
     return words[:1].lower() + words[1:] if words[1:2].islower() else words
 
 
-def _overridden(case: Case) -> set[str]:
-    places = [cases.locate(case.path, key) for key in case.overrides]
-    return {f"{place.section}.{place.field}" for place in places}
-
-
-def _shown(value: Any, about: Mapping[str, Any]) -> str:
+def _shown(value: object, about: Mapping[str, Any]) -> str:
     unit = about.get("unit") or ""
     if unit == "m" and (about.get("high") or 0.0) >= _FAR and not chosen() and isinstance(value, (int, float)):
         return f"{figure(float(value), 6)} m"  # no length of a machine: a height above the sea
@@ -123,10 +118,6 @@ def _shown(value: Any, about: Mapping[str, Any]) -> str:
     if isinstance(value, (int, float)):
         return quantity_text(float(value), unit, 6)
     if isinstance(value, (tuple, list)) and value and all(isinstance(v, (int, float)) for v in value):
-        shown = list(dict.fromkeys(quantity_text(float(v), unit, 6) for v in value))
-        return (
-            shown[0] + " (each)"
-            if len(shown) == 1 and len(value) > 1
-            else ", ".join(quantity_text(float(v), unit, 6) for v in value)
-        )
+        shown = [quantity_text(float(v), unit, 6) for v in value]
+        return shown[0] + " (each)" if len(set(shown)) == 1 and len(shown) > 1 else ", ".join(shown)
     return ""

@@ -6,86 +6,83 @@ A value in the wrong unit, or with a slip of three decimals, is out of proportio
 absolute range wide enough for a model and a ship would let it pass. Zero leaves a part away and is never doubted.
 """
 
+import csv
 import dataclasses
+import functools
+import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from importlib import resources
 
+from mechsym.cases.laws import Records, load_torques, value
 from mechsym.mechanisms.proportions import Proportions
-from mechsym.mechanisms.traits import ElasticShaft
+from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import Doubt, letters, proportion
+from mechsym.quantities.records import Field
+from mechsym.quantities.units import Metre
 
-# lengths by the bore: section, names of its fields (all lengths where none is named), kind
-_BY_BORE: tuple[tuple[str, tuple[str, ...], str], ...] = (
-    ("friction", ("radius_piston_pin", "radius_crank_pin", "radius_main"), "bearing_size"),
-    ("losses", ("bearing_radius",), "bearing_size"),
-    ("rollers", ("radius", "width", "plane_offset"), "roller_size"),
-    ("breathing", ("inlet_lift", "exhaust_lift"), "valve_lift"),
-    ("breathing", ("inlet_diameter", "exhaust_diameter", "throttle_diameter", "tailpipe_diameter"), "throat_size"),
-    ("scavenging", ("valve_lift",), "valve_lift"),
-    ("scavenging", ("valve_diameter",), "throat_size"),
-    ("scavenging", ("port_width",), "port_size"),
-    ("rings", ("heights",), "ring_size"),
-    ("sizing", ("ring_thickness",), "ring_size"),
-    ("sizing", ("reboring", "fillet", "carrier_wall"), "thin_size"),
-    ("sizing", ("reach",), "part_size"),
-    ("part_piston", ("ring_radial", "ring_axial"), "ring_size"),
-    ("part_piston", ("barrel", "land"), "thin_size"),
-    ("part_piston", ("head", "land_top", "height", "rod", "rod_length"), "part_size"),
-    ("part_cylinder", ("wall",), "thin_size"),
-    ("part_cylinder", ("flange", "length"), "part_size"),
-    ("friction", ("module",), "tooth_size"),
-    ("part_gears", ("module",), "tooth_size"),
-    ("part_gears", ("face", "ring_outside", "pinion_bore"), "part_size"),
-    ("part_crank", (), "part_size"),
-    ("part_crosshead", ("pin_diameter", "pin_length", "crank_pin_diameter", "crank_pin_length", "shoe_width",
-                        "shoe_length", "rod_diameter", "web_width", "web_thickness", "web_arm"), "part_size"),
-    ("stirling", ("heater_diameter", "cooler_diameter"), "tube_share"),
-    ("stirling", ("seal_length", "shuttle_length"), "seal_share"),
-)  # fmt: skip
 # absolute pressure of the charge, what each kind of cycle calls it
-_CHARGE = (("cycle", "intake_pressure"), ("cycle", "p_s"), ("cycle", "mean_pressure"), ("cycle", "p_suction"),
-           ("cycle", "inlet_pressure"), ("cycle", "exhaust_pressure"))  # fmt: skip
+_CHARGE = ("intake_pressure", "p_s", "mean_pressure", "p_suction", "inlet_pressure", "exhaust_pressure")
 MOVING = "moving mass"
 _ATMOSPHERE = 101325.0  # [Pa]
 _Told = tuple[str, str, float]  # kind, what it is, value
 
 
-def by_size(sections: Mapping[str, Any], sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:
+def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[Doubt, ...]:
     """What is out of proportion to the machine.
 
-    Parameters
-    ----------
-    bore : float or None
-        Of the piston; None where it is not known [m]
+    bore: of the piston; None where it is not known.
     """
-    told = [*_inertias(sections, sizes), *_by_stroke(sections, sizes), *_fitted(sections)]
-    # without a bore the stroke stands for it
-    told.append(
-        ("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / ((bore or sizes.stroke) ** 2 * sizes.stroke))
-    )
+    told = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
+    measures = {"stroke": sizes.stroke}
+    if "cycle" in sections:  # what a press moves is as heavy as its flywheel carries
+        volume = (bore or sizes.stroke) ** 2 * sizes.stroke  # without a bore the stroke stands for it
+        told.append(("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / volume))
     if bore:
+        area = math.pi / 4 * bore**2
+        measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * sizes.stroke}
+        measures["that of solid copper"] = 400 * area / sizes.stroke  # a block of the piston's width [W/K]
         told.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
-        told += [
-            *_lengths(sections, bore),
-            *_valves(sections, bore),
-            *_volumes(sections, bore, sizes.stroke),
-            *_areas(sections, sizes, bore),
-        ]
-    return _doubts(told)
+        told += [*_valves(sections, bore), *_areas(sections, sizes, bore)]
+    return _doubts([*told, *_by_measure(sections, measures)])
 
 
-def by_shaft(shaft: ElasticShaft, parameters: Any) -> tuple[Doubt, ...]:
-    """Stiffness and damping of an elastic shaft by its lightest disc."""
-    inertia = min(shaft.discs(parameters))
+@functools.cache
+def _measured() -> tuple[dict[str, str], ...]:
+    """Rows of `scales.csv`: code of the doubt, section, names of its keys (all where none is named), measure."""
+    text = resources.files("mechsym.cases").joinpath("scales.csv").read_text("utf-8")
+    return tuple(csv.DictReader(text.splitlines()))
+
+
+def _by_measure(sections: Records, measures: Mapping[str, float]) -> Iterator[_Told]:
+    for row in _measured():
+        section, by = row["section"], row["by"]
+        if section not in sections or by not in measures:
+            continue
+        every = [f.name for f in _fields(sections[section]) if "unit" in f.metadata]
+        for name in row["names"].split() or every:
+            size = value(sections, section, name)
+            for one in set(size) if isinstance(size, tuple) else (size,):
+                yield row["code"], f"{section}.{name} / {by}", one / measures[by]
+
+
+def by_shaft(shaft: ElasticShaft) -> tuple[Doubt, ...]:
+    r"""Stiffness and damping of each section of an elastic shaft, by what swings against each other on its two sides.
+
+    .. math:: \omega = \sqrt{k/I}, \quad \zeta = c / (2\sqrt{k I}), \quad 1/I = 1/I_1 + 1/I_2
+    """
     told: list[_Told] = []
-    for k, c in zip(*shaft.springs(parameters), strict=True):
-        told.append(("shaft_frequency", "sqrt(stiffness / least inertia), rad/s", math.sqrt(k / inertia)))
+    sides = list(itertools.accumulate(shaft.discs))
+    for one, k, c in zip(sides, shaft.k, shaft.c, strict=False):
+        inertia = one * (1 - one / sides[-1])
+        if k == 0 or inertia <= 0:  # nothing swings
+            continue
+        told.append(("shaft_frequency", "sqrt(stiffness / inertia of both sides), rad/s", math.sqrt(k / inertia)))
         told.append(("shaft_damping", "damping / (2 sqrt(stiffness * inertia))", c / (2 * math.sqrt(k * inertia))))
     return _doubts(told)
 
 
-def by_unit(sections: Mapping[str, Any], names: tuple[str, ...]) -> tuple[Doubt, ...]:
+def by_unit(sections: Records, names: tuple[str, ...]) -> tuple[Doubt, ...]:
     """What is beyond the largest machines, in sections of letters that may mean anything."""
     found = {}
     for section in names:
@@ -100,15 +97,11 @@ def _doubts(told: Iterable[_Told]) -> tuple[Doubt, ...]:
     return tuple(d for code, name, value in told if value for d in proportion(code, name, value))
 
 
-def _fields(record: Any) -> tuple[dataclasses.Field[Any], ...]:
+def _fields(record: object) -> tuple[Field, ...]:
     return dataclasses.fields(record) if dataclasses.is_dataclass(record) else ()
 
 
-def _number(sections: Mapping[str, Any], section: str, name: str) -> float:
-    return getattr(sections.get(section), name, None) or 0.0
-
-
-def _inertias(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told]:
+def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     for letter, (inertia, like) in sizes.parts.items():
         if like > 0:
             yield "part_inertia", f"parameters.{letter} / (mass * length^2)", inertia / like
@@ -120,105 +113,60 @@ def _inertias(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told
         yield "inertia", f"parameters.{letter} / {about}", inertia / scale
     for letter, moment in sizes.unbalances.items():
         yield "unbalance", f"parameters.{letter} / (moving mass * half stroke)", abs(moment) * sizes.stroke / 2 / scale
-    kept = _number(sections, "flywheel", "inertia") / scale
+    kept = value(sections, "flywheel", "inertia") / scale
     if kept > 1:  # a small one is as good as none
         yield "inertia", f"flywheel.inertia / {about}", kept
+    if "cycle" not in sections:
+        yield "carried", f"inertia of the shaft / {about}", sum(sizes.shafts.values()) / scale + kept
 
 
-def _by_stroke(sections: Mapping[str, Any], sizes: Proportions) -> Iterator[_Told]:
-    """Lengths along the stroke, and what belongs to the gears and rollers of the mechanism."""
-    parts = ("heater", "cooler", "regenerator")
-    lengths = [("spring", "H", "spring_height"), ("part_crosshead", "rod_length", "piston_rod")]
-    lengths += [("stirling", f"{part}_length", "exchanger_share") for part in parts]
-    for section, name, code in lengths:
-        yield code, f"{section}.{name} / stroke", _number(sections, section, name) / sizes.stroke
-    radius = _number(sections, "part_gears", "module") * _number(sections, "part_gears", "teeth_pinion") / 2
+def _by_part(sections: Records, sizes: Proportions) -> Iterator[_Told]:
+    """What belongs to the gears, rollers and cranks of the mechanism."""
+    radius = value(sections, "part_gears", "module") * value(sections, "part_gears", "teeth_pinion") / 2
     yield "gear_pitch", "part_gears.module * teeth_pinion / 2 / (stroke / 4)", 4 * radius / sizes.stroke
-    if roller := _number(sections, "rollers", "radius"):
-        yield (
-            "bearing_share",
-            "losses.bearing_radius / rollers.radius",
-            (_number(sections, "losses", "bearing_radius") / roller),
-        )
+    if roller := value(sections, "rollers", "radius"):
+        share = value(sections, "losses", "bearing_radius") / roller
+        yield "bearing_share", "losses.bearing_radius / rollers.radius", share
     for letter, ratio in sizes.unequal.items():
         yield "unequal", f"largest parameters.{letter} / least", ratio
     if sizes.span is not None:
         yield "opposed_span", "distance of the shafts / (r + l1 + l2 of both)", sizes.span
 
 
-def _fitted(sections: Mapping[str, Any]) -> Iterator[_Told]:
+def _fitted(sections: Records) -> Iterator[_Told]:
     """Constants of fitted laws by the law's own."""
     for section, names in (("heat_transfer", ("c1", "c2")), ("friction_pressure", ())):
         for field in _fields(sections.get(section)):
             own = field.default
             if isinstance(own, float) and own and (field.name in names or not names):
                 about = f"{section}.{field.name} / the law's own {own:g}"
-                yield "fitted_constant", about, _number(sections, section, field.name) / own
+                yield "fitted_constant", about, value(sections, section, field.name) / own
 
 
-def _areas(sections: Mapping[str, Any], sizes: Proportions, bore: float) -> Iterator[_Told]:
+def _areas(sections: Records, sizes: Proportions, bore: float) -> Iterator[_Told]:
     """Pressures, forces and stiffnesses by the area of a piston."""
     area = math.pi / 4 * bore**2
-    charge = next((p for p in (_number(sections, *key) for key in _CHARGE) if p), _ATMOSPHERE)
+    charge = next((p for p in (value(sections, "cycle", name) for name in _CHARGE) if p), _ATMOSPHERE)
     for section, name in (("cycle", "p_back"), ("chamber", "back_pressure")):
-        yield "back_pressure_share", f"{section}.{name} / charge", _number(sections, section, name) / charge
+        share = value(sections, section, name) / max(charge, _ATMOSPHERE)  # a throttled charge has less
+        yield "back_pressure_share", f"{section}.{name} / charge", share
     faces = getattr(sections.get("faces"), "areas", ())
-    swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (_number(sections, "chamber", "pistons") or 1)
-    yield (
-        "load_pressure",
-        "load.torque * 2 pi / swept volume",
-        2 * math.pi * _number(sections, "load", "torque") / swept,
-    )
-    yield (
-        "reaction_limit",
-        "limits.roller_reaction / piston area",
-        _number(sections, "limits", "roller_reaction") / area,
-    )
-    for face in faces:
-        yield "face_area", "faces.areas / piston area", face / area
+    swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (value(sections, "chamber", "pistons") or 1)
+    for name, torque in load_torques(sections):
+        yield "load_pressure", f"{name} * 2 pi / swept volume", 2 * math.pi * torque / swept
     for name in ("k_a", "k_b", "k_c"):
-        yield (
-            "joint_stiffness",
-            f"closing.{name} * bore / (1 MPa * piston area)",
-            (_number(sections, "closing", name) * bore / (1e6 * area)),
-        )
+        about = f"closing.{name} * bore / (1 MPa * piston area)"
+        yield "joint_stiffness", about, value(sections, "closing", name) * bore / (1e6 * area)
     if sizes.pitch is not None:
         yield "cylinder_pitch", "least distance of two cylinders / bore", sizes.pitch / bore or 1e-9
 
 
-def _valves(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
+def _valves(sections: Records, bore: float) -> Iterator[_Told]:
     """Valves by each other, and together by the bore."""
     for section, valve in (("breathing", "inlet"), ("breathing", "exhaust"), ("scavenging", "valve")):
-        if width := _number(sections, section, f"{valve}_diameter"):
+        if width := value(sections, section, f"{valve}_diameter"):
             about = f"{section}.{valve}_lift / {valve}_diameter"
-            yield "lift_share", about, _number(sections, section, f"{valve}_lift") / width
-    squares = sum(_number(sections, "breathing", f"{valve}_diameter") ** 2 for valve in ("inlet", "exhaust"))
+            yield "lift_share", about, value(sections, section, f"{valve}_lift") / width
+    squares = sum(value(sections, "breathing", f"{valve}_diameter") ** 2 for valve in ("inlet", "exhaust"))
     about = "breathing.valves * (inlet_diameter^2 + exhaust_diameter^2) / bore^2"
-    yield "valve_area", about, _number(sections, "breathing", "valves") * squares / bore**2
-
-
-def _lengths(sections: Mapping[str, Any], bore: float) -> Iterator[_Told]:
-    for section, names, code in _BY_BORE:
-        fields = _fields(sections.get(section))
-        for name in names or [f.name for f in fields if f.metadata.get("unit") == "m"]:
-            value = getattr(sections.get(section), name, None) or 0.0
-            for length in set(value) if isinstance(value, tuple) else (value,):
-                yield code, f"{section}.{name} / bore", length / bore
-    for field in _fields(sections.get("part_masses")):
-        yield (
-            "mass_density",
-            f"part_masses.{field.name} / bore^3",
-            getattr(sections["part_masses"], field.name) / bore**3,
-        )
-
-
-def _volumes(sections: Mapping[str, Any], bore: float, stroke: float) -> Iterator[_Told]:
-    swept = math.pi / 4 * bore**2 * stroke
-    for name in ("dead_hot", "dead_cold", "dead_regenerator"):
-        yield "dead_volume", f"cycle.{name} / swept volume", _number(sections, "cycle", name) / swept
-    for name in ("plenum_volume", "manifold_volume"):
-        yield "pipe_volume", f"breathing.{name} / swept volume", _number(sections, "breathing", name) / swept
-    told = {name: _number(sections, "stirling", name) for name in ("buffer_volume", "conductance")}
-    yield "buffer_volume", "stirling.buffer_volume / swept volume", told["buffer_volume"] / swept
-    copper = 400 * math.pi / 4 * bore**2 / stroke  # a solid block of the piston's width, one stroke long [W/K]
-    yield "conductance", "stirling.conductance / that of solid copper", told["conductance"] / copper
+    yield "valve_area", about, value(sections, "breathing", "valves") * squares / bore**2

@@ -1,22 +1,25 @@
 """Which record each section of a case becomes. A section with a selector key has one record per named variant."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from mechsym.cycle.kinds import KINDS
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.files import Json
 from mechsym.quantities import load
+from mechsym.quantities.records import Record
 
 # section: "module:Record", or (selector key, {variant: "module:Record"}); modules are imported on first use
 ENTRIES: dict[str, Any] = {
     "operation": "mechsym.cases.settings:Operation",
     "sizing": "mechsym.sizing.wants:Wants",
-    "part_piston": "mechsym.sizing.parts.records:PistonPart",
-    "part_cylinder": "mechsym.sizing.parts.records:CylinderPart",
-    "part_gears": "mechsym.sizing.parts.records:GearPart",
-    "part_crank": "mechsym.sizing.parts.records:CrankPart",
-    "part_bearings": "mechsym.sizing.parts.records:BearingPart",
+    "part_piston": "mechsym.sizing.wants:PistonPart",
+    "part_cylinder": "mechsym.sizing.wants:CylinderPart",
+    "part_gears": "mechsym.sizing.wants:GearPart",
+    "part_crank": "mechsym.sizing.wants:CrankPart",
+    "part_bearings": "mechsym.sizing.wants:BearingPart",
     "part_crosshead": "mechsym.sizing.crosshead:CrossheadPart",
-    "part_masses": "mechsym.sizing.parts.records:MassPart",
+    "part_masses": "mechsym.sizing.wants:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
     "retune": "mechsym.cases.settings:RetuneSettings",
@@ -26,7 +29,7 @@ ENTRIES: dict[str, Any] = {
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
     "breathing": "mechsym.cycle.breathing.records:Breathing",
-    "gas_limits": "mechsym.cases.gas_limits:GasLimits",
+    "gas_limits": "mechsym.cases.settings:GasLimits",
     "scavenging": "mechsym.cycle.breathing.scavenging:Scavenging",
     "boost": "mechsym.cycle.breathing.turbocharger:Boost",
     "stirling": "mechsym.cycle.kinds.stirling_second_order:StirlingLosses",
@@ -45,6 +48,7 @@ ENTRIES: dict[str, Any] = {
             "none": "mechsym.cycle.heat:Adiabatic",
         },
     ),
+    "blowdown": "mechsym.cycle.closed.blowdown:Blowdown",
     "friction_pressure": (
         "law",
         {
@@ -65,15 +69,15 @@ ENTRIES: dict[str, Any] = {
     "drive": "mechsym.simulate.settings:StepTorque",
     "torque": "mechsym.machine.torque_curve:TorqueCurve",
     "simulation": "mechsym.simulate.settings:Simulation",
-    "shaft": "mechsym.torsion.train:ShaftLimits",
+    "shaft": "mechsym.forces.mains:MainShaft",
     "startup": "mechsym.torsion.startup:StartUpClaim",
     "spring": (
         "law",
         {
-            "air_gauge": "mechsym.hinge.springs:AirGauge",
-            "air_absolute": "mechsym.hinge.springs:AirAbsolute",
-            "air_thermal": "mechsym.hinge.thermal:AirThermal",
-            "coil": "mechsym.hinge.springs:Coil",
+            "air_gauge": "mechsym.hinge.springs.air:AirGauge",
+            "air_absolute": "mechsym.hinge.springs.air:AirAbsolute",
+            "air_thermal": "mechsym.hinge.springs.air_thermal:AirThermal",
+            "coil": "mechsym.hinge.springs.coil:Coil",
         },
     ),
     "guide": "mechsym.hinge.choices:GuideParameters",
@@ -85,20 +89,20 @@ ENTRIES: dict[str, Any] = {
     "rings": (
         "law",
         {
-            "none": "mechsym.forces.rings:NoRings",
-            "patton1989": "mechsym.forces.rings:Patton1989",
-            "contact_pressure": "mechsym.forces.rings:ContactPressure",
+            "none": "mechsym.forces.friction:NoRings",
+            "patton1989": "mechsym.forces.friction:Patton1989",
+            "contact_pressure": "mechsym.forces.friction:ContactPressure",
         },
     ),
     "shaking": "mechsym.forces.shaking:BalanceWanted",
     "comparison": "mechsym.forces.comparison:ComparisonSettings",
-    "faces": "mechsym.mechanisms.rodless_faces:RodlessFaces",
+    "faces": "mechsym.mechanisms.faces:RodlessFaces",
     "closing": (
         "rule",
         {
-            "crank_free_radially": "mechsym.mechanisms.rodless:CrankFreeRadially",
-            "stiffnesses": "mechsym.mechanisms.rodless:Stiffnesses",
-            "clearances": "mechsym.mechanisms.rodless_clearance:Clearances",
+            "crank_free_radially": "mechsym.mechanisms.closing:CrankFreeRadially",
+            "stiffnesses": "mechsym.mechanisms.closing:Stiffnesses",
+            "clearances": "mechsym.mechanisms.closing:Clearances",
         },
     ),
 }
@@ -111,10 +115,7 @@ LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": 
 def sections() -> list[str]:
     """Names of all sections.
 
-    Returns
-    -------
-    names : list of str
-        In the order of a case file
+    Returns names: in the order of a case file.
     """
     return [*LETTERS, *ENTRIES]
 
@@ -122,24 +123,17 @@ def sections() -> list[str]:
 def selector(section: str) -> str | None:
     """The key that chooses a section's variant.
 
-    Returns
-    -------
-    key : str or None
-        None when the section has one record only
+    Returns key: None when the section has one record only.
     """
     entry = ENTRIES.get(section)
     return entry[0] if isinstance(entry, tuple) else None
 
 
-def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
+def record(mechanism: str, section: str, table: Json) -> type[Record]:
     """The record class of a section.
 
-    Parameters
-    ----------
-    mechanism : str
-        Name of the mechanism, which decides `[parameters]`
-    table : dict
-        The section's raw values, read for its selector
+    mechanism: name of the mechanism, which decides `[parameters]`; table: the section's raw values, read for its
+    selector.
     """
     if section in LETTERS:
         from mechsym import mechanisms
@@ -150,7 +144,17 @@ def record(mechanism: str, section: str, table: dict[str, Any]) -> Any:
         key, variants = entry
         name = table.get(key)
         if not isinstance(name, str) or name not in variants:
-            found = f"{key} = {shown(name)} is not known" if key in table else f"key {key} is missing"
-            raise BadInput(f"{found}; {suggest(str(name), variants)}")
+            why = f"{key} = {shown(name)} is not known" if key in table else f"key {key} is missing"
+            raise BadInput(why, suggest(str(name), variants))
         entry = variants[name]
     return load(entry)
+
+
+def instead(key: str, fields: Iterable[str]) -> str:
+    """What is allowed in place of a key that a section has not: a near one, another section's, the section's own."""
+    if key in ENTRIES:
+        return f"it is a section of its own: [{key}]"
+    own = suggest(key, fields)
+    records = {name: entry[1].values() if isinstance(entry, tuple) else [entry] for name, entry in ENTRIES.items()}
+    homes = [f"[{s}]" for s, all_of in records.items() if any(key in load(one).__dataclass_fields__ for one in all_of)]
+    return f"it is a key of {', '.join(homes)}; {own}" if homes and not own.startswith("did you mean") else own

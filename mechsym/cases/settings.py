@@ -1,4 +1,6 @@
-"""Small sections of a case: where the machine runs, its flywheel, how long trials take, which other speed is tried."""
+"""Small sections of a case: where the machine runs, its flywheel, how long trials take, which other speed is tried,
+and what the gas must not exceed (`[gas_limits]`, doubted by every command and held by `mechsym optimise`).
+"""
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -58,3 +60,12 @@ class Speeds:
         if 0 < self.highest - self.lowest < self.step:
             told = f"step = {self.step:g} rad/s is wider than the range from {self.lowest:g} to {self.highest:g} rad/s"
             raise BadInput(f"{told}; give a smaller one")
+
+
+@record
+class GasLimits:
+    """Limits of the gas that the user sets; one that is left out is none."""
+
+    peak_pressure: float | None = quantity("Pa", default=None, above=0, below=1e9, about="absolute, in the cylinder")
+    peak_temperature: float | None = quantity("K", default=None, above=0, below=1e4, about="mean over the cylinder")
+    knock: float | None = quantity("-", default=None, above=0, below=1e3, about="integral that ends in knock at 1")

@@ -3,31 +3,27 @@
 import dataclasses
 import difflib
 import functools
+import re
 from collections.abc import Mapping
 from types import NoneType, UnionType
 from typing import Any, get_args, get_origin
 
 from mechsym.cases import schema
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.files import Json
 from mechsym.quantities import parse, record, units
+from mechsym.quantities.ranges import values
+from mechsym.quantities.records import Field, Record
 
+_LISTED = re.compile(r",|\.\.|:")
 _WORDS = {str: "a text", int: "a whole number", bool: "true or false"}
 
 
-def convert(field: dataclasses.Field, value: Any, key: str) -> Any:
+def convert(field: Field, value: object, key: str) -> Any:
     """The value of a field, in SI.
 
-    Parameters
-    ----------
-    value : object
-        Text, number or list of them
-    key : str
-        Name of the value, for the message
-
-    Returns
-    -------
-    value : object
-        Of the field's type; a list becomes a tuple
+    value: text, number or list of them; key: name of the value, for the message. Returns value: of the field's type; a
+    list becomes a tuple.
     """
     kinds = get_args(field.type) if isinstance(field.type, UnionType) else (field.type,)
     lists = [k for k in kinds if get_origin(k) is tuple]
@@ -36,12 +32,14 @@ def convert(field: dataclasses.Field, value: Any, key: str) -> Any:
         if not lists:
             raise BadInput(f"{key} = {shown(value)} is a list; give one value")
         return tuple(_single(field, get_args(lists[0])[0], item, key) for item in value)
+    if not single and isinstance(value, str) and "unit" in field.metadata and _LISTED.search(value):
+        return tuple(values(value, field.metadata["unit"], key))  # as --set and options write lists and ranges
     if not single:
         raise BadInput(f"{key} = {shown(value)} is no list; write for example {key.rpartition('.')[2]} = [1, 2]")
     return _single(field, single[0], value, key)
 
 
-def _single(field: dataclasses.Field, kind: Any, value: Any, key: str) -> Any:
+def _single(field: Field, kind: object, value: object, key: str) -> Any:
     if "unit" in field.metadata:
         return parse(value, field.metadata["unit"], key)
     if kind in _WORDS and type(value) is not kind and "options" not in field.metadata:
@@ -49,20 +47,10 @@ def _single(field: dataclasses.Field, kind: Any, value: Any, key: str) -> Any:
     return value
 
 
-def without_unit(key: str, value: Any, fields: Mapping[str, dataclasses.Field]) -> tuple[str, Any]:
+def without_unit(key: str, value: object, fields: Mapping[str, Field]) -> tuple[str, Any]:
     """A key that names its unit, as the key alone and a value with that unit.
 
-    Parameters
-    ----------
-    value : object
-        A number, or a list of numbers
-    fields : mapping of str to dataclasses.Field
-        Fields of the record by name
-
-    Returns
-    -------
-    key : str
-        Name of a field, or the key as it is
+    value: a number, or a list of numbers. Returns key: str, name of a field, or the key as it is.
     """
     stem, _, unit = key.rpartition("_")
     if key in fields or unit not in units() or "unit" not in getattr(fields.get(stem), "metadata", ()):
@@ -80,42 +68,34 @@ class Place:
     written: str  #: Unit that the key itself names, as in `speed_rpm`; empty when it names none
 
 
-def place(tables: dict[str, Any], mechanism: str, key: str, option: str) -> Place:
+def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
     """Find the field that a key means.
 
-    Parameters
-    ----------
-    key : str
-        Dotted key; a bare key works if it is unique
-    option : str
-        Where the key was written, for messages
+    key: dotted key; a bare key works if it is unique. option: where the key was written, for messages.
     """
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, option), key
     # a section that is left out has its defaults, unless a key has to choose its record first
-    table = tables.get(section, {} if section in schema.sections() and not schema.selector(section) else None)
+    known = section in schema.sections()
+    table = tables.get(section, None if schema.selector(section) else {}) if known else None
     if not isinstance(table, dict):
-        raise BadInput(f"{option} {key}: no section [{section}] here; {suggest(section, tables)}")
+        here = [t for t in tables if t in schema.sections()]
+        raise BadInput(f"{option} {key}: no section [{section}] here; {suggest(section, here)}")
     if name == schema.selector(section):
         return Place(section=section, field=name, unit=None, written="")
     fields = {f.name: f for f in dataclasses.fields(schema.record(mechanism, section, table))}
     stem = without_unit(name, 0.0, fields)[0]
     if stem not in fields:
-        raise BadInput(f"{option} {key} is not known; {suggest(name, fields)}")
+        raise BadInput(f"{option} {key} is not known; {schema.instead(name, fields)}")
     written = "" if stem == name else name.rpartition("_")[2]
     return Place(section=section, field=stem, unit=fields[stem].metadata.get("unit"), written=written)
 
 
-def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> None:
+def override(tables: Json, mechanism: str, key: str, value: object) -> None:
     """Replace one value of a case.
 
-    Parameters
-    ----------
-    tables : dict
-        Sections with their raw values; changed in place
-    key : str
-        Dotted key; a bare key works if it is unique
+    tables: sections with their raw values; changed in place. key: dotted key; a bare key works if it is unique.
     """
     section, dot, name = key.partition(".")
     if not dot:
@@ -134,7 +114,7 @@ def override(tables: dict[str, Any], mechanism: str, key: str, value: Any) -> No
         table.pop(gone, None)
 
 
-def _home(tables: dict[str, Any], mechanism: str, key: str, option: str) -> str:
+def _home(tables: Json, mechanism: str, key: str, option: str) -> str:
     """The only section that has a bare key."""
     sections = {s: t for s, t in tables.items() if isinstance(t, dict)}
     keys = {s: _keys(mechanism, s, t) for s, t in sections.items()}
@@ -151,7 +131,7 @@ def _home(tables: dict[str, Any], mechanism: str, key: str, option: str) -> str:
     raise BadInput(f"{option} {key} is not known; {hint}give section.key, sections here are {', '.join(sections)}")
 
 
-def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:
+def _keys(mechanism: str, section: str, table: Json) -> set[str]:
     selector = schema.selector(section)
     known = {selector} if selector else set()
     try:
@@ -161,6 +141,6 @@ def _keys(mechanism: str, section: str, table: dict[str, Any]) -> set[str]:
 
 
 @functools.lru_cache(maxsize=256)
-def paths(kind: Any) -> tuple[str, ...]:
+def paths(kind: type[Record]) -> tuple[str, ...]:
     """Names of the values that are paths of files."""
     return tuple(f.name for f in dataclasses.fields(kind) if f.metadata.get("path"))

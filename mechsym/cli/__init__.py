@@ -9,40 +9,59 @@ from typing import Any, NoReturn
 
 import click
 
-from mechsym.errors import BadInput, suggest
-from mechsym.quantities import load
+# before numpy is there: threads of BLAS would wait for small matrices with a processor each
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# command: "module:function"
-COMMANDS = {
-    "app": "mechsym.cli.app:app",
-    "audit": "mechsym.cli.audit:audit",
-    "cases": "mechsym.cli.catalogue:cases",
-    "check": "mechsym.cli.check:check",
-    "codesign": "mechsym.cli.codesign:codesign",
-    "compare": "mechsym.cli.compare:compare",
-    "cycle": "mechsym.cli.cycle:cycle",
-    "derive": "mechsym.cli.derive:derive",
-    "eval": "mechsym.cli.evaluate:evaluate",
-    "export": "mechsym.cli.export:export",
-    "fmu": "mechsym.cli.fmu:fmu",
-    "flywheel": "mechsym.cli.flywheel:flywheel",
-    "forces": "mechsym.cli.forces:forces",
-    "guide": "mechsym.cli.guide:guide",
-    "hinge": "mechsym.cli.hinge:hinge",
-    "identify": "mechsym.cli.identify:identify",
-    "mechanisms": "mechsym.cli.catalogue:mechanisms",
-    "native": "mechsym.cli.native:native",
-    "new": "mechsym.cli.new:new",
-    "optimise": "mechsym.cli.optimise:optimise",
-    "page": "mechsym.cli.page:page",
-    "report": "mechsym.cli.report:report",
-    "reproduce": "mechsym.cli.reproduce:reproduce",
-    "sections": "mechsym.cli.sections:sections",
-    "simulate": "mechsym.cli.simulate:simulate",
-    "size": "mechsym.cli.size:size",
-    "study": "mechsym.cli.study:study",
-    "sweep": "mechsym.cli.sweep:sweep",
+from mechsym import interrupts  # noqa: E402
+from mechsym.errors import BadInput, suggest  # noqa: E402
+from mechsym.quantities import load  # noqa: E402
+from mechsym.transaction import forget  # noqa: E402
+
+# commands by what they are for, in the order of `mechsym --help`: name and "module:function"
+GROUPS = {
+    "Start": {
+        "new": "mechsym.cli.new:new",
+        "check": "mechsym.cli.check:check",
+        "cases": "mechsym.cli.catalogue:cases",
+        "sections": "mechsym.cli.sections:sections",
+        "mechanisms": "mechsym.cli.catalogue:mechanisms",
+    },
+    "Analyse": {
+        "cycle": "mechsym.cli.cycle:cycle",
+        "forces": "mechsym.cli.forces:forces",
+        "balance": "mechsym.cli.balance:balance",
+        "flywheel": "mechsym.cli.flywheel:flywheel",
+        "simulate": "mechsym.cli.simulate:simulate",
+        "identify": "mechsym.cli.identify:identify",
+        "eval": "mechsym.cli.evaluate:evaluate",
+    },
+    "Design": {
+        "hinge": "mechsym.cli.hinge:hinge",
+        "codesign": "mechsym.cli.codesign:codesign",
+        "size": "mechsym.cli.size:size",
+        "optimise": "mechsym.cli.optimise:optimise",
+        "guide": "mechsym.cli.guide:guide",
+    },
+    "Many": {
+        "sweep": "mechsym.cli.sweep:sweep",
+        "study": "mechsym.cli.study:study",
+        "compare": "mechsym.cli.compare:compare",
+    },
+    "Give": {
+        "report": "mechsym.cli.report:report",
+        "app": "mechsym.cli.app:app",
+        "page": "mechsym.cli.page:page",
+        "fmu": "mechsym.cli.fmu:fmu",
+        "export": "mechsym.cli.export:export",
+    },
+    "Verify": {
+        "audit": "mechsym.cli.audit:audit",
+        "reproduce": "mechsym.cli.reproduce:reproduce",
+        "derive": "mechsym.cli.derive:derive",
+        "native": "mechsym.cli.native:native",
+    },
 }
+COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
 
 
 class _BrokenPipe(Exception):
@@ -64,13 +83,18 @@ class LazyGroup(click.Group):
         """Names of all commands."""
         return sorted(COMMANDS)
 
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The commands with one line each, by what they are for."""
+        width = max(map(len, COMMANDS))
+        for title, names in GROUPS.items():
+            commands = [(name.ljust(width), self.get_command(ctx, name)) for name in names]
+            with formatter.section(title):
+                formatter.write_dl([(name, one.get_short_help_str(100)) for name, one in commands if one])
+
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of that name.
 
-        Returns
-        -------
-        command : click.Command or None
-            None when there is no such command
+        Returns command: None when there is no such command.
         """
         if cmd_name not in COMMANDS:
             return None
@@ -79,25 +103,7 @@ class LazyGroup(click.Group):
             if isinstance(argument, click.Argument) and argument.name in ("case", "case_name", "cases"):
                 argument._custom_shell_complete = _cases_and_files
         if all(option.name != "strict" for option in command.params):
-            command.params.append(
-                click.Option(
-                    ["--strict"],
-                    is_flag=True,
-                    expose_value=False,
-                    callback=_strict,
-                    help="Exit status 3 when there are doubts.",
-                )
-            )
-            command.params.append(
-                click.Option(
-                    ["--units"],
-                    metavar="LIST",
-                    expose_value=False,
-                    callback=_units,
-                    is_eager=True,
-                    help='Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.',
-                )
-            )
+            command.params += _everywhere()
         return command
 
     def resolve_command(
@@ -109,6 +115,7 @@ class LazyGroup(click.Group):
         name, command, rest = super().resolve_command(ctx, args)
         if command is not None:
             _refuse_twice(ctx, command, rest)
+        ctx.meta["mechsym.words"] = tuple(rest)
         return name, command, rest
 
     def make_context(self, *args: Any, **options: Any) -> click.Context:
@@ -117,7 +124,7 @@ class LazyGroup(click.Group):
             return super().make_context(*args, **options)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; one that ends well and has doubts ends with 3 under --strict."""
+        """Run the command; one that ends well with doubts or a missed target ends with 3 under --strict."""
         value = None
         try:
             with _pipe():
@@ -153,8 +160,30 @@ def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> 
     return found or [CompletionItem(typed, type="file")]
 
 
+def _everywhere() -> list[click.Parameter]:
+    """Options of every command."""
+    help_ = "Exit status 3 when there are doubts, or a target is missed."
+    strict = click.Option(["--strict"], is_flag=True, expose_value=False, callback=_strict, help=help_)
+    help_ = 'Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.'
+    units = click.Option(["--units"], metavar="LIST", expose_value=False, callback=_units, is_eager=True, help=help_)
+    with_units = click.Option(["--with-units"], is_flag=True, expose_value=False, callback=_with_units, hidden=True)
+    help_ = "Run the Python file that a case names, wherever it lies; kept for its folder."
+    trust = click.Option(["--trust"], is_flag=True, expose_value=False, callback=_trust, help=help_)
+    return [strict, units, with_units, trust]
+
+
 def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     ctx.meta["mechsym.strict"] = wanted
+
+
+def _trust(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    ctx.meta["mechsym.trust"] = wanted
+    if not ctx.resilient_parsing:
+        ctx.with_resource(load("mechsym.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
+
+
+def _with_units(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    ctx.meta["mechsym.with_units"] = wanted
 
 
 def _units(ctx: click.Context, _: click.Parameter, wanted: str | None) -> None:
@@ -180,10 +209,9 @@ def main() -> None:
     """Run the command line; bad input ends with one line and exit status 2, a failure of the system with 74."""
     # what imports and figures leave is little: look for it rarely
     gc.set_threshold(20_000)
-    # before numpy is there: threads of BLAS would wait for small matrices with a processor each
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
+        with interrupts.within_a_second(forget):
+            sys.exit(mechsym.main(sys.argv[1:] or ["--help"], "mechsym", standalone_mode=False))
     except BadInput as error:
         print(f"mechsym: {' '.join(str(error).split())}", file=sys.stderr)
     except click.UsageError as error:
@@ -192,8 +220,8 @@ def main() -> None:
     except click.exceptions.Exit as error:
         sys.exit(error.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        print("mechsym: interrupted; files already named above are complete", file=sys.stderr)
-        sys.exit(130)
+        print(interrupts.WORDS, file=sys.stderr)
+        sys.exit(interrupts.STATUS)
     except (OSError, MemoryError, _BrokenPipe) as error:
         _failed(error)
     sys.exit(2)

@@ -1,10 +1,9 @@
 """`mechsym app`: the workbench in the browser."""
 
-from typing import Any
-
 import click
 
 from mechsym.cli.common import emit, json_option
+from mechsym.files import Json
 
 
 @click.command(short_help="The workbench in the browser: sliders, verdict, runs.")
@@ -15,7 +14,8 @@ from mechsym.cli.common import emit, json_option
 def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
     """Move the values of CASE with sliders and see at once whether its hinge can be built; run commands on it.
 
-    It listens on this machine alone (127.0.0.1). The address in the browser holds the values, so it can be kept.
+    It listens on this machine alone (127.0.0.1), and answers the browser that opens the address it prints, which holds
+    a token; pages from elsewhere are refused. The address in the browser then holds the values, so it can be kept.
     Needs the extra `app`.
 
     \b
@@ -30,6 +30,6 @@ def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
         serve(case_name, port, lambda address: click.echo(f"{address}  (Ctrl-C ends it)", err=True))
 
 
-def _text(found: dict[str, Any]) -> str:
+def _text(found: Json) -> str:
     hinge = "" if found["hinge"] is None else f"; hinge: {found['hinge']}"
     return f"the workbench of {found['case']} answers: {found['sliders']} sliders, {', '.join(found['tabs'])}{hinge}"

@@ -2,12 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, progress, table
+from mechsym.cli.common import budget_option, emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
+from mechsym.files import Json
+
+if TYPE_CHECKING:
+    from mechsym.papers.sources import Source
 
 _ROUND_OFF = 1e-10  # relative error that the floats of a right formula leave [-]
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
@@ -33,12 +37,14 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.option(
     "--certificate", type=click.Path(path_type=Path, dir_okay=False), help="Write what is exact as a Coq script FILE.v."
 )
-@click.option("--write", is_flag=True, help="Test the auditor too, write docs/errata.md and record the findings.")
+@click.option("--write", is_flag=True, help="Write docs/errata.md and record the findings.")
 @out_option
+@budget_option
 @json_option
 @click.pass_context
 def audit(
     ctx: click.Context,
+    /,
     paper: Path | None,
     source: str | None,
     formula: str | None,
@@ -49,7 +55,7 @@ def audit(
     write: bool,
     out: Path | None,
     as_json: bool,
-    **said: Any,
+    **said: object,
 ) -> None:
     """Compare published hand formulas with the derivations; repair misprints by search.
 
@@ -84,39 +90,38 @@ def audit(
     ctx.exit(_published(source, write, certificate, as_json))
 
 
-def _certify(
-    file: Path, formula: str | None, against: str | None, said: dict[str, Any], rows: Sequence[dict[str, Any]]
-) -> None:
-    from mechsym.audit.certified import of_formula
-    from mechsym.audit.formula import Asked
+def _certify(file: Path, formula: str | None, against: str | None, said: dict[str, Any], rows: Sequence[Json]) -> None:
+    from mechsym.audit.hosts.sources import certificate_of_formula
+    from mechsym.audit.judge.asked import Asked
     from mechsym.files import write_text
 
     if formula is None:
         raise BadInput("--certificate goes with --formula, or with the sources")
     asked = Asked(text=formula, against=str(against), **said)
-    click.echo(str(write_text(file, of_formula(asked, rows[0]))), err=True)
+    click.echo(str(write_text(file, certificate_of_formula(asked, rows[0]))), err=True)
 
 
-def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[dict[str, Any]]:
-    from mechsym.audit.formula import Asked
-    from mechsym.audit.paper_rows import check_paper
+def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[Json]:
+    from mechsym.audit.hosts.paper import check_paper
+    from mechsym.audit.judge.asked import Asked
 
     if against:
         raise BadInput("--against belongs to --formula; the equations of a paper say by their left sides what they are")
     return check_paper(paper, Asked(text="", against="", **said))
 
 
-def _counted(rows: Sequence[dict[str, Any]], paper: Path | None) -> str:
-    from mechsym.audit.paper_rows import few, summary
+def _counted(rows: Sequence[Json], paper: Path | None) -> str:
+    from mechsym.audit.hosts.paper import few, summary
+    from mechsym.audit.verdict import FINDINGS
 
     if paper is not None:
         return summary(rows)
-    found = sum(r["verdict"] in ("misprint", "nearer", "wrong") for r in rows)
+    found = sum(r["verdict"] in FINDINGS for r in rows)
     return f"{few(len(rows), 'formula')}, {few(found, 'finding')}"
 
 
-def _page(folder: Path, title: str, summary: str, rows: Sequence[dict[str, Any]]) -> None:
-    from mechsym.audit.page import html
+def _page(folder: Path, title: str, summary: str, rows: Sequence[Json]) -> None:
+    from mechsym.audit.row import html
     from mechsym.files import write_text
 
     click.echo(str(write_text(folder / "audit.html", html(title, summary, rows))), err=True)
@@ -124,9 +129,10 @@ def _page(folder: Path, title: str, summary: str, rows: Sequence[dict[str, Any]]
 
 def _own(
     formula: str | None, against: str | None, file: Path | None, code: str | None, said: dict[str, Any]
-) -> list[dict[str, Any]]:
-    from mechsym.audit.code_rows import check_code
-    from mechsym.audit.formula import Asked, check_file, check_formula
+) -> list[Json]:
+    from mechsym.audit.hosts.formula import check_file, check_formula
+    from mechsym.audit.hosts.program import check_code
+    from mechsym.audit.judge.asked import Asked
 
     if code is not None:
         return check_code(code, against or "", Asked(text="", against=against or "", **said))
@@ -139,17 +145,19 @@ def _own(
     return [check_formula(str(formula), against, **said)]
 
 
-def _status(rows: Sequence[dict[str, Any]]) -> int:
+def _status(rows: Sequence[Json]) -> int:
+    from mechsym.audit.verdict import FINDINGS, OPEN
+
     kept = [row["claim_kept"] for row in rows if "claim_kept" in row]
     verdicts = [row["verdict"] for row in rows if "claim_kept" not in row]
-    if not all(kept) or any(v in ("misprint", "nearer", "wrong") for v in verdicts):
+    if not all(kept) or any(v in FINDINGS for v in verdicts):
         return 1
-    return 3 if any(v in ("mixed", "untestable") for v in verdicts) else 0
+    return 3 if any(v in OPEN for v in verdicts) else 0
 
 
 def _published(source: str | None, write: bool, certificate: Path | None, as_json: bool) -> int:
-    from mechsym.audit import findings
-    from mechsym.audit.certified import of_sources
+    from mechsym.audit.hosts import sources as published
+    from mechsym.audit.hosts.sources import certificate_of_sources
     from mechsym.files import write_text
     from mechsym.papers import record, sources
 
@@ -157,11 +165,11 @@ def _published(source: str | None, write: bool, certificate: Path | None, as_jso
         raise BadInput("--write records the findings of all sources; leave out --source")
     chosen = sources(source)
     with progress(sum(len(s.entries) for s in chosen), "auditing") as bar:
-        rows = findings.rows(chosen, lambda: bar.update(1))
-    differences = record.differences("mechsym.audit", rows, findings.NAME, findings.COMPARED)
+        rows = published.rows(chosen, lambda: bar.update(1))
+    differences = record.differences("mechsym.audit", rows, published.NAME, published.COMPARED)
     emit(rows, as_json, lambda: table(_shown(rows), _COLUMNS))
     if certificate is not None:
-        text, without = of_sources(chosen, rows)
+        text, without = certificate_of_sources(chosen, rows)
         click.echo(str(write_text(certificate, text)), err=True)
         click.echo("\n".join(f"proved, without a script: {name}" for name in without), err=True)
     if write:
@@ -172,7 +180,7 @@ def _published(source: str | None, write: bool, certificate: Path | None, as_jso
     return 1 if differences else 0
 
 
-def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _shown(rows: list[Json]) -> list[Json]:
     from mechsym.papers.sources import short_name
 
     errors = ("max_rel_error", "corrected_max_rel_error")
@@ -186,21 +194,17 @@ def _error(value: float | None) -> str | None:
     return f"{value:.3g}" if value > _ROUND_OFF else f"below {_ROUND_OFF:g}"
 
 
-def _write(sources: Sequence[Any], rows: list[dict[str, Any]]) -> None:
-    from mechsym.audit import errata, findings
-    from mechsym.audit.trial import matrix
+def _write(sources: "Sequence[Source]", rows: list[Json]) -> None:
+    from mechsym.audit.hosts import sources as published
     from mechsym.files import write_text
     from mechsym.papers import record
 
-    with progress(matrix.STEPS, "trying the auditor") as bar:
-        found = matrix.trial(lambda: bar.update(1))
-    click.echo("\n".join(matrix.lines(found)), err=True)
-    matrix.record(found)
-    record.write("mechsym.audit", rows, (*findings.NAME, *findings.COMPARED))
-    click.echo(str(write_text(errata.PATH, errata.text(sources, rows, found))), err=True)
+    trial = published.TRIAL.read_text(encoding="utf-8") if published.TRIAL.is_file() else ""
+    record.write("mechsym.audit", rows, (*published.NAME, *published.COMPARED))
+    click.echo(str(write_text(published.ERRATA, published.errata(sources, rows, trial))), err=True)
 
 
-def _told(row: dict[str, Any]) -> str:
+def _told(row: Json) -> str:
     head = row["claim"] if row["equation"] == "-" else f"{row['equation']}, {row['claim']}"
     lines = [f"{head}: {row['verdict']}"]
     if row["understood"] is None:

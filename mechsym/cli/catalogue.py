@@ -1,12 +1,12 @@
 """`mechsym mechanisms` and `mechsym cases`: what there is."""
 
 import tomllib
-from typing import Any
 
 import click
 
 from mechsym.cli.common import emit, json_option, table
 from mechsym.errors import BadInput
+from mechsym.files import Json
 
 
 @click.command()
@@ -52,7 +52,7 @@ def cases(name: str | None, as_json: bool) -> None:
     emit(rows, as_json, lambda: table(_cited(rows), ["name", "mechanism", "source", "about"]))
 
 
-def _cited(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _cited(rows: list[Json]) -> list[Json]:
     from mechsym.papers.sources import short_name
 
     return [row | {"source": short_name(row["source"])} for row in rows]

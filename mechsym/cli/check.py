@@ -1,18 +1,18 @@
 """`mechsym check`: all problems of a case at once, and what each command still lacks."""
 
-from typing import Any
+from collections.abc import Mapping
 
 import click
 
 from mechsym.cli.common import case_of, emit, json_option
+from mechsym.files import Json
 
 
 @click.command(short_help="All problems of a case at once.")
 @click.argument("case")
-@click.option("--trust", is_flag=True, help="Run the mechanism file that the case names, to check its letters too.")
 @json_option
 @click.pass_context
-def check(ctx: click.Context, case: str, trust: bool, as_json: bool) -> None:
+def check(ctx: click.Context, case: str, as_json: bool) -> None:
     """Every problem of CASE with key, reason and what is allowed; and what each command still lacks to run on it.
 
     Exit status 2 when there are problems. A mechanism file of the user's own is not run without --trust; its letters
@@ -25,19 +25,21 @@ def check(ctx: click.Context, case: str, trust: bool, as_json: bool) -> None:
 
     from mechsym.cases.check import check_file
 
-    found = check_file(case, trust)
-    if not found.problems and not found.skipped:
+    found = check_file(case, ctx.meta["mechsym.trust"])
+    whole = not found.problems and not found.skipped
+    if whole:
         case_of(case, {})  # its doubts are told as every command tells them
-    report = {
+    report: Json = {
         "problems": [dataclasses.asdict(problem) for problem in found.problems],
         "commands": dict(found.commands),
         "skipped": list(found.skipped),
+        **({} if whole else {"doubts": found.doubts}),
     }
-    emit(report, as_json, lambda: _text(report))
+    emit(report, as_json, lambda: _text(report, found.reasons))
     ctx.exit(2 if found.problems else 0)
 
 
-def _text(report: dict[str, Any]) -> str:
+def _text(report: Json, reasons: Mapping[str, str]) -> str:
     problems, commands = report["problems"], report["commands"]
     lines = [f"{len(problems)} problem{'s' * (len(problems) != 1)}" if problems else "no problems"]
     lines += [f"  {row['key'] or 'file'}: {_told(row)}" for row in problems]
@@ -45,7 +47,10 @@ def _text(report: dict[str, Any]) -> str:
         lines.append(f"not checked: {', '.join(f'[{name}]' for name in report['skipped'])}")
     ready = [name for name, missing in commands.items() if not missing]
     lines += ["", f"can run{' once mended' * bool(problems)}: {', '.join(ready) or 'nothing'}"] if commands else []
-    lines += [f"  {name} lacks {'; '.join(missing)}" for name, missing in commands.items() if missing]
+    for reason in dict.fromkeys(reasons.values()):
+        names = [name for name, why in reasons.items() if why == reason]
+        lacks = f" lack{'s' * (len(names) == 1)}" if reason.startswith("[") else ":"
+        lines.append(f"  {', '.join(names)}{lacks} {reason}")
     return "\n".join(lines)
 
 

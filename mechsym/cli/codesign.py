@@ -1,19 +1,36 @@
 """`mechsym codesign`: guide, pressures and a small flywheel for a range of speeds and loads."""
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import (
+    budget_option,
+    case_of,
+    emit,
+    heads,
+    json_option,
+    out_option,
+    pairs,
+    progress,
+    set_option,
+    table,
+)
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text
 
+if TYPE_CHECKING:
+    from mechsym.codesign.peers import Rival
+    from mechsym.codesign.realise import RealisedNumbers
+    from mechsym.codesign.settings import CoDesignSettings
+    from mechsym.codesign.summary import CoDesignLosses, CoDesignNumbers
+    from mechsym.jobs.codesign import Beside
+
 _MOST = 100  # values of one option
 _UNITS = {"speed": "rad/s", "mep": "Pa", "p0": "Pa", "p0 1": "Pa", "p0 2": "Pa", "p0 3": "Pa"}
-_INERTIAS = dict.fromkeys(("flywheel_inertia", "flywheel_inertia_bare", "flywheel_inertia_bound"), "kg*m^2")
-_HARDWARE = {"A": "m^2", "H": "m", "p0": "Pa", "rho0": "m", "radius": "m", "width": "m"}
 
 
 @click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
@@ -25,7 +42,9 @@ _HARDWARE = {"A": "m^2", "H": "m", "p0": "Pa", "rho0": "m", "radius": "m", "widt
 @click.option("--springs", type=click.IntRange(1, 3), help="Guides with a spring and a pressure of their own.")
 @click.option("--schedule", type=click.Choice(["each_point", "one"]), help="Pressures set at each point, or one.")
 @click.option(
-    "--losses", type=click.Choice(["beside", "inside"]), help="Friction and heat beside the programme, or in it."
+    "--losses",
+    type=click.Choice(["inside", "beside", "none"]),
+    help="Friction and heat in the programme (default with a section [losses]), beside it, or left out.",
 )
 @click.option("--robust", metavar="spring.p0=E", help="Error of every pressure that the ripple must bear: 1%.")
 @click.option("--misfire-speed", metavar="S", help="Share of the speed that a lost combustion must leave: 0.5.")
@@ -36,6 +55,7 @@ _HARDWARE = {"A": "m^2", "H": "m", "p0": "Pa", "rho0": "m", "radius": "m", "widt
 @click.option("--peers", is_flag=True, help="Also coil springs, noncircular gears and two springs at the same ripples.")
 @out_option
 @set_option
+@budget_option
 @json_option
 def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:
     """Design guide, pressures of the spring and a small flywheel together, for all speeds and loads of CASE.
@@ -43,16 +63,19 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     A case without [codesign] is designed at its own speed and load; --speeds and --loads ask for more.
 
     Exit status 1 when there is no such design; the bound says what no guide with so many springs can do better than.
+    A design may miss the ripple with losses: the first line says so, `target` in JSON, and --strict ends with 3.
 
     \b
     Examples: mechsym codesign zotov-89 --ripple 5%
               mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
     """
+    from mechsym.codesign.floor import hidden
     from mechsym.codesign.realise import check_goal
-    from mechsym.codesign.summary import summary
+    from mechsym.codesign.summary import numbers_of
     from mechsym.files import make_folder
     from mechsym.jobs.codesign import STEPS, beside, compared, for_report, settings_of
     from mechsym.jobs.codesign import codesign as design
+    from mechsym.quantities.results import tell
 
     case = case_of(case_name, pairs(overrides))
     settings, ripples = _settings(settings_of(case), options)
@@ -66,18 +89,22 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
         found = design(case, settings, ripples, lambda: bar.update(1))
         if options["peers"]:
             found = compared(found, lambda: bar.update(1))
-        numbers, files = summary(found) | beside(found, cylinders, goal, lambda: bar.update(1)), []
+        numbers, files = numbers_of(found), []
+        more = beside(found, cylinders, goal, lambda: bar.update(1))
+        report = tell(numbers) | ({"peers": tell(found.peers)} if found.peers else {})
+        report |= {"doubts": hidden(found.design, found.given)}
+        report |= {name: rows for name, rows in tell(more).items() if rows is not None}
         if out is not None:
             from mechsym.codesign.report import write
 
-            files = write(for_report(case, settings, found), numbers, out)
+            files = write(for_report(case, settings, found), numbers, report, out)
             bar.update(1)
-    emit(numbers, as_json, lambda: _text(numbers, files))
-    if not numbers["feasible"]:
+    emit(report, as_json, lambda: _text(numbers, found.peers, more), files=files)
+    if not numbers.feasible:
         sys.exit(1)
 
 
-def _settings(settings: Any, options: dict[str, Any]) -> tuple[Any, list[float]]:
+def _settings(settings: "CoDesignSettings", options: dict[str, Any]) -> tuple["CoDesignSettings", list[float]]:
     """The case's settings with the options in their place, and the ripples of a front."""
     import dataclasses
 
@@ -118,56 +145,103 @@ def _percent(share: float | None) -> str | None:
     return None if share is None else f"{100 * share:.4g}"
 
 
-def _text(numbers: dict[str, Any], files: list[Path]) -> str:
+def _text(numbers: "CoDesignNumbers", peers: "Sequence[Rival]", more: "Beside") -> str:
     from mechsym.codesign.summary import prices
+    from mechsym.quantities.results import tell
 
-    bound, found, lost = numbers["bound"], numbers["verified"], numbers["losses"]
-    names = ["p0"] if len(numbers["p0"]) == 1 else [f"p0 {s + 1}" for s in range(len(numbers["p0"]))]
+    checked, lost = numbers.verified, numbers.losses
+    names = ["p0"] if len(numbers.p0) == 1 else [f"p0 {s + 1}" for s in range(len(numbers.p0))]
     rows = [
-        {"speed": n * RPM, "mep": load, **{name: p[k] for name, p in zip(names, numbers["p0"], strict=True)},
-         "ripple [%]": numbers["speed_ripple"][k], "steady [%]": found["steady_ripple"][k],
-         "in time [%]": found["time_ripple"][k], "with losses [%]": numbers["losses"]["speed_ripple"][k],
-         "losses [%]": numbers["losses"]["share"][k], "after misfire [%]": numbers["misfire_speed_share"][k]}
-        for k, (n, load) in enumerate(zip(numbers["speed_rpm"], numbers["load"], strict=True))
-    ]  # fmt: skip
-    rows = [{key: _percent(v) if key.endswith("[%]") else v for key, v in row.items()} for row in rows]
-    floors = ", ".join(f"{r + 1}: {_inertia(j)}" for r, j in enumerate(bound["flywheel"]))
-    pays = bound["springs_that_pay"]
+        {
+            "speed": speed * RPM,
+            "mep": numbers.load[k],
+            **{name: pressures[k] for name, pressures in zip(names, numbers.p0, strict=True)},
+            "ripple [%]": _percent(numbers.speed_ripple[k]),
+            "steady [%]": _percent(checked.steady_ripple[k]),
+            "in time [%]": _percent(checked.time_ripple[k]),
+            "with losses [%]": _percent(lost.speed_ripple[k]),
+            "losses [%]": _percent(lost.share[k]),
+            "after misfire [%]": _percent(numbers.misfire_speed_share[k]),
+        }
+        for k, speed in enumerate(numbers.speed_rpm)
+    ]
     lines = [
-        f"status           {numbers['status']} ({numbers['reason']}), {figure(numbers['wall_s'], 2)} s",
-        f"flywheel         {_inertia(numbers['flywheel_inertia'])} added; bare "
-        f"{_inertia(numbers['flywheel_inertia_bare'])}, guide cut for one speed "
-        f"{_inertia(numbers['flywheel_inertia_cut_for_one'])}",
-        f"no guide better  {floors} by the number of springs; up to {pays} pay{'s' * (pays == 1)}",
-        f"losses           {min(lost['share']):.1%} to {max(lost['share']):.1%} of the torque, friction assumed; "
-        f"{'in' if lost['in_programme'] else 'beside'} the programme; an index below gamma costs heat",
-        f"three ways       differ by {figure(100 * found['difference'], 2)} % of the largest ripple",
+        numbers.verdict,
+        f"solver           {numbers.reason}, {figure(numbers.wall_s, 2)} s",
+        f"flywheel         {_inertia(numbers.flywheel_inertia)} added; bare "
+        f"{_inertia(numbers.flywheel_inertia_bare)}, guide cut for one speed "
+        f"{_inertia(numbers.flywheel_inertia_cut_for_one)}",
+        *_turning(numbers),
+        f"losses           {_losses(lost)}",
+        f"three ways       differ by {figure(100 * checked.difference, 2)} % of the largest ripple",
         "",
         table(rows, list(rows[0]), _UNITS),
         "",
-        *(f"{what}: flywheel {worth}" for what, worth in prices(numbers)),
-        *(f"limit passed: {words}" for words in found["broken"]),
-    ]  # fmt: skip
-    if numbers["pareto"]:
-        lines += ["", table(numbers["pareto"], ["ripple", "flywheel_inertia", "status"], _INERTIAS)]
-    if "peers" in numbers:
-        lines += ["", "other machines at the same points",
-                  table(numbers["peers"], ["name", "ripple", "flywheel_inertia", "about"], _INERTIAS)]  # fmt: skip
-    if "cylinders" in numbers:
-        lines += ["", "flywheel of several cylinders that fire evenly, bare and the least that a hinge leaves",
-                  table(numbers["cylinders"], list(numbers["cylinders"][0]), _INERTIAS)]  # fmt: skip
-    if "realised" in numbers:
-        lines += ["", *_realised(numbers["realised"])]
-    return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+        *(f"{what}: {worth}" for what, worth in prices(numbers)),
+        *(f"limit passed: {words}" for words in checked.broken),
+    ]
+    if numbers.pareto:
+        # of these the ripple with losses is not known
+        front = [tell(row) | {"status": "found" if row.status == "optimal" else row.status} for row in numbers.pareto]
+        lines += ["", table(front, ["ripple", "flywheel_inertia", "status"], heads(type(numbers.pareto[0])))]
+    if peers:
+        columns = ["name", "ripple", "flywheel_inertia", "about"]
+        lines += [
+            "",
+            "other machines at the same points",
+            table([tell(p) for p in peers], columns, heads(type(peers[0]))),
+        ]
+    if more.cylinders is not None:
+        counts = [tell(count) for count in more.cylinders]
+        title = "flywheel of several cylinders that fire evenly, bare and with one spring (an estimate)"
+        lines += ["", title, table(counts, list(counts[0]), heads(type(more.cylinders[0])))]
+    if more.realised is not None:
+        lines += ["", *_realised(more.realised)]
+    return "\n".join(lines)
 
 
-def _realised(made: dict[str, Any]) -> list[str]:
-    from mechsym.codesign.realise import GOAL_UNITS
+def _losses(lost: "CoDesignLosses") -> str:
+    if lost.taken == "none":
+        return "left out, as asked"
+    ends = dict.fromkeys(f"{100 * share:.1f} %" for share in (min(lost.share), max(lost.share)))
+    where = "in" if lost.in_programme else "beside"
+    return (
+        f"{' to '.join(ends)} of the torque, friction assumed; {where} the programme; an index below gamma costs heat"
+    )
 
-    goal, unit = made["goal"].replace("_", " "), GOAL_UNITS[made["goal"]]
-    before, after = (", ".join(quantity_text(v, unit) for v in made[key]) for key in ("before", "after"))
-    told = [", ".join(f"{k} {quantity_text(v, _HARDWARE[k])}" for k, v in guide.items()) for guide in made["guides"]]
-    return [f"hardware of least {goal}: {made['status']}, {before} -> {after}; the same works within all limits", *told]
+
+def _turning(numbers: "CoDesignNumbers") -> list[str]:
+    """All inertia that turns, and the least that has to."""
+    from mechsym.codesign.summary import bound_words
+
+    bound, given = numbers.bound, numbers.with_given_hardware
+    pays = bound.springs_that_pay
+    estimates = ", ".join(f"{springs}: {_inertia(value)}" for springs, value in enumerate(bound.estimate, 1))
+    lines = [
+        f"total inertia    {_inertia(numbers.total_inertia)} turns: engine, flywheel, rollers "
+        f"({_inertia(numbers.rollers_inertia)} in the mean)",
+        f"bound            {bound_words(numbers)}{'; it holds for' * bool(bound.speeds_rpm)}",
+        *(f"                 - {words}" for words in bound.assumes if bound.speeds_rpm),
+        f"estimate         {estimates} in all by the number of springs (D by the ripple); "
+        f"up to {pays} pay{'s' * (pays == 1)}",
+    ]
+    if given is not None:
+        before = f"flywheel {_inertia(given.flywheel_inertia)} and rollers {_inertia(given.rollers_inertia)}"
+        lines.append(f"hardware free    with that of the case {before}; what is made small is their sum")
+    return lines
+
+
+def _realised(other: "RealisedNumbers") -> list[str]:
+    from mechsym.quantities.results import units_of
+
+    goal = other.goal.replace("_", " ")
+    before, after = (", ".join(quantity_text(v, other.unit) for v in values) for values in (other.before, other.after))
+    guides = [
+        ", ".join(f"{name} {quantity_text(getattr(guide, name), unit)}" for name, unit in units_of(guide).items())
+        for guide in other.guides
+    ]
+    status = "found" if other.status == "optimal" else other.status
+    return [f"hardware of least {goal}: {status}, {before} -> {after}; the same works within all limits", *guides]
 
 
 def _inertia(value: float | None) -> str:

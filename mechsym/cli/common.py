@@ -1,28 +1,49 @@
 """Options and output that every command shares."""
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.files import appear, to_json, together, try_folder, write_summary
+from mechsym.files import Json, plain, publish, to_json, together, try_folder, write_summary
+from mechsym.inputs import reads
+from mechsym.mechanisms import own
 from mechsym.plausible import Doubt, results, sifted
+from mechsym.quantities import load
 from mechsym.quantities.display import SMALLEST, choose, column_text, heading, ratio_text, shown_in
+from mechsym.quantities.results import units_of
 
-_CASES, DOUBTED, _RUN = "mechsym.cases", "mechsym.doubted", "mechsym.run"
+if TYPE_CHECKING:
+    from mechsym.page.finding import Finding
+
+# endings of files: a folder of such a name is a slip, and so is a file of another kind
+_ENDINGS = tuple(".csv .fmu .gz .html .json .nc .pdf .png .py .svg .tar .toml .txt .zip".split())
+_CASES, _ABOUT, DOUBTED, _RUN = "mechsym.cases", "mechsym.about", "mechsym.doubted", "mechsym.run"
+WITH_UNITS = "mechsym.with_units"  #: JSON of a command is {value, units}, for the workbench
 
 
-def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
-    """Refuse an --out that cannot be written before the work begins; what is written into a folder appears together."""
+def tried(ctx: click.Context, param: click.Parameter, path: Path | None, endings: tuple[str, ...] = ()) -> Path | None:
+    """Refuse an --out that cannot be written before the work begins; what is written into a folder appears together.
+
+    endings: of the one file that may be named in place of a folder.
+    """
     if path is not None and not ctx.resilient_parsing:
-        file = isinstance(param.type, click.Path) and not param.type.dir_okay
+        kind, takes = path.suffix.lower(), param.type
+        file = kind in endings or (isinstance(takes, click.Path) and not takes.dir_okay)
+        if not file and kind in _ENDINGS and not path.is_dir():
+            way = f"several files are written into a folder; leave {path.suffix} away"
+            way = f"the file is of kind {endings[0]}; write {path.with_suffix(endings[0])}" if endings else way
+            raise BadInput(f"--out {path}: {way}")
+        if file and path.is_dir():
+            raise BadInput(f"--out {path} is a folder; give a file, or a folder of another name")
         try_folder(path.parent if file else path)
+        ctx.with_resource(reads())  # what is read is not written over
         if not file:
             ctx.with_resource(together(path))
     return path
@@ -31,7 +52,7 @@ def tried(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path
 def tried_run(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
     """As `tried`, for a command whose folder gets a summary of the run."""
     if path is not None and not ctx.resilient_parsing:
-        ctx.meta[_RUN] = path
+        ctx.meta[_RUN] = path, ctx.with_resource(reads())
     return tried(ctx, param, path)
 
 
@@ -53,24 +74,37 @@ set_option = click.option(
 )
 
 
-def file_option(usual: str) -> Callable[..., Any]:
-    """The option --out of a command that writes one file; `usual` says which where it is left away."""
-    kind = click.Path(path_type=Path, dir_okay=False)
-    return click.option("--out", type=kind, callback=tried, help=f"File to write; {usual}")
+def _chosen(ctx: click.Context, param: click.Parameter, text: str | None) -> None:
+    from mechsym import budget
+
+    budget.choose(text or "")
+
+
+budget_option = click.option(
+    "--budget", callback=_chosen, expose_value=False, metavar="TEXT",
+    help='What it may take, "10 min, 2 GB" without: what is forecast to take more does not begin.',
+)  # fmt: skip
+
+
+def file_option(usual: str, *endings: str) -> Callable[..., Any]:
+    """The option --out of a command that writes one file: a folder for it, or the file itself by its ending."""
+
+    def of_its_kind(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
+        return tried(ctx, param, path, endings)
+
+    help_ = f"Folder for {usual}, made when missing; or the file itself, which ends in {endings[0]}."
+    return click.option("--out", type=click.Path(path_type=Path), callback=of_its_kind, help=help_)
+
+
+def file_in(out: Path | None, usual: str, *endings: str) -> Path:
+    """The file of a command that writes one: as named by --out, or with its usual name in that folder."""
+    return out if out is not None and out.suffix.lower() in endings else (out or Path()) / usual
 
 
 def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
     """KEY=VALUE texts as a mapping.
 
-    Parameters
-    ----------
-    option : str
-        The option's name, for the message
-
-    Returns
-    -------
-    values : dict of str to str
-        Key to text, in the order given
+    option: the option's name, for the message. Returns values: key to text, in the order given.
     """
     values: dict[str, str] = {}
     for text in texts:
@@ -83,24 +117,44 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
     return values
 
 
-def case_of(name: str, overrides: Mapping[str, Any]) -> Case:
-    """The case that a command is about; its doubts go into what the command prints."""
+def case_of(name: str, overrides: Mapping[str, object]) -> Case:
+    """The case that a command is about; its doubts, and what of it is not read, go into what the command prints."""
+    case = doubted(name, overrides)
+    case.read.clear()  # who judges a case does not run on it
+    click.get_current_context().meta.setdefault(_ABOUT, []).append(case)
+    return case
+
+
+def doubted(name: str, overrides: Mapping[str, object]) -> Case:
+    """A case whose doubts go into what the command prints."""
     case = cases.load(name, overrides)
+    if own.is_file(case.mechanism):
+        from mechsym.cases.outcomes import of_own
+        from mechsym.jobs.machine import one_coordinate
+
+        case = replace(case, doubts=(*case.doubts, *of_own(case, one_coordinate)))
     if "report" in case.sections and not click.get_current_context().meta.get("mechsym.units"):
         choose(case.need("report").units)
     click.get_current_context().meta.setdefault(_CASES, []).append(case)
     return case
 
 
+def only_of(case: Case, command: str) -> Case:
+    """The case with the doubts of sections that a command reads, in what it prints too: others are another page's."""
+    from mechsym.cases.facts import facts_of
+    from mechsym.cases.needs import read_by
+
+    read = read_by(facts_of(case.mechanism, case.sections)).get(command, case.sections.keys())
+    seen = replace(case, doubts=tuple(d for d in case.doubts if d.quantity.partition(".")[0] in read))
+    meta = click.get_current_context().meta
+    meta[_CASES] = [seen if one is case else one for one in meta[_CASES]]
+    return seen
+
+
 def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
     """Put the doubts of a case at the smallest and largest of some values into what the command prints.
 
-    Parameters
-    ----------
-    key : str
-        `section.field`; a case without that section is not judged
-    values : sequence of float
-        What the command computes it for [SI]
+    key: `section.field`; a case without that section is not judged. values: what the command computes it for [SI].
 
     Raises
     ------
@@ -111,49 +165,103 @@ def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
     if section in case.sections:
         others = {k: v for k, v in case.overrides.items() if k.rpartition(".")[2] not in (field, f"{field}_rpm")}
         for value in {min(values), max(values)}:
-            case_of(case.path, {**others, key: value})
+            doubted(case.path, {**others, key: value})
 
 
-def emit(value: Any, as_json: bool, text: Callable[[], str], leave_out: tuple[str, ...] = ()) -> None:
+def emit(
+    value: object,
+    as_json: bool,
+    text: Callable[[], str],
+    *,
+    beside: Mapping[str, object] | None = None,
+    leave_out: tuple[str, ...] = (),
+    files: Sequence[Path | str] = (),
+    findings: Iterable["Finding"] | None = None,
+) -> None:
     """Print a result with its doubts, as JSON or as text for people.
 
-    Parameters
-    ----------
-    value : object
-        The result with its documented keys; an object gets `doubts` and `accepted` besides, of a list they go to
-        standard error
-    text : callable
-        Makes the text for people; called only when needed
-    leave_out : tuple of str
-        Keys that `summary.json` does without, since the other files of the run have them
+    value: the result with its documented keys; an object gets `doubts` and `accepted` besides, of a list they go to
+    standard error. text: makes the text for people; called only when needed. beside: mapping, optional, what stands
+    among the keys of the result: names of files, doubts that it brings. leave_out: keys that `summary.json` does
+    without, since the other files of the run have them. files: what was written, named behind the text. findings: what
+    has to be known first, of a command that has any; `headline` in JSON.
     """
-    doubts, accepted = _doubts(value)
-    told = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
-    carries = isinstance(value, Mapping) and not isinstance(value.get("doubts"), Mapping)  # as a printed case does
+    context = click.get_current_context()
+    told = value if isinstance(value, Mapping) else plain(value)
+    told = {**told, **beside} if beside else told
+    first = () if findings is None else load("mechsym.page.finding:ranked")(findings)
+    if findings is not None and isinstance(told, Mapping):  # of a list of rows the text tells it
+        told = {**told, "headline": [asdict(one) for one in first]}
+    doubts, accepted = _doubts(told)
+    lines = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
+    carries = isinstance(told, Mapping) and not isinstance(told.get("doubts"), Mapping)  # as a printed case does
     if carries:
-        value = {**value, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
-    folder = click.get_current_context().meta.get(_RUN)
-    if folder is not None:
-        of_all = value if carries else {"rows": value, "doubts": doubts, "accepted": accepted}
-        write_summary(folder, {key: numbers for key, numbers in of_all.items() if key not in leave_out})
-    appear()  # files that the text names are in place before it is printed
-    if told and not carries:
-        click.echo("\n".join(told), err=True)
-        told = []
-    click.echo(to_json(value) if as_json else "\n".join([text(), *told]))
-    click.get_current_context().meta[DOUBTED] = bool(doubts)
+        told = {**told, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
+    if run := context.meta.get(_RUN):
+        folder, read = run
+        of_all = told if carries else {"rows": told, "doubts": doubts, "accepted": accepted}
+        numbers = {key: inner for key, inner in of_all.items() if key not in leave_out}
+        write_summary(folder, numbers, context.info_name or "", read)
+    publish()  # files that the text names are in place before it is printed
+    if lines and not carries:
+        click.echo("\n".join(lines), err=True)
+        lines = []
+    missed = isinstance(told, Mapping) and told.get("target", {}).get("met") is False
+    context.meta[DOUBTED] = bool(doubts) or missed
+    if as_json and context.meta.get(WITH_UNITS):
+        from mechsym.cli.results import units_by_path
+
+        told = {"value": told, "units": units_by_path(value, context.info_name or "")}
+    if as_json:
+        click.echo(to_json(told))
+    else:
+        named = (f"written: {file}" for file in files)
+        click.echo("\n".join([*filter(None, [_headed(text(), first)]), *named, *lines]))
 
 
-def _doubts(value: Any) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
+def _headed(text: str, first: Sequence["Finding"]) -> str:
+    """A text behind what has to be known first; a text that begins with one of these keeps its first line."""
+    head, _, rest = text.partition("\n")
+    others = [one.line for one in first if one.words != head]
+    return "\n".join([*others, text] if len(others) == len(first) else [head, *others, rest])
+
+
+def _doubts(value: object) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
     """Doubts of the cases of this command and of its results; a result may bring doubts of its own."""
     loaded = click.get_current_context().meta.get(_CASES, [])
     acceptances = {code: a for case in loaded for code, a in case.acceptances.items()}
     found = [d for case in loaded for d in case.doubts]
     if loaded:
-        found += results(value)
+        found += [*results(value), *_unread()]
     own = value.get("doubts", ()) if isinstance(value, Mapping) else ()
     found += [d if isinstance(d, Doubt) else Doubt(**d) for d in (() if isinstance(own, Mapping) else own)]
-    return sifted(tuple(dict.fromkeys(found)), acceptances)
+    remaining, accepted = sifted(tuple(dict.fromkeys(found)), acceptances)
+    return _once(remaining), _once(accepted)
+
+
+def _once(doubts: Sequence[Doubt]) -> tuple[Doubt, ...]:
+    """Of both ends of a range the first that is told."""
+    return tuple({(d.code, d.quantity): d for d in reversed(doubts)}.values())[::-1]
+
+
+def _unread() -> list[Doubt]:
+    """What a case says and no command reads, and what was set of it and this command did not read."""
+    from mechsym.cases.check import doubt, unused
+    from mechsym.cases.facts import facts_of
+
+    meta = click.get_current_context().meta
+    found: list[Doubt] = []
+    for case in {case.path: case for case in meta[_CASES]}.values():
+        found += unused(facts_of(case.mechanism, case.sections), cases.written(case))
+    known = {doubt.quantity for doubt in found}
+    for case in meta.get(_ABOUT, ()):
+        read = set().union(*(other.read for other in meta[_ABOUT] if other.path == case.path))
+        for place in (cases.locate(case.path, key, case.overrides) for key in case.overrides):
+            why = f"{place.section}.{place.field} was set, and this command does not read it"
+            one = doubt(f"[{place.section}]", 1, why)
+            if place.section in case.sections.keys() - read and one.quantity not in known:
+                found.append(one)
+    return found
 
 
 def _told(doubt: Doubt) -> str:
@@ -163,30 +271,16 @@ def _told(doubt: Doubt) -> str:
 def progress(total: int, label: str) -> Any:
     """A progress bar on standard error, silent when that is no terminal.
 
-    Returns
-    -------
-    bar : context manager
-        Call `update(1)` on it after each step
+    Returns bar: context manager, call `update(1)` on it after each step.
     """
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 
-def table(
-    rows: list[dict[str, Any]], columns: list[str], units: Mapping[str, str] | None = None, digits: int = 4
-) -> str:
+def table(rows: list[Json], columns: list[str], units: Mapping[str, str] | None = None, digits: int = 4) -> str:
     """Rows as an aligned text table, units in the headings, each column in the unit that suits it.
 
-    Parameters
-    ----------
-    units : mapping of str to str, optional
-        SI unit of columns whose name does not tell it
-    digits : int
-        At least so many; more where neighbours differ in them only
-
-    Returns
-    -------
-    text : str
-        Header line and one line a row
+    units: SI unit of columns whose name does not tell it. digits: at least so many; more where neighbours differ in
+    them only. Returns text: header line and one line a row.
     """
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
     shown = [column_text(values, digits) for _, values in headed]
@@ -195,15 +289,15 @@ def table(
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
 
 
-def in_rows(rows: list[dict[str, Any]], keys: tuple[str, ...], unit: str = "unit") -> list[dict[str, Any]]:
+def heads(rows: type) -> dict[str, str]:
+    """Units for the heads of a table of results of a class; counts and exponents stand without one."""
+    return {name: unit for name, unit in units_of(rows).items() if unit != "-"}
+
+
+def in_rows(rows: list[Json], keys: tuple[str, ...], unit: str = "unit") -> list[Json]:
     """Rows that each have a unit of their own, their numbers in the unit that suits them.
 
-    Parameters
-    ----------
-    keys : tuple of str
-        The numbers of a row; None stays None
-    unit : str
-        The key under which a row has its SI unit
+    keys: the numbers of a row; None stays None. unit: the key under which a row has its SI unit.
     """
     found = []
     for row in rows:

@@ -1,12 +1,16 @@
 """`mechsym compare`: two engines side by side over the speeds."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
+from mechsym.files import Json
+
+if TYPE_CHECKING:
+    from mechsym.cycle.compare import ComparedValue, EngineComparison
 
 
 @click.command(short_help="Two engines side by side over the speeds.")
@@ -26,52 +30,50 @@ def compare(
     """
     import numpy as np
 
+    from mechsym.cases.needs import SPEEDS, require
+    from mechsym.cycle.compare import compare as side_by_side
     from mechsym.cycle.engine import columns, over_speeds
-    from mechsym.jobs.compare import compare as side_by_side
     from mechsym.jobs.cycle import engine, speed_range
 
     cases = [case_of(name, pairs(overrides)) for name in (case_a, case_b)]
+    for case, told in zip(cases, (speeds is not None, True), strict=True):  # the second runs at the first one's speeds
+        require(case, "compare", SPEEDS if told else "")
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
     for case in cases:
         judge_ends(case, "operation.speed", omega.tolist())
     found = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
     a, b = found.values() if len(found) == 2 else [*found.values()] * 2
-    result = {"cases": [case.name for case in cases], **side_by_side(a, b)}
+    result = side_by_side(a, b, tuple(case.name for case in cases))
     files = _write(out, found, result) if out else []
-    emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))
+    emit(result, as_json, lambda: _text(result), files=files)
 
 
-def _text(result: dict[str, Any]) -> str:
-    from mechsym.jobs.compare import unit_of
-
-    a, b = result["cases"]
-    found = [f"{speed:.1f} rpm" for speed in result["crossover_rpm"]]
-    rows = [row | {"at rpm": _speeds(row), "unit": unit_of(row["quantity"]), "b/a - 1 %": _percent(row["difference"])}
-            for row in result["table"]]  # fmt: skip
+def _text(result: "EngineComparison") -> str:
+    a, b = result.cases
+    found = [f"{speed:.1f} rpm" for speed in result.numbers.crossover_rpm]
+    rows = [
+        vars(row)
+        | {"at rpm": _speeds(row), "b/a - 1 %": "-" if row.difference is None else f"{100 * row.difference:+.2f}"}
+        for row in result.numbers.table
+    ]
     lines = [f"a = {a}, b = {b}", f"mean torque crosses at {', '.join(found) or 'no speed'}"]
     return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
 
 
-def _speeds(row: dict[str, Any]) -> str:
-    if row["speed_rpm"] is None:
-        return f"{row['speed_a_rpm']:.0f} | {row['speed_b_rpm']:.0f}"
-    return f"{row['speed_rpm']:.0f}"
+def _speeds(row: "ComparedValue") -> str:
+    if row.speed_rpm is None:
+        return " | ".join(f"{getattr(row, name):.0f}" for name in ("speed_a_rpm", "speed_b_rpm"))
+    return f"{row.speed_rpm:.0f}"
 
 
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{100 * value:+.2f}"
-
-
-def _write(out: Path, found: dict[str, Any], result: dict[str, Any]) -> list[Path]:
+def _write(out: Path, found: Json, result: "EngineComparison") -> list[Path]:
     from mechsym.cycle.plots import performance_picture
     from mechsym.files import to_json, write_quantities, write_text
-    from mechsym.jobs.compare import unit_of
 
-    rows = result["table"]
-    columns = {k: [row[k] for row in rows] for k in ("quantity", "speed_rpm", "a", "b")}
-    columns |= {"unit": [unit_of(row["quantity"]) for row in rows], "difference": [row["difference"] for row in rows]}
+    names = ("quantity", "speed_rpm", "a", "b", "unit", "difference")
+    columns = {name: [getattr(row, name) for row in result.numbers.table] for name in names}
     return [
-        write_quantities(out / "comparison.csv", columns),
+        write_quantities(out / "comparison.csv", columns, {"difference": "-"}),
         write_text(out / "comparison.json", to_json(result) + "\n"),
         performance_picture(out / "comparison.svg", found),
     ]

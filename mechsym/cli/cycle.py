@@ -1,28 +1,48 @@
 """`mechsym cycle`: the engine cycle at one or many speeds."""
 
+import dataclasses
+import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli import cycle_breathing, cycle_stirling
-from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, progress, set_option, table
+from mechsym.cases import Case
+from mechsym.cli import cycle_pages as pages
+from mechsym.cli.common import (
+    case_of,
+    emit,
+    heads,
+    json_option,
+    judge_ends,
+    only_of,
+    out_option,
+    pairs,
+    progress,
+    set_option,
+)
 from mechsym.cli.speeds import parse_over, parse_speeds
+from mechsym.cycle.columns import UNITS
 from mechsym.errors import BadInput
-from mechsym.quantities.display import quantity_text, ratio_text
-from mechsym.quantities.names import stem_and_unit
+from mechsym.files import Json
+from mechsym.quantities.results import tell
 
-_SHOWN = ("speed_rpm", "torque_avg", "torque_max", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa")
-_SCAVENGED = ("speed_rpm", "p_in_kpa", "t_in_k", "p_out_kpa", "t_turbine_k", "t_evc_k", "delivery_ratio",
-              "residual_gas", "air_kg_h")  # fmt: skip
-_ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
+if TYPE_CHECKING:
+    import numpy as np
+
+    from mechsym.cycle.source import GasSource
 
 
 @click.command(short_help="Engine cycle at one or many speeds.")
 @click.argument("case")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
-@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram: combustion from pressure.")
+@click.option(
+    "--diagram",
+    type=click.Path(dir_okay=False),
+    multiple=True,
+    help="CSV of a measured diagram: combustion from pressure; again: more of the same encoder.",
+)
 @click.option("--motored", type=click.Path(dir_okay=False), help="CSV without combustion, same encoder: dead centre.")
 @click.option("--torque", type=click.Path(dir_okay=False), help="CSV of a measured crank torque: pressure from it.")
 @click.option("--noise", metavar="TORQUE", help="Standard deviation of each torque of --torque, such as '2 N*m'.")
@@ -30,7 +50,7 @@ _ONE = ("speed_rpm", "torque_avg", "torque_max", "power_kw")
 @json_option
 @out_option
 @set_option
-def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, motored: str | None,
+def cycle(case: str, speeds: str | None, over: str | None, diagram: tuple[str, ...], motored: str | None,
           torque: str | None, noise: str | None, loop: float | None, as_json: bool, out: Path | None,
           overrides: tuple[str, ...]) -> None:  # fmt: skip
     """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
@@ -54,155 +74,144 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: str | None, 
               mechsym cycle generator-breathing --speeds 1000:4000:500
               mechsym cycle zotov-142 --set scavenging.source=turbocharger --set "scavenging.altitude=2000 m"
     """
-    from mechsym.cli import cycle_loop, cycle_measured, cycle_torque
+    from mechsym.cases.needs import NO_FILE, require
     from mechsym.cycle.kinds import kind_of
 
     loaded = case_of(case, pairs(overrides))
+    require(loaded, "cycle", NO_FILE if diagram else "")
     if torque or noise:
         if speeds or over or diagram or motored or loop:
             raise BadInput("--torque stands alone: leave out --speeds, --over, --diagram, --motored and --loop")
-        cycle_torque.show(loaded, torque, noise, (as_json, out))
+        _show_torque(loaded, torque, noise, as_json, out)
     elif diagram or motored or kind_of(loaded.need("cycle")).measured:
-        cycle_measured.show(loaded, (diagram, motored), as_json, out)
+        _show_diagram(loaded, diagram, motored, as_json, out)
     elif loop:
-        cycle_loop.show(loaded, loop, as_json, out)
+        _show_loop(loaded, loop, as_json, out)
     else:
         omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
         judge_ends(loaded, "operation.speed", omega)
-        _show_map(loaded, omega, over, (as_json, out))
+        _show_figures(loaded, omega, over, as_json, out)
 
 
-def _show_map(case: Any, omega: list[float], over: str | None, output: tuple[bool, Path | None]) -> None:
-    from mechsym.cycle.kinds import kind_of
-    from mechsym.jobs.cycle import columns_of_cylinder, cycle, engine
+def _show_torque(case: Case, file: str | None, noise: str | None, as_json: bool, out: Path | None) -> None:
+    from mechsym.files import write_quantities
+    from mechsym.forces.plots import pressure_picture
+    from mechsym.jobs.indicated import indicated
+    from mechsym.quantities import parse
+
+    if file is None:
+        raise BadInput("--noise belongs to --torque FILE; give both")
+    if noise is None:
+        raise BadInput("--torque needs --noise, the standard deviation of each torque, such as --noise '2 N*m'")
+    result = indicated(case, file, parse(noise, "N*m", "--noise"))
+    files = [
+        write_quantities(out / "pressure.csv", result.pressure, result.pressure.units),
+        pressure_picture(out / "pressure.svg", result.found, result.period),
+    ] if out else []  # fmt: skip
+    emit(result, as_json, lambda: pages.torque(result), files=files)
+
+
+def _show_diagram(case: Case, diagram: tuple[str, ...], motored: str | None, as_json: bool, out: Path | None) -> None:
+    from mechsym.files import write_quantities, write_text
+    from mechsym.jobs.measured import MeasuredCycle, measured_combustion
+
+    case = only_of(case, "cycle")
+    result = measured_combustion(case, diagram, motored)
+    names = [field.name for field in dataclasses.fields(MeasuredCycle)]
+    columns = {name: [getattr(cycle, name) for cycle in result.cycles] for name in names}
+    files = []
+    if out:
+        from mechsym.report.build import combustion_html
+
+        files = [write_quantities(out / "combustion.csv", columns, heads(MeasuredCycle)),
+                 write_text(out / "combustion.html", combustion_html(case, result))]  # fmt: skip
+    emit(result, as_json, lambda: pages.diagram(result), files=files)
+
+
+def _show_loop(case: Case, cycles: float, as_json: bool, out: Path | None) -> None:
+    from mechsym.cases.outcomes import of_limits
+    from mechsym.files import write_quantities
+    from mechsym.jobs.run import loop
+    from mechsym.simulate.loop.run import run_loop, series, summary
+
+    machine = loop(case)
+    run = run_loop(machine, case.need("operation").speed, cycles)
+    result = summary(machine, run)
+    files = [write_quantities(out / "loop.csv", series(machine, run))] if out else []
+    told = tell(result)
+    emit(told | {"doubts": of_limits(case, told)}, as_json, lambda: pages.loop(result), files=files)
+    if result.status != "done":
+        sys.exit(1)
+
+
+def _show_figures(case: Case, omega: list[float], over: str | None, as_json: bool, out: Path | None) -> None:
+    from mechsym.cases.outcomes import of_cycle
+    from mechsym.cycle.cylinder import ENGINE_PAGE
+    from mechsym.jobs.cycle import cycle
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.jobs.whole_engine import cylinders, of_engine, other_piston
+    from mechsym.jobs.gas import source as source_of
 
-    given = kind_of(case.need("cycle")).given
-    if given == "train" and not over:
-        cycle_stirling.show(case, _array(omega), *output)
-        return
-    if not over and other_piston(case):
-        _show(case, None, cycle(case, _array(omega)), {}, output)
-        return
-    cylinders(case)  # what is wrong with them is said before the work begins
-    if given == "breathing" and not over:
-        cycle_breathing.show(case, _array(omega), *output)
-        return
-    if given == "engine":
-        machine = engine(one_cylinder(case))
-        found = _map(case, machine, omega, over)
-    elif over:
-        raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
-    else:
-        machine, found = None, columns_of_cylinder(case, _array(omega))
-    found = of_engine(case, found, None if over else omega)
-    _show(case, machine, found, _units(machine) if over else {}, output)
-
-
-def _show(
-    case: Any, machine: Any, found: dict[str, Any], units: dict[str, str], output: tuple[bool, Path | None]
-) -> None:
-    from mechsym.jobs.judged import of_cycle
-
-    as_json, out = output
-    files = _write(out, machine, found, case.need("operation").speed) if out else []
-    doubts = () if units else of_cycle(case, found)
-    emit(
-        found | {"doubts": doubts},
-        as_json,
-        lambda: "\n".join([_text(found, units), *(f"written: {file}" for file in files)]),
-    )
-
-
-def _map(case: Any, machine: Any, omega: list[float], over: str | None) -> dict[str, Any]:
-    from mechsym.cycle.engine import columns, over_design
-
-    design: dict[str, Any] = {"omega": _array(omega)}
+    units: dict[str, str] = {}
+    found: Any
     if over:
-        if len(omega) > 1:
-            raise BadInput("--over runs at one speed; give --speeds one value, or leave it out")
-        name, values = parse_over(over, _units(machine))
-        judge_ends(case, name, values)
-        design[name] = _array(values)
-    points = max(v.size for v in design.values())
-    with progress(points, "cycles") as bar:
-        found = columns(over_design(machine, design, bar.update))
-    return ({name: design[name]} if over else {}) | found
+        found, units = _over(case, omega, over)
+    else:
+        with progress(len(omega), "cycles") as bar:
+            found = cycle(case, _array(omega), bar.update)
+    source = source_of(one_cylinder(case)) if over else found.source
+    files = _write(case, source, found, omega, out) if out else []
+    page, units = source.page if source is not None else ENGINE_PAGE, {**UNITS, **units}
+    doubts = () if over else of_cycle(case, found, source_of(case).bound)
+    emit(found | {"doubts": doubts}, as_json, lambda: pages.figures(found, page, units), files=files,
+         findings=() if over else found.view.findings())  # fmt: skip
 
 
-def _units(machine: Any) -> dict[str, str]:
+def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, str]]:
+    """Figures over another value of the engine at one speed, and the units of its names."""
+    from mechsym.cycle.engine import columns, over_design
+    from mechsym.cycle.kinds import kind_of
+    from mechsym.jobs.cycle import cylinders, engine, of_engine
+    from mechsym.jobs.gas import one_cylinder
     from mechsym.optimise.problem import design_units
 
-    return design_units(machine)
+    cylinders(case)  # what is wrong with them is said before the work begins
+    if not kind_of(case.need("cycle")).closed:
+        raise BadInput("--over needs a cycle of kind spark-ignition; for others use 'mechsym sweep'")
+    machine = engine(one_cylinder(case))
+    if len(omega) > 1:
+        raise BadInput("--over runs at one speed; give --speeds one value, or leave it out")
+    units = design_units(machine)
+    name, values = parse_over(over, units)
+    judge_ends(case, name, values)
+    design = {"omega": _array(omega), name: _array(values)}
+    with progress(len(values), "cycles") as bar:
+        found = columns(over_design(machine, design, bar.update))
+    return of_engine(case, {name: design[name]} | found, None), units
 
 
-def _array(values: list[float]) -> Any:
+def _array(values: list[float]) -> "np.ndarray":
     import numpy as np
 
     return np.asarray(values)
 
 
-def _text(found: dict[str, Any], units: dict[str, str]) -> str:
-    count = len(found["speed_rpm"])
-    every = max(1, -(-count // 20))
-    shown = [k for k in found if "." in k] + list(_SHOWN)
-    lines = [_rows(found, shown, every, units)]
-    for name, one in found.get("pistons", {}).items():
-        lines += ["", f"piston {name}", _rows({"speed_rpm": found["speed_rpm"], **one}, list(_SHOWN), every, {})]
-    each = found.get("each", "cylinder")
-    if found["per_cylinder"] and found["cylinders"] > 1:
-        one = {"speed_rpm": found["speed_rpm"], **found["per_cylinder"]}
-        lines = [
-            f"engine of {found['cylinders']} {each}s",
-            *lines,
-            "",
-            f"one {each}",
-            _rows(one, list(_ONE), every, {}),
-        ]
-    if every > 1:
-        lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
-    if count > 1 and shown[0] == "speed_rpm":
-        peaks = [(n, int(found[n].argmax())) for n in ("torque_avg", "torque_max", "power_kw", "p_max_mpa")]
-        lines += [
-            f"largest {_peak(name, float(found[name][k]))} at {found['speed_rpm'][k]:.0f} rpm" for name, k in peaks
-        ]
-    worst = abs(found["energy_residual"]).max()
-    if "delivery_ratio" in found:
-        lines += ["", "turbocharger and scavenging", _rows(found, list(_SCAVENGED), every, {})]
-    closed = f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"
-    return "\n".join([*lines, closed if worst == worst else "an algebraic cycle: no fuel, no first law to close"])
-
-
-def _peak(name: str, value: float) -> str:
-    stem, unit = stem_and_unit(name)
-    return f"{stem} {quantity_text(value, unit)}"
-
-
-def _rows(found: dict[str, Any], names: list[str], every: int, units: dict[str, str]) -> str:
-    shown = range(0, len(found["speed_rpm"]), every)
-    return table([{name: float(found[name][i]) for name in names} for i in shown], names, units)
-
-
-def _write(out: Path, machine: Any, found: dict[str, Any], omega: float) -> list[Path]:
-    from mechsym.cycle.engine import curves
-    from mechsym.cycle.plots import cycle_picture, performance_picture
+def _write(case: Case, source: "GasSource | None", found: Json, omega: list[float], out: Path) -> list[Path]:
+    from mechsym.cycle.plots import performance_picture
     from mechsym.files import write_quantities
 
-    flat = {
-        k: v
-        for k, v in found.items()
-        if k not in ("fractions", "loads", "cylinders", "each", "per_cylinder", "pistons")
-    }
-    if found["cylinders"] > 1:
-        flat |= {f"{k}_per_cylinder": v for k, v in found["per_cylinder"].items()}
-    flat |= {f"fraction_{k}": v for k, v in found["fractions"].items()} | found["loads"]
-    files = [write_quantities(out / "performance.csv", flat)]
+    told = ("fractions", "loads", "losses", "cylinders", "each", "per_cylinder", "pistons")
+    flat = {name: values for name, values in found.items() if name not in told}
+    if found.get("cylinders", 1) > 1:
+        flat |= {f"{name}_per_cylinder": values for name, values in found["per_cylinder"].items()}
+    flat |= {f"fraction_{name}": values for name, values in found["fractions"].items()} | found["loads"]
+    flat |= {f"loss_{name}_w": values for name, values in found.get("losses", {}).items()}
+    units = {**UNITS, **{f"{name}_per_cylinder": unit for name, unit in UNITS.items()}}
+    units |= dict.fromkeys(found["loads"], UNITS["loads"])
+    files = [write_quantities(out / "performance.csv", flat, units)]
     for name, one in found.get("pistons", {}).items():
-        files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": found["speed_rpm"], **one}))
-    if machine is not None:
-        one = curves(machine, omega)
-        files += [write_quantities(out / "cycle.csv", one), cycle_picture(out / "cycle.svg", one)]
-    if len(set(flat["speed_rpm"])) > 1:
+        files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": found["speed_rpm"], **one}, UNITS))
+    if source is not None and (curves := source.curves(_array(omega), case.need("operation").speed)):
+        files += [write_quantities(out / "cycle.csv", curves), source.picture(out / "cycle.svg", curves)]
+    if "losses" not in found and len(set(flat["speed_rpm"])) > 1:
         files.append(performance_picture(out / "performance.svg", {"": found}))
     return files

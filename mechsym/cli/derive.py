@@ -2,11 +2,11 @@
 
 import sys
 from pathlib import Path
-from typing import Any
 
 import click
 
 from mechsym.cli.common import emit, folder_option, json_option, progress
+from mechsym.files import Json
 
 
 @click.command()
@@ -38,7 +38,7 @@ def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Pa
         found = {k: v | built_in[k] if isinstance(v, dict) else v + built_in[k] for k, v in found.items()}
     shown = {"code": found["code"]} if show else {}
     report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
-    emit(report, as_json, lambda: _text(found, check, show))
+    emit(report, as_json, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
         sys.exit(1)
 
@@ -52,10 +52,10 @@ def _latex(names: tuple[str, ...], as_json: bool) -> None:
     emit({"latex": rows}, as_json, lambda: "\n\n".join(f"% {one.name}\n{one.latex}" for one in found))
 
 
-def _files(names: list[str], check: bool, out: Path | None) -> dict[str, Any]:
+def _files(names: list[str], check: bool, out: Path | None) -> Json:
     from mechsym.mechanisms import own
 
-    found: dict[str, Any] = {"written": [], "differs": {}, "code": []}
+    found: Json = {"written": [], "differs": {}, "code": []}
     with progress(len(names), "deriving") as bar:
         for name in names:
             if check:
@@ -68,7 +68,7 @@ def _files(names: list[str], check: bool, out: Path | None) -> dict[str, Any]:
     return found
 
 
-def _built_in(names: tuple[str, ...], check: bool) -> dict[str, Any]:
+def _built_in(names: tuple[str, ...], check: bool) -> Json:
     from mechsym.derive import build
 
     differs: dict[str, str] = {}
@@ -88,7 +88,7 @@ def _built_in(names: tuple[str, ...], check: bool) -> dict[str, Any]:
     return {"written": written, "differs": differs, "code": []}
 
 
-def _text(found: dict[str, Any], check: bool, show: bool) -> str:
+def _text(found: Json, check: bool, show: bool) -> str:
     if found["differs"]:
         way_out = (
             "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
@@ -98,4 +98,4 @@ def _text(found: dict[str, Any], check: bool, show: bool) -> str:
         return "the code is what the derivations give"
     if show:
         return "\n".join(found["code"])
-    return "\n".join(f"wrote {file}" for file in found["written"]) or "nothing to write: generated/ is up to date"
+    return "" if found["written"] else "nothing to write: generated/ is up to date"

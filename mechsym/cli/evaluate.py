@@ -1,15 +1,18 @@
 """`mechsym eval`: a mechanism at one state."""
 
 import dataclasses
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
+from mechsym.files import Json
+from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
+    from mechsym.mechanisms.record import Mechanism
     from mechsym.plausible import Doubt
 
 _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value with the same unit [-]
@@ -39,11 +42,14 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
         emit({"latex": equations(name).rows}, as_json, lambda: equations(name).latex)
         return
     mechanism, values, doubts = _read(name, case_name, pairs(overrides))
-    found = state(mechanism, values)
-    emit({**found, "doubts": doubts}, as_json, lambda: "\n".join(_lines(found, mechanisms.listing(name, mechanism))))
+    known = mechanisms.listing(name, mechanism)
+    found = state(mechanism, values, known["outputs"])
+    emit(found, as_json, lambda: "\n".join(_lines(tell(found), known)), beside={"doubts": doubts})
 
 
-def _read(name: str, case_name: str | None, given: dict[str, str]) -> tuple[Any, dict[str, float], tuple["Doubt", ...]]:
+def _read(
+    name: str, case_name: str | None, given: dict[str, str]
+) -> tuple["Mechanism", dict[str, float], tuple["Doubt", ...]]:
     from mechsym import mechanisms
     from mechsym.plausible import letters as doubted
     from mechsym.quantities import parse
@@ -84,7 +90,7 @@ def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:
     return dataclasses.asdict(parameters)
 
 
-def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
+def _lines(found: Json, listing: "Listing") -> list[str]:
     """A line for each value, with its unit and, of a reaction, who acts on whom."""
     flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
     units = {"kinetic_energy": "J", "potential_energy": "J", **listing["outputs"]}
@@ -92,7 +98,7 @@ def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
     # an angle or a ratio is round-off beside 1; how small a length or an inertia may be, only its like can tell
     largest = {unit: float(unit in ("rad", "rad/rad", "-")) for unit in units.values()}
     for key, unit in units.items():
-        largest[unit] = max(largest[unit], abs(flat.get(key, 0.0)))
+        largest[unit] = max(largest[unit], abs(flat.get(key) or 0.0))
     # what pushes and speeds up by the energies that are there
     energy, mass = largest["J"], max(abs(m) for row in found["mass_matrix"] for m in row)
     zeros = {"bias": energy, "generalized_force": energy, "acceleration": energy / mass if mass else 0.0}
@@ -104,8 +110,10 @@ def _lines(found: dict[str, Any], listing: Mapping[str, Any]) -> list[str]:
     return [f"{key:25s} {value:18s} {unit:12s} {who}".rstrip() for key, value, unit, who in rows]
 
 
-def _shown(value: Any, zero: float = 0.0) -> str:
-    """Ten digits of a number or a list; what is not above `zero` is 0 [unit of the value]."""
+def _shown(value: float | list[float] | None, zero: float = 0.0) -> str:
+    """Ten digits of a number or a list; what is not above `zero` is 0 [unit of the value], None not determined."""
+    if value is None:
+        return "not determined"
     if isinstance(value, list):
         return "[" + ", ".join(_shown(v, zero) for v in value) + "]"
     return f"{value:.10g}" if abs(value) > zero else "0"

@@ -1,13 +1,17 @@
 """`mechsym export`: a mechanism or the machine of a case as text for other programs."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym import cases
-from mechsym.cli.common import emit, json_option, out_option, pairs, set_option
-from mechsym.files import make_folder, write_text
+from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
+from mechsym.files import make_folder, together, write_text
+from mechsym.inputs import reads
+
+if TYPE_CHECKING:
+    from mechsym.out.text.programs import Written
 
 
 @click.command(short_help="Write C, Modelica, Julia, MATLAB or JAX.")
@@ -31,14 +35,15 @@ def export(
     """
     from mechsym.out.text.files import files
 
-    written = _written(name, diagram, overrides)
-    texts = [files(written, word.strip()) for word in languages.split(",")]
     folder = make_folder(out or Path("."))
-    paths = [str(write_text(folder / file, text)) for made in texts for file, text in made.items()]
-    emit({"written": paths, "checks": {}}, as_json, lambda: "\n".join(f"wrote {path}" for path in paths))
+    with reads(), together(folder):  # what is read is not written over, in the working folder neither
+        written = _written(name, diagram, overrides)
+        texts = [files(written, word.strip()) for word in languages.split(",")]
+        paths = [str(write_text(folder / file, text)) for made in texts for file, text in made.items()]
+    emit({"written": paths, "checks": {}}, as_json, lambda: "", files=paths)
 
 
-def _written(name: str, diagram: str | None, overrides: tuple[str, ...]) -> Any:
+def _written(name: str, diagram: str | None, overrides: tuple[str, ...]) -> "Written":
     from mechsym.jobs.export import ready
     from mechsym.mechanisms import names, own
     from mechsym.out.laws import block_of
@@ -46,5 +51,5 @@ def _written(name: str, diagram: str | None, overrides: tuple[str, ...]) -> Any:
 
     if own.is_file(name) or (name in names() and name not in cases.names()):
         return of_mechanism(name)
-    case = cases.load(name, pairs(overrides))
+    case = case_of(name, pairs(overrides))
     return of_block(block_of(case.name, case.about, ready(case, diagram)))

@@ -1,13 +1,18 @@
 """`mechsym flywheel`: the flywheel for a wanted ripple of the speed, and the run that proves it."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.results import tell
+
+if TYPE_CHECKING:
+    from mechsym.jobs.flywheel import FlywheelDesign
 
 
 @click.command(short_help="Flywheel for a wanted ripple of the speed.")
@@ -28,12 +33,11 @@ def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides:
               mechsym flywheel opposed-pistons --ripple 0.005 --set load.law=constant
     """
     from mechsym.jobs.flywheel import flywheel as size
-    from mechsym.jobs.flywheel import summary
 
     found = size(case_of(case, pairs(overrides)), _share(ripple))
     files = _write(out, found) if out else []
-    result = summary(found)
-    emit(result, as_json, lambda: "\n".join([_text(result), *(f"written: {file}" for file in files)]))
+    result = tell(found)
+    emit(found, as_json, lambda: _text(result), files=files)
     if found.inertia is None:
         raise click.exceptions.Exit(1)
 
@@ -47,12 +51,12 @@ def _share(text: str) -> float:
     return value
 
 
-def _text(result: dict[str, Any]) -> str:
+def _text(result: Json) -> str:
     bare, check = result["ripple_bare"], result["check"]
     lines = [
         f"mean torque {quantity_text(result['torque_mean'], 'N*m')}, work that swings "
         f"{quantity_text(result['work_swing'], 'J')}",
-        f"without a flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
+        f"without a further flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
     ]
     if result["inertia"] is None:
         return "\n".join([*lines, f"no flywheel gives {100 * result['ripple_wanted']:.4g} %: {result['reason']}"])
@@ -68,10 +72,18 @@ def _text(result: dict[str, Any]) -> str:
             f"run in time: ripple {100 * check['speed_ripple']:.5g} %, {check['status']}, "
             f"energy residual {ratio_text(check['energy_residual'], 1)}"
         )
+    if result["twists"]:
+        lines.append(_TWISTS)
     return "\n".join(lines)
 
 
-def _write(out: Path, found: Any) -> list[Path]:
+_TWISTS = (
+    "all of this on a rigid shaft; 'mechsym simulate' lets the shaft of this case twist, and its ripple is that of the "
+    "flywheel at its end, to which the vibration of the sections adds"
+)
+
+
+def _write(out: Path, found: "FlywheelDesign") -> list[Path]:
     import numpy as np
 
     from mechsym.files import write_quantities

@@ -1,18 +1,20 @@
 """`mechsym forces`: the force chain over one cycle."""
 
-import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
-from mechsym.files import SUMMARY
+from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
-from mechsym.quantities.names import stem_and_unit
+from mechsym.quantities.results import tell
 
-_SHOWN = ("friction", "natural", "order", "no order")  # facts for the terminal; the page has them all
+if TYPE_CHECKING:
+    from mechsym.forces.result import Forces
+
+_SHOWN = ("friction", "film", "natural", "order", "no order")  # facts for the terminal; the page has them all
 _SPLITS = {"two_mass": "its centre of mass kept", "terskih": "after Terskih"}
 _LETTERS = {"N": "side force", "Z": "force towards the shaft", "T": "tangential force", "M": "torque"}
 
@@ -45,91 +47,39 @@ def forces(
               mechsym forces generator --diagram measured.csv
               mechsym forces nunes-hypocycloid --law 1000:8000:1000
     """
-    from mechsym.forces.summary import summary
+    from mechsym.cases.outcomes import of_forces
     from mechsym.jobs.forces import forces as run
-    from mechsym.jobs.forces import write
+    from mechsym.jobs.forces import told, write
     from mechsym.jobs.gas import measured
-    from mechsym.jobs.judged import of_forces
-    from mechsym.jobs.own import is_own
-    from mechsym.jobs.vibration import vibration
     from mechsym.torsion import train
+    from mechsym.torsion.findings import criticals
 
     loaded = case_of(case, pairs(overrides))
-    if is_own(loaded.mechanism):
-        _own(loaded, out, as_json)
-        return
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
-    report = summary(found, loaded.name, loaded.source)
-    shaking = vibration(loaded, found.turn)
-    report["vibration"] = None if shaking is None else dataclasses.asdict(shaking)
-    report["doubts"] = of_forces(loaded, found) + (train.doubts(shaking) if shaking else ())
-    report["facts"] += train.words(shaking) if shaking else ()
-    report["friction_law"] = _law(loaded, law) if law else None
+    numbers = told(loaded, found, parse_speeds(law, "--law") if law else None)
+    report = tell(numbers)
+    doubts = of_forces(loaded, found) + (train.doubts(numbers.vibration) if numbers.vibration else ())
+    report["doubts"] = doubts
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
-    emit(report, as_json, lambda: _text(report))
+    beside = {"doubts": doubts, "files": report["files"]}
+    emit(numbers, as_json, lambda: _text(report, found), beside=beside, files=report["files"],
+         findings=[*found.view.findings(), *criticals(numbers.vibration)])  # fmt: skip
     ctx.exit(1 if found.unbalanced else 0)
 
 
-def _own(case: Any, out: Path | None, as_json: bool) -> None:
-    from mechsym.jobs import own_turn
+def _text(report: Json, found: "Forces") -> str:
+    from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
 
-    found = own_turn.turn(case)
-    report = own_turn.summary(found, case)
-    files = [] if out is None else [*own_turn.write(found, case, out), out / SUMMARY]
-    report["files"] = [str(file) for file in files]
-    emit(report, as_json, lambda: _own_text(report))
-
-
-def _own_text(report: dict[str, Any]) -> str:
-    acts = {name: who for name, who in report["reactions"].items()}
-    rows = [
-        {
-            "quantity": n,
-            "max": v,
-            "min": report["min"][n],
-            "of": acts.get(n, ""),
-            "unit": report["units"].get(n) or stem_and_unit(n)[1],
-        }
-        for n, v in report["max"].items()
-    ]
-    lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm; SI where no unit stands", ""]
-    lines += [table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit", "of"]), ""]
-    lines.append(f"power residual {ratio_text(report['power_residual'])}")
-    if (lost := report["friction"]) is not None:
-        places = ", ".join(f"{name} {power:.4g}" for name, power in lost["places"].items())
-        lines.append(f"friction takes {lost['power']:.4g} W: {places or lost['note']}")
-    if (shaken := report["shaking"]) is not None:
-        weight = shaken["counterweight"]
-        lines.append(
-            f"shaking force {weight['rms_before']:.4g} N rms; {weight['rms_after']:.4g} N with a counterweight of "
-            f"{weight['unbalance']:.4g} kg*m at {weight['angle_deg']:.4g} deg from the crank"
-        )
-    return "\n".join(lines + [f"written: {file}" for file in report["files"]])
-
-
-def _law(case: Any, speeds: str) -> dict[str, Any]:
-    from mechsym.jobs.turn import fitted_law
-
-    found = fitted_law(case, parse_speeds(speeds, "--law"))
-    return {"law": "chen_flynn", **dataclasses.asdict(found.law), "misfit": found.misfit}
-
-
-def _text(report: dict[str, Any]) -> str:
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
-    lines += [_loads(report), "", f"power residual {ratio_text(report['power_residual'])}"]
-    weight, largest = report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())
-    if weight["rms_before"] < SMALLEST * largest:
-        lines.append("no force shakes the frame")
-    elif weight["rms_before"] - weight["rms_after"] < SMALLEST * weight["rms_before"]:
-        before = quantity_text(weight["rms_before"], "N", 4)
-        lines.append(f"a counterweight on the shaft cannot lessen the shaking force of {before} rms")
-    else:
-        before, after = (quantity_text(weight[key], "N", 4) for key in ("rms_before", "rms_after"))
-        lines.append(
-            f"counterweight {figure(weight['unbalance'], 4)} kg*m at {figure(weight['angle_deg'], 4)} deg: "
-            f"shaking force {before} -> {after} rms"
-        )
+    lines += [
+        _loads(found),
+        "",
+        *_journals(report["journals"]),
+        f"power residual {ratio_text(report['power_residual'])}",
+    ]
+    if report["shaking"] is not None:
+        lines.append(_shaking(report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())))
     for name, errors in (report["two_mass"] or {}).items():
         named = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
         told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())
@@ -138,18 +88,39 @@ def _text(report: dict[str, Any]) -> str:
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
-        lines += ["", table(report["comparison"], shown)]
+        lines += ["", table(report["comparison"], shown, heads(ComparedMechanism) | heads(ComparedFriction))]
     lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN)]
     lines += [f"{row['verdict']}: {row['claim']} ({_named(row['source'])}); {row['note']}" for row in report["claims"]]
-    return "\n".join(lines + [f"written: {file}" for file in report["files"]])
+    return "\n".join(lines)
 
 
-def _loads(report: dict[str, Any]) -> str:
-    from mechsym.forces.borne import borne
+def _shaking(weight: Json, largest: float) -> str:
+    before, after = (quantity_text(weight[key], "N", 4) for key in ("rms_before", "rms_after"))
+    if weight["rms_before"] < SMALLEST * largest:
+        return "no force shakes the frame"
+    if weight["rms_before"] - weight["rms_after"] < SMALLEST * weight["rms_before"]:
+        return f"a counterweight on the shaft cannot lessen the shaking force of {before} rms"
+    at = f"{figure(weight['unbalance'], 4)} kg*m at {figure(weight['angle_deg'], 4)} deg"
+    return f"counterweight {at}: shaking force {before} -> {after} rms"
 
-    rows = borne(report)
+
+def _loads(found: "Forces") -> str:
+    from mechsym.forces.report import borne
+
+    rows = borne(found)
     several = ["of"] if any(row["of"] for row in rows) else []
     return table(in_rows(rows, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"])
+
+
+def _journals(rows: list[Json]) -> list[str]:
+    if not rows:
+        return []
+    names = {
+        "z": ("main bearing at z", "m"), "load_max": ("largest", "N"), "angle_of_max_deg": ("at", "deg"),
+        "load_mean": ("mean", "N"), "specific_load": ("specific", "Pa"), "film_min": ("least film", "m"),
+    }  # fmt: skip
+    told = {name: unit for key, (name, unit) in names.items() if rows[0][key] is not None}
+    return [table([{name: row[key] for key, (name, _) in names.items()} for row in rows], [*told], told), ""]
 
 
 def _named(stem: str) -> str:
@@ -158,9 +129,11 @@ def _named(stem: str) -> str:
     return sources(stem)[0].title.partition(",")[0]
 
 
-def _friction(found: dict[str, Any] | None, law: dict[str, Any] | None) -> list[str]:
+def _friction(found: Json | None, law: Json | None) -> list[str]:
     if found is None:
         return []
+    if found["note"] is not None:
+        return [f"friction {quantity_text(found['power'], 'W', 4)}: {found['note']}"]
     places = ", ".join(f"{name.replace('_', ' ')} {quantity_text(v, 'W', 4)}" for name, v in found["places"].items())
     efficiency = found["mechanical_efficiency"]
     share = "" if efficiency is None else f", mechanical efficiency {100 * efficiency:.4g} %"
@@ -172,7 +145,7 @@ def _friction(found: dict[str, Any] | None, law: dict[str, Any] | None) -> list[
     return lines
 
 
-def _overconstrained(found: dict[str, Any] | None) -> list[str]:
+def _overconstrained(found: Json | None) -> list[str]:
     if found is None:
         return []
     return [

@@ -1,13 +1,19 @@
 """`mechsym guide`: the guide of a case as DXF, as STEP and as a dimensioned sheet."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mechsym.cli.common import case_of, emit, json_option, pairs, set_option, tried
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, parse
+
+if TYPE_CHECKING:
+    from mechsym.jobs.hinge import Workshop
+    from mechsym.out.cad.curve import Groove
+    from mechsym.out.cad.solids import Turned
+    from mechsym.out.cad.step import Disc
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 
@@ -45,8 +51,9 @@ def guide(
     Example: mechsym guide zotov-89 --dxf guide.dxf --sheet guide.pdf --tolerance "0.1 um"
              mechsym guide zotov-89 --step guide.step --bore "80 mm" --thickness "250 mm"
     """
-    from mechsym.jobs.guide import workshop
+    from mechsym.jobs.hinge import workshop
     from mechsym.out.cad import track
+    from mechsym.out.cad.curve import GrooveChecks, GrooveDrawings
 
     if dxf is None and sheet is None and step is None:
         raise BadInput("nothing to write: give --dxf FILE, --step FILE or --sheet FILE, or several")
@@ -56,16 +63,18 @@ def guide(
     _refuse_bore(hole, curves)
     bodies = _bodies(step, shop, curves, hole, thickness)
     written = [*_dxf(dxf, shop, curves, hole), *_step(step, bodies), *_sheet(sheet, shop, curves, hole)]
-    checks = {f"deviation_{c.name}": c.deviation for c in (curves.centre, curves.inner, curves.outer)}
-    checks |= {f"points_{c.name}": len(c.theta) for c in (curves.centre, curves.inner, curves.outer)}
-    report = {
-        "written": written,
-        "checks": {"feasible": shop.verdict.feasible, "tolerance": curves.tolerance, **checks},
-    }
-    emit(report, as_json, lambda: _text(report, shop.verdict.reason))
+    paths = (curves.centre, curves.inner, curves.outer)
+    numbers: dict[str, Any] = {f"deviation_{path.name}": path.deviation for path in paths}
+    numbers |= {f"points_{path.name}": len(path.theta) for path in paths}
+    checks = GrooveChecks(feasible=shop.verdict.feasible, tolerance=curves.tolerance, **numbers)
+    lines = [
+        *(f"{path.name}: {len(path.theta)} points, {1e6 * path.deviation:.3g} um from exact" for path in paths),
+        f"limits: {shop.verdict.reason}",
+    ]
+    emit(GrooveDrawings(written=written, checks=checks), as_json, lambda: "\n".join(lines), files=written)
 
 
-def _refuse_bore(hole: float, curves: Any) -> None:
+def _refuse_bore(hole: float, curves: "Groove") -> None:
     import numpy as np
 
     nearest = float(np.min(np.hypot(*curves.inner.points.T)))
@@ -73,7 +82,7 @@ def _refuse_bore(hole: float, curves: Any) -> None:
         raise BadInput(f"--bore = {1e3 * hole:g} mm is not allowed; the track leaves a hole of {2e3 * nearest:.4g} mm")
 
 
-def _dxf(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
+def _dxf(path: Path | None, shop: "Workshop", curves: "Groove", hole: float) -> list[str]:
     from mechsym.out.cad.dxf import write
     from mechsym.out.cad.sheet import spring_text
 
@@ -85,7 +94,9 @@ def _dxf(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
     return [] if path is None else [str(write(curves, path, hole, lines))]
 
 
-def _bodies(path: Path | None, shop: Any, curves: Any, hole: float, thickness: str | None) -> Any:
+def _bodies(
+    path: Path | None, shop: "Workshop", curves: "Groove", hole: float, thickness: str | None
+) -> "tuple[Disc | Turned, ...]":
     from mechsym.out.cad.step import guide_bodies
 
     if path is None:
@@ -94,23 +105,13 @@ def _bodies(path: Path | None, shop: Any, curves: Any, hole: float, thickness: s
     return guide_bodies(curves, shop.guide.rollers, hole, shop.rollers, deep)
 
 
-def _step(path: Path | None, bodies: Any) -> list[str]:
+def _step(path: Path | None, bodies: "tuple[Disc | Turned, ...]") -> list[str]:
     from mechsym.out.cad.step import write
 
     return [] if path is None else [str(write(path, bodies))]
 
 
-def _sheet(path: Path | None, shop: Any, curves: Any, hole: float) -> list[str]:
+def _sheet(path: Path | None, shop: "Workshop", curves: "Groove", hole: float) -> list[str]:
     from mechsym.out.cad.sheet import write
 
     return [] if path is None else [str(write(shop, curves, path, hole))]
-
-
-def _text(report: dict[str, Any], reason: str) -> str:
-    checks = report["checks"]
-    lines = [f"wrote {name}" for name in report["written"]]
-    for name in ("centre", "inner", "outer"):
-        lines.append(
-            f"{name}: {checks[f'points_{name}']} points, {1e6 * checks[f'deviation_{name}']:.3g} um from exact"
-        )
-    return "\n".join([*lines, f"limits: {reason}"])

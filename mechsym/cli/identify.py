@@ -2,19 +2,23 @@
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
+from mechsym.cli.common import budget_option, case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
 from mechsym.quantities.display import SMALLEST, figure
+
+if TYPE_CHECKING:
+    from mechsym.optimise.identify import Identified
 
 
 @click.command(short_help="Parameters of a machine out of measured speeds.")
 @click.argument("case")
 @click.option("--trace", required=True, type=click.Path(dir_okay=False), help="CSV: t [s], a speed, measured torques.")
 @click.option("--free", required=True, metavar="NAMES", help="Parameters to find, divided by commas.")
+@budget_option
 @json_option
 @out_option
 @set_option
@@ -37,23 +41,9 @@ def identify(case: str, trace: str, free: str, as_json: bool, out: Path | None, 
         raise BadInput("--free names nothing; give for example --free I2,k1,friction.constant")
     found = find(case_of(case, pairs(overrides)), trace, names)
     files = _write(out, found) if out else []
-    emit(_summary(found), as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    emit(found, as_json, lambda: _text(found), files=files)
     if found.status != "found":
         raise click.exceptions.Exit(1)
-
-
-def _summary(found: Any) -> dict[str, Any]:
-    estimates = {e.name: {"value": e.value, "error": e.error, "low": _end(e.low), "high": _end(e.high), "unit": e.unit}
-                 for e in found.estimates}  # fmt: skip
-    return {
-        "status": found.status, "reason": found.reason, "parameters": estimates,
-        "correlation": found.correlation.tolist(), "noise": found.noise, "durbin_watson": found.durbin_watson,
-        "samples": found.samples, "intervals": found.intervals, "doubts": found.doubts,
-    }  # fmt: skip
-
-
-def _end(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _told_apart(value: float, low: float, high: float) -> list[str]:
@@ -65,7 +55,7 @@ def _told_apart(value: float, low: float, high: float) -> list[str]:
     return [text if math.isfinite(v) else "no end" for text, v in zip(texts, (value, low, high), strict=True)]
 
 
-def _text(found: Any) -> str:
+def _text(found: "Identified") -> str:
     lines = [f"{found.status} ({found.reason}): {found.samples} samples over {found.intervals} intervals"]
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
@@ -75,19 +65,19 @@ def _text(found: Any) -> str:
     return "\n".join([*lines, f"left over: {_left_over(found)}"])
 
 
-def _left_over(found: Any) -> str:
+def _left_over(found: "Identified") -> str:
     """Noise, and whether it comes in runs; the record of a simulation leaves round-off only."""
     largest = max(float(abs(values).max()) for values in found.measured.values())
     if found.noise < SMALLEST * largest:
         return f"0 (below {SMALLEST:.0e}".replace("e-09", "e-9") + " of the largest speed)"
-    return f"{figure(found.noise, 3)} rad/s rms, Durbin-Watson {found.durbin_watson:.2f}"
+    return f"{figure(found.noise, 3)} {found.unit} rms, Durbin-Watson {found.durbin_watson:.2f}"
 
 
-def _write(out: Path, found: Any) -> list[Path]:
+def _write(out: Path, found: "Identified") -> list[Path]:
     from mechsym.files import write_quantities
     from mechsym.optimise.plots import trace_picture
 
     columns = {"t": found.t}
     for name, values in found.measured.items():
-        columns |= {f"{name}_measured [rad/s]": values, f"{name}_fitted [rad/s]": found.fitted[name]}
+        columns |= {f"{name}_measured [{found.unit}]": values, f"{name}_fitted [{found.unit}]": found.fitted[name]}
     return [write_quantities(out / "trace.csv", columns), trace_picture(out / "trace.svg", found)]

@@ -5,6 +5,7 @@ import dataclasses
 import click
 
 from mechsym.cli.common import emit, json_option
+from mechsym.files import Json
 
 
 @click.command()
@@ -18,14 +19,14 @@ def native(wanted: bool, clear: bool, as_json: bool) -> None:
     Example: mechsym native --info
     """
     from mechsym.native.cache import clear as empty
-    from mechsym.native.info import info
+    from mechsym.native.cache import info
 
     removed = empty() if clear else 0
     found = dataclasses.asdict(info())
     emit({**found, "removed": removed}, as_json, lambda: _text(found, removed if clear else None))
 
 
-def _text(found: dict, removed: int | None) -> str:
+def _text(found: Json, removed: int | None) -> str:
     rows = [
         ("route", found["route"] + (f" ({found['reason']})" if found["reason"] else "")),
         ("compiler", f"{found['compiler']}: {found['version']}" if found["compiler"] else "none"),

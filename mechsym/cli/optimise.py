@@ -1,18 +1,21 @@
 """`mechsym optimise`: design optimisation declared in a case."""
 
 import sys
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import budget_option, case_of, emit, json_option, out_option, pairs, set_option, table
 from mechsym.quantities.display import quantity_text
+
+if TYPE_CHECKING:
+    from mechsym.optimise.result import Optimised
 
 
 @click.command(short_help="Best design of a case under its limits.")
 @click.argument("case")
+@budget_option
 @json_option
 @out_option
 @set_option
@@ -27,56 +30,44 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
     """
     from mechsym.jobs.optimise import optimise
 
-    loaded = case_of(case, pairs(overrides))
-    section = loaded.need("optimise")
-    done = optimise(loaded)
-    found, front = done.best, done.front
-    result = asdict(found) | {"goal": section.goal, "objective_name": section.objective}
-    result |= {"pareto": [_point(p, section) for p in front]} if front else {}
-    result |= {"chosen": dict(done.chosen), "choices": list(done.choices)} if done.choices else {}
-    units = dict(done.units)
-    files = _write(out, result, section, units) if out else []
-    emit(result, as_json, lambda: "\n".join([_text(result, units), *(f"written: {file}" for file in files)]))
-    if any(point.status != "optimal" for point in (found, *front)):
+    done = optimise(case_of(case, pairs(overrides)))
+    files = _write(out, done) if out else []
+    emit(done, as_json, lambda: _text(done), files=files)
+    if any(point.status != "optimal" for point in (done.best, *done.front)):
         sys.exit(1)
 
 
-def _point(optimum: Any, section: Any) -> dict[str, Any]:
-    figures = {name: optimum.figures[name] for name in (section.objective, section.against)}
-    return {"status": optimum.status, **figures, "variables": dict(optimum.variables)}
-
-
-def _text(result: dict[str, Any], units: dict[str, str]) -> str:
+def _text(done: "Optimised") -> str:
+    best, name = done.best, done.objective_name
     lines = [
-        f"{result['status']} ({result['reason']}) after {result['iterations']} iterations: "
-        f"{result['objective_name']} = {result['objective']:.6g}",
-        *(f"{name} = {quantity_text(value, units.get(name, '-'), 6)}" for name, value in result["variables"].items()),
+        f"{best.status} ({best.reason}) after {best.iterations} iterations: {name} = {best.objective:.6g}",
+        *(f"{n} = {quantity_text(value, best.variables.units[n], 6)}" for n, value in best.variables.items()),
     ]
-    for row in result.get("choices", ()):
-        words = ", ".join(f"{key} = {row[key]}" for key in result["chosen"])
-        best = " (best)" if all(row[key] == word for key, word in result["chosen"].items()) else ""
-        lines.append(f"{words}: {row['status']}, {result['objective_name']} = {row['objective']:.6g}{best}")
-    lines += ["active limits:" if result["active"] else "no limit is active"]
-    lines += [
-        f"  {row['name']} {row['side']} {quantity_text(row['limit'], row['unit'], 6)}: {row['meaning']}"
-        for row in result["active"]
-    ]
-    if "pareto" in result:
-        rows = [{k: v for k, v in p.items() if k != "variables"} | p["variables"] for p in result["pareto"]]
-        lines += ["Pareto front:", table(rows, list(rows[0]), units)]
+    for row in done.choices:
+        words = ", ".join(f"{key} = {word}" for key, word in row.words.items())
+        mark = " (best)" if row.words == done.chosen else ""
+        lines.append(f"{words}: {row.status}, {name} = {row.objective:.6g}{mark}")
+    lines += ["active limits:" if best.active else "no limit is active"]
+    lines += [f"  {row.name} {row.side} {quantity_text(row.limit, row.unit, 6)}: {row.meaning}" for row in best.active]
+    if done.pareto:
+        rows = [{"status": p.status, **p.figures, **p.variables} for p in done.pareto]
+        lines += ["Pareto front:", table(rows, list(rows[0]), _units(done))]
     return "\n".join(lines)
 
 
-def _write(out: Path, result: dict[str, Any], section: Any, units: dict[str, str]) -> list[Path]:
+def _units(done: "Optimised") -> dict[str, str]:
+    return {**done.pareto[0].figures.units, **done.pareto[0].variables.units}
+
+
+def _write(out: Path, done: "Optimised") -> list[Path]:
     from mechsym.files import to_json, write_quantities, write_text
 
-    files = [write_text(out / "optimum.json", to_json(result) + "\n")]
-    if "pareto" in result:
+    files = [write_text(out / "optimum.json", to_json(done) + "\n")]
+    if done.pareto:
         from mechsym.cycle.plots import pareto_picture
 
-        points = result["pareto"]
-        columns = {name: [p[name] for p in points] for name in (section.objective, section.against)}
-        columns |= {name: [p["variables"][name] for p in points] for name in points[0]["variables"]}
-        files.append(write_quantities(out / "pareto.csv", columns, units))
-        files.append(pareto_picture(out / "pareto.svg", columns, section.objective, section.against, units))
+        points, aims = [{**p.figures, **p.variables} for p in done.pareto], tuple(done.pareto[0].figures)
+        columns = {name: [p[name] for p in points] for name in points[0]}
+        files.append(write_quantities(out / "pareto.csv", columns, _units(done)))
+        files.append(pareto_picture(out / "pareto.svg", columns, aims[0], aims[-1], _units(done)))
     return files

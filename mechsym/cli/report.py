@@ -2,12 +2,15 @@
 
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, file_option, json_option, pairs, progress, set_option
+from mechsym.cli.common import case_of, emit, file_in, file_option, json_option, pairs, progress, set_option
 from mechsym.errors import BadInput, suggest
+
+if TYPE_CHECKING:
+    from mechsym.report.build import CaseReport
 
 
 @click.command(short_help="Cycle, hinge, forces, sizes and run of a case as one report.")
@@ -15,7 +18,7 @@ from mechsym.errors import BadInput, suggest
 @click.option("--parts", metavar="A,B..", help="Only these: cycle, hinge, forces, size, simulate.")
 @click.option("--date", default="", metavar="TEXT", help="Date for the title block; without it there is none.")
 @click.option("--pdf", is_flag=True, help="Print the report to PDF as well; needs a Chromium.")
-@file_option("CASE-report.html where it is left away, .html is added where it is missing")
+@file_option("CASE-report.html", ".html", ".htm")
 @set_option
 @json_option
 @click.pass_context
@@ -30,33 +33,32 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
 
     \b
     Examples: mechsym report zotov-89
-              mechsym report nunes-slider-crank nunes-hypocycloid --parts cycle,forces --out both.html
+              mechsym report nunes-slider-crank nunes-hypocycloid --parts cycle,forces --out both
               mechsym report mine.toml --pdf --date 2026-11-22 --units "bar, kN, mm"
     """
     from mechsym.files import write_text
     from mechsym.jobs.export import ready
-    from mechsym.jobs.report import case_report, html
-    from mechsym.jobs.report.build import PARTS
     from mechsym.out.pdf import chromium, to_pdf
     from mechsym.out.web import LiveRun, with_live
+    from mechsym.report import case_report, html
+    from mechsym.report.numbers import numbers
+    from mechsym.report.parts import PARTS, doubts_of
 
-    wanted = _wanted(parts, PARTS)
+    wanted = _wanted(parts, tuple(PARTS))
     if pdf:
         chromium()  # said before the work begins
     loaded = [case_of(name, pairs(overrides)) for name in cases]
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
-        path = out or Path("-".join([*(case.name for case in loaded), "report.html"]))
-        if path.suffix.lower() not in (".html", ".htm"):  # a browser opens a page by its name
-            path = path.with_name(f"{path.name}.html")
+        path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
         text = html(found, date)
         live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
         files = [write_text(path, with_live(text, live))]
         if pdf:
             files.append(to_pdf(text, path.with_suffix(".pdf")))
         bar.update(1)
-    told = _numbers(found, files)
-    emit(told, as_json, lambda: _text(found, files))
+    doubts = [doubt for one in found for p in one.parts for doubt in doubts_of(p)]
+    emit(numbers(found, files), as_json, lambda: _text(found), beside={"doubts": doubts}, files=files)
     refused, infeasible = (any(getattr(one, kind) for one in found) for kind in ("refused", "infeasible"))
     ctx.exit(2 if refused else 1 if infeasible else 0)
 
@@ -76,30 +78,15 @@ def _source(stem: str) -> str:
     return next((one.title for one in sources() if one.stem == stem), "own engine" if stem == "own" else stem)
 
 
-def _numbers(found: list[Any], files: list[Path]) -> dict[str, Any]:
-    from mechsym.jobs.report.parts import doubts_of
-
-    reports = [
-        {
-            "case": one.case.name,
-            "sha256": one.digest,
-            "parts": {p.name: {"state": p.state, "reason": p.reason, "result": p.numbers} for p in one.parts},
-            "values": [vars(value) for value in one.values],
-        }
-        for one in found
-    ]
-    doubts = [doubt for one in found for p in one.parts for doubt in doubts_of(p)]
-    return {"reports": reports, "written": [str(file) for file in files], "doubts": doubts}
-
-
-def _text(found: list[Any], files: list[Path]) -> str:
-    from mechsym.jobs.report.answer import answer
+def _text(found: "list[CaseReport]") -> str:
+    from mechsym.report.parts import answer
 
     lines = []
     for one in found:
         first = answer(one.case, one.parts)
         lines += [f"{one.case.name} ({one.source})"]
+        lines += [f"  {finding.line}" for finding in first.findings]
         lines += [f"  {'! ' if mark else ''}{sentence}" for mark, sentence in first.verdicts]
         lines += [f"  limits: {text}" for text in first.limits]
         lines += [f"  left out: {text}" for text in first.absent]
-    return "\n".join([*lines, *(f"written: {file}" for file in files)])
+    return "\n".join(lines)

@@ -1,13 +1,19 @@
 """`mechsym reproduce`: published numbers and figures beside what the models give."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.papers.rows import ARITHMETIC, REPRODUCED
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from mechsym.papers.sources import Source
 
 
 @click.command(short_help="Compute every published number again.")
@@ -47,7 +53,7 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
     ctx.exit(1 if changed else 0)
 
 
-def _text(sources: Any, found: dict[str, Any], changed: list[str], files: list[Path]) -> str:
+def _text(sources: "Sequence[Source]", found: Json, changed: list[str], files: list[Path]) -> str:
     from mechsym.papers.page import counts
 
     lines = []
@@ -71,12 +77,12 @@ _PACKAGE, _NAME = "mechsym.papers", ("source", "item")
 _COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
 
 
-def _shown(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _shown(rows: list[Json]) -> list[Json]:
     from mechsym.papers.page import round_off
 
     return [
         row | {"rel_error": _away(row["rel_error"]),
-               "computed": "0 (below 1e-9)" if round_off(row["computed"]) else row["computed"]} for row in rows
+               "computed": "0" if round_off(row["computed"]) else row["computed"]} for row in rows
     ]  # fmt: skip
 
 
@@ -86,7 +92,7 @@ def _away(error: float | None) -> str | None:
     return None if error is None else "0" if error == 0 or round_off(error) else f"{error:+.1e}"
 
 
-def _notes(rows: list[dict[str, Any]]) -> str:
+def _notes(rows: list[Json]) -> str:
     """Notes of everything that is not plainly reproduced, after the table since they are long."""
     told = [
         f"  {row['item']}: {row['note']}"

@@ -1,37 +1,44 @@
 """`mechsym sections`: every section and key of a case file."""
 
-from typing import Any
-
 import click
 
-from mechsym.cli.common import emit, json_option
+from mechsym.cli.common import emit, json_option, table
+from mechsym.files import Json
 
 
 @click.command(short_help="Every section and key of a case, or a schema for editors.")
 @click.argument("name", required=False)
 @click.option("--schema", "as_schema", is_flag=True, help="Print the JSON Schema of case files, for editors.")
+@click.option("--results", "of_results", is_flag=True, help="What commands tell: with NAME the numbers of one command.")
 @json_option
-def sections(name: str | None, as_schema: bool, as_json: bool) -> None:
+def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool) -> None:
     """Sections of case files; with NAME the keys of one: unit, range, default, meaning, commands that read it.
 
     \b
     Examples: mechsym sections
               mechsym sections spring
               mechsym sections --schema > mechsym.schema.json
+              mechsym sections --results flywheel
     """
-    from mechsym.cases.json_schema import json_schema
-    from mechsym.cases.keys import keys
+    from mechsym.cases.keys import json_schema, keys
+    from mechsym.cli import results
 
     if as_schema:
         from mechsym.files import to_json
 
         click.echo(to_json(json_schema()))
         return
+    if of_results:
+        numbers = results.rows(name)
+        emit(
+            numbers, as_json, lambda: table(numbers, [*(["command"] if name is None else []), "path", "unit", "about"])
+        )
+        return
     rows = keys(name)
     emit(rows, as_json, lambda: _keys(rows) if name else _sections(rows))
 
 
-def _sections(rows: list[dict[str, Any]]) -> str:
+def _sections(rows: list[Json]) -> str:
     lines = []
     for section in dict.fromkeys(row["section"] for row in rows):
         own = [row for row in rows if row["section"] == section]
@@ -41,7 +48,7 @@ def _sections(rows: list[dict[str, Any]]) -> str:
     return "\n".join([*lines, "", "keys of one: mechsym sections NAME"])
 
 
-def _keys(rows: list[dict[str, Any]]) -> str:
+def _keys(rows: list[Json]) -> str:
     lines = [f"read by {', '.join(rows[0]['commands']) or 'what refers to it'}"] if rows else []
     for variant in dict.fromkeys(row["variant"] for row in rows):
         own = [row for row in rows if row["variant"] == variant]
@@ -53,7 +60,7 @@ def _keys(rows: list[dict[str, Any]]) -> str:
     return "\n".join(lines)
 
 
-def _cells(row: dict[str, Any]) -> tuple[str, str, str]:
+def _cells(row: Json) -> tuple[str, str, str]:
     bounds = (("above", ">"), ("low", ">="), ("below", "<"), ("high", "<="))
     limits = " and ".join(f"{sign} {row[name]:g}" for name, sign in bounds if row[name] is not None)
     options = " | ".join(row["options"]) if row["options"] else row["kind"] if row["unit"] is None else ""

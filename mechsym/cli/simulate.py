@@ -1,20 +1,23 @@
 """`mechsym simulate`: time simulation of a case."""
 
-import dataclasses
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, heads, json_option, out_option, pairs, set_option, table
 from mechsym.errors import MissingExtra
-from mechsym.files import write_text
+from mechsym.files import Json, write_text
 from mechsym.quantities import ranges
 from mechsym.quantities.display import figure, ratio_text
+from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
-    from mechsym.jobs.run import FinishedRun
+    from mechsym.torsion.finished import FinishedRun
+
+_ENDS = {"turns": "after its turns", "t_end": "as planned"}
 
 
 @click.command(short_help="Simulate over time, with an energy audit.")
@@ -56,33 +59,12 @@ def simulate(
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
     found = case_of(case, pairs(overrides) | given)
-    done = run(found, _dampings(dampings), "none" if no_check else "tolerance")
-    report = _report(found.name, done)
-    report["files"] = [] if out is None else _write(done, out)
-    emit(report, as_json, lambda: _text(report))
+    dampers = () if dampings is None else tuple(ranges.values(dampings, "N*m*s/rad", "--dampings", most=1000))
+    done = run(found, dampers, "none" if no_check else "tolerance")
+    files = [] if out is None else _write(done, out)
+    emit(done, as_json, lambda: _text(tell(done), done.result.units), beside={"files": files}, files=files,
+         findings=done.view.findings())  # fmt: skip
     ctx.exit(1 if done.result.status in ("failed", "not converged", "chaotic") else 0)
-
-
-def _dampings(text: str | None) -> tuple[float, ...]:
-    return tuple(ranges.values(text, "N*m*s/rad", "--dampings", most=1000)) if text is not None else ()
-
-
-def _report(name: str, run: "FinishedRun") -> dict[str, Any]:
-    from mechsym.torsion.findings import numbers
-
-    return {
-        "case": name,
-        "backend": run.settings.backend,
-        "tolerance": run.settings.tolerance,
-        **run.summary,
-        "natural_frequencies": list(run.natural_frequencies),
-        "twist": [dataclasses.asdict(s) for s in run.twist],
-        "vibration": None if run.vibration is None else dataclasses.asdict(run.vibration),
-        "findings": list(run.findings),
-        "start_up": [numbers(s) for s in run.start_ups],
-        "settling": dataclasses.asdict(run.settling) if run.settling else None,
-        "doubts": run.doubts,
-    }
 
 
 def _write(run: "FinishedRun", out: Path) -> list[str]:
@@ -99,41 +81,46 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
     return [str(f) for f in files]
 
 
-def _text(report: dict[str, Any]) -> str:
-    keys = ["t_end", "end", "status", "energy_residual", "tolerance_difference", "steps", "wall_s"]
-    units = {"t_end": " s"}
-    lines = [f"{key:22}{_figure(key, report[key])}{units.get(key, '')}" for key in keys]
-    lines.append(f"{'reason':22}{report['reason']}")
+def _text(report: Json, of: Mapping[str, str]) -> str:
+    from mechsym.torsion.startup import StartUpNumbers
+    from mechsym.torsion.twist import ShaftSection
+
+    told = {
+        "ended": f"{_ENDS.get(report['end'], report['end'])} at {_number(report['t_end'])} s",
+        "energy residual": ratio_text(report["energy_residual"]),
+        "accuracy": report["reason"] or "not checked at a finer tolerance",
+        "steps": f"{report['steps']}, {_number(report['wall_s'])} s by the clock",
+    }
+    lines = [f"{name:22}{words}" for name, words in told.items()]
     if report["event"]:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
     rows = [{"over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
-    rates = dict.fromkeys(("mean", "min", "max"), "rad/s")
-    lines += ["", table(rows, ["over the last", "of", *rates], rates)]
+    for unit in dict.fromkeys(of[f"{c}d"] for c in report["speeds"]):
+        rates = dict.fromkeys(("mean", "min", "max"), unit)
+        alike = [row for row in rows if of[f"{row['of']}d"] == unit]
+        lines += ["", table(alike, ["over the last", "of", *rates], rates)]
     if report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
         natural = ", ".join(figure(f / math.tau, 4) for f in report["natural_frequencies"])
         lines += [
             "",
-            table(report["twist"], columns, dict.fromkeys(columns[1:4], "rad")),
+            table(report["twist"], columns, heads(ShaftSection)),
             f"natural frequencies {natural} Hz",
         ]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
         lines += [
             "",
-            table(held, ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"], _UNITS),
+            table(
+                held,
+                ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"],
+                heads(StartUpNumbers) | {"held_s": "s"},
+            ),
         ]
     if report["findings"]:
         lines += ["", *(f"- {line}" for line in report["findings"])]
-    return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
+    return "\n".join(lines)
 
 
-_UNITS = {"c1": "N*m*s/rad", "held_s": "s", "speed_mean_end": "rad/s", "twist_peak": "rad", "torque_peak": "N*m"}
-
-
-def _figure(key: str, value: Any) -> str:
-    return ratio_text(value) if key in ("energy_residual", "tolerance_difference") else _number(value)
-
-
-def _number(value: Any) -> str:
+def _number(value: object) -> str:
     return f"{value:.8g}" if isinstance(value, float) else str(value)

@@ -1,11 +1,14 @@
 """`mechsym size`: the parts of an engine for the loads of its cycle, or a check of the parts that a source printed."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table, tried
+
+if TYPE_CHECKING:
+    from mechsym.sizing.result import Sizing
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
@@ -37,19 +40,19 @@ def size(
     loaded = case_of(case, pairs(overrides))
     found = check_printed(loaded) if as_printed else sized(loaded)
     files = [*_step(step, found), *(_write(out, found) if out else [])]
-    emit(found.rows, as_json, lambda: "\n".join([_text(found), *(f"written: {file}" for file in files)]))
+    emit(found.told, as_json, lambda: _text(found), files=files, findings=found.view.findings())
     if found.failing or not found.converged:
         raise click.exceptions.Exit(1)
 
 
-def _step(path: Path | None, found: Any) -> list[Path]:
+def _step(path: Path | None, found: "Sizing") -> list[Path]:
     from mechsym.out.cad.parts import bodies
     from mechsym.out.cad.step import write
 
     return [] if path is None else [write(path, bodies(found))]
 
 
-def _text(found: Any) -> str:
+def _text(found: "Sizing") -> str:
     sizes = [row for row in found.rows if row["limit"] is None]
     checks = [row for row in found.rows if row["limit"] is not None]
     if not checks:
@@ -73,14 +76,12 @@ def _text(found: Any) -> str:
     return "\n".join([*lines, f"{below if found.failing else 'every factor holds'}; {state} ({found.rounds} rounds)"])
 
 
-def _write(out: Path, found: Any) -> list[Path]:
+def _write(out: Path, found: "Sizing") -> list[Path]:
     from mechsym.files import to_json, write_csv, write_text
     from mechsym.sizing.drawing import section_view
     from mechsym.sizing.rows import COLUMNS
 
-    columns: dict[str, Any] = {
-        name: [row[name] if row[name] is not None else "" for row in found.rows] for name in COLUMNS
-    }
+    columns = {name: [row[name] if row[name] is not None else "" for row in found.rows] for name in COLUMNS}
     files = [
         write_csv(out / "parts.csv", columns),
         write_text(out / "parts.json", to_json(found.rows) + "\n"),

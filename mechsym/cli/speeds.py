@@ -4,16 +4,11 @@ from collections.abc import Mapping
 
 from mechsym.errors import BadInput
 from mechsym.quantities.ranges import values
+from mechsym.quantities.units import RadPerSecond
 
 
-def parse_speeds(text: str, option: str = "--speeds") -> list[float]:
-    """Speeds from a list or a range, in rpm where no unit is written.
-
-    Returns
-    -------
-    omega : list of float
-        Crank speeds [rad/s]
-    """
+def parse_speeds(text: str, option: str = "--speeds") -> list[RadPerSecond]:
+    """Speeds from a list or a range, in rpm where no unit is written."""
     omega = values(text, "rad/s", option, "rpm", most=20_000)
     if min(omega) <= 0:
         raise BadInput(f"{option} {text}: speeds must be > 0 rpm")
@@ -23,18 +18,8 @@ def parse_speeds(text: str, option: str = "--speeds") -> list[float]:
 def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
     """A value and what it runs over from NAME=RANGE, with or without units.
 
-    Parameters
-    ----------
-    text : str
-        `compression_ratio=8:14:0.5` or `cycle.ignition=-30..0 deg:7`; the section may be left out where only one
-        value has the name
-    units : mapping of str to str
-        Known names and their SI units
-
-    Returns
-    -------
-    values : list of float
-        In the SI unit of the name [-]
+    text: `compression_ratio=8:14:0.5` or `cycle.ignition=-30..0 deg:7`; the section may be left out where only one
+    value has the name. units: known names and their SI units. Returns values: in the SI unit of the name [-].
     """
     written, _, span = text.partition("=")
     bare = [known for known in units if known.rpartition(".")[2] == written]

@@ -1,13 +1,21 @@
 """`mechsym study`: several sweeps of one file, and one report of them."""
 
+import contextlib
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
-from mechsym.cli.swept import INTERRUPTED, judge, kept_or_short, picture_of, report_of, rows_of, write
+from mechsym.cli.swept import INTERRUPTED, gaps, judge, kept_or_short, picture_of, rows_of, write
 from mechsym.errors import BadInput, suggest
+from mechsym.interrupts import whole
+from mechsym.plausible import Doubt
+
+if TYPE_CHECKING:
+    from mechsym.sweep.numbers import StudiedSweep
+    from mechsym.sweep.run import Sweep
+    from mechsym.sweep.study import Study, StudySweep
 
 
 @click.command(short_help="Several sweeps of a file, one report.")
@@ -40,6 +48,7 @@ def study(ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | Non
     """
     from mechsym import sweep as sweeps
     from mechsym.files import make_folder
+    from mechsym.sweep.numbers import StudiedSweep, StudyNumbers
     from mechsym.sweep.study import read
 
     asked = read(study)
@@ -50,28 +59,29 @@ def study(ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | Non
         judge(one.plan, points)
     seconds = sum(sweeps.forecast(one.plan, n) for one, n in zip(wanted, counts, strict=True))
     kept_or_short(sum(counts), seconds, out)
-    told: list[dict[str, Any]] = []
-    with progress(sum(counts), f"{len(wanted)} sweeps, about {max(seconds, 1):.0f} s of a processor") as bar:
+    told: list[StudiedSweep] = []
+    refused: list[Doubt] = []
+    label = f"{len(wanted)} sweeps, about {max(seconds, 1):.0f} s of a processor"
+    with contextlib.ExitStack() as last, progress(sum(counts), label) as bar:
         for one in wanted:
             folder = None if out is None else make_folder(out / one.name)
             means = sweeps.Means(jobs=jobs or 0, folder=folder, fresh=fresh)
             found = sweeps.sweep(one.plan, bar.update, means)
+            if found.interrupted:
+                last.enter_context(whole())
             told.append(_told(one, found, folder))
+            refused += gaps(found)
             if found.interrupted:
                 break
-    files = [] if out is None else [str(_page(asked, told, out))]
-    report = {
-        "study": asked.title,
-        "sweeps": [{k: v for k, v in one.items() if k not in ("picture", "rows")} for one in told],
-        "interrupted": told[-1]["interrupted"],
-        "files": files,
-    }
-    emit(report, as_json, lambda: _text(told, files), leave_out=("sweeps",))
-    empty = any(len(one["failed"]) == one["points"] for one in told)
-    ctx.exit(INTERRUPTED if report["interrupted"] else int(empty))
+        files = [] if out is None else [str(_page(asked, told, out))]
+        interrupted = told[-1].numbers.interrupted
+        done = StudyNumbers(study=asked.title, sweeps=tuple(told), interrupted=interrupted, files=tuple(files))
+        emit(done, as_json, lambda: _text(told), beside={"doubts": refused}, leave_out=("sweeps",), files=files)
+    empty = any(len(one.numbers.failed) == one.points for one in told)
+    ctx.exit(INTERRUPTED if interrupted else int(empty))
 
 
-def _wanted(asked: Any, only: tuple[str, ...]) -> list[Any]:
+def _wanted(asked: "Study", only: tuple[str, ...]) -> "list[StudySweep]":
     names = [one.name for one in asked.sweeps]
     for name in only:
         if name not in names:
@@ -79,27 +89,30 @@ def _wanted(asked: Any, only: tuple[str, ...]) -> list[Any]:
     return [one for one in asked.sweeps if not only or one.name in only]
 
 
-def _told(one: Any, found: Any, folder: Path | None) -> dict[str, Any]:
+def _told(one: "StudySweep", found: "Sweep", folder: Path | None) -> "StudiedSweep":
     """What a sweep gave, as numbers and as text, its files written."""
+    from mechsym.sweep.numbers import StudiedSweep, numbers
+
     picture = "" if folder is None else picture_of(found, one.name)
     files = [] if folder is None else write(found, folder, picture)
-    return {
-        "name": one.name, "about": one.about, "over": list(one.plan.over), "tied": list(one.plan.tied),
-        "points": len(found.points), "picture": picture, "rows": rows_of(found), **report_of(found, files),
-    }  # fmt: skip
+    return StudiedSweep(
+        name=one.name, about=one.about, over=one.plan.over, tied=one.plan.tied, points=len(found.points),
+        numbers=numbers(found, files), picture=picture, rows=rows_of(found),
+    )  # fmt: skip
 
 
-def _page(asked: Any, told: list[dict[str, Any]], out: Path) -> Path:
+def _page(asked: "Study", told: list["StudiedSweep"], out: Path) -> Path:
     from mechsym.files import write_text
     from mechsym.page import page
 
     return write_text(out / "report.html", page("study.html", title=asked.title, about=asked.about, sweeps=told))
 
 
-def _text(told: list[dict[str, Any]], files: list[str]) -> str:
+def _text(told: list["StudiedSweep"]) -> str:
     lines = []
     for one in told:
-        lines += [f"{one['name']}: {one['points']} points, {len(one['failed'])} failed. {one['about']}".rstrip()]
-        lines += [table(one["rows"], ["name", "unit", "min", "at min", "max", "at max"])] if one["rows"] else []
-        lines += [f"failed: {gap['reason']}" for gap in one["failed"][:3]] + [""]
-    return "\n".join([*lines, *(f"wrote {file}" for file in files)])
+        failed = one.numbers.failed
+        lines += [f"{one.name}: {one.points} points, {len(failed)} failed. {one.about}".rstrip()]
+        lines += [table(one.rows, ["name", "unit", "min", "at min", "max", "at max"])] if one.rows else []
+        lines += [f"failed: {gap.reason}" for gap in failed[:3]] + [""]
+    return "\n".join(lines)

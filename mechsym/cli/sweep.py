@@ -1,12 +1,18 @@
 """`mechsym sweep`: a case at many points, side by side."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
-from mechsym.cli.swept import INTERRUPTED, judge, kept_or_short, picture_of, place, report_of, rows_of, write
+from mechsym.cli.swept import INTERRUPTED, ended, gaps, judge, kept_or_short, picture_of, place, rows_of, write
+
+if TYPE_CHECKING:
+    from mechsym.sweep import Sweep
+    from mechsym.sweep.numbers import SweepNumbers
+    from mechsym.sweep.sensitivity import SobolIndex
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
 
@@ -48,7 +54,8 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
 
     A point that cannot be computed is a gap with a reason: null, an empty cell, NaN; one that kills its process is
     tried once more. Exit status 1 when all are gaps. An interrupt (Ctrl-C, SIGTERM) keeps the points that are finished,
-    writes the files and ends with status 130. What takes more than half an hour of a processor needs --out.
+    writes their table and ends within a second with status 130. What takes more than half an hour of a processor needs
+    --out.
 
     \b
     Examples: mechsym sweep zotov-89 --over "spring.p0=3..8 MPa:11" --over speed_rpm=80,89,100 --out map
@@ -60,6 +67,7 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
               mechsym sweep nunes-slider-crank --over speed_rpm=1000..8000:71 --over "ignition=-25..-5 deg:21"
     """
     from mechsym import sweep as sweeps
+    from mechsym.sweep.numbers import numbers
 
     plan = sweeps.Plan(
         case=case,
@@ -81,15 +89,28 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
         found = sweeps.sweep(
             plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
         )
-    report = report_of(found, [] if out is None else write(found, out, picture_of(found)))
-    emit(report, as_json, lambda: _text(found, report), leave_out=("data",))
-    ctx.exit(INTERRUPTED if found.interrupted else 1 if len(report["failed"]) == count else 0)
+
+    def finish(found: "Sweep") -> None:
+        told = numbers(found, [] if out is None else write(found, out, picture_of(found)))
+        # the table tells which points an interrupt has left
+        beside = ("data", "failed") if found.interrupted else ("data",)
+        emit(
+            told,
+            as_json,
+            lambda: _text(found, told),
+            beside={"doubts": gaps(found)},
+            leave_out=beside,
+            files=told.files,
+        )
+
+    found = ended(found, finish)
+    ctx.exit(INTERRUPTED if found.interrupted else 1 if len(sweeps.failures(found)) == count else 0)
 
 
-def _text(found: Any, report: dict[str, Any]) -> str:
+def _text(found: "Sweep", told: "SweepNumbers") -> str:
     sampled, rows = "sample" in found.dims, rows_of(found)
     dims = " x ".join(f"{size} {name}" for name, size in found.dims.items())
-    lines = [f"{found.analysis} of {found.case} over {dims}: {len(report['failed'])} of {len(found.points)} failed"]
+    lines = [f"{found.analysis} of {found.case} over {dims}: {len(told.failed)} of {len(found.points)} failed"]
     lines += [f"{found.kept} points kept from before"] if found.kept else []
     lines += [f"the folder's points of another sweep are set aside in {found.aside}"] if found.aside else []
     if rows:
@@ -99,29 +120,30 @@ def _text(found: Any, report: dict[str, Any]) -> str:
             table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]),
             "",
         ]
-        more = len(report["data"]) - len(rows)
+        more = len(told.data) - len(rows)
         lines += [f"{more} more results with --json or --out" + _more(found)] if more else []
-    lines += _indices(report["sobol"])
-    lines += [f"failed at {place(found, f['index'])}: {f['reason']}" for f in report["failed"][:5]]
-    if len(report["failed"]) > 5:
-        lines.append(f"and {len(report['failed']) - 5} more")
-    return "\n".join([*lines, *(f"wrote {f}" for f in report["files"])])
+    lines += _indices(told.sobol)
+    lines += [f"failed at {place(found, gap.index)}: {gap.reason}" for gap in told.failed[:5]]
+    if len(told.failed) > 5:
+        lines.append(f"and {len(told.failed) - 5} more")
+    return "\n".join(lines)
 
 
-def _indices(rows: list[dict[str, Any]]) -> list[str]:
-    told = [
-        {"result": row["result"], "value": row["key"]}
-        | {
-            kind: f"{row[kind]:.3f} ({row[f'{kind}_low']:.3f} to {row[f'{kind}_high']:.3f})"
-            for kind in ("first", "total")
+def _indices(sobol: Sequence["SobolIndex"]) -> list[str]:
+    if not sobol:
+        return []
+    rows = [
+        {
+            "result": one.result,
+            "value": one.key,
+            "first": f"{one.first:.3f} ({one.first_low:.3f} to {one.first_high:.3f})",
+            "total": f"{one.total:.3f} ({one.total_low:.3f} to {one.total_high:.3f})",
         }
-        for row in rows
+        for one in sobol
     ]
-    return (
-        ["Sobol indices, with 95 % intervals", table(told, ["result", "value", "first", "total"]), ""] if told else []
-    )
+    return ["Sobol indices, with 95 % intervals", table(rows, ["result", "value", "first", "total"]), ""]
 
 
-def _more(found: Any) -> str:
+def _more(found: "Sweep") -> str:
     runs = found.analysis == "hinge" and not found.show
     return "; check, runs, retune, sensitivity, losses, misfire_speed_share with --show" if runs else ""

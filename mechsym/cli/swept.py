@@ -1,36 +1,44 @@
 """What `sweep` and `study` share: doubts of a sweep, its time, its files, its numbers."""
 
 import contextlib
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, in_rows
+from mechsym.cli.common import doubted, in_rows
 from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import Json
+from mechsym.interrupts import asked_to_stop, whole
+from mechsym.plausible import Doubt, proportion
+from mechsym.quantities.units import Second
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from mechsym.sweep.run import Layout, Plan, Sweep
 
 _UNKEPT = 1800.0  # time of a processor from which a sweep without --out is refused: too much to lose [s]
 _NUMBERS = ("min", "max", "mean", "std")
 INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
-def judge(plan: Any, points: Any) -> None:
+def judge(plan: "Plan", points: "Layout") -> None:
     """Put the doubts of a case, and of it at the ends of the axes, into what the command prints."""
     from mechsym.sweep import ends
 
-    case_of(plan.case, plan.overrides)
+    doubted(plan.case, plan.overrides)
     for end in ends(points):
         with contextlib.suppress(BadInput):  # a point that is refused is a gap
-            case_of(plan.case, {**plan.overrides, **points.ties.at(end)})
+            doubted(plan.case, {**plan.overrides, **points.ties.at(end)})
 
 
-def kept_or_short(count: int, seconds: float, out: Path | None) -> None:
+def kept_or_short(count: int, seconds: Second, out: Path | None) -> None:
     """Refuse long work that nothing would be left of; make the folder of what is kept.
 
-    Parameters
-    ----------
-    seconds : float
-        What all points take on one processor [s]
+    seconds: what all points take on one processor.
     """
     from mechsym.files import make_folder
 
@@ -44,8 +52,25 @@ def kept_or_short(count: int, seconds: float, out: Path | None) -> None:
         )
 
 
-def picture_of(found: Any, name: str = "") -> str:
-    """The picture of a sweep as SVG; empty where there is nothing to draw. `name` keeps its ids its own on a page."""
+def ended(found: "Sweep", finish: Callable[["Sweep"], None]) -> "Sweep":
+    """A sweep, written by `finish`: after an interrupt, in the writing too, what is finished, however long it takes."""
+    if not found.interrupted:
+        with asked_to_stop():
+            finish(found)
+            return found
+        found = replace(found, interrupted=True)
+    with whole():
+        finish(found)
+    return found
+
+
+def picture_of(found: "Sweep", name: str = "") -> str:
+    """The picture of a sweep as SVG; empty where there is nothing to draw, or no time after an interrupt.
+
+    name: keeps its ids its own on a page.
+    """
+    if found.interrupted:
+        return ""
     from mechsym.style import svg
     from mechsym.sweep import plots as plots_sweep
 
@@ -53,12 +78,14 @@ def picture_of(found: Any, name: str = "") -> str:
     return "" if figure is None else svg(figure, name)
 
 
-def write(found: Any, out: Path, picture: str) -> list[Path]:
-    """Table, netCDF where it can be written, picture."""
+def write(found: "Sweep", out: Path, picture: str) -> list[Path]:
+    """Table, netCDF where it can be written, picture; after an interrupt the table alone."""
     from mechsym.files import write_text
     from mechsym.sweep import store, write_netcdf, write_table
 
     files = [write_table(found, out)]
+    if found.interrupted:
+        return [*files, out / store.NAME]
     try:
         files.append(write_netcdf(found, out))
     except MissingExtra as error:
@@ -67,35 +94,13 @@ def write(found: Any, out: Path, picture: str) -> list[Path]:
     return [*files, *pictures, out / store.NAME]
 
 
-def report_of(found: Any, files: list[Path]) -> dict[str, Any]:
-    """A sweep as JSON."""
-    from mechsym.sweep import columns, failures
-    from mechsym.sweep.sensitivity import indices
-
-    sampled, data = "sample" in found.dims, columns(found)
-    reasons = failures(found)
-    return {
-        "case": found.case,
-        "analysis": found.analysis,
-        "dims": dict(found.dims),
-        "shape": list(found.dims.values()),
-        "axes": {
-            a.key: {"unit": a.unit, "values": [p[i] for p in found.points] if sampled else list(a.values)}
-            for i, a in enumerate(found.axes)
-        },
-        "units": {name: found.units[name] for name in data},
-        # a word that is not there is null, as a number
-        "data": {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()},
-        "failed": [{"index": i, "at": _values(found, i), "reason": reason} for i, reason in reasons.items()],
-        "sobol": [vars(row) for row in indices(found)] if found.sobol else [],
-        "interrupted": found.interrupted,
-        "kept": found.kept,
-        "set_aside": found.aside or None,
-        "files": [str(f) for f in files],
-    }
+def gaps(found: "Sweep") -> tuple[Doubt, ...]:
+    """A sweep whose points are all refused."""
+    refused = [o for o in found.outcomes if getattr(o, "of_input", False)]
+    return proportion("gaps", "points that are refused / all", len(refused) / len(found.outcomes))
 
 
-def rows_of(found: Any) -> list[dict[str, Any]]:
+def rows_of(found: "Sweep") -> list[Json]:
     """Smallest and largest of the main results and where they are, each in the unit that suits it."""
     from mechsym.sweep import main_results
 
@@ -103,7 +108,7 @@ def rows_of(found: Any) -> list[dict[str, Any]]:
     return in_rows(rows, _NUMBERS)
 
 
-def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
+def _row(found: "Sweep", name: str, column: "np.ndarray") -> Json:
     import numpy as np
 
     ends = np.nanmin(column), np.nanmax(column)
@@ -117,11 +122,7 @@ def _row(found: Any, name: str, column: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _values(found: Any, index: int) -> dict[str, Any]:
-    return {a.key: v for a, v in zip(found.axes, found.points[index], strict=True)}
-
-
-def place(found: Any, index: int) -> str:
+def place(found: "Sweep", index: int) -> str:
     """Where a point is, in words."""
     parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
     plain = {"-", *(a.unit for a, _ in parts if a.key.endswith(f"_{a.unit}"))}  # the name carries it; else SI

@@ -2,7 +2,7 @@
 
     points      speeds and loads: the work that each wants from the hinge      family, machines: where they come from
     rank        a bound that knows no guide: how many springs pay
-    programme   the design: task -> basis, unknowns, motion_block, contact_block, derivatives -> co-design
+    programme   the design: task -> basis, unknowns, motion_block, contact_block -> co-design
     front       the same for many ripples; a guide cut for one point
     verify      every number by two other ways: running (over the angle, in time)
     scenarios, changes, manoeuvres    what kills it
@@ -16,8 +16,6 @@ from mechsym.quantities import lazily
 
 _NAMES = {
     "bare_flywheel": "mechsym.codesign.points:bare_flywheel",
-    "Bounds": "mechsym.codesign.hardware:Bounds",
-    "bounds": "mechsym.codesign.machines:bounds",
     "CoDesign": "mechsym.codesign.task:CoDesign",
     "CoDesignTask": "mechsym.codesign.task:CoDesignTask",
     "fine_path": "mechsym.codesign.contact_block:fine_path",

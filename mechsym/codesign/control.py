@@ -9,17 +9,17 @@ regression gives the error. Without w_design the controller would chase the shap
 """
 
 import dataclasses
-from collections.abc import Sequence
 
 import numpy as np
 
 from mechsym.codesign import running
-from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.loss import machine_at
 from mechsym.codesign.running import Running, TimeRun, spring_energy
 from mechsym.codesign.task import CoDesign
+from mechsym.hinge.springs.face import affine_energy
 from mechsym.machine.loads import load_torque
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Pure
 
 
 @record
@@ -27,7 +27,7 @@ class Held:
     """Turns of a machine whose pressures a controller sets after each of them."""
 
     pressure_error: np.ndarray  #: shape (turns, springs), by the design's pressure, at the start of each turn [-]
-    ripple: np.ndarray  #: shape (turns,) of each turn [-]
+    ripple: np.ndarray  #: shape (turns,) of each turn, not a number where the shaft stalled [-]
     gain: float = quantity("-", about="share of the error that is taken away in a turn")
     run: TimeRun  #: all turns
 
@@ -35,10 +35,7 @@ class Held:
 def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
     """Error of each pressure that a turn of the speed shows, shape (springs,) [Pa].
 
-    Parameters
-    ----------
-    machine : Running
-        As designed: its pressures are those wanted
+    machine: as designed: its pressures are those wanted.
     """
     phi, omega = turn.phi, turn.omega
     load = np.asarray(load_torque(machine.load, omega))
@@ -54,18 +51,12 @@ def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
 
 
 def hold(
-    found: CoDesign, k: int, off: float, turns: int = 6, gain: float = 1.0, noise: float = 0.0, rate: float = np.inf
+    found: CoDesign, k: int, off: float, turns: int = 6, gain: Pure = 1.0, noise: Pure = 0.0, rate: Pure = np.inf
 ) -> Held:
     """Start a point with its pressures off by a share [-] and let the controller set them after every turn.
 
-    Parameters
-    ----------
-    gain : float
-        Share of the error that is taken away in a turn [-]
-    noise : float
-        One sigma of every measured speed by the mean speed [-]
-    rate : float
-        Largest change of a pressure in a turn by the design's [-]
+    gain: share of the error that is taken away in a turn; noise: one sigma of every measured speed by the mean speed;
+    rate: largest change of a pressure in a turn by the design's.
     """
     point, rng = found.task.points[k], np.random.default_rng(9)
     design = machine_at(found, k)
@@ -76,7 +67,8 @@ def hold(
         leg = running.run(dataclasses.replace(design, pressures=tuple(p)), speed, point.period / (2 * np.pi))
         legs.append(leg)
         speed = float(leg.omega[-1])
-        ripples.append(np.ptp(leg.omega) * np.ptp(leg.t) / np.ptp(leg.phi))
+        ripple = running.ripple_of_last_turn(leg, point.period)
+        ripples.append(np.nan if ripple is None else ripple)
         if leg.stalled:
             break
         noisy = leg.omega * (1 + noise * rng.standard_normal(leg.omega.size))
@@ -87,14 +79,13 @@ def hold(
 
 def _by_pressure(machine: Running, s: int, phi: np.ndarray) -> np.ndarray:
     """Energy of a spring for each pascal of its pressure [J/Pa]."""
-    h, z = machine.tracks[s].hardware, machine.tracks[s].z(phi)
-    unit = 1e6
-    return h.A * (gas_energy(z, unit, h.H, h.n, outside(h)) - gas_energy(z, 0.0, h.H, h.n, outside(h))) / unit
+    track = machine.tracks[s]
+    return np.asarray(affine_energy(track.hardware.spring, track.z(phi))[1])
 
 
 def _designed(machine: Running, phi: np.ndarray) -> np.ndarray:
     """Work that is missing by design [J]."""
-    springs: Sequence = list(zip(machine.tracks, machine.pressures, strict=True))
+    springs = list(zip(machine.tracks, machine.pressures, strict=True))
     w = machine.point.work(phi) + sum(spring_energy(t, p0, phi) for t, p0 in springs)
     rollers = sum(running.added_inertia(t, phi) for t in machine.tracks)
     # of friction and heat, where they are designed for, the wave only: their mean is the regression's slope

@@ -7,24 +7,25 @@ a guide with one shape cannot take where it changes from day to day.
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from mechsym import periodic
 from mechsym.codesign.points import Function, Point, bare_flywheel
-from mechsym.codesign.rank import flywheel_bound, rank
-from mechsym.quantities import quantity, record
+from mechsym.codesign.rank import flywheel_estimate, rank
+from mechsym.quantities.results import quantity, result
+from mechsym.quantities.units import Pure
 
 
-@record
+@result
 class Count:
     """What one number of cylinders needs."""
 
-    cylinders: int
-    bare: float = quantity("kg*m^2", about="flywheel without a hinge")
-    hinge: float = quantity("kg*m^2", about="flywheel that one spring needs at least")
-    swing: float = quantity("kg*m^2", about="D_1")
+    cylinders: int = quantity("-")  #: How many stand on one shaft
+    flywheel_inertia_bare: float = quantity("kg*m^2")  #: Flywheel without a hinge
+    flywheel_inertia_estimate: float = quantity("kg*m^2")  #: Estimate of that beside one spring, from D_1
+    swing: float  #: D_1 [kg*m^2]
 
 
 def even_firing(count: int, period: float) -> tuple[float, ...]:
@@ -32,13 +33,10 @@ def even_firing(count: int, period: float) -> tuple[float, ...]:
     return tuple(i * period / count for i in range(count))
 
 
-def together(point: Point, angles: Sequence[float], factors: Sequence[float] | None = None) -> Point:
+def together(point: Point, angles: Sequence[float], factors: Sequence[Pure] | None = None) -> Point:
     """A point of a machine whose cylinders fire at some crank angles [rad].
 
-    Parameters
-    ----------
-    factors : sequence of float, optional
-        Gas work of each cylinder by that of the point, for a spread of their pressures [-]
+    factors: gas work of each cylinder by that of the point, for a spread of their pressures.
     """
     shares = list(factors) if factors is not None else [1.0] * len(angles)
     half = point.omega**2 / 2
@@ -69,12 +67,12 @@ def counts(points: Sequence[Point], ripple: float, most: int = 12, added: float 
     for n in range(1, most + 1):
         made = tuple(together(p, even_firing(n, p.period)) for p in points)
         bound = rank(made, 1)
-        rows.append(Count(cylinders=n, bare=bare_flywheel(made, ripple), swing=bound.swing[0],
-                          hinge=flywheel_bound(made, bound, ripple, added)[0]))  # fmt: skip
+        rows.append(Count(cylinders=n, flywheel_inertia_bare=bare_flywheel(made, ripple), swing=bound.swing[0],
+                          flywheel_inertia_estimate=flywheel_estimate(made, bound, ripple, added)))  # fmt: skip
     return rows
 
 
-def _sum(function: Callable, angles: Sequence[float], shares: Sequence[float] | None = None) -> Function:
+def _sum(function: Function, angles: Sequence[float], shares: Sequence[float] | None = None) -> Function:
     factors = shares or [1.0] * len(angles)
 
     def summed(phi: np.ndarray) -> np.ndarray:

@@ -6,15 +6,15 @@ import dataclasses
 import io
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput, shown
-from mechsym.files import read_text
+from mechsym.inputs import read_text
 from mechsym.quantities import parse, quantity, record
+from mechsym.quantities.records import Record
 
 _COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
 _COLUMNS = {"speed": "rad/s", "load": "Pa", "weight": "-"}
@@ -68,13 +68,10 @@ def _from_file(name: str) -> list[SpeedAndLoad]:
     return found
 
 
-def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: float) -> Any:
+def cycle_at(cycle: Record, high: Record | None, settings: CoDesignSettings, mep: float) -> Record:
     """The cycle of a case at another mean indicated pressure [Pa]; what else follows it is in the settings.
 
-    Parameters
-    ----------
-    high : record, optional
-        Cycle at the upper end; combustion is linear in mep between the two and constant outside
+    high: record, optional, cycle at the upper end; combustion is linear in mep between the two and constant outside.
     """
     kind = kind_of(cycle)
     if not kind.load:
@@ -84,7 +81,7 @@ def cycle_at(cycle: Any, high: Any | None, settings: CoDesignSettings, mep: floa
                 "take --curve constant_speed and --loads 1, at any speeds"
             )
         return cycle
-    changed: dict[str, Any] = {kind.load: mep}
+    changed: dict[str, float] = {kind.load: mep}
     if kind.scavenge and settings.scavenge:
         changed[kind.scavenge] = scavenge_pressure(settings.scavenge, mep)
     if high is not None:

@@ -2,18 +2,20 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import scipy
 
-from mechsym.codesign.hardware import gas_energy, outside
+from mechsym.codesign.floor import rollers_inertia
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import ReadyProgramme, programme, solve
 from mechsym.codesign.start import closing
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.setting import setting_of
+from mechsym.hinge.springs.face import affine_energy
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Pure
 
 _EVEN = 720
 _STOPPED = 10.0
@@ -22,26 +24,15 @@ _FAR = (0.5, 2.0)  # pressures that are tried, by the ratio of the works
 
 def front(
     task: CoDesignTask,
-    ripples: Sequence[float],
+    ripples: Sequence[Pure],
     ready: ReadyProgramme | None = None,
-    progress: Callable[[], Any] = lambda: None,
-    saving: float = 0.0,
+    progress: Callable[[], object] = lambda: None,
+    saving: Pure = 0.0,
 ) -> list[CoDesign]:
     """The best flywheel for each ripple, smallest ripple first; one programme, each solve starts from the one before.
 
-    Parameters
-    ----------
-    ripples : sequence of float
-        Allowed (max - min) / mean of the speed [-]
-    ready : ReadyProgramme, optional
-        Of the same task but for ripple and limits
-    saving : float
-        Share of the bare flywheel that a hinge must save [-]
-
-    Returns
-    -------
-    designs : list of CoDesign
-        One for each ripple, in ascending order
+    ripples: allowed (max - min) / mean of the speed; ready: of the same task but for ripple and limits; saving: share
+    of the bare flywheel that a hinge must save. Returns designs: one for each ripple, in ascending order.
     """
     found: list[CoDesign] = []
     if ripples:
@@ -60,15 +51,17 @@ def front(
 def worth_it(found: CoDesign, bare: float, saving: float) -> CoDesign:
     """The design, infeasible where its flywheel is not enough below the bare one [kg*m^2] by the share `saving` [-].
 
-    A flywheel that is free makes up for any hinge: without this no limit could ever be too narrow.
+    A flywheel that is free makes up for any hinge: without this no limit could ever be too narrow. Where hardware is
+    free the rollers count as flywheel.
     """
     most = (1 - saving) * bare
-    if found.status != "optimal" or found.flywheel <= most or bare == 0:
+    left = found.flywheel + (rollers_inertia(found) if found.task.free else 0.0)
+    if found.status != "optimal" or left <= most or bare == 0:
         return found
     met = ", ".join(a.limit for a in found.active if a.limit != "ripple") or "no limit but the ripple"
     words = (
-        f"a hinge within these limits leaves {found.flywheel:.5g} of {bare:.5g} kg*m^2, and {most:.5g} is the most "
-        f"that codesign.saving = {saving:g} allows; {met} is met"
+        f"a hinge within these limits leaves {left:.5g} of {bare:.5g} kg*m^2, and {most:.5g} is the most "
+        f"that codesign.saving = {saving:g} allows; active: {met}"
     )
     return dataclasses.replace(found, status="infeasible", reason=words)
 
@@ -88,14 +81,12 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
     hardware, points = task.hardware, task.points
     phi = np.arange(_EVEN) * points[0].period / _EVEN
     work = np.array([p.work(phi) for p in points])
-    pa = outside(hardware)
-    least = hardware.A * gas_energy(hardware.z_margin, hardware.p0, hardware.H, hardware.n, pa)
-    z = closing(hardware, float(least) + work[at].max() - work[at], hardware.p0, hardware.H * (1 - 1e-6))
-    # energy is affine in the pressure
-    fixed = hardware.A * gas_energy(z, 0.0, hardware.H, hardware.n, pa)
-    by_p0 = hardware.A * (gas_energy(z, 1.0, hardware.H, hardware.n, pa)) - fixed
+    spring = hardware.spring
+    least, setting = float(spring.energy(hardware.z_margin)), setting_of(spring)
+    z = closing(hardware, least + work[at].max() - work[at], setting, spring.H * (1 - 1e-6))
+    fixed, by_p0 = affine_energy(spring, z)
     own = points[0].inertia(phi)
-    guess = hardware.p0 * np.ptp(work, axis=1) / np.ptp(work[at])
+    guess = setting * np.ptp(work, axis=1) / np.ptp(work[at])
 
     def best(k: int, flywheel: float) -> tuple[float, float]:
         def at_pressure(p0: float) -> float:

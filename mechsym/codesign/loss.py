@@ -1,21 +1,23 @@
 """What friction and heat take from a co-designed hinge at each of its points."""
 
 import dataclasses
-from typing import Any
 
 import numpy as np
 import scipy
 
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import Path, contact_force, fine_path
-from mechsym.codesign.hardware import gas_pressure, outside
+from mechsym.codesign.contact_block import Path, fine_path
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.hinge import losses as law
 from mechsym.hinge.losses import HingeLosses, LossTorques
-from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
+from mechsym.hinge.rollers import contact_force
+from mechsym.hinge.setting import with_setting
+from mechsym.hinge.springs.air_thermal import AirThermal
+from mechsym.hinge.springs.face import GasTurn
 from mechsym.quantities import record
+from mechsym.quantities.units import Newton, RadPerSecond, Scalar
 
 KINDS = ("bearing", "seal", "guide", "rolling", "gas")
 
@@ -28,19 +30,16 @@ class Real:
     taken: LossTorques
 
 
-def friction(track: Track, path: Path, force: Any, omega: float, given: HingeLosses) -> dict[str, Any]:
+def friction(
+    track: Track, path: Path, force: Newton[Scalar], omega: RadPerSecond, given: HingeLosses
+) -> dict[str, Scalar]:
     """Torques on the crank that bearings, seals and guides take, arrays or numbers as the force is [N*m].
 
-    Parameters
-    ----------
-    force : ndarray, shape (n,), or float
-        Of the spring on each roller [N]
-    omega : float
-        Speed of the crank [rad/s]
+    force: of the spring on each roller.
     """
     h = track.hardware
     speed = h.shaft_ratio * omega
-    N = contact_force(path, force, h.moving_mass, speed)
+    N = contact_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, speed)
     side = law.side_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, speed)
     r_b = given.bearing_radius or h.radius / 2
     bearing = law.bearing_torque(N, path.rho, path.drho, given.bearing_mu, r_b, h.radius, h.count)
@@ -51,34 +50,19 @@ def friction(track: Track, path: Path, force: Any, omega: float, given: HingeLos
     }
 
 
-def spring_with_heat(track: Track, p0: float, omega: float, given: HingeLosses) -> AirThermal:
-    """The spring of a guide, filled to p0 [Pa], with a wall that exchanges heat at the speed omega [rad/s].
-
-    Without a time of its own the exchange is what would show the index of the spring at this speed.
-    """
-    h = track.hardware
-    return AirThermal(
-        A=h.A, H=h.H, p0=p0, pa=outside(h), tau=relaxation_time(h.n, omega, given), gamma=given.gamma,
-        wall_temperature=given.wall_temperature,
-    )  # fmt: skip
+def spring_with_heat(track: Track, p0: float, omega: float, given: HingeLosses) -> AirThermal | None:
+    """The spring of a guide, filled to p0 [Pa], with a wall at the speed omega [rad/s]; None if its law has none."""
+    walled: AirThermal | None = with_setting(track.hardware.spring, p0).with_wall(given, omega)
+    return walled
 
 
-def gas_turn(track: Track, p0: float, point: Point, given: HingeLosses) -> GasTurn:
-    """The gas of one spring, filled to p0 [Pa], over a period."""
+def gas_turn(track: Track, p0: float, point: Point, given: HingeLosses) -> GasTurn | None:
+    """The gas of one spring, filled to p0 [Pa], over a period; None of a law without heat."""
     phi, path = fine_path(track, point.period)
-    return turn(spring_with_heat(track, p0, point.omega, given), path.z, np.full(phi.size, point.period / phi.size),
-                point.omega)  # fmt: skip
-
-
-def relaxation_time(n: float, omega: float, given: HingeLosses) -> float:
-    """Time [s] of the gas to take the wall's temperature: given, or such that the index n [-] shows at omega [rad/s].
-
-    An index at gamma or above leaves no exchange, one at 1 a very fast one.
-    """
-    if given.tau > 0:
-        return given.tau
-    inside = min(max(n, 1 + 1e-6), given.gamma - 1e-6)
-    return x_of_index(inside, given.gamma) / omega
+    walled = spring_with_heat(track, p0, point.omega, given)
+    if walled is None:
+        return None
+    return walled.turn(path.z, np.full(phi.size, point.period / phi.size), point.omega)
 
 
 def real(machine: Running, given: HingeLosses, fill: float = 1.0) -> Real:
@@ -87,14 +71,14 @@ def real(machine: Running, given: HingeLosses, fill: float = 1.0) -> Real:
     phi = fine_path(machine.tracks[0], point.period)[0]
     extra = np.zeros(phi.size)
     for track, p0 in zip(machine.tracks, machine.pressures, strict=True):
-        h, path = track.hardware, fine_path(track, point.period)[1]
-        gas = gas_turn(track, fill * p0, point, given)
-        rubbed = friction(track, path, h.A * gas.pressure, point.omega, given)
-        ideal = gas_pressure(path.z, p0, h.H, h.n, outside(h))
-        extra = extra - h.A * (gas.pressure - ideal) * track.z.derivative()(phi) - sum(rubbed.values())
+        path, gas = fine_path(track, point.period)[1], gas_turn(track, fill * p0, point, given)
+        ideal, spring = track.hardware.charged(p0).force(path.z), track.hardware.charged(fill * p0)
+        force = spring.force(path.z) if gas is None else spring.area * gas.pressure
+        rubbed = friction(track, path, force, point.omega, given)
+        extra = extra - (force - ideal) * track.z.derivative()(phi) - sum(rubbed.values())
         for kind, torque in rubbed.items():
             taken[kind] += float(np.mean(torque))
-        taken["gas"] += max(0.0, gas.loss / point.period)
+        taken["gas"] += 0.0 if gas is None else max(0.0, gas.loss / point.period)
     lost = LossTorques(**taken)
     left = dataclasses.replace(machine.load, torque=point.load_torque - lost.total)
     return Real(machine=dataclasses.replace(machine, extra=_periodic(phi, extra, point.period), load=left), taken=lost)
@@ -117,11 +101,12 @@ def losses(found: CoDesign, given: HingeLosses) -> tuple[LossTorques, ...]:
 def _beside(found: CoDesign, k: int, point: Point, given: HingeLosses) -> LossTorques:
     taken = dict.fromkeys(KINDS, 0.0)
     for track in found.tracks:
-        h, path = track.hardware, fine_path(track, point.period)[1]
-        force = h.A * gas_pressure(path.z, track.p0[k], h.H, h.n, outside(h))
+        path = fine_path(track, point.period)[1]
+        force = track.hardware.charged(float(track.p0[k])).force(path.z)
         for kind, torque in friction(track, path, force, point.omega, given).items():
             taken[kind] += float(np.mean(torque))
-        taken["gas"] += max(0.0, gas_turn(track, float(track.p0[k]), point, given).loss / point.period)
+        gas = gas_turn(track, float(track.p0[k]), point, given)
+        taken["gas"] += 0.0 if gas is None else max(0.0, gas.loss / point.period)
     return LossTorques(**taken)
 
 

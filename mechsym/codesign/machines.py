@@ -7,43 +7,36 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.hardware import Bounds, Hardware
+from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.points import Function, Point
 from mechsym.cycle.unfired import unfired, unfired_kinks
 from mechsym.errors import BadInput
-from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
-from mechsym.hinge.guide import Spring
+from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import AirAbsolute, AirGauge
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
-from mechsym.machine.record import Machine, gas_of
-from mechsym.mechanisms.record import curves
+from mechsym.machine.record import Machine, lever, only_gas
+from mechsym.quantities.units import Array, Inertia, NewtonMetre, Pascal, Pure, Radian, RadPerSecond
 
 _KEPT = 6  # angles of a function that is remembered
 
 
-def point(machine: Machine, load: float, law: str = "propeller", weight: float = 1.0) -> Point:
+def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure = 1.0) -> Point:
     """An engine at its speed of operation as a point of a co-design.
 
-    Parameters
-    ----------
-    load : float
-        Mean indicated pressure, for the record [Pa]
-    law : str
-        How the load follows the speed: `propeller` or `constant`
-    weight : float
-        Share of the time at this point [-]
+    load: mean indicated pressure, for the record. law: how the load follows the speed: `propeller` or `constant`.
+    weight: share of the time at this point.
     """
     torques, wanted = engine_torques(machine), torque(machine)
     found = _point(wanted, torques, load, law, weight)
+    gas = only_gas(machine)
     # of a torque alone no turn without combustion is known, and what takes work has none to lose
-    if gas_of(machine).on_shaft or wanted.load_torque <= 0:
+    if gas is None or wanted.load_torque <= 0:
         return found
-    without = unfired(gas_of(machine).force, torques.period)
-    (q,) = machine.mechanism.coordinates
+    without = unfired(gas.force, torques.period)
 
     def misfire(phi: np.ndarray) -> np.ndarray:
-        arm = curves(machine.mechanism, phi)[f"dx_d{q}"]
+        arm = lever(machine.mechanism, machine.gas_input)(phi)
         return np.asarray(without(phi) * arm + torques.gravity_torque(phi))
 
     return dataclasses.replace(
@@ -77,23 +70,16 @@ def _point(wanted: Hinge, torques: EngineTorques, load: float, law: str, weight:
 
 
 def from_curve(
-    phi: Sequence[float] | np.ndarray, torque: Sequence[float] | np.ndarray, inertia: float, omega: float,
-    period: float = 2 * np.pi,
-) -> Point:  # fmt: skip
+    phi: Sequence[Radian] | Radian[Array],
+    torque: Sequence[NewtonMetre] | NewtonMetre[Array],
+    inertia: Inertia,
+    omega: RadPerSecond,
+    period: Radian = 2 * np.pi,
+) -> Point:
     """Any machine of one degree of freedom as a point: its torque over the angle, its mean inertia, a governor's speed.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending angles of one period [rad]
-    torque : ndarray, shape (n,)
-        On the shaft, positive driving: an engine's mean is positive, a compressor's negative [N*m]
-    inertia : float
-        Of all that turns [kg*m^2]
-    omega : float
-        Mean speed [rad/s]
-    period : float
-        Of the torque [rad]
+    phi: ascending angles of one period. torque: on the shaft, positive driving: an engine's mean is positive, a
+    compressor's negative. inertia: of all that turns.
     """
     angle, value = np.asarray(phi, dtype=float), np.asarray(torque, dtype=float)
     if angle.ndim != 1 or angle.shape != value.shape or angle.size < 8 or np.any(np.diff(angle) <= 0):
@@ -114,17 +100,13 @@ def from_curve(
 
 def hardware(spring: Spring, guide: GuideParameters, rollers: RollerParameters, moving_mass: float) -> Hardware:
     """Spring, guide and rollers as the sections of a case have them, with a mass [kg] on each roller."""
-    if not isinstance(spring, AirAbsolute | AirGauge):
-        raise BadInput('a co-design takes a gas spring; write [spring] law = "air_absolute" or "air_gauge"')
-    absolute = isinstance(spring, AirAbsolute)
+    if spring.state:
+        raise BadInput(
+            "a co-design takes a spring whose force follows from its closing alone; of the law air_thermal take "
+            "air_absolute, and give the heat as [losses]"
+        )
     return Hardware(
-        law="air_absolute" if absolute else "air_gauge", A=spring.A, H=spring.H, n=spring.n, p0=spring.p0,
-        pa=spring.pa if isinstance(spring, AirAbsolute) else 101325.0, rho0=guide.rho0, z_margin=guide.z_margin,
-        count=ROLLERS[guide.arrangement], shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width,
-        E=rollers.E, nu=rollers.nu, moving_mass=moving_mass,
+        spring=spring, rho0=guide.rho0, z_margin=guide.z_margin, count=ROLLERS[guide.arrangement],
+        shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width, E=rollers.E, nu=rollers.nu,
+        moving_mass=moving_mass,
     )  # fmt: skip
-
-
-def bounds(limits: Limits) -> Bounds:
-    """Limits of a hinge as those of a co-design."""
-    return Bounds(**{f.name: getattr(limits, f.name) for f in dataclasses.fields(Bounds)})

@@ -17,6 +17,7 @@ from mechsym.codesign import running
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import Track
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Pure, RadPerSecond
 
 _ANGLES = 1440  # of a period
 _PROPORTIONAL, _INTEGRAL = 0.6, 0.2  # of the fuel that one turn would need to mend the error
@@ -54,15 +55,10 @@ def rest_from(machine: Running, angle: float) -> float:
     return float(phi[i])
 
 
-def start(machine: Running, share: float, turns: float = 2.0) -> TimeRun:
+def start(machine: Running, share: Pure, turns: Pure = 2.0) -> TimeRun:
     """Run from the deepest rest under a constant torque and no load.
 
-    Parameters
-    ----------
-    share : float
-        Torque by that of `standstill` [-]; the shaft stops where it is below 1
-    turns : float
-        Turns of the crank [-]
+    share: torque by that of `standstill`; the shaft stops where it is below 1. turns: turns of the crank.
     """
     pushed = share * standstill(machine).torque
     unfired = machine.point.misfire or _nothing
@@ -87,15 +83,10 @@ def mirrored(track: Track, period: float) -> Track:
     return dataclasses.replace(track, z=scipy.interpolate.PPoly(turned.c, turned.x, extrapolate="periodic"))
 
 
-def governed(machine: Running, speed: float, turns: int) -> TimeRun:
+def governed(machine: Running, speed: RadPerSecond, turns: int) -> TimeRun:
     """Run with a governor that sets the fuel of each turn by the mean speed of the turns before.
 
-    Parameters
-    ----------
-    speed : float
-        At the start, at dead centre [rad/s]
-    turns : int
-        Periods of the torque to run
+    speed: at the start, at dead centre; turns: periods of the torque to run.
     """
     point, fuel, total, legs = machine.point, 1.0, 0.0, []
     inertia = float(np.mean(running.inertia(machine, np.linspace(0, point.period, 181))))

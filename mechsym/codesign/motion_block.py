@@ -7,42 +7,39 @@ with w the missing work. Propeller: g is periodic, and the mean of u^2 over the 
 a = 0, g is a number, and a governor holds the mean speed in time, mean(1/u) = 1.
 """
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
 from mechsym.codesign.points import Point, Samples
 from mechsym.quantities import record
+from mechsym.quantities.units import Inertia, Joule, NewtonMetre, Pure, Scalar
 
 
 @record
 class MotionRows:
     """Unknowns and constraints of one motion, scaled to the order of one."""
 
-    unknowns: Any  #: g by its scale, then the lowest and the highest u [-]
+    unknowns: ca.SX  #: g by its scale, then the lowest and the highest u [-]
     start: np.ndarray  #: where the unknowns start [-]
-    ripple: Any  #: (max - min) / mean over the angles; the programme bounds it from above [-]
-    rows: tuple[Any, ...]  #: constraints in pieces: low <= rows <= high [-]
-    low: tuple[float, ...]  #: of each piece [-]
-    high: tuple[float, ...]  #: of each piece [-]
+    ripple: ca.SX  #: (max - min) / mean over the angles; the programme bounds it from above [-]
+    rows: tuple[ca.SX, ...]  #: constraints in pieces: low <= rows <= high [-]
+    low: tuple[float, ...]  #: least value of each piece [-]
+    high: tuple[float, ...]  #: largest value of each piece [-]
 
 
 def block(
-    point: Point, k: int, samples: Samples, missing: Any, inertia: Any, ripple: Any, taken: Any = 0.0
+    point: Point,
+    k: int,
+    samples: Samples,
+    missing: Joule[Scalar],
+    inertia: Inertia[Scalar],
+    ripple: Pure[Scalar],
+    taken: NewtonMetre[Scalar] = 0.0,
 ) -> MotionRows:
     """The motion of a point that keeps a ripple.
 
-    Parameters
-    ----------
-    missing : casadi.SX, shape (n,)
-        Work that is wanted and missing [J]
-    inertia : casadi.SX, shape (n,)
-        All inertia that turns [kg*m^2]
-    ripple : casadi.SX
-        Largest (max - min) / mean of the speed [-]
-    taken : casadi.SX
-        Mean torque that the hinge takes from the load [N*m]
+    missing: work that is wanted and missing; inertia: all inertia that turns; ripple: largest (max - min) / mean of the
+    speed; taken: mean torque that the hinge takes from the load.
     """
     n = samples.phi.size
     scale = 0.1 * float(np.ptp(samples.work[k]))

@@ -19,22 +19,23 @@ from mechsym.codesign.front import front
 from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample
 from mechsym.codesign.task import CoDesignTask
 from mechsym.hinge.ripple import ripple
-from mechsym.quantities import quantity, record
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import Array, Inertia
 
 _ANGLES = 180  # of a turn
 _RATIO = 3.0  # largest by smallest ratio of noncircular gears (assumed)
 _STOPPED, _MOST = 10.0, 1e8
 
 
-@record
+@result
 class Rival:
     """Another way to keep a ripple at the same points."""
 
-    name: str
-    ripple: float = quantity("-", about="that it keeps")
-    flywheel: float | None = quantity("kg*m^2", about="added inertia that turns; None where it cannot keep the ripple")
-    swing: float | None = quantity("kg*m^2", about="what its shape leaves of the works by the square of the speed")
-    about: str  #: what is assumed
+    name: str = part()
+    ripple: float = quantity("-")  #: That it keeps
+    flywheel_inertia: float | None = quantity("kg*m^2")  #: Added; None where it cannot keep the ripple
+    about: str = part()  #: What is assumed
+    swing: float | None  #: What its shape leaves of the works by the square of the speed [kg*m^2]
 
 
 def peers(points: Sequence[Point], ripples: Sequence[float]) -> list[Rival]:
@@ -44,11 +45,11 @@ def peers(points: Sequence[Point], ripples: Sequence[float]) -> list[Rival]:
     rows = []
     for wanted in sorted(ripples):
         rows += [
-            Rival(name="plain flywheel", ripple=wanted, flywheel=bare_flywheel(points, wanted),
+            Rival(name="plain flywheel", ripple=wanted, flywheel_inertia=bare_flywheel(points, wanted),
                  swing=_left(points, phi, 0 * cam, None), about="no hinge"),
-            Rival(name="cam with coil springs", ripple=wanted, flywheel=cam_flywheel(points, phi, cam, wanted),
+            Rival(name="cam with coil springs", ripple=wanted, flywheel_inertia=cam_flywheel(points, phi, cam, wanted),
                  swing=left_cam, about="one preload for all points, massless, any shape, no limit of contact"),
-            Rival(name="noncircular gears", ripple=wanted, flywheel=gear_flywheel(points, phi, gears, wanted),
+            Rival(name="noncircular gears", ripple=wanted, flywheel_inertia=gear_flywheel(points, phi, gears, wanted),
                  swing=left_gears, about=f"ratio within {_RATIO:g} to 1 (assumed), teeth without play or loss"),
         ]  # fmt: skip
     return rows
@@ -60,10 +61,15 @@ def springs_of(task: CoDesignTask, ripples: Sequence[float], springs: int) -> li
     words = {1: "one spring", 2: "two springs", 3: "three springs"}[springs]
     about = "co-designed within the same limits, a pressure for each point and spring"
     return [
-        Rival(name=words, ripple=d.task.ripple, flywheel=d.flywheel if d.status == "optimal" else None, swing=None,
-             about=about)
+        Rival(
+            name=words,
+            ripple=d.task.ripple,
+            flywheel_inertia=d.flywheel if d.status == "optimal" else None,
+            swing=None,
+            about=about,
+        )
         for d in designs
-    ]  # fmt: skip
+    ]
 
 
 def cam_flywheel(points: Sequence[Point], phi: np.ndarray, stored: np.ndarray, wanted: float) -> float | None:
@@ -79,13 +85,10 @@ def cam_flywheel(points: Sequence[Point], phi: np.ndarray, stored: np.ndarray, w
     return _least(worst, wanted)
 
 
-def gear_flywheel(points: Sequence[Point], phi: np.ndarray, shape: np.ndarray, wanted: float) -> float | None:
+def gear_flywheel(points: Sequence[Point], phi: np.ndarray, shape: Inertia[Array], wanted: float) -> float | None:
     """Inertia J_f of a flywheel whose gears turn it as the square of the speed asks, for a ripple [-].
 
-    Parameters
-    ----------
-    shape : ndarray, shape (n,)
-        Work by the square of the speed [kg*m^2]
+    shape: work by the square of the speed.
     """
 
     def reduced(more: float) -> np.ndarray:

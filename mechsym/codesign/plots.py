@@ -1,6 +1,7 @@
 """Pictures of a co-design."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -49,7 +50,7 @@ def works(result: CoDesignResult) -> Figure:
 
 
 def front(result: CoDesignResult) -> Figure:
-    """Flywheel over ripple: bare, guide cut for one speed, co-designed, the bound, and what a misfire asks."""
+    """Flywheel over ripple: bare, guide cut for one speed, co-designed, with losses, estimate, what a misfire asks."""
     figure, (axis,) = _panels(1, "Flywheel over the ripple")
     factor, unit = axis_unit("kg*m^2", result.bare)
     designs = sorted([*result.front, result.design], key=lambda d: d.task.ripple)
@@ -61,17 +62,24 @@ def front(result: CoDesignResult) -> Figure:
     axis.plot([wanted], [factor * result.bare], "s", color=RED, label="without a hinge")
     if result.cut.flywheel is not None:
         axis.plot([wanted], [factor * result.cut.flywheel], "D", color=ORANGE, label="guide cut for one speed")
+    real = [at.ripple for at in result.lossy if at.ripple is not None]
+    if result.taken == "beside" and real:
+        axis.plot([100 * max(real)], [factor * result.design.flywheel], "o", color=BLUE, fillstyle="none",
+                  label="co-designed, with its losses")  # fmt: skip
+    if result.misfire_floor is not None:
+        axis.axhline(factor * result.misfire_floor, color=INK, linestyle="--", linewidth=0.9,
+                     label="least that leaves half the speed after a lost combustion")  # fmt: skip
     for name, colour in _PEERS.items():
-        rows = [p for p in result.peers if p.name == name and p.flywheel is not None]
+        rows = [p for p in result.peers if p.name == name and p.flywheel_inertia is not None]
         if rows:
-            axis.plot([100 * p.ripple for p in rows], [factor * (p.flywheel or 0.0) for p in rows], "o--", color=colour,
-                      markersize=3, linewidth=0.9, label=name)  # fmt: skip
+            held, needed = [100 * p.ripple for p in rows], [factor * (p.flywheel_inertia or 0.0) for p in rows]
+            axis.plot(held, needed, "o--", color=colour, markersize=3, linewidth=0.9, label=name)
     swings = result.bound.swing[result.design.task.springs - 1]
     own = float(np.mean(result.design.task.points[0].inertia(np.linspace(0, 2 * np.pi, 181))))
     floor = factor * np.maximum(100 * swings / ripples - own, 1e-3)
-    axis.plot(ripples, floor, ":", color=GREY, label="no guide better (massless)")
+    axis.plot(ripples, floor, ":", color=GREY, label="estimate (massless)")
     axis.set_yscale("symlog", linthresh=10 * factor)
-    axis.set_ylim(bottom=0)
+    axis.set_ylim(0, max(axis.get_ylim()[1], 2 * factor * result.bare))
     axis.set(xlabel="speed ripple [%]", ylabel=f"added flywheel [{unit}]")
     legend(axis)
     return figure
@@ -214,10 +222,12 @@ def spread(result: CoDesignResult) -> Figure | None:
 def cylinders(rows: list[Count]) -> Figure:
     """Flywheel over the number of cylinders, without a hinge and with one."""
     figure, (axis,) = _panels(1, "Flywheel over the number of cylinders")
-    factor, unit = axis_unit("kg*m^2", max(r.bare for r in rows))
+    factor, unit = axis_unit("kg*m^2", max(r.flywheel_inertia_bare for r in rows))
     numbers = np.array([r.cylinders for r in rows])
-    axis.bar(numbers - 0.2, [factor * r.bare for r in rows], width=0.4, color=RED, label="without a hinge")
-    least = [factor * max(r.hinge, 0.0) for r in rows]
+    axis.bar(
+        numbers - 0.2, [factor * r.flywheel_inertia_bare for r in rows], width=0.4, color=RED, label="without a hinge"
+    )
+    least = [factor * max(r.flywheel_inertia_estimate, 0.0) for r in rows]
     axis.bar(numbers + 0.2, least, width=0.4, color=BLUE, label="one hinge, at least")
     axis.set_yscale("symlog", linthresh=10 * factor)
     axis.set(xlabel="cylinders, even firing [-]", ylabel=f"added flywheel [{unit}]", xticks=numbers)
@@ -225,7 +235,7 @@ def cylinders(rows: list[Count]) -> Figure:
     return figure
 
 
-def _panels(count: int, title: str) -> tuple[Figure, list]:
+def _panels(count: int, title: str) -> tuple[Figure, list[Axes]]:
     figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count, title)
     return figure, list(axes)
 

@@ -14,6 +14,7 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Inertia, Pure
 
 _STOPPED = 10.0  # stands for the ripple of a shaft that stops
 _EVEN = 1440  # angles for the closed forms of the motion
@@ -83,12 +84,7 @@ def sample(points: Sequence[Point], count: int) -> Samples:
 def motion(point: Point, missing: Function, inertia: Function) -> tuple[np.ndarray, np.ndarray | None]:
     """Even angles [rad] and the steady speed there [rad/s] by the closed forms; None where the shaft would stop.
 
-    Parameters
-    ----------
-    missing : callable
-        Angle to work that is wanted and missing [J]
-    inertia : callable
-        Angle to all inertia that turns [kg*m^2]
+    missing: angle to work that is wanted and missing [J]; inertia: angle to all inertia that turns [kg*m^2].
     """
     phi = np.arange(_EVEN) * point.period / _EVEN
     w, total = missing(phi), inertia(phi)
@@ -102,22 +98,15 @@ def bare_ripple(point: Point, flywheel: float) -> float | None:
     return ripple(motion(point, point.work, lambda phi: point.inertia(phi) + flywheel)[1])
 
 
-def bare_flywheel(points: Sequence[Point], wanted: float) -> float:
+def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
     r"""Flywheel that keeps the ripple at all points without a hinge.
 
     .. math:: J + \overline{I} \approx \frac{1}{\delta} \max_k \frac{\mathrm{ptp}\,W_k}{\omega_k^2}
 
     for weak ripple; here the motion is exact.
 
-    Parameters
-    ----------
-    wanted : float
-        Largest ripple, (max - min) / mean of the speed [-]
-
-    Returns
-    -------
-    inertia : float
-        Added to the engine's own; 0 where none is needed [kg*m^2]
+    wanted: largest ripple, (max - min) / mean of the speed. Returns inertia: added to the engine's own; 0 where none is
+    needed.
     """
 
     def excess(flywheel: float) -> float:

@@ -1,6 +1,7 @@
 r"""The programme: shapes of guides, pressures of springs and one small flywheel at once, for all points.
 
-    minimise J   over the shapes z(phi), the pressures p_k, J, and the motion of each point
+    minimise J   over the shapes z(phi), the pressures p_k, J, and the motion of each point; J + mean(I_h) where
+                 hardware is free: a flywheel on the rollers is a flywheel
     subject to   the steady motion of each point keeps the ripple                          (motion_block)
                  spring, track and rollers keep their limits where they are asked most      (contact_block)
                  friction and heat, if the task asks for them                               (loss_block)
@@ -12,6 +13,8 @@ multipliers of ripple and limits come out as what one unit of each is worth in f
 import dataclasses
 import itertools
 import time
+import warnings
+from collections.abc import Sequence
 from typing import Any
 
 import casadi as ca
@@ -19,30 +22,26 @@ import numpy as np
 
 from mechsym.codesign import contact_block, loss_block, motion_block
 from mechsym.codesign.basis import Basis, basis, curve
-from mechsym.codesign.derivatives import solver
-from mechsym.codesign.hardware import Bounds, gas_energy, outside
 from mechsym.codesign.points import Samples, sample
-from mechsym.codesign.task import FREE, Active, CoDesign, CoDesignTask, Track
+from mechsym.codesign.settings import FREE
+from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track
 from mechsym.codesign.unknowns import Gathered, GuideSymbols, guides
 from mechsym.codesign.verify import passed
+from mechsym.hinge.bounds.face import asked as asked_of
+from mechsym.hinge.springs.face import lettered
+from mechsym.optimise.solvers import Solved, ipopt
 from mechsym.quantities import quantity, record
 
-_STATUS = {
-    "Solve_Succeeded": "optimal",
-    "Solved_To_Acceptable_Level": "optimal",
-    "Infeasible_Problem_Detected": "infeasible",
-}
 _OPTIONS: dict[str, Any] = {
     "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-7, "acceptable_tol": 1e-5, "max_iter": 400},
     "print_time": False,
 }
 _FLYWHEEL = 1000.0  # unit of the flywheel in the programme [kg*m^2]
 _SMOOTH = 1e-6  # weight of the mean of z''^2 and of free hardware: it decides where nothing else does
+_NONE = 1e-4  # flywheel that the solver cannot tell from none: its tolerance by the unit [kg*m^2]
 _START = 3.0  # flywheel at the start, in units of `_FLYWHEEL`
 _ROUNDS, _LITTLE = 4, 2e-3  # of solving again where a limit is passed; share beyond that each is moved by [-]
 _ACTIVE = 1e-3  # a limit is met if moving it by itself would move the flywheel by this share
-_UNITS = {"spring_pressure": "Pa", "closing_share": "-", "pressure_angle": "rad", "profile_radius": "m",
-          "roller_reaction": "N", "hertz_stress": "Pa"}  # fmt: skip
 _HARDWARE = (*FREE, "moving_mass")
 
 
@@ -61,29 +60,64 @@ class ReadyProgramme:
 
 def programme(task: CoDesignTask) -> ReadyProgramme:
     """Put the programme of a task together."""
+    with warnings.catch_warnings():
+        # numpy's functions take symbols; casadi announces that it may do so otherwise one day
+        warnings.simplefilter("ignore", FutureWarning)
+        return _programme(task)
+
+
+def _programme(task: CoDesignTask) -> ReadyProgramme:
     begin, turns = time.perf_counter(), task.points[0].period / (2 * np.pi)
     samples = sample(task.points, round(task.angles * turns))
     kinks = sorted({k for p in task.points for k in p.kinks})
     splines = basis(task.points[0].period, kinks, round(task.knots * turns))
-    parameters, gathered = ca.SX.sym("parameters", 1 + len(_UNITS)), Gathered()
+    parameters, gathered = ca.SX.sym("parameters", len(_values(task))), Gathered()
     found = guides(task, samples, splines, gathered)
     flywheel = gathered.unknown("J", np.array([_START]), 0.0)
+    rollers = sum(g.inertia for g in found)
     ripples = _motions(task, samples, found, _FLYWHEEL * flywheel, parameters[0], gathered)
+    goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / _FLYWHEEL if task.free else 0.0)
     _contacts(task, found, parameters, gathered)
     smooth = sum(ca.sumsqr(g.path.d2rho) for g in found) / samples.phi.size
     chosen = sum(ca.sumsqr(share - 1) for g in found for share in g.shares)
     x, box = ca.vertcat(*gathered.unknowns), np.vstack(gathered.box)
-    values = [ca.vertcat(*(g.values[name] for name in _HARDWARE)) for g in found]
+    values = [ca.vertcat(*g.values.values()) for g in found]
     read = [ca.horzcat(*(g.coefficients for g in found)), ca.horzcat(*(g.p0 for g in found)), ca.horzcat(*values),
             _FLYWHEEL * flywheel, ripples]  # fmt: skip
     return ReadyProgramme(
         task=task, basis=splines,
-        solver=solver(x, parameters, flywheel + _SMOOTH * (smooth + chosen), gathered.rows, _options(task)),
+        solver=_solver(x, parameters, goal + _SMOOTH * (smooth + chosen), gathered.rows, _options(task)),
         read=ca.Function("read", [x], read), start=np.concatenate(gathered.start),
         bounds={"lbx": box[:, 0], "ubx": box[:, 1], "lbg": np.concatenate(gathered.low),
                 "ubg": np.concatenate(gathered.high)},
         wall=time.perf_counter() - begin,
     )  # fmt: skip
+
+
+def _solver(
+    x: ca.SX, p: ca.SX, objective: ca.SX, groups: Sequence[Sequence[ca.SX]], options: dict[str, Any]
+) -> ca.Function:
+    """IPOPT for min objective(x, p), all scaled [-], subject to rows: groups share terms, pieces what they touch."""
+    # a mean over the turn touches every unknown of its point, the flywheel every row: coloured together they ask for
+    # hundreds of directions, piece by piece for a dozen
+    g = ca.vertcat(*(piece for group in groups for piece in group))
+    jacobian = ca.vertcat(*(ca.jacobian(piece, x) for group in groups for piece in group))
+    by_objective, by_rows = ca.SX.sym("by_objective"), ca.SX.sym("by_rows", g.numel())
+    hessian, at = _hessian(by_objective * objective, x), 0
+    for group in groups:
+        rows = ca.vertcat(*group)
+        hessian += _hessian(ca.dot(by_rows[at : at + rows.numel()], rows), x)
+        at += rows.numel()
+    first = ca.Function("nlp_jac_g", [x, p], [g, jacobian], ["x", "p"], ["g", "jac_g_x"])
+    second = ca.Function(
+        "nlp_hess_l", [x, p, by_objective, by_rows], [hessian], ["x", "p", "lam_f", "lam_g"], ["triu_hess_gamma_x_x"]
+    )
+    problem = {"x": x, "p": p, "f": objective, "g": g}
+    return ca.nlpsol("codesign", "ipopt", problem, {**options, "jac_g": first, "hess_lag": second})
+
+
+def _hessian(scalar: ca.SX, x: ca.SX) -> ca.SX:
+    return ca.triu(ca.hessian(scalar, x)[0])
 
 
 def _options(task: CoDesignTask) -> dict[str, Any]:
@@ -97,17 +131,8 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
 
     .. math:: \min J \quad \text{subject to} \quad \delta_k \le \delta, \; \text{limits}
 
-    Parameters
-    ----------
-    ready : ReadyProgramme, optional
-        A programme of the same task but for ripple and limits, used again
-    near : CoDesign, optional
-        A solution of the same programme to start from
-
-    Returns
-    -------
-    found : CoDesign
-        With status and reason; where nothing is feasible, the last design that was tried
+    ready: a programme of the same task but for ripple and limits, used again; near: a solution of the same programme to
+    start from. Returns found: with status and reason; where nothing is feasible, the last design that was tried.
     """
     made = ready or programme(task)
     found = _solved(task, made, near, made.wall if ready is None else 0.0)
@@ -117,7 +142,10 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
         if not over:
             break
         # between its angles, and beside the hardest point, the programme does not look
-        asked = _tighter(asked, over, found.tracks[0].hardware.radius)
+        radius = found.tracks[0].hardware.radius
+        settings = {key: limit.stricter(setting, 1 + over[key] + _LITTLE, radius)
+                    for key, limit, setting in asked_of(asked) if key in over}  # fmt: skip
+        asked = dataclasses.replace(asked, **settings)
         again = _solved(dataclasses.replace(task, bounds=asked), made, found, 0.0)
         wall += again.wall
         if again.status != "optimal":
@@ -126,28 +154,20 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
     return found
 
 
-def _tighter(bounds: Bounds, over: dict[str, float], radius: float) -> Bounds:
-    """Limits moved by what they are passed [-], and a little; rollers have a radius [m]."""
-    changed = {key: getattr(bounds, key) / (1 + share + _LITTLE) for key, share in over.items()}
-    if "profile_radius" in over:
-        changed["profile_radius"] = (radius + bounds.profile_radius) * (1 + over["profile_radius"] + _LITTLE) - radius
-    return dataclasses.replace(bounds, **changed)
-
-
 def _solved(task: CoDesignTask, made: ReadyProgramme, near: CoDesign | None, building: float) -> CoDesign:
     begin = time.perf_counter()
     start = {"x0": made.start} if near is None else dict(near.solution)
-    found = made.solver(**start, p=_values(task), **made.bounds)
+    found = ipopt(made.solver, {**start, "p": _values(task), **made.bounds}, nearly=True)
     return _result(task, made, found, time.perf_counter() - begin + building)
 
 
 def _values(task: CoDesignTask) -> list[float]:
-    return [task.ripple, *(getattr(task.bounds, key) for key in _UNITS)]
+    return [task.ripple, *(setting for _, _, setting in asked_of(task.bounds)), task.widest]
 
 
 def _motions(
-    task: CoDesignTask, samples: Samples, found: list[GuideSymbols], flywheel: Any, ripple: Any, gathered: Gathered
-) -> Any:
+    task: CoDesignTask, samples: Samples, found: list[GuideSymbols], flywheel: ca.SX, ripple: ca.SX, gathered: Gathered
+) -> ca.SX:
     """Motion of each point at each corner of the errors; the ripple of each, shape (k * corners,) [-]."""
     rollers = sum(g.inertia for g in found)
     total = ca.DM(samples.inertia) + flywheel + rollers
@@ -171,40 +191,47 @@ def _motions(
     return ca.vertcat(*ripples)
 
 
-def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> Any:
+def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> ca.SX:
     """Energy of a spring at a point [J], with its pressure off by a factor."""
-    of, H = task.hardware, guide.values["H"]
-    return guide.values["A"] * gas_energy(guide.path.z, error * guide.p0[k], H, of.n, outside(of))
+    return task.hardware.charged(error * guide.p0[k], **guide.values).symbolic().energy(guide.path.z)
 
 
-def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: Any, gathered: Gathered) -> None:
+def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: ca.SX, gathered: Gathered) -> None:
     """Limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed."""
-    bounds = dataclasses.make_dataclass("SymbolicBounds", list(_UNITS))(*ca.vertsplit(parameters[1:]))
-    fastest = task.hardware.shaft_ratio * max(p.omega for p in task.points)
+    hardware, fastest = task.hardware, max(p.omega for p in task.points)
+    *settings, reach = ca.vertsplit(parameters[1:])
+    limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
     for guide in found:
-        largest = (1 + task.robust) * guide.largest
-        rows = contact_block.ratios(guide.path, task.hardware, bounds, largest, fastest, guide.values)
-        gathered.group([*rows.values(), ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
+        spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
+        at = hardware.station(guide.path, spring, fastest, **guide.values)
+        # rollers of the case's own guide reach rho0 + r and no farther
+        rows = contact_block.rows(at, limits, hardware.z_margin, reach if task.free else None)
+        gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
 
 
-def _result(task: CoDesignTask, made: ReadyProgramme, found: Any, wall: float) -> CoDesign:
+def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:
+    found = solved.values
     coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in made.read(found["x"]))
     tracks = []
     for s in range(task.springs):
         # IPOPT relaxes bounds by 1e-8
-        chosen: dict[str, Any] = dict(zip(_HARDWARE, np.maximum(values[:, s], 0.0).tolist(), strict=True))
-        hardware = dataclasses.replace(task.hardware, p0=float(p0[:, s].max()), **chosen)
+        names = task.hardware.values(*_HARDWARE)
+        chosen = dict(zip(names, np.maximum(values[:, s], 0.0).tolist(), strict=True))
+        chosen[task.hardware.spring.setting[0]] = float(p0[:, s].max())
+        hardware = task.hardware.changed(chosen)
         tracks.append(Track(hardware=hardware, z=curve(made.basis, coefficients[:, s]), p0=p0[:, s]))
-    stats, inertia = made.solver.stats(), max(0.0, float(flywheel[0, 0]))
+    inertia = float(flywheel[0, 0]) if float(flywheel[0, 0]) > _NONE else 0.0
+    priced = solved.status == "optimal" and inertia
     return CoDesign(
         task=task,
-        status=_STATUS.get(stats["return_status"], "not converged"),
-        reason=str(stats["return_status"]).replace("_", " ").lower(),
+        status=solved.status,
+        reason=solved.reason,
         flywheel=inertia,
         tracks=tuple(tracks),
         ripple=ripples.reshape(len(task.points), -1).max(axis=1),
-        active=_active(task, np.array(found["lam_p"]).ravel(), inertia),
-        iterations=int(stats["iter_count"]),
+        # what is no solution has no prices, and of no flywheel nothing can be saved
+        active=_active(task, np.array(found["lam_p"]).ravel(), inertia) if priced else (),
+        iterations=solved.iterations,
         wall=wall,
         solution={key: np.array(found[from_]).ravel() for key, from_ in
                   (("x0", "x"), ("lam_x0", "lam_x"), ("lam_g0", "lam_g"))},
@@ -212,7 +239,7 @@ def _result(task: CoDesignTask, made: ReadyProgramme, found: Any, wall: float) -
 
 
 def _active(task: CoDesignTask, sensitivity: np.ndarray, flywheel: float) -> tuple[Active, ...]:
-    units = {"ripple": "-", **_UNITS}
+    units = {"ripple": "-", **{key: limit.unit for key, limit, _ in asked_of(task.bounds)}, "track_radius": "m"}
     rows = zip(units.items(), _values(task), -_FLYWHEEL * sensitivity, strict=True)
     least = _ACTIVE * (flywheel + 1.0)
     return tuple(

@@ -1,10 +1,9 @@
-r"""How good can any guide be? A bound that knows the wanted works only, by the number of springs.
+r"""How many springs pay? The swing that the best r shapes leave of the wanted works, whatever the guide.
 
 .. math:: D_r = \min_{S, c} \max_k \frac{1}{\omega_k^2} \mathrm{ptp}\Bigl(W_k - \sum_{j=1}^{r} c_{kj} S_j\Bigr)
 
-r springs are r shapes of work S_j(phi) with a pressure each, c_kj. Weak ripple needs J + mean(I_t - J) of D_r over
-ripple. Exact where the work of a spring is in proportion to its pressure and the rollers have no mass; else an
-estimate to 2 or 3 per cent.
+r springs are r shapes of work S_j(phi) with a pressure each, c_kj. Weak ripple needs a total inertia of about D_r over
+ripple: an estimate. What is proven, with the terms of rollers and outside pressure, stands in `certificate`.
 """
 
 import dataclasses
@@ -16,10 +15,12 @@ import numpy as np
 import scipy
 
 from mechsym.codesign.points import Point, Samples, sample
+from mechsym.optimise.solvers import ipopt
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Inertia, Pure
 
 _ANGLES = 180
-_MOST = 3  # springs that are asked about
+MOST = 3  # springs that are asked about
 _PAYS = 0.5  # one spring more pays if it leaves less than this share of the swing
 _OPTIONS: dict[str, Any] = {
     "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-9, "mu_strategy": "adaptive", "max_iter": 500},
@@ -40,7 +41,7 @@ class Shapes:
 
 @record
 class Bound:
-    """What no guide can do better than, for 1, 2 and 3 springs."""
+    """What the best shapes leave, for 1, 2 and 3 springs."""
 
     phi: np.ndarray  #: shape (n,) [rad]
     wanted: np.ndarray  #: shape (k, n), W_k / omega_k^2 about their means [kg*m^2]
@@ -55,15 +56,12 @@ class Bound:
         return tuple(b.swing for b in self.best)
 
 
-def rank(points: Sequence[Point], springs: int = _MOST) -> Bound:
-    r"""Bound on what guides with up to some springs can do at all points.
+def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
+    r"""What guides with up to some springs leave of the works of all points at the least.
 
     .. math:: D_r = \min_{S, c} \max_k \mathrm{ptp}(W_k - c_k S) / \omega_k^2
 
-    Returns
-    -------
-    bound : Bound
-        D_r [kg*m^2], singular values [-], shapes, and how many springs pay
+    Returns bound: D_r [kg*m^2], singular values [-], shapes, and how many springs pay.
 
     Notes
     -----
@@ -75,7 +73,7 @@ def rank(points: Sequence[Point], springs: int = _MOST) -> Bound:
     bare = float(np.ptp(wanted, axis=1).max())
     sizes = np.linalg.svd(wanted, compute_uv=False)
     best: list[Shapes] = []
-    for r in range(1, min(springs, _MOST) + 1):
+    for r in range(1, min(springs, MOST) + 1):
         found = _none_left(wanted, r) if r >= len(points) else _best(wanted, r)
         if best and found.swing > best[-1].swing:
             found = dataclasses.replace(best[-1], springs=r)  # a shape that is not used does no harm
@@ -86,27 +84,16 @@ def rank(points: Sequence[Point], springs: int = _MOST) -> Bound:
     )  # fmt: skip
 
 
-def flywheel_bound(points: Sequence[Point], bound: Bound, ripple: float, added: float = 0.0) -> list[float]:
-    r"""Flywheel that weak ripple needs at least, for 1, 2, .. springs.
+def flywheel_estimate(points: Sequence[Point], bound: Bound, ripple: Pure, rollers: Inertia = 0.0) -> Inertia:
+    r"""Flywheel that weak ripple needs beside one guide, about.
 
-    .. math:: J \ge D_r / \delta - \overline{I + I_h}
+    .. math:: J \approx D_1 / \delta - \overline{I + I_h}
 
-    Parameters
-    ----------
-    points : sequence of Point
-        The engine's own inertia is that of the first of them
-    ripple : float
-        Allowed (max - min) / mean of the speed [-]
-    added : float
-        Mean inertia of the rollers of one guide, I_h [kg*m^2]
-
-    Returns
-    -------
-    inertia : list of float
-        Not below 0 [kg*m^2]
+    points: the engine's own inertia is that of the first of them; ripple: allowed (max - min) / mean of the speed;
+    rollers: mean inertia of the rollers, I_h. Returns inertia: not below 0.
     """
     own = float(np.mean(points[0].inertia(np.linspace(0, points[0].period, 361)[:-1])))
-    return [max(0.0, b.swing / ripple - own - b.springs * added) for b in bound.best]
+    return max(0.0, bound.swing[0] / ripple - own - rollers)
 
 
 def _wanted(samples: Samples) -> np.ndarray:
@@ -138,14 +125,16 @@ def _best(wanted: np.ndarray, r: int) -> Shapes:
     problem = {"x": x, "f": D, "g": ca.veccat(left, left - D)}
     zero, far = np.zeros(k * n), np.full(k * n, np.inf)
     solver = ca.nlpsol("rank", "ipopt", problem, _OPTIONS)
-    found = solver(x0=x0, lbx=np.where(held, x0, -np.inf), ubx=np.where(held, x0, np.inf),
-                   lbg=np.concatenate([zero, -far]), ubg=np.concatenate([far, zero]))  # fmt: skip
-    good = solver.stats()["success"]
-    end = np.asarray(found["x"]).ravel() if good else x0
+    given = {
+        "x0": x0, "lbx": np.where(held, x0, -np.inf), "ubx": np.where(held, x0, np.inf),
+        "lbg": np.concatenate([zero, -far]), "ubg": np.concatenate([far, zero]),
+    }  # fmt: skip
+    found = ipopt(solver, given, nearly=True)
+    end = np.asarray(found.values["x"]).ravel() if found.status == "optimal" else x0
     shapes_, shares_ = end[: r * n].reshape(n, r).T, end[r * n : r * n + k * r].reshape(r, k).T
     # the swing that these very shapes leave, whatever the solver says
     swing = size * float(np.ptp(w - shares_ @ shapes_, axis=1).max())
-    status = "optimal" if good else solver.stats()["return_status"].replace("_", " ").lower()
+    status = found.status if found.status == "optimal" else found.reason
     return Shapes(springs=r, swing=swing, shapes=size * shapes_, shares=shares_, status=status)
 
 

@@ -9,7 +9,6 @@ moment, and the first law of each gas is in the residual of the run.
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import scipy
@@ -21,9 +20,11 @@ from mechsym.codesign.loss import friction, gas_turn, real, spring_with_heat
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.thermal import AirThermal
+from mechsym.hinge.springs.air_thermal import AirThermal
+from mechsym.hinge.springs.face import Spring
 from mechsym.machine.loads import load_torque
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Scalar
 
 _RESET = (0.7, 1.3)  # fills that are tried, by that of the schedule
 _STOPPED = 2.0
@@ -68,10 +69,11 @@ def in_time(machine: Running, given: HingeLosses, speed: float, periods: int) ->
     """Run a machine of `real` from dead centre at a speed [rad/s] for some periods, each gas a state."""
     point = machine.point
     gases = [spring_with_heat(t, p, point.omega, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
-    starts = [gas_turn(t, g.p0, point, given).temperature[0] for t, g in zip(machine.tracks, gases, strict=True)]
+    turns = [gas_turn(t, p, point, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
+    starts = [1.0 if turn is None else turn.warmth[0] for turn in turns]
     rates, end = _rates(machine, gases, given), periods * point.period
 
-    def turned(t: float, y: Any) -> float:
+    def turned(t: float, y: Scalar) -> float:
         return float(y[0]) - end
 
     turned.terminal = True  # type: ignore[attr-defined]
@@ -84,26 +86,24 @@ def in_time(machine: Running, given: HingeLosses, speed: float, periods: int) ->
     phi, omega, gained, lost, *T = found.sol(t)
     ends = np.array([phi[0], phi[-1]])
     kinetic = np.diff(running.inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2)[0]
-    stored = sum(float(np.diff(_stored(track, gas, ends, T_[[0, -1]]))[0])
-                 for track, gas, T_ in zip(machine.tracks, gases, T, strict=True))  # fmt: skip
+    springs = [gas or t.hardware.charged(p)
+               for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]  # fmt: skip
+    stored = sum(float(np.diff(spring.energy(t.z(ends), warm[[0, -1]]))[0])
+                 for t, spring, warm in zip(machine.tracks, springs, T, strict=True))  # fmt: skip
     residual = float((gained[-1] - lost[-1] - kinetic - stored) / (abs(lost[-1]) or 1.0))
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=not len(found.t_events[0]), energy_residual=residual)
+    return TimeRun(t=t, phi=phi, omega=omega, stalled=not len(found.t_events[0]), energy_residual=residual,
+                   dense=lambda times: (found.sol(times)[:1], found.sol(times)[1:2]))  # fmt: skip
 
 
-def _stored(track: Track, gas: AirThermal, phi: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """Heat in the gas less the work of the air outside [J] at phi [rad] and temperatures T [K]."""
-    warm = (gas.p0 + gas.pa) * gas.A * gas.H / (gas.gamma - 1) / gas.wall_temperature
-    return np.asarray(warm * T - gas.pa * gas.A * track.z(phi))
-
-
-def _rates(machine: Running, gases: list[AirThermal], given: HingeLosses) -> Callable[[Any], list[float]]:
-    """Rates of angle, speed, work of the engine, work of load, friction and heat, and of each temperature."""
+def _rates(machine: Running, gases: list[AirThermal | None], given: HingeLosses) -> Callable[[Scalar], list[float]]:
+    """Rates of angle, speed, work of the engine, work of load, friction and heat, and of each T / T_w."""
     point = machine.point
     engine = periodic.scalar(periodic.fit(machine.torque, machine.kinks, point.period, 1e-10))
     own = periodic.scalar(point.inertia)
-    springs = [_spring(t, g, given) for t, g in zip(machine.tracks, gases, strict=True)]
+    springs = [_spring(t, g or t.hardware.charged(p), g, given)
+               for t, g, p in zip(machine.tracks, gases, machine.pressures, strict=True)]  # fmt: skip
 
-    def rates(y: Any) -> list[float]:
+    def rates(y: Scalar) -> list[float]:
         phi, omega = float(y[0]), float(y[1])
         driving, (total, rise) = engine(phi)[0], own(phi)
         total, push, away, warming = total + machine.flywheel, 0.0, 0.0, []
@@ -118,23 +118,23 @@ def _rates(machine: Running, gases: list[AirThermal], given: HingeLosses) -> Cal
     return rates
 
 
-def _spring(track: Track, gas: AirThermal, given: HingeLosses) -> Callable[[float, float, float], tuple[float, ...]]:
-    """Of one guide at angle [rad], speed [rad/s] and temperature [K]: inertia, its slope, torque, power lost, dT/dt."""
+def _spring(
+    track: Track, spring: Spring, gas: AirThermal | None, given: HingeLosses
+) -> Callable[[float, float, float], tuple[float, ...]]:
+    """Of a guide at angle [rad], speed [rad/s] and T / T_w: inertia, its slope, torque, power lost, rate of T / T_w."""
     h, value, slope = track.hardware, periodic.scalar(track.z), periodic.scalar(track.z.derivative())
     mass, ratio = h.count * (h.moving_mass + h.roller_inertia / h.radius**2), h.shaft_ratio
-    capacity = (gas.p0 + gas.pa) * gas.A * gas.H / (gas.gamma - 1) / gas.wall_temperature
 
-    def at(phi: float, omega: float, T: float) -> tuple[float, ...]:
+    def at(phi: float, omega: float, warm: float) -> tuple[float, ...]:
         z, dz = value(phi)
         d2z = slope(phi)[1]
         path: Path = path_of(h, h.rho0, z, dz, d2z)
         across, along = ratio * path.rho, -dz / h.count
-        force = h.A * ((gas.p0 + gas.pa) * gas.H / (gas.H - z) * T / gas.wall_temperature - gas.pa)
+        force = spring.force(z, warm)
         rubbed = sum(friction(track, path, force, omega, given).values())
-        exchanged = (T - gas.wall_temperature) / gas.tau
-        cooling = -(gas.gamma - 1) * T * (-dz * omega) / (gas.H - z) - exchanged
+        heat, warming = (0.0, 0.0) if gas is None else (gas.heat(warm), gas.warming(warm, z, -dz * omega))
         inertia = mass * (across**2 + along**2)
         change = 2 * mass * (across * ratio * along - along * d2z / h.count)
-        return inertia, change, -force * dz - float(rubbed), float(rubbed) * omega + capacity * exchanged, cooling
+        return inertia, change, -force * dz - float(rubbed), float(rubbed) * omega + heat, warming
 
     return at

@@ -7,20 +7,26 @@ how A, H and p0 share it (with the gauge law and rollers without mass not at all
 """
 
 import dataclasses
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 import scipy
 
-from mechsym.codesign.contact_block import Path, contact_force, curvature, path_of
-from mechsym.codesign.hardware import Hardware, gas_energy, gas_pressure, outside
+from mechsym.codesign import contact_block
+from mechsym.codesign.contact_block import path_of
+from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.task import CoDesign, Track
-from mechsym.codesign.verify import hertz
 from mechsym.errors import BadInput, suggest
+from mechsym.hinge.bounds.face import Station
+from mechsym.hinge.bounds.spring import ROOM
 from mechsym.hinge.losses import HingeLosses, bearing_torque
+from mechsym.hinge.setting import setting_of
+from mechsym.hinge.springs.face import affine_energy
 from mechsym.quantities import record
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import Scalar
 
-#: values of the hardware that `realise` chooses
+#: values of the hardware that `realise` chooses, as far as it has them; p0 is the setting of any spring
 CHOSEN = ("A", "H", "p0", "rho0", "radius", "width")
 _RANGE = 3.0  # each of them at most by this factor larger or smaller
 _FINE = 720
@@ -37,19 +43,55 @@ class Realised:
     after: tuple[float, ...]  #: goal of each guide as realised [-]
 
 
-def _bearing_loss(h: Hardware, path: Path, pressure: np.ndarray, N: np.ndarray) -> float:
-    given = HingeLosses()
-    return float(np.mean(bearing_torque(N, path.rho, path.drho, given.bearing_mu, h.radius / 2, h.radius, h.count)))
+def _bearing_loss(at: Station) -> float:
+    radius = at.rollers.radius
+    torque = bearing_torque(at.reaction, at.rho, at.drho, HingeLosses().bearing_mu, radius / 2, radius, at.count)
+    return float(np.mean(torque))
 
 
 #: what can be made small, in the units of `GOAL_UNITS`
-GOALS = {
+GOALS: dict[str, Callable[[Station], float]] = {
     "bearing_loss": _bearing_loss,
-    "roller_reaction": lambda h, path, pressure, N: float(N.max()),
-    "gas_volume": lambda h, path, pressure, N: h.A * h.H,
-    "spring_pressure": lambda h, path, pressure, N: float(pressure.max()),
+    "roller_reaction": lambda at: float(at.reaction.max()),
+    "gas_volume": lambda at: at.spring.area * at.spring.H,
+    "spring_pressure": lambda at: float(at.pressure.max()),
 }
 GOAL_UNITS = {"bearing_loss": "N*m", "roller_reaction": "N", "gas_volume": "m^3", "spring_pressure": "Pa"}
+
+
+@result
+class RealisedGuide:
+    """Hardware of one guide that was chosen anew."""
+
+    A: float | None = quantity("m^2")  #: Piston area of its spring; None without gas
+    H: float = quantity("m")  #: Free height of the gas column
+    p0: float = quantity("Pa")  #: Largest pressure
+    rho0: float = quantity("m")  #: Roller centre to shaft axis at free height
+    radius: float = quantity("m")  #: Of a roller
+    width: float = quantity("m")  #: Of contact
+
+
+def chosen(hardware: Hardware) -> RealisedGuide:
+    """The hardware that was chosen."""
+    values: dict[str, Scalar] = {"A": None, **hardware.values(*CHOSEN), "p0": setting_of(hardware.spring)}
+    return RealisedGuide(**values)
+
+
+@result
+class RealisedNumbers:
+    """Other hardware for the same works."""
+
+    goal: str = part()  #: What was made small
+    status: str = part()
+    before: tuple[float, ...] = quantity("@unit")  #: Goal of each guide as designed
+    after: tuple[float, ...] = quantity("@unit")  #: Goal of each guide as realised
+    p0: tuple[tuple[float, ...], ...] = quantity("Pa")  #: Pressures of each spring at each point
+    guides: tuple[RealisedGuide, ...] = part()
+
+    @property
+    def unit(self) -> str:
+        """Of the goal."""
+        return GOAL_UNITS[self.goal]
 
 
 def check_goal(goal: str) -> str:
@@ -62,6 +104,8 @@ def check_goal(goal: str) -> str:
 def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
     """Hardware with the smallest goal that gives the same works within all limits; `goal` is one of `GOALS`."""
     check_goal(goal)
+    if not found.task.hardware.spring.gas and goal in ("gas_volume", "spring_pressure"):
+        raise BadInput(f"goal = {goal!r} asks for gas, and there is none in the spring; take bearing_loss")
     omega = max(p.omega for p in found.task.points)
     made = [_one(found, track, goal, omega) for track in found.tracks]
     failed = [words for words, *_ in made if words != "optimal"]
@@ -76,47 +120,41 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
     h, top, period = track.hardware, int(np.argmax(track.p0)), found.task.points[0].period
     phi = np.arange(_FINE) * period / _FINE
     stored = _stored(track, float(track.p0[top]), phi)
-    speed = h.shaft_ratio * omega
 
-    def at(x: np.ndarray) -> tuple[Hardware, Path, np.ndarray, np.ndarray]:
+    def at(x: np.ndarray) -> tuple[Hardware, Station]:
         new = _scaled(h, float(track.p0[top]), x)
-        path = path_of(new, new.rho0, *_closing(new, stored, float(np.exp(x[-1])) * max(h.z_margin, 1e-3 * h.H)))
-        pressure = gas_pressure(path.z, new.p0, new.H, new.n, outside(new))
-        return new, path, pressure, contact_force(path, new.A * pressure, new.moving_mass, speed)
+        least = float(np.exp(x[-1])) * max(h.z_margin, 1e-3 * h.spring.H)
+        path = path_of(new, new.rho0, *_closing(new, stored, least))
+        return new, new.station(path, new.spring, omega)
 
     def margins(x: np.ndarray) -> np.ndarray:
-        return _margins(found, *at(x)) - _MARGIN
+        return _margins(found, at(x)[1]) - _MARGIN
 
     start = np.zeros(len(CHOSEN) + 1)
-    before = GOALS[goal](*at(start))
+    before = GOALS[goal](at(start)[1])
     bounds = [(-np.log(_RANGE), np.log(_RANGE))] * len(CHOSEN) + [(0.0, np.log(30.0))]
-    best = scipy.optimize.minimize(lambda x: GOALS[goal](*at(x)) / before, start, method="SLSQP", bounds=bounds,
+    best = scipy.optimize.minimize(lambda x: GOALS[goal](at(x)[1]) / before, start, method="SLSQP", bounds=bounds,
                     constraints={"type": "ineq", "fun": margins}, options={"maxiter": 200, "ftol": 1e-8})  # fmt: skip
     good = margins(best.x).min() > -2 * _MARGIN
-    new, path, *_ = at(best.x)
+    new, there = at(best.x)
     words = "optimal" if best.success and good else str(best.message).lower()
-    return words, _track(track, new, path.z, phi, period), before, float(best.fun) * before
+    return words, _track(track, new, there.z, phi, period), before, float(best.fun) * before
 
 
 def _scaled(h: Hardware, p0: float, x: np.ndarray) -> Hardware:
-    values: dict[str, Any] = {name: (p0 if name == "p0" else getattr(h, name)) * float(np.exp(f))
-                              for name, f in zip(CHOSEN, x[:-1], strict=True)}  # fmt: skip
-    return dataclasses.replace(h, **values)
+    names = {
+        h.spring.setting[0] if name == "p0" else name: float(np.exp(f)) for name, f in zip(CHOSEN, x[:-1], strict=True)
+    }
+    values = {**h.values(*names), h.spring.setting[0]: p0}
+    return h.changed({name: value * names[name] for name, value in values.items()})
 
 
 def _stored(track: Track, p0: float, phi: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Energy above its least [J] and its derivatives by the crank angle [J/rad, J/rad^2]."""
-    h, z = track.hardware, track.z(phi)
+    spring, z = track.hardware.charged(p0), track.z(phi)
     dz, d2z = track.z.derivative()(phi), track.z.derivative(2)(phi)
-    U = h.A * gas_energy(z, p0, h.H, h.n, outside(h))
-    F, stiff = _force(h, z, p0)
-    return U - U.min(), F * dz, stiff * dz**2 + F * d2z
-
-
-def _force(h: Hardware, z: np.ndarray, p0: float) -> tuple[np.ndarray, np.ndarray]:
-    """Force of the spring [N] and its stiffness [N/m]."""
-    p, pa = gas_pressure(z, p0, h.H, h.n, outside(h)), outside(h)
-    return h.A * p, h.A * h.n * (p + pa) / (h.H - z)
+    U, F = spring.energy(z), spring.force(z)
+    return U - U.min(), F * dz, spring.stiffness(z) * dz**2 + F * d2z
 
 
 def _closing(
@@ -124,45 +162,34 @@ def _closing(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Closing [m] and derivatives of a spring that stores what is asked beyond a least closing [m]."""
     U, dU, d2U = stored
-    grid = h.H * (1 - np.geomspace(1, 1e-3, 4000))
-    energy = h.A * gas_energy(grid, h.p0, h.H, h.n, outside(h))
-    base = float(h.A * gas_energy(least, h.p0, h.H, h.n, outside(h)))
-    z = np.interp(U + base, energy, grid)
+    spring = h.spring
+    grid = spring.H * (1 - np.geomspace(1, 1e-3, 4000))
+    base = float(spring.energy(least))
+    z = np.interp(U + base, spring.energy(grid), grid)
     for _ in range(4):
-        F, _stiff = _force(h, z, h.p0)
-        z = np.clip(z - (h.A * gas_energy(z, h.p0, h.H, h.n, outside(h)) - U - base) / F, 0.0, 0.999 * h.H)
-    F, stiff = _force(h, z, h.p0)
+        z = np.clip(z - (spring.energy(z) - U - base) / spring.force(z), 0.0, 0.999 * spring.H)
+    F = spring.force(z)
     dz = dU / F
-    return z, dz, (d2U - stiff * dz**2) / F
+    return z, dz, (d2U - spring.stiffness(z) * dz**2) / F
 
 
-def _margins(found: CoDesign, h: Hardware, path: Path, pressure: np.ndarray, N: np.ndarray) -> np.ndarray:
+def _margins(found: CoDesign, at: Station) -> np.ndarray:
     """What is left of each limit, by the limit [-]."""
-    b, kappa = found.task.bounds, curvature(path)
-    room = (h.rho0 - h.H / 2 - h.radius) / h.rho0 if h.count == 2 else 1.0
-    return np.array([
-        1 - path.z.max() / (b.closing_share * h.H),
-        1 - np.abs(path.drho / path.rho).max() / np.tan(b.pressure_angle),
-        1 + kappa.min() * (h.radius + b.profile_radius),
-        1 - pressure.max() / b.spring_pressure,
-        1 - N.max() / b.roller_reaction,
-        N.min() / b.roller_reaction,
-        1 - hertz(h, N, kappa).max() / b.hertz_stress,
-        1 - h.radius / path.rho.min(),
-        room,
-    ])  # fmt: skip
+    # the least closing is chosen too, and is none of them
+    rows = contact_block.rows(at, found.task.bounds, 0.0, found.task.widest)[1:]
+    above = [high - np.max(values) for values, _, high in rows if np.isfinite(high)]
+    below = [np.min(values) - low for values, low, _ in rows if np.isfinite(low)]
+    room = at.rho0 - at.spring.H / 2 - at.rollers.radius
+    return np.array([*above, *below, room / at.rho0 if ROOM.holds(at.spring, at.count) else 1.0])
 
 
 def _track(old: Track, h: Hardware, z: np.ndarray, phi: np.ndarray, period: float) -> Track:
     """The new guide, with the pressures whose works are nearest to those of the old one."""
     spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(z, z[0]), bc_type="periodic")
     curve = scipy.interpolate.PPoly(spline.c, spline.x, extrapolate="periodic")
-    pa, p0 = outside(h), []
-    fixed = h.A * gas_energy(z, 0.0, h.H, h.n, pa)
-    by_p0 = h.A * gas_energy(z, 1e6, h.H, h.n, pa) / 1e6 - fixed / 1e6
-    given = by_p0 - by_p0.mean()
+    fixed, by_p0 = affine_energy(h.spring, z)
+    wave, settings = by_p0 - by_p0.mean(), []
     for p in old.p0:
-        o = old.hardware
-        wanted = o.A * gas_energy(old.z(phi), float(p), o.H, o.n, outside(o)) - fixed
-        p0.append(float((wanted - wanted.mean()) @ given / (given @ given)))
-    return Track(hardware=dataclasses.replace(h, p0=max(p0)), z=curve, p0=np.array(p0))
+        wanted = old.hardware.charged(float(p)).energy(old.z(phi)) - fixed
+        settings.append(float((wanted - wanted.mean()) @ wave / (wave @ wave)))
+    return Track(hardware=h.changed({h.spring.setting[0]: max(settings)}), z=curve, p0=np.array(settings))

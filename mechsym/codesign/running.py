@@ -11,23 +11,25 @@ order eight. They share the functions of the machine and no method.
 import dataclasses
 import functools
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import scipy
 
 from mechsym import periodic
 from mechsym.codesign.contact_block import path_of
-from mechsym.codesign.hardware import gas_energy, gas_pressure, outside, roller_inertia
-from mechsym.codesign.in_time import Turning, of_track, turn
+from mechsym.codesign.hardware import roller_inertia
+from mechsym.codesign.in_time import Turning, at_times, of_track, turn
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.task import Track
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Pure, Scalar
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
+from mechsym.simulate.speed import Dense, last_period, speeds
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
 _PER_TURN = 1440  # angles at which a run is read
+_LOOKS = 1441  # at the last period, for its extremes
 _STALLED = 0.02  # of the mean speed
 
 
@@ -56,6 +58,8 @@ class TimeRun:
     omega: np.ndarray  #: [rad/s]
     stalled: bool
     energy_residual: float = quantity("-", about="(work in - load - change of energy) / work of the load")
+    #: Angle and speed, shape (1, n) each, at any ascending times within the run; None for several behind each other
+    dense: Dense | None = dataclasses.field(default=None, repr=False, compare=False)
 
 
 def running(
@@ -75,31 +79,29 @@ def running(
     )  # fmt: skip
 
 
-def spring_torque(track: Track, p0: float, phi: Any) -> np.ndarray:
+def spring_torque(track: Track, p0: float, phi: Scalar) -> np.ndarray:
     """Torque of one guide on the shaft, positive driving [N*m], at phi [rad] with pressure p0 [Pa]."""
-    h, z = track.hardware, track.z(phi)
-    return -h.A * gas_pressure(z, p0, h.H, h.n, outside(h)) * track.z.derivative()(phi)
+    return -track.hardware.charged(p0).force(track.z(phi)) * track.z.derivative()(phi)
 
 
-def spring_energy(track: Track, p0: float, phi: Any) -> np.ndarray:
+def spring_energy(track: Track, p0: float, phi: Scalar) -> np.ndarray:
     """Energy in one spring [J] at phi [rad] with pressure p0 [Pa]."""
-    h = track.hardware
-    return h.A * gas_energy(track.z(phi), p0, h.H, h.n, outside(h))
+    return np.asarray(track.hardware.charged(p0).energy(track.z(phi)))
 
 
-def added_inertia(track: Track, phi: Any) -> np.ndarray:
+def added_inertia(track: Track, phi: Scalar) -> np.ndarray:
     """Inertia of the rollers of one guide about the shaft [kg*m^2] at phi [rad]."""
     h, dz = track.hardware, track.z.derivative()(phi)
     path = path_of(h, h.rho0, track.z(phi), dz, 0 * dz)
     return h.shaft_ratio**2 * roller_inertia(path.rho, path.drho, h.moving_mass, h.roller_inertia, h.radius, h.count)
 
 
-def inertia(machine: Running, phi: Any) -> np.ndarray:
+def inertia(machine: Running, phi: Scalar) -> np.ndarray:
     """All inertia that turns [kg*m^2] at phi [rad]."""
     return machine.point.inertia(phi) + machine.flywheel + sum(added_inertia(t, phi) for t in machine.tracks)
 
 
-def torque(machine: Running, phi: Any) -> np.ndarray:
+def torque(machine: Running, phi: Scalar) -> np.ndarray:
     """Torque of gas, gravity and springs on the shaft [N*m] at phi [rad]."""
     springs = zip(machine.tracks, machine.pressures, strict=True)
     extra = 0.0 if machine.extra is None else machine.extra(phi)
@@ -127,31 +129,31 @@ def steady(machine: Running) -> Steady:
     return steady_state(panels(machine), machine.point.omega)
 
 
-def run(machine: Running, speed: float, turns: float, phi_start: float = 0.0, stall: float = _STALLED) -> TimeRun:
+def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, stall: Pure = _STALLED) -> TimeRun:
     """Run the machine in time from a speed [rad/s] and an angle [rad] for some turns; it may stall.
 
-    Parameters
-    ----------
-    turns : float
-        Turns of the crank [-]
-    stall : float
-        Share of the point's speed below which the run ends [-]
+    turns: turns of the crank; stall: share of the point's speed below which the run ends.
     """
-    t, (phi, omega, gained, taken), stalled = turn(
-        Turning(
-            tables=_tables(machine), held=_held(machine), kinks=_kinks(machine), period=machine.point.period,
-            start=(phi_start, speed), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
-            longest=20 * turns * 2 * np.pi / speed,
-        ),
-        int(_PER_TURN * turns) + 1,
+    turning = Turning(
+        laws=tuple(type(t.hardware.spring) for t in machine.tracks), tables=_tables(machine),
+        held=_held(machine), kinks=_kinks(machine), period=machine.point.period,
+        start=(phi_start, speed), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
+        longest=20 * turns * 2 * np.pi / speed,
     )  # fmt: skip
+    t, (phi, omega, gained, taken), stalled = turn(turning, int(_PER_TURN * turns) + 1)
     ends = np.array([phi[0], phi[-1]])
     stored = sum(np.diff(spring_energy(t_, p0, ends))[0]
                  for t_, p0 in zip(machine.tracks, machine.pressures, strict=True))  # fmt: skip
     kinetic = inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2
     turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
     residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual)
+
+    def dense(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        i = max(int(np.searchsorted(t, times[0], side="right")) - 1, 0)
+        again = dataclasses.replace(turning, start=(float(phi[i]), float(omega[i])))
+        return at_times(again, times - t[i])
+
+    return TimeRun(t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual, dense=dense)
 
 
 def joined(legs: Sequence[TimeRun]) -> TimeRun:
@@ -167,13 +169,22 @@ def joined(legs: Sequence[TimeRun]) -> TimeRun:
     )
 
 
+def extremes(found: TimeRun) -> tuple[float, float]:
+    """Least and greatest speed [rad/s] of a whole run; of several behind each other those that were read."""
+    if found.dense is None:
+        return float(found.omega.min()), float(found.omega.max())
+    (speed,) = speeds(found.dense, found.t)
+    return speed.min, speed.max
+
+
 def ripple_of_last_turn(found: TimeRun, period: float) -> float | None:
-    """(max - min) / mean of the speed over the last period [rad]; None after a stall."""
-    if found.stalled:
+    """Ripple of the speed over the last period [rad], see `mechsym.simulate.speed`; None after a stall."""
+    if found.stalled or found.dense is None:
         return None
-    last = found.phi >= found.phi[-1] - period
-    mean = float(np.ptp(found.phi[last]) / np.ptp(found.t[last]))
-    return float(np.ptp(found.omega[last])) / mean
+    (speed,) = speeds(
+        found.dense, np.linspace(last_period(found.t, found.phi, found.omega, period), found.t[-1], _LOOKS)
+    )
+    return speed.ripple
 
 
 def _kinks(machine: Running) -> np.ndarray:
@@ -189,7 +200,7 @@ def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> "scipy
     return periodic.fit(torque, kinks, period, 1e-10)
 
 
-def _tables(machine: Running) -> tuple[Any, ...]:
+def _tables(machine: Running) -> tuple["scipy.interpolate.PPoly", ...]:
     point = machine.point
     driving = _fitted(machine.torque, machine.kinks, point.period)
     extra = scipy.interpolate.PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra

@@ -5,7 +5,6 @@ Every row is a run in time of the machine as built, from its steady motion; spee
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import scipy
@@ -18,6 +17,7 @@ from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
+from mechsym.quantities.units import Inertia, Scalar
 
 _GOVERNED = 20  # turns after which a governor has answered
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
@@ -43,24 +43,18 @@ def misfire(found: CoDesign, k: int, flywheel: float | None = None) -> Scenario:
     return _lost_combustion(machine, point, k)
 
 
-def misfire_shares(found: CoDesign, flywheel: float | None = None) -> list[float | None]:
+def misfire_shares(found: CoDesign, flywheel: Inertia | None = None) -> list[float | None]:
     """Lowest speed after a lost combustion by the mean speed at each point [-]; 0 for a stall, None if not known.
 
-    Parameters
-    ----------
-    flywheel : float, optional
-        In place of the design's [kg*m^2]
+    flywheel: in place of the design's.
     """
     return [_share(found, k, flywheel) for k in range(len(found.task.points))]
 
 
-def misfire_flywheel(found: CoDesign, share: float) -> float | None:
+def misfire_flywheel(found: CoDesign, share: float, least: Inertia | None = None) -> Inertia | None:
     """Flywheel with which a lost combustion leaves a share [-] of the speed at every point, guides unchanged [kg*m^2].
 
-    Returns
-    -------
-    inertia : float or None
-        At least the design's; None where a point does not know its misfire [kg*m^2]
+    least: what it is at least, by default the design's. Returns inertia: None where a point does not know its misfire.
     """
     if any(p.misfire is None for p in found.task.points):
         return None
@@ -68,12 +62,13 @@ def misfire_flywheel(found: CoDesign, share: float) -> float | None:
     def short(flywheel: float) -> float:
         return min(_share(found, k, flywheel) or 0.0 for k in range(len(found.task.points))) - share
 
-    if short(found.flywheel) >= 0:
-        return found.flywheel
-    high = max(2 * found.flywheel, 100.0)
+    low = found.flywheel if least is None else least
+    if short(low) >= 0:
+        return low
+    high = max(2 * low, 100.0)
     while short(high) < 0:
         high *= 2
-    return float(scipy.optimize.brentq(short, found.flywheel, high, xtol=1.0))
+    return float(scipy.optimize.brentq(short, low, high, xtol=min(1.0, 1e-3 * high)))
 
 
 def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
@@ -103,7 +98,7 @@ def steady_speed(machine: Running) -> tuple[float, float] | None:
 
 def told(name: str, about: str, k: int, mean: float, run: TimeRun, words: Callable[[TimeRun], str]) -> Scenario:
     """A run as a scenario, its speeds as shares of `mean` [rad/s]; `words` tell how it went unless it stopped."""
-    low, high = (None, None) if run.stalled else (float(run.omega.min()) / mean, float(run.omega.max()) / mean)
+    low, high = (None, None) if run.stalled else (speed / mean for speed in running.extremes(run))
     angle = np.degrees(run.phi[-1] - run.phi[0])
     text = f"the shaft stops after {angle:.0f} deg" if run.stalled else words(run)
     return Scenario(name=name, about=about, point=k, speed_min=low, speed_max=high, outcome=text, run=run)
@@ -122,9 +117,8 @@ def _lost_combustion(machine: Running, point: Point, k: int) -> Scenario:
         return not_running(name, about, k)
     without = dataclasses.replace(machine, torque=point.misfire, kinks=point.misfire_kinks)
     run = running.run(without, start[0], point.period / (2 * np.pi))
-    return told(
-        name, about, k, start[1], run, lambda r: f"lowest speed {per_cent(r.omega.min() / start[1])} of the mean"
-    )
+    lowest = running.extremes(run)[0] / start[1]
+    return told(name, about, k, start[1], run, lambda r: f"lowest speed {per_cent(lowest)} of the mean")
 
 
 def _load_step(machine: Running, k: int) -> Scenario:
@@ -224,7 +218,7 @@ def _turn_by_turn(machine: Running, speed: float, factors: Sequence[float] | np.
 
 
 def _scaled(torque: Function, factor: float) -> Function:
-    def scaled(phi: Any) -> Any:
+    def scaled(phi: Scalar) -> Scalar:
         return factor * torque(phi)
 
     return scaled

@@ -1,6 +1,4 @@
-r"""Pressure of the spring over speed and load, the ripple that it keeps, and what moves the gas.
-
-.. math:: \Delta m = \frac{V\,\Delta p}{R\,T}
+"""Pressure of the spring over speed and load, and the ripple that it keeps.
 
 The wanted work is affine in omega^2 at a given load: a few loads are enough for a whole map.
 """
@@ -10,13 +8,13 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import scipy
 
-from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign
 from mechsym.errors import BadInput
-from mechsym.hinge.thermal import R_NITROGEN
+from mechsym.hinge.springs.face import affine_energy
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, RadPerSecond
 
 _ANGLES = 180
 _GOLDEN = (5**0.5 - 1) / 2
@@ -35,17 +33,11 @@ class RippleMap:
     ripple: np.ndarray  #: shape (m, n); 2 where the shaft stops [-]
 
 
-def ripple_map(found: CoDesign, loads: Sequence[Point], omega: np.ndarray, load: np.ndarray) -> RippleMap:
+def ripple_map(found: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Array], load: Pascal[Array]) -> RippleMap:
     """Ripple and pressure of a design with one spring under propeller load, for all pairs of speed and load.
 
-    Parameters
-    ----------
-    loads : sequence of Point
-        The machine at ascending loads, at any speed
-    omega : ndarray, shape (m,)
-        Speeds [rad/s]
-    load : ndarray, shape (n,)
-        Mean indicated pressures, within those of the points [Pa]
+    loads: the machine at ascending loads, at any speed; omega: speeds, shape (m,); load: mean indicated pressures,
+    within those of the points.
     """
     if len(found.tracks) != 1:
         raise BadInput("the map is that of one spring; a design with several has a schedule for its points")
@@ -55,12 +47,11 @@ def ripple_map(found: CoDesign, loads: Sequence[Point], omega: np.ndarray, load:
     gas = scipy.interpolate.PchipInterpolator([p.load for p in loads],
                             [p.work(phi) - p.omega**2 / 2 * p.inertia(phi) for p in loads])(load)  # fmt: skip
     torque = scipy.interpolate.PchipInterpolator([p.load for p in loads], [p.load_torque for p in loads])(load)
-    rollers, h = added_inertia(track, phi), track.hardware
+    rollers = added_inertia(track, phi)
     total = inertia + rollers + found.flywheel
     square = omega[:, None, None] ** 2
     wanted = (gas[None] + square / 2 * (inertia + rollers)).reshape(-1, _ANGLES)
-    fixed = h.A * gas_energy(track.z(phi), 0.0, h.H, h.n, outside(h))
-    by_p0 = h.A * (gas_energy(track.z(phi), 1e6, h.H, h.n, outside(h))) / 1e6 - fixed / 1e6
+    fixed, by_p0 = affine_energy(track.hardware.spring, track.z(phi))
     speeds, torques = np.repeat(omega, load.size), np.tile(torque, omega.size)
     guess = np.ptp(wanted, axis=1) / np.ptp(by_p0)
 
@@ -70,44 +61,6 @@ def ripple_map(found: CoDesign, loads: Sequence[Point], omega: np.ndarray, load:
     p0 = _golden(ripple, _FAR[0] * guess, _FAR[1] * guess)
     shape = (omega.size, load.size)
     return RippleMap(omega=omega, load=load, p0=p0.reshape(shape), ripple=ripple(p0).reshape(shape))
-
-
-def gas_to_move(volume: float, low: float, high: float, temperature: float = 320.0) -> float:
-    r"""Mass of nitrogen that takes a spring from one pressure to another.
-
-    .. math:: \Delta m = \frac{V (p_2 - p_1)}{R T}
-
-    Parameters
-    ----------
-    volume : float
-        Of the full column, A H [m^3]
-    low, high : float
-        Pressures at free height [Pa]
-    temperature : float
-        Of the gas [K]
-
-    Returns
-    -------
-    mass : float
-        To be brought in or let out [kg]
-
-    Notes
-    -----
-    Source: ideal gas; slow filling at constant temperature. One per cent of pressure is 3.2 K at 320 K.
-
-    Examples
-    --------
-    >>> round(gas_to_move(0.031, 3.5e6, 9.2e6), 2)
-    1.86
-    """
-    return volume * (high - low) / (R_NITROGEN * temperature)
-
-
-def pressure_law(found: CoDesign, s: int = 0) -> "scipy.interpolate.PchipInterpolator":
-    """Pressure of a spring by the square of the speed [Pa s^2] over the speed [rad/s], through its points."""
-    order = np.argsort([p.omega for p in found.task.points])
-    omega = np.array([found.task.points[i].omega for i in order])
-    return scipy.interpolate.PchipInterpolator(omega, found.tracks[s].p0[order] / omega**2)
 
 
 def _ripples(

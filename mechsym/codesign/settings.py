@@ -1,10 +1,12 @@
 """Section `[codesign]` of a case: the family of operating points, and what is asked of the guides."""
 
-from mechsym.codesign.task import FREE
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 
+#: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
+FREE = {"A": (0.5, 4.0), "H": (0.5, 4.0), "rho0": (0.5, 4.0), "radius": (0.5, 4.0), "width": (0.5, 4.0)}
 CURVES = ("propeller", "constant_speed")
+LOSSES = ("inside", "beside", "none")  # in the programme, computed beside it, left out altogether
 
 
 @record
@@ -22,12 +24,21 @@ class CoDesignSettings:
     ripple: float = quantity("-", default=0.02, above=0, below=1, about="allowed (max - min) / mean of the speed")
     springs: float = quantity("-", default=1, low=1, high=3, about="guides with a spring and pressure of their own")
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
-    losses: str = choice("beside", "inside", default="beside", about="friction and heat beside the programme or in it")
+    losses: str = choice(
+        "by_case", *LOSSES, default="by_case", about="friction and heat in the programme; by_case: inside with [losses]"
+    )
     saving: float = quantity(
         "-", default=0.3, low=0, below=1, about="share of the bare flywheel that a hinge must save to be a design"
     )
     robust: float = quantity("-", default=0.0, low=0, high=0.2, about="error of every p0 that the ripple must bear")
     free: tuple[str, ...] = ()  #: values of the hardware that are chosen too
+    track_radius: float = quantity(
+        "m",
+        default=0.0,
+        low=0,
+        high=100,
+        about="largest reach of the rollers where hardware is free; 0: 1.5 (rho0 + r)",
+    )
     moving_mass: float = quantity("kg", default=0.0, low=0, high=10000, about="mass that moves with each roller")
     misfire_speed: float = quantity(
         "-", default=0.0, low=0, below=1, about="share of the speed that a lost combustion must leave; 0 asks nothing"

@@ -5,16 +5,18 @@ from collections.abc import Mapping
 import numpy as np
 import scipy
 
-from mechsym.codesign.hardware import Bounds, Hardware
+from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.points import Point
+from mechsym.codesign.settings import FREE
 from mechsym.errors import BadInput
+from mechsym.hinge.choices import Limits
 from mechsym.hinge.losses import HingeLosses
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.results import part, result
 
-#: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
-FREE = {"A": (0.5, 4.0), "H": (0.5, 4.0), "rho0": (0.5, 4.0), "radius": (0.5, 4.0), "width": (0.5, 4.0)}
 MOST_MASS = 1000.0  # largest mass on each roller where it is free [kg]
 _MOST_POINTS = 60
+_ROOM = 1.5  # of the radius that the case's own rollers reach, where nothing else is asked (assumed)
 
 
 @record
@@ -23,12 +25,15 @@ class CoDesignTask:
 
     points: tuple[Point, ...]
     hardware: Hardware
-    bounds: Bounds
+    bounds: Limits
     ripple: float = quantity("-", above=0, below=2, about="largest (max - min) / mean of the speed at every point")
     springs: int = 1  #: guides on the shaft, each with a spring and a pressure of its own
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
     robust: float = quantity("-", default=0.0, low=0, high=0.2, about="error of every p0 that the ripple must bear")
     free: tuple[str, ...] = ()  #: names of `FREE`, and `moving_mass`, that are chosen too
+    track_radius: float = quantity(
+        "m", default=0.0, low=0, about="largest reach of the rollers where hardware is free; 0: 1.5 (rho0 + r)"
+    )
     losses: HingeLosses | None = None  #: friction and heat inside the programme; None leaves them beside it
     knots: int = 60  #: of the spline of each guide
     angles: int = 180  #: of the programme over a turn of the crank
@@ -41,6 +46,13 @@ class CoDesignTask:
         for name in self.free:
             if name not in (*FREE, "moving_mass"):
                 raise BadInput(f"free {name!r} is not an option; options are {', '.join((*FREE, 'moving_mass'))}")
+            if not self.hardware.values(name):
+                raise BadInput(f"free {name!r} is no number of this spring or guide; free others")
+
+    @property
+    def widest(self) -> float:
+        """Largest radius that rollers may reach where hardware is free: the track and the casing are around it [m]."""
+        return self.track_radius or _ROOM * (self.hardware.rho0 + self.hardware.radius)
 
 
 @record
@@ -52,13 +64,18 @@ class Track:
     p0: np.ndarray  #: shape (k,), excess pressure at free height for each point [Pa]
 
 
-@record
+@result
 class Active:
     """A limit that the design meets, and what it costs."""
 
-    limit: str  #: key of `[limits]`, `z_margin` or `ripple`
-    multiplier: float  #: change of the flywheel for one unit more of the limit [kg*m^2 by that unit]
-    unit: str  #: of the limit
+    limit: str = part()  #: Key of `[limits]`, `z_margin` or `ripple`
+    multiplier: float = quantity("@price")  #: Change of what is made small for one unit more of the limit
+    unit: str = part()  #: Of the limit
+
+    @property
+    def price(self) -> str:
+        """Unit of the multiplier."""
+        return "kg*m^2" if self.unit == "-" else f"kg*m^2/{self.unit}"
 
 
 @record

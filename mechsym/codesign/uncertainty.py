@@ -6,16 +6,17 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.hardware import gas_energy, outside
 from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Point, motion
-from mechsym.codesign.running import added_inertia
+from mechsym.codesign.running import added_inertia, spring_energy
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.hinge.ripple import ripple
 from mechsym.quantities import record
+from mechsym.quantities.units import Pure
 
 #: what may be off, and by how much at one sigma: shares, and 0.01 for the index
-ERRORS = {"p0": 0.005, "n": 0.01, "load": 0.01, "moving_mass": 0.05, "flywheel": 0.01}
+_ERRORS = {"load": 0.01, "moving_mass": 0.05, "flywheel": 0.01}
+_SETTING, _OTHER = 0.005, 0.01  # of the setting of a spring, and of what else it is sensitive to
 _SEED = 12
 _STOPPED = 2.0  # ripple of a shaft that stops
 
@@ -26,7 +27,7 @@ class Spread:
 
     samples: np.ndarray  #: shape (m,), ascending [-]
     alone: dict[str, tuple[float, float]]  #: each error alone at minus and plus two sigma [-]
-    errors: dict[str, float]  #: one sigma of each, as `ERRORS` [-]
+    errors: dict[str, float]  #: one sigma of each [-]
 
     @property
     def p95(self) -> float:
@@ -34,15 +35,13 @@ class Spread:
         return float(np.quantile(self.samples, 0.95))
 
 
-def spread(found: CoDesign, count: int = 200, errors: dict[str, float] | None = None) -> Spread:
+def spread(found: CoDesign, count: int = 200, errors: dict[str, Pure] | None = None) -> Spread:
     """Ripple of a co-design whose pressures are set as designed, while the machine is a little off.
 
-    Parameters
-    ----------
-    errors : dict, optional
-        One sigma of some of `ERRORS` in place of theirs; pressures are off by one share for all springs [-]
+    errors: one sigma of some in place of their own; pressures are off by one share for all springs.
     """
-    sigma = ERRORS | (errors or {})
+    first, *others = found.task.hardware.spring.sensitive
+    sigma = {first: _SETTING, **dict.fromkeys(others, _OTHER), **_ERRORS, **(errors or {})}
     draws = np.random.default_rng(_SEED).standard_normal((count, len(sigma)))
     lost = _lost(found)
     samples = [_worst(found, dict(zip(sigma, row * list(sigma.values()), strict=True)), lost) for row in draws]
@@ -87,8 +86,8 @@ def _ripple(
         own = half * point.inertia(phi)
         w = own + load * (point.work(phi) - own)
         for track in tracks:
-            h, p0 = track.hardware, track.p0[k] * (1 + off.get("p0", 0.0))
-            w = w + h.A * gas_energy(track.z(phi), p0, h.H, h.n, outside(h)) + half * added_inertia(track, phi)
+            p0 = float(track.p0[k]) * (1 + off.get(track.hardware.spring.setting[0], 0.0))
+            w = w + spring_energy(track, p0, phi) + half * added_inertia(track, phi)
         if gone is not None:
             w = w - gone(phi) - taken * phi
         return np.asarray(w - w.mean())
@@ -101,6 +100,9 @@ def _ripple(
 
 
 def _changed(track: Track, off: dict[str, float]) -> Track:
-    h = track.hardware
-    mass = h.moving_mass * (1 + off.get("moving_mass", 0.0))
-    return dataclasses.replace(track, hardware=dataclasses.replace(h, n=h.n + off.get("n", 0.0), moving_mass=mass))
+    """A guide with other numbers of its spring, an index by what it is off, any other by its share; and other mass."""
+    h, changed = track.hardware, {"moving_mass": track.hardware.moving_mass * (1 + off.get("moving_mass", 0.0))}
+    for field in (f for f in dataclasses.fields(h.spring) if f.name in off and f.name != h.spring.setting[0]):
+        value = getattr(h.spring, field.name)
+        changed[field.name] = value + off[field.name] * (1.0 if field.metadata["unit"] == "-" else value)
+    return dataclasses.replace(track, hardware=h.changed(changed))

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Iterable
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -11,8 +10,10 @@ from mechsym.codesign.basis import Basis, fitted, matrices
 from mechsym.codesign.contact_block import Path, path_of
 from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.points import Samples
+from mechsym.codesign.settings import FREE
 from mechsym.codesign.start import shapes, start_pressures
-from mechsym.codesign.task import FREE, MOST_MASS, CoDesignTask
+from mechsym.codesign.task import MOST_MASS, CoDesignTask
+from mechsym.hinge.bounds.spring import ROOM
 from mechsym.quantities import quantity, record
 
 MASS = 100.0  # unit of a free mass [kg]
@@ -23,40 +24,41 @@ _LEAST, _MOST = 1e-3, 1e3  # pressures by those of the start
 class GuideSymbols:
     """One guide of the programme: symbols, all in SI."""
 
-    coefficients: Any  #: of the spline of z, shape (m,) [m]
-    p0: Any  #: excess pressure at each point, shape (k,) [Pa]
-    largest: Any  #: bound of all of them [Pa]
+    coefficients: ca.SX  #: of the spline of z, shape (m,) [m]
+    p0: ca.SX  #: excess pressure at each point, shape (k,) [Pa]
+    largest: ca.SX  #: bound of all of them [Pa]
     scale: float = quantity("Pa", about="size of the pressures")
-    values: dict[str, Any]  #: hardware that may be free: A [m^2], H, rho0, radius, width [m], moving_mass [kg]
-    shares: tuple[Any, ...]  #: free ones of it by the values of the case [-]
+    #: hardware that may be free, as far as it has it: A [m^2], H, rho0, radius, width [m], moving_mass [kg]
+    values: dict[str, ca.SX]
+    shares: tuple[ca.SX, ...]  #: free ones of it by the values of the case [-]
     path: Path
-    inertia: Any  #: of the rollers about the crank, shape (n,) [kg*m^2]
+    inertia: ca.SX  #: of the rollers about the crank, shape (n,) [kg*m^2]
 
 
 @dataclasses.dataclass
 class Gathered:
     """Unknowns and rows while the programme is put together."""
 
-    unknowns: list = dataclasses.field(default_factory=list)
-    start: list = dataclasses.field(default_factory=list)
-    box: list = dataclasses.field(default_factory=list)
-    rows: list = dataclasses.field(default_factory=list)
-    low: list = dataclasses.field(default_factory=list)
-    high: list = dataclasses.field(default_factory=list)
+    unknowns: list[ca.SX] = dataclasses.field(default_factory=list)
+    start: list[np.ndarray] = dataclasses.field(default_factory=list)
+    box: list[np.ndarray] = dataclasses.field(default_factory=list)
+    rows: list[list[ca.SX]] = dataclasses.field(default_factory=list)
+    low: list[np.ndarray] = dataclasses.field(default_factory=list)
+    high: list[np.ndarray] = dataclasses.field(default_factory=list)
 
-    def unknown(self, name: str, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> Any:
+    def unknown(self, name: str, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> ca.SX:
         """A column of unknowns with its start and bounds [-]."""
         found = ca.SX.sym(name, len(start))
         self.add(found, start, low, high)
         return found
 
-    def add(self, symbols: Any, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> None:
+    def add(self, symbols: ca.SX, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> None:
         """Unknowns that exist already, with their start and bounds [-]."""
         self.unknowns.append(symbols)
         self.start.append(np.clip(start, low, high))
         self.box.append(np.tile([low, high], (len(start), 1)))
 
-    def group(self, pieces: Iterable[tuple[Any, Any, Any]]) -> None:
+    def group(self, pieces: Iterable[tuple[ca.SX, float, float]]) -> None:
         """Constraints that share terms, in pieces (rows, low, high): low <= rows <= high [-]."""
         self.rows.append([])
         for rows, low, high in pieces:
@@ -87,9 +89,9 @@ def guides(task: CoDesignTask, samples: Samples, splines: Basis, gathered: Gathe
     return found
 
 
-def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str, Any], list[Any]]:
-    given = {name: getattr(task.hardware, name) for name in (*FREE, "moving_mass")}
-    values: dict[str, Any] = {name: ca.SX(value) for name, value in given.items()}
+def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str, ca.SX], list[ca.SX]]:
+    given = task.hardware.values(*FREE, "moving_mass")
+    values = {name: ca.SX(value) for name, value in given.items()}
     shares = []
     for name in task.free:
         if name == "moving_mass":
@@ -97,7 +99,7 @@ def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str,
         else:
             shares.append(gathered.unknown(f"{name}{s}", np.ones(1), *FREE[name]))
             values[name] = given[name] * shares[-1]
-    if task.hardware.count == 2 and set(task.free) & {"rho0", "H", "radius"}:
+    if ROOM.holds(task.hardware.spring, task.hardware.count) and set(task.free) & {"rho0", "H", "radius"}:
         # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
         gathered.group([(values["rho0"] - values["H"] / 2 - values["radius"], 0.0, np.inf)])
     return values, shares

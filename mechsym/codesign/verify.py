@@ -4,17 +4,18 @@ Ripple: by the programme, by collocation over the angle (`mechsym.simulate.stead
 limits that the programme kept at its angles and hardest point, at half a degree and at every point.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import contact_force, curvature, fine_path
-from mechsym.codesign.hardware import Hardware, gas_pressure, outside
+from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.loss import machine_at
 from mechsym.codesign.points import Point
 from mechsym.codesign.real import in_time
 from mechsym.codesign.task import CoDesign, Track
+from mechsym.hinge.bounds.face import GuideLimit, Station, asked
+from mechsym.hinge.bounds.track import CENTRE
 from mechsym.hinge.losses import side_force
 from mechsym.quantities import quantity, record
 from mechsym.simulate.steady import Steady
@@ -30,7 +31,7 @@ class GuideLoads:
 
     reaction_max: np.ndarray  #: [N]
     reaction_min: np.ndarray  #: a roller leaves its track where this is not positive [N]
-    pressure_max: np.ndarray  #: excess pressure in the spring [Pa]
+    pressure_max: np.ndarray | None  #: excess pressure in the spring [Pa]; None without gas
     hertz_max: np.ndarray  #: [Pa]
     side_force_max: np.ndarray  #: of a piston on its guide [N]
     pressure_angle_max: float = quantity("rad")
@@ -65,10 +66,7 @@ class Verified:
 def verify(found: CoDesign) -> Verified:
     """Run a co-design as built at all its points.
 
-    Returns
-    -------
-    verified : Verified
-        Ripples and residuals [-], contact, limits that are passed
+    Returns verified: ripples and residuals [-], contact, limits that are passed.
     """
     steady, time_ripple, residual = [], [], []
     for k, point in enumerate(found.task.points):
@@ -97,75 +95,70 @@ def verify(found: CoDesign) -> Verified:
         energy_residual=np.array(residual),
         contacts=contacts,
         broken=tuple(words for c, t in zip(contacts, found.tracks, strict=True) for words in _broken(c, t, found)),
-        used=_used(contacts, found),
+        used=used(found),
     )
 
 
 def contact(track: Track, points: Sequence[Point]) -> GuideLoads:
     """What a guide asks of its rollers at each point."""
-    h, path = track.hardware, fine_path(track, points[0].period)[1]
-    kappa = curvature(path)
-    pressures = [gas_pressure(path.z, p0, h.H, h.n, outside(h)) for p0 in track.p0]
-    asked = [(h.A * p, h.moving_mass, h.shaft_ratio * q.omega) for p, q in zip(pressures, points, strict=True)]
-    N = [contact_force(path, *a) for a in asked]
-    side = [side_force(force, path.rho, path.drho, path.d2rho, mass, omega) for force, mass, omega in asked]
+    stations = _stations(track, points)
+    at, N = stations[0], [s.reaction for s in stations]
+    side = [side_force(s.force, s.rho, s.drho, s.d2rho, track.hardware.moving_mass, s.omega) for s in stations]
     return GuideLoads(
         reaction_max=np.array([n.max() for n in N]),
         reaction_min=np.array([n.min() for n in N]),
-        pressure_max=np.array([p.max() for p in pressures]),
-        hertz_max=np.array([hertz(h, n, kappa).max() for n in N]),
+        pressure_max=None if at.pressure is None else np.array([s.pressure.max() for s in stations]),
+        hertz_max=np.array([s.hertz_stress.max() for s in stations]),
         side_force_max=np.array([np.abs(s).max() for s in side]),
-        pressure_angle_max=float(np.arctan(np.abs(path.drho / path.rho).max())),
-        curvature_min=float(kappa.min()),
-        z_min=float(path.z.min()), z_max=float(path.z.max()),
-        rho_min=float(path.rho.min()), rho_max=float(path.rho.max()),
+        pressure_angle_max=float(np.abs(at.pressure_angle).max()),
+        curvature_min=float(at.curvature.min()),
+        z_min=float(at.z.min()), z_max=float(at.z.max()),
+        rho_min=float(at.rho.min()), rho_max=float(at.rho.max()),
     )  # fmt: skip
 
 
-def hertz(hardware: Hardware, N: np.ndarray, kappa: np.ndarray) -> np.ndarray:
-    """Contact pressure [Pa] for contact forces [N] and curvatures of the path [1/m]; see `mechsym.hinge.rollers`."""
-    modulus = hardware.E / (2 * (1 - hardware.nu**2))
-    relative = hardware.radius * np.maximum(1 + hardware.radius * kappa, 1e-12)
-    return np.sqrt(np.maximum(N, 0.0) * modulus / (np.pi * hardware.width * relative))
+def _stations(track: Track, points: Sequence[Point]) -> list[Station]:
+    """A guide at fine angles, at each point."""
+    h, path = track.hardware, fine_path(track, points[0].period)[1]
+    return [h.station(path, h.charged(float(p0)), q.omega) for p0, q in zip(track.p0, points, strict=True)]
 
 
 def passed(found: CoDesign) -> dict[str, float]:
     """Limits that a design passes between the angles of its programme or at its easier points, by what share [-]."""
-    used = _used([contact(track, found.task.points) for track in found.tracks], found)
-    return {key: share - 1 for key, share in used.items() if share > 1 + _SLACK}
+    return {key: share - 1 for key, share in used(found).items() if share > 1 + _SLACK}
 
 
-def _used(contacts: Sequence[GuideLoads], found: CoDesign) -> dict[str, float]:
+def used(found: CoDesign) -> dict[str, float]:
     """Share of each limit that the guide uses which uses most of it [-]."""
     shares: dict[str, float] = {}
-    for c, track in zip(contacts, found.tracks, strict=True):
-        for key, _, value, most, _ in _asked(c, track, found):
-            if key:
-                shares[key] = max(shares.get(key, -np.inf), float(value / most))
+    for track in found.tracks:
+        for key, _, setting, share, _ in _asked(track, found):
+            # the contact pressure of an undercut profile is said by the undercut
+            if setting is not None and np.isfinite(share):
+                shares[key] = max(shares.get(key, -np.inf), share)
     return shares
 
 
-def _asked(c: GuideLoads, track: Track, found: CoDesign) -> list[tuple[str, str, float, float, str]]:
-    """Key of a limit, words, value and limit in a unit."""
-    b, h = found.task.bounds, track.hardware
-    return [
-        ("spring_pressure", "spring pressure", c.pressure_max.max() / 1e6, b.spring_pressure / 1e6, "MPa"),
-        ("closing_share", "closing z/H", c.z_max / h.H, b.closing_share, ""),
-        ("pressure_angle", "pressure angle", np.degrees(c.pressure_angle_max), np.degrees(b.pressure_angle), "deg"),
-        ("roller_reaction", "roller reaction", c.reaction_max.max() / 1e3, b.roller_reaction / 1e3, "kN"),
-        ("hertz_stress", "contact pressure", c.hertz_max.max() / 1e6, b.hertz_stress / 1e6, "MPa"),
-        ("", "roller radius beside the path's smallest radius", 1e3 * h.radius, 1e3 * c.rho_min, "mm"),
-        ("profile_radius", "bend inwards", -c.curvature_min * (h.radius + b.profile_radius), 1.0,
-         "of what the roller allows"),
-    ]  # fmt: skip
+def _asked(track: Track, found: CoDesign) -> Iterator[tuple[str, GuideLimit, float, float, Station]]:
+    """Key, limit, setting, the largest share that is used [-] and the point where it is."""
+    stations = _stations(track, found.task.points)
+    for key, limit, setting in asked(found.task.bounds, CENTRE):
+        if limit.holds(track.hardware.spring, track.hardware.count):
+            tops = [float(np.max(limit.share(at, setting))) for at in stations]
+            most = int(np.argmax(tops))
+            yield key, limit, setting, tops[most], stations[most]
 
 
 def _broken(c: GuideLoads, track: Track, found: CoDesign) -> list[str]:
-    h = track.hardware
-    words = [f"{name} {value:.4g} of at most {most:.4g} {unit}".rstrip()
-             for _, name, value, most, unit in _asked(c, track, found) if value > (1 + _SLACK) * most]  # fmt: skip
+    h, words, reach = track.hardware, [], c.rho_max + track.hardware.radius
+    for _, limit, setting, share, at in _asked(track, found):
+        if share > 1 + _SLACK:
+            most = float(np.min(limit.most(at, setting)))
+            words.append(limit.told(share * most, most, setting, at))
+    if reach > (1 + _SLACK) * found.task.widest:
+        words.append(f"radius that the rollers reach {1e3 * reach:.4g} of at most {1e3 * found.task.widest:.4g} mm")
     if c.reaction_min.min() <= 0:
         words.append(f"a roller leaves its track (contact force {c.reaction_min.min() / 1e3:.4g} kN)")
-    if c.z_min < h.z_margin - _SLACK * h.H:
+    if c.z_min < h.z_margin - _SLACK * h.spring.H:
         words.append(f"smallest closing {c.z_min * 1e3:.4g} mm, at least {h.z_margin * 1e3:.4g} mm")
     return words

@@ -2,12 +2,13 @@
 
 chamber     volume over the travel of a piston        motion     travel and moving mass out of a mechanism
 pressure    pressure over the angle, peak, work       gas        pressure in its chamber: the force on a piston
-kinds       one table: every kind of cycle and what it can do
+kinds       one table: every kind of cycle, and what each needs
+source      what every kind of gas answers        cylinder    where a cylinder is enough to answer it
 mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
 breathing   gas exchange by filling and emptying, turbocharger
 closed      the closed period integrated, its figures, its derivatives
 measured    measured diagrams: read, aligned, taken apart
-engine, figures    figures over the speeds, of an engine and of a single cylinder        plots
+engine      figures over the speeds of a closed cycle        columns     every figure with its unit        plots
 
 Names are imported on first use, so that a case file is read without any of the physics.
 """
@@ -22,8 +23,8 @@ _NAMES = {
     "Pressure": "mechsym.cycle.pressure:Pressure",
     "columns": "mechsym.cycle.engine:columns",
     "curves": "mechsym.cycle.engine:curves",
-    "gas_in_cylinder": "mechsym.cycle.gas:gas_in_cylinder",
-    "gas_of_engine": "mechsym.cycle.gas_of_engine:gas_of_engine",
+    "gas_in_cylinder": "mechsym.cycle.kinds:gas_in_cylinder",
+    "gas_of_engine": "mechsym.cycle.engine:gas_of_engine",
     "over_speeds": "mechsym.cycle.engine:over_speeds",
     "piston_motion": "mechsym.cycle.motion:piston_motion",
     "piston_travel": "mechsym.cycle.motion:piston_travel",

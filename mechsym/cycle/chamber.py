@@ -15,7 +15,7 @@ model that is differentiated.
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
@@ -24,6 +24,18 @@ from mechsym.cycle.values import Scalar, Value
 from mechsym.errors import BadInput
 from mechsym.mechanisms.arrays import over_arrays
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import (
+    Area,
+    Kilogram,
+    Metre,
+    MetrePerRadian,
+    MetrePerRadian2,
+    Newton,
+    Pascal,
+    Radian,
+    RadPerSecond,
+    Volume,
+)
 
 
 @record
@@ -33,7 +45,7 @@ class Motion:
     name: str
     #: (phi, parameters (k,)) -> x [m], dx_dphi [m/rad], d2x_dphi2 [m/rad^2]; scalars, mapped over columns
     function: ca.Function
-    parameters: Mapping[str, Any]  #: The k parameters in the order of the function's second input
+    parameters: Mapping[str, Scalar]  #: The k parameters in the order of the function's second input
     masses: tuple[str, ...]  #: Parameters whose sum is the mass that moves with one piston
     bottom: float = np.pi  #: Crank angle of bottom dead centre, pi for every mechanism without offset [rad]
     #: (phi, parameters (k,), omega [rad/s], F [N]) -> named loads of the mechanism at constant speed under the net
@@ -79,10 +91,8 @@ def chamber(parameters: Any, motion: Motion) -> Chamber:
 
     .. math:: A = \pi B^2/4, \quad V_d = n A S, \quad V_c = V_d/(CR - 1)
 
-    Parameters
-    ----------
-    parameters : ChamberParameters
-        Bore, compression ratio, pistons; or any object with these attributes, which may be CasADi expressions
+    parameters: ChamberParameters, bore, compression ratio, pistons; or any object with these attributes, which may be
+    CasADi expressions.
     """
     area = piston_area(parameters.bore)
     stroke = travel(motion, motion.bottom)[0]
@@ -95,40 +105,23 @@ def chamber(parameters: Any, motion: Motion) -> Chamber:
     )  # fmt: skip
 
 
-def piston_area(bore: Value) -> Value:
+def piston_area(bore: Metre[Scalar]) -> Area[Scalar]:
     r"""Area of a piston.
 
     .. math:: A = \pi B^2/4
 
-    Parameters
-    ----------
-    bore : float or CasADi expression
-        Diameter [m]
-
-    Returns
-    -------
-    area : same kind as `bore`
-        Area [m^2]
+    bore: diameter.
     """
     return np.pi / 4 * bore**2
 
 
-def travel(motion: Motion, phi: Value) -> tuple[Value, Value, Value]:
+def travel(
+    motion: Motion, phi: Radian[Scalar]
+) -> tuple[Metre[Scalar], MetrePerRadian[Scalar], MetrePerRadian2[Scalar]]:
     """Travel of one piston and its first two derivatives with respect to the crank angle.
 
-    Parameters
-    ----------
-    phi : float, ndarray of any shape, or CasADi scalar
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    x : same kind as `phi`
-        Travel from top dead centre [m]
-    dx_dphi : same kind as `phi`
-        First derivative [m/rad]
-    d2x_dphi2 : same kind as `phi`
-        Second derivative [m/rad^2]
+    phi: crank angle from top dead centre. Returns x: travel from top dead centre; dx_dphi: first derivative; d2x_dphi2:
+    second derivative.
     """
     parameters = list(motion.parameters.values())
     symbolic = isinstance(phi, (ca.SX, ca.MX)) or any(isinstance(p, (ca.SX, ca.MX)) for p in parameters)
@@ -143,38 +136,22 @@ def travel(motion: Motion, phi: Value) -> tuple[Value, Value, Value]:
     return (x, dx, d2x) if angles.ndim else (float(x), float(dx), float(d2x))
 
 
-def volume(chamber: Chamber, phi: Value) -> Value:
+def volume(chamber: Chamber, phi: Radian[Scalar]) -> Volume[Scalar]:
     r"""Volume of the chamber.
 
     .. math:: V = V_c + n A x(\varphi)
 
-    Parameters
-    ----------
-    phi : float, ndarray or CasADi scalar
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    v : same kind as `phi`
-        Volume [m^3]
+    phi: crank angle from top dead centre.
     """
     return volume_and_slope(chamber, phi)[0]
 
 
-def dvolume_dphi(chamber: Chamber, phi: Value) -> Value:
+def dvolume_dphi(chamber: Chamber, phi: Radian[Scalar]) -> Annotated[Scalar, "m^3/rad"]:
     r"""Slope of the volume.
 
     .. math:: V' = n A x'(\varphi)
 
-    Parameters
-    ----------
-    phi : float, ndarray or CasADi scalar
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    dv_dphi : same kind as `phi`
-        Derivative [m^3/rad]
+    phi: crank angle from top dead centre. Returns dv_dphi: derivative.
     """
     return volume_and_slope(chamber, phi)[1]
 
@@ -185,31 +162,20 @@ def volume_and_slope(chamber: Chamber, phi: Value) -> tuple[Value, Value]:
     return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx
 
 
-def moving_mass(motion: Motion) -> Scalar:
+def moving_mass(motion: Motion) -> Kilogram[Scalar]:
     """Mass that moves with one piston.
 
-    Returns
-    -------
-    mass : float or CasADi expression
-        Sum of the parameters named in `masses` [kg]
+    Returns mass: sum of the parameters named in `masses`.
     """
     return sum(motion.parameters[name] for name in motion.masses)
 
 
-def wall_area(chamber: Chamber, v: Value) -> Value:
-    r"""Surface that the gas touches.
+def wall_area(chamber: Chamber, v: Volume[Scalar]) -> Area[Scalar]:
+    """Surface that the gas touches.
 
     .. math:: A_w = 2 A + 4 V/B
 
-    Parameters
-    ----------
-    v : float, ndarray or CasADi scalar
-        Volume of the chamber [m^3]
-
-    Returns
-    -------
-    area : same kind as `v`
-        Two crowns, or crown and flat head, and the liner between them [m^2]
+    v: volume of the chamber. Returns area: two crowns, or crown and flat head, and the liner between them.
 
     Notes
     -----
@@ -218,24 +184,15 @@ def wall_area(chamber: Chamber, v: Value) -> Value:
     return 2 * chamber.area + 4 * v / chamber.bore
 
 
-def piston_force(chamber: Chamber, phi: Value, omega: Value, p: Value) -> Value:
+def piston_force(
+    chamber: Chamber, phi: Radian[Scalar], omega: RadPerSecond[Scalar], p: Pascal[Scalar]
+) -> Newton[Scalar]:
     r"""Force that one piston hands to its mechanism at constant speed, from pressure and inertia.
 
     .. math:: F = (p - p_b) A - m\,x''\omega^2
 
-    Parameters
-    ----------
-    phi : float, ndarray or CasADi scalar
-        Crank angle from top dead centre [rad]
-    omega : float or ndarray
-        Crank speed [rad/s]
-    p : float, ndarray or CasADi scalar
-        Absolute pressure in the chamber [Pa]
-
-    Returns
-    -------
-    force : same kind as `p`
-        Positive away from the head [N]
+    phi: crank angle from top dead centre; p: absolute pressure in the chamber. Returns force: positive away from the
+    head.
 
     Notes
     -----

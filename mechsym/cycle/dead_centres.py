@@ -8,28 +8,17 @@ import scipy
 
 from mechsym.cycle.chamber import Chamber, Motion, piston_area, travel
 from mechsym.errors import BadInput
+from mechsym.quantities.units import Metre, Pascal, Pure
 
 _STILL = 1e-9  # slope of a piston that stands still, by its stroke [1/rad]
 
 
-def chamber_over(kinematics: ca.Function, bore: float, compression_ratio: float, back_pressure: float = 0.0) -> Chamber:
+def chamber_over(kinematics: ca.Function, bore: Metre, compression_ratio: Pure, back_pressure: Pascal = 0.0) -> Chamber:
     """The chamber under a head, over a mechanism with one coordinate.
 
-    Parameters
-    ----------
-    kinematics : casadi.Function
-        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
-    bore : float
-        Diameter of the piston [m]
-    compression_ratio : float
-        Largest volume by smallest volume [-]
-    back_pressure : float
-        Absolute pressure on the other side of the piston [Pa]
-
-    Returns
-    -------
-    chamber : Chamber
-        Its stroke is x at bottom dead centre
+    kinematics: one input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]. bore: diameter of the
+    piston. compression_ratio: largest volume by smallest volume. back_pressure: absolute pressure on the other side of
+    the piston. Returns chamber: its stroke is x at bottom dead centre.
 
     Notes
     -----

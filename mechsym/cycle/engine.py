@@ -1,48 +1,50 @@
 """What an engine does over its speeds and other values, by the method that its cycle names."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import fields
-from functools import partial
-from typing import Any
+import math
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from functools import cached_property, partial
+from pathlib import Path
 
 import numpy as np
+import scipy
 
-from mechsym.cycle.chamber import chamber, piston_force, travel, volume
+from mechsym.cycle.brake import mechanical_efficiency
+from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume
+from mechsym.cycle.closed.blowdown import check_blowdown, open_period
 from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.printed import marched, performance_printed
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition
+from mechsym.cycle.mixture import ConstantGamma
+from mechsym.cycle.pressure import periodic, pressure_over
+from mechsym.cycle.source import EngineParts, Progress, unseen
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.quantities import RPM
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import Array, Radian, RadPerSecond
 
-Progress = Callable[[int], Any]
 _BLOCK = 1000
+_STEP = math.radians(0.25)  # of the tabulated cycle
 
 
-def over_speeds(engine: ClosedEngine, omega: np.ndarray, progress: Progress = lambda count: None) -> Performance:
+def over_speeds(engine: ClosedEngine, omega: RadPerSecond[Array], progress: Progress = unseen) -> Performance:
     """Figures over the speeds, by the method that the cycle names.
 
-    Parameters
-    ----------
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-    progress : callable, optional
-        Called with the number of points done after each block of them
+    progress: called with the number of points done after each block of them.
     """
     return over_design(engine, {"omega": omega}, progress)
 
 
-def over_design(
-    engine: ClosedEngine, design: Mapping[str, Any], progress: Progress = lambda count: None
-) -> Performance:
+def over_design(engine: ClosedEngine, design: Mapping[str, np.ndarray], progress: Progress = unseen) -> Performance:
     """Figures over any of the engine's values, by the method that the cycle names.
 
-    Parameters
-    ----------
-    design : mapping of str to ndarray, shape (n,)
-        Operating points, see `model.design_names`; must hold `omega` [rad/s]
-    progress : callable, optional
-        Called with the number of points done after each block of them
+    design: mapping of str to ndarray, shape (n,), operating points, see `model.design_names`; must hold `omega`
+    [rad/s]. progress: called with the number of points done after each block of them.
 
     Raises
     ------
@@ -63,19 +65,20 @@ def over_design(
 
 
 def _joined(parts: list[Performance]) -> Performance:
-    names = [f.name for f in fields(Performance) if f.name != "loads"]
-    values = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    loads = {name: np.concatenate([part.loads[name] for part in parts]) for name in parts[0].loads}
-    return Performance(**values, loads=loads)
+    values: Json = {}
+    for name in (f.name for f in fields(Performance)):
+        curves = [getattr(part, name) for part in parts]
+        named = isinstance(curves[0], Mapping)
+        values[name] = (
+            {k: np.concatenate([c[k] for c in curves]) for k in curves[0]} if named else np.concatenate(curves)
+        )
+    return Performance(**values)
 
 
-def columns(found: Performance) -> dict[str, Any]:
+def columns(found: Performance) -> Json:
     """Figures under the names and units of the command line.
 
-    Returns
-    -------
-    columns : dict
-        `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings
+    Returns columns: `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings.
     """
     shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
     return {
@@ -84,38 +87,34 @@ def columns(found: Performance) -> dict[str, Any]:
         "torque_max": found.torque_max,
         "power_kw": found.power / 1e3,
         "mep_kpa": found.mep / 1e3,
+        "gross_mep_kpa": (found.mep - found.pumping_mep) / 1e3,
+        "pumping_mep_kpa": found.pumping_mep / 1e3,
         "sfc_g_kwh": found.sfc * 3.6e9,
         "efficiency": found.efficiency,
         "p_max_mpa": found.p_max / 1e6,
         "p_max_angle_deg": np.degrees(found.p_max_angle),
+        **found.burnt,
         "t_max_k": found.t_max,
         "knock": found.knock,
         "force_max": found.force_max,
         "fractions": shares,
         "loads": found.loads,
         "friction_mep_kpa": found.friction_mep / 1e3,
+        "brake_mep_kpa": (found.mep - found.friction_mep) / 1e3,
         "brake_torque": found.brake_torque,
         "brake_power_kw": found.brake_power / 1e3,
         "brake_sfc_g_kwh": found.brake_sfc * 3.6e9,
         "brake_efficiency": found.brake_efficiency,
+        "mechanical_efficiency": mechanical_efficiency(found.brake_power, found.power),
         "energy_residual": found.energy_residual,
     }
 
 
-def curves(engine: ClosedEngine, omega: float, step: float = np.radians(0.5)) -> dict[str, np.ndarray]:
+def curves(engine: ClosedEngine, omega: RadPerSecond, step: Radian = np.radians(0.5)) -> dict[str, np.ndarray]:
     """The closed period at one speed, curve by curve.
 
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    step : float
-        Distance of the angles; the printed method keeps its whole degrees [rad]
-
-    Returns
-    -------
-    curves : dict of str to ndarray, shape (k,)
-        `phi_deg` from firing top dead centre, `p_pa`, `t_k`, `v_m3`, `force_n` and `torque_nm` of one piston
+    step: distance of the angles; the printed method keeps its whole degrees. Returns curves: `phi_deg` from firing top
+    dead centre, `p_pa`, `t_k`, `v_m3`, `force_n` and `torque_nm` of one piston, shape (k,).
     """
     room = chamber(engine.chamber, engine.motion)
     if engine.cycle.method == "nunes2017_printed":
@@ -132,3 +131,90 @@ def curves(engine: ClosedEngine, omega: float, step: float = np.radians(0.5)) ->
         "force_n": force,
         "torque_nm": force * travel(room.motion, phi)[1],
     }
+
+
+_PERIOD = 4 * math.pi
+
+
+def gas_of_engine(engine: ClosedEngine, omega: RadPerSecond) -> Gas:
+    """Gas of an engine at one speed."""
+    found, room, charge = curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
+    phi, p, left, gamma = np.radians(found["phi_deg"]), found["p_pa"], charge.intake_pressure, 1.0
+    events: tuple[float, ...] = (charge.exhaust_opens, charge.inlet_closes)
+    fact = "gas exchange takes place at intake pressure: assumed, the cycle models the closed period only"
+    if engine.blowdown is not None:
+        build = partial(closed_period, engine)
+        exchange = open_period(build, {"omega": np.array([omega])}, found["t_k"][-1:])
+        phi, p = np.append(phi, exchange.phi[0, 1:]), np.append(p, exchange.p[0, 1:])
+        left, gamma = float(p[-1]), float(exchange.gamma[0])
+        events = (*events, 2 * math.pi, _drawn_from(room, left / charge.intake_pressure, gamma))
+        behind, before = (quantity_text(value, "Pa") for value in (engine.blowdown.pressure, charge.intake_pressure))
+        fact = f"the exhaust blows down through its valve against {behind}; fresh gas comes in at {before}: assumed"
+
+    def cycle(angle: np.ndarray) -> np.ndarray:
+        known = (angle >= phi[0]) & (angle <= phi[-1])
+        # what is left in the clearance expands until fresh gas comes in
+        drawn = np.maximum(charge.intake_pressure, left * (room.clearance / np.asarray(volume(room, angle))) ** gamma)
+        return np.where(known, np.interp(angle, phi, p), drawn)
+
+    absolute = periodic(cycle, _PERIOD, -2 * math.pi)  # from the dead centre of gas exchange on
+    hottest = float(found["t_k"].max())
+    pressure = pressure_over("spark-ignition", absolute, _PERIOD, (), room, t_max=hottest, facts=(fact,))
+    # where the pressure jumps, or its slope
+    return Gas(pressure=replace(pressure, kinks=tuple(sorted(angle % _PERIOD for angle in events))), chamber=room)
+
+
+def _drawn_from(room: Chamber, ratio: float, gamma: float) -> float:
+    """Angle at which what is left in the clearance has fallen to intake pressure, and fresh gas comes in [rad]."""
+    wanted = room.clearance * ratio ** (1 / gamma)
+    angle = scipy.optimize.brentq(lambda phi: float(volume(room, phi)) - wanted, 0.0, math.pi, xtol=1e-14)
+    return float(2 * math.pi + angle)
+
+
+class SparkGas:
+    """Gas of spark ignition, whose closed period is integrated."""
+
+    page = ENGINE_PAGE
+
+    def __init__(self, cycle: SparkIgnition, parts: EngineParts) -> None:
+        self.cycle, self.parts = cycle, parts
+
+    @cached_property
+    def engine(self) -> ClosedEngine:
+        """The engine, for what follows the motion or a design."""
+        valve = self.parts.section("blowdown")
+        if valve is not None:
+            check_blowdown(valve, self.cycle.intake_pressure)
+        return ClosedEngine(
+            chamber=self.parts.section("chamber"),
+            motion=self.parts.motion,
+            cycle=self.cycle,
+            gas=self.parts.section("gas", ConstantGamma()),
+            heat_transfer=self.parts.section("heat_transfer"),
+            friction_pressure=self.parts.friction,
+            blowdown=valve,
+        )
+
+    def at(self, omega: float) -> Gas:
+        """Gas at a speed [rad/s]."""
+        return gas_of_engine(self.engine, omega)
+
+    def figures(self, omega: np.ndarray, progress: Progress = unseen) -> Json:
+        """Figures of one cylinder over speeds [rad/s]."""
+        return columns(over_speeds(self.engine, omega, progress))
+
+    def curves(self, omega: np.ndarray, operating: float) -> dict[str, np.ndarray]:
+        """The closed period at the speed of operation [rad/s]."""
+        return curves(self.engine, operating)
+
+    def picture(self, path: Path, curves: Mapping[str, np.ndarray]) -> Path:
+        """Draw the closed period."""
+        from mechsym.cycle.plots import cycle_picture  # who draws nothing does not load what draws
+
+        return cycle_picture(path, curves)
+
+    @property
+    def bound(self) -> float | None:
+        """Efficiency of the Otto cycle with this charge [-]."""
+        gas, ratio = self.parts.section("gas", ConstantGamma()), self.parts.section("chamber").compression_ratio
+        return otto_bound(ratio, gas.gamma) if isinstance(gas, ConstantGamma) else otto_bound(ratio)

@@ -1,7 +1,7 @@
 r"""Friction mean pressure by a named correlation, for brake figures where the mechanism itself declares no friction."""
 
-from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import MetrePerSecond, Pascal, RadPerSecond, Scalar
 
 
 @record
@@ -42,26 +42,16 @@ class Heywood:
 Friction = NoFriction | ChenFlynn | Heywood
 
 
-def friction_pressure(law: Friction, p_max: Value, piston_speed: Value, omega: Value) -> Value:
+def friction_pressure(
+    law: Friction, p_max: Pascal[Scalar], piston_speed: MetrePerSecond[Scalar], omega: RadPerSecond[Scalar]
+) -> Pascal[Scalar]:
     r"""Friction mean effective pressure.
 
     .. math::
         \text{Chen-Flynn:}\quad & f = A + B\,p_{max} + C\,\bar S_p + D\,\bar S_p^2 \\
         \text{Heywood:}\quad & f = 0.97 + 0.15\,n + 0.05\,n^2 \;\text{bar}, \; n \text{ in 1000 rpm}
 
-    Parameters
-    ----------
-    p_max : float, ndarray or CasADi expression
-        Peak pressure [Pa]
-    piston_speed : float, ndarray or CasADi expression
-        Mean piston speed [m/s]
-    omega : float, ndarray or CasADi expression
-        Crank speed [rad/s]
-
-    Returns
-    -------
-    fmep : same kind as the arguments
-        Friction mean effective pressure [Pa]
+    p_max: peak pressure.
 
     Notes
     -----

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -10,10 +9,10 @@ from numpy.polynomial import Chebyshev
 
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.dead_centres import motion_over
-from mechsym.cycle.kinds import cylinder_pressure
 from mechsym.cycle.pressure import Pressure, peak
 from mechsym.page import Shown
 from mechsym.quantities import record
+from mechsym.quantities.units import Newton, Radian, Scalar
 
 _DEGREE = 60  # round-off for rods down to 1.2 crank radii
 
@@ -32,48 +31,18 @@ class Gas(Shown):
     __hash__ = object.__hash__
 
     @property
-    def on_shaft(self) -> bool:
-        """Whether its force is a torque, of which no compression line about angle 0 is known."""
-        return False
-
-    @property
-    def has_pressure(self) -> bool:
-        """Whether a pressure is known that gives its force."""
-        return True
-
-    @property
     def p_back(self) -> float:
         """Absolute pressure on the other side of the piston [Pa]."""
         return self.chamber.back_pressure
 
-    def force(self, phi: Any) -> Any:
+    def force(self, phi: Radian[Scalar]) -> Newton[Scalar]:
         r"""Net force on the piston, positive away from the head.
 
         .. math:: F = (p(\varphi) - p_\mathrm{back})\,A
 
-        Parameters
-        ----------
-        phi : float or ndarray
-            Angle from firing dead centre [rad]
-
-        Returns
-        -------
-        F : float or ndarray
-            Force, shape of phi [N]
+        phi: angle from firing dead centre. Returns F: force, shape of phi.
         """
         return (self.pressure.absolute(phi) - self.p_back) * self.chamber.area
-
-
-def gas_in_cylinder(cycle: Any, kinematics: ca.Function) -> Gas:
-    """Gas of a cycle that needs nothing but a cylinder.
-
-    Parameters
-    ----------
-    kinematics : casadi.Function
-        One input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]
-    """
-    pressure, room = cylinder_pressure(cycle, kinematics)
-    return Gas(pressure=pressure, chamber=room)
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
@@ -81,15 +50,8 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
 
     .. math:: p_{other}(\theta) = p(\varphi), \quad x_{own}(\varphi) = x_{other}(\theta)
 
-    Parameters
-    ----------
-    own, other : casadi.Function
-        Travels of `travel`, both with dead centres at 0 and pi
-
-    Returns
-    -------
-    gas : Gas
-        Over the motion `other`, whose kinks are not looked for
+    own, other: travels of `travel`, both with dead centres at 0 and pi. Returns gas: over the motion `other`, whose
+    kinks are not looked for.
     """
 
     # travel is even in the angle, so one cosine is a smooth function of the other: a polynomial found once

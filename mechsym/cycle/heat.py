@@ -4,13 +4,14 @@ Each law is a record of its coefficients; `heat_flux` gives the flux in W/m^2. T
 arithmetic, so numbers, arrays and CasADi expressions all pass through.
 """
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import casadi as ca
 
 from mechsym.cycle.mixture import conductivity, viscosity
 from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Kelvin, Pascal, Scalar
 
 
 class GasAtWall(NamedTuple):
@@ -68,7 +69,7 @@ class Adiabatic:
 Law = Annand | Woschni | Hohenberg | Adiabatic
 
 
-def heat_flux(law: Law, state: GasAtWall) -> Value:
+def heat_flux(law: Law, state: GasAtWall) -> Annotated[Scalar, "W/m^2"]:
     r"""Heat flux from the gas to the walls.
 
     .. math::
@@ -78,10 +79,7 @@ def heat_flux(law: Law, state: GasAtWall) -> Value:
             w = C_1 \bar S_p + C_2 \frac{V_d T_r}{p_r V_r}(p - p_0) \\
         \text{Hohenberg:}\quad & q = C_1 V^{-0.06} p_{bar}^{0.8} T^{-0.4} (\bar S_p + C_2)^{0.8} (T - T_w)
 
-    Returns
-    -------
-    flux : same kind as the state's entries
-        Positive from the gas to the walls [W/m^2]
+    Returns flux: positive from the gas to the walls.
 
     Notes
     -----
@@ -104,20 +102,13 @@ def heat_flux(law: Law, state: GasAtWall) -> Value:
     raise TypeError(f"no heat-transfer law for {type(law).__name__}")
 
 
-def motored_swirl(law: Law, p: Value, p_motored: Value, scale: Value) -> Value:
+def motored_swirl(
+    law: Law, p: Pascal[Scalar], p_motored: Pascal[Scalar], scale: Annotated[Scalar, "K/Pa"]
+) -> Kelvin[Scalar]:
     """Woschni's combustion term, zero where the pressure is below the motored pressure and for the other laws.
 
-    Parameters
-    ----------
-    p, p_motored : float or CasADi expression
-        Pressure, and pressure of the motored cycle at the same volume [Pa]
-    scale : float or CasADi expression
-        V_d T_r/(p_r V_r) of the reference state [K/Pa]
-
-    Returns
-    -------
-    swirl : float or CasADi expression
-        Entry of `GasAtWall` [K]
+    p, p_motored: pressure, and pressure of the motored cycle at the same volume; scale: V_d T_r/(p_r V_r) of the
+    reference state. Returns swirl: entry of `GasAtWall`.
     """
     return scale * ca.fmax(p - p_motored, 0.0) if isinstance(law, Woschni) else 0.0
 

@@ -4,14 +4,14 @@ Livengood and Wu's integral adds up the shares of the ignition delay that pass; 
 before combustion ends. The delay is Douaud and Eyzat's; the end gas is compressed without heat by what burns.
 """
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
 
 import casadi as ca
 import numpy as np
 
 from mechsym.cycle.closed.phases import GRADING, steps_of
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.quantities.units import Array, Kelvin, Pascal, Pure, Radian, RadPerSecond, Scalar, Second
 
 ATM = 101325.0
 _SYMBOLS = (ca.SX, ca.MX, ca.DM)
@@ -20,25 +20,13 @@ _ENDS = (3 / 8, 7 / 6, 23 / 24)
 _NODES = 481
 
 
-def ignition_delay(p: Any, T: Any, octane: Any) -> Any:
+def ignition_delay(p: Pascal[Scalar], T: Kelvin[Scalar], octane: Pure[Scalar]) -> Second[Scalar]:
     r"""Time until a mixture of gasoline and air ignites by itself.
 
     .. math:: \tau = 17.68\,\mathrm{ms}\,\left(\frac{ON}{100}\right)^{3.402}
               \left(\frac{p}{1\,\mathrm{atm}}\right)^{-1.7} \exp\frac{3800\,\mathrm{K}}{T}
 
-    Parameters
-    ----------
-    p : float, ndarray or CasADi expression
-        Absolute pressure [Pa]
-    T : float, ndarray or CasADi expression
-        Temperature of the end gas [K]
-    octane : float or CasADi expression
-        Octane number of the fuel [-]
-
-    Returns
-    -------
-    tau : same kind as `p`
-        Delay [s]
+    p: absolute pressure; T: temperature of the end gas; octane: octane number of the fuel. Returns tau: delay.
 
     Notes
     -----
@@ -55,24 +43,15 @@ def ignition_delay(p: Any, T: Any, octane: Any) -> Any:
     return 17.68e-3 * (octane / 100) ** 3.402 * (p / ATM) ** -1.7 * exp(3800 / T)
 
 
-def end_gas_temperature(p: Any, p_0: Any, T_0: Any, kappa: Any) -> Any:
+def end_gas_temperature(
+    p: Pascal[Scalar], p_0: Pascal[Scalar], T_0: Kelvin[Scalar], kappa: Pure[Scalar]
+) -> Kelvin[Scalar]:
     r"""Temperature of the end gas, compressed without heat.
 
     .. math:: T_u = T_0 \left(\frac{p}{p_0}\right)^{\kappa}, \qquad \kappa = R/c_p
 
-    Parameters
-    ----------
-    p, p_0 : float, ndarray or CasADi expression
-        Absolute pressure, and that when combustion starts [Pa]
-    T_0 : float or CasADi expression
-        Temperature when combustion starts [K]
-    kappa : float or CasADi expression
-        Gas constant by heat capacity at constant pressure [-]
-
-    Returns
-    -------
-    T_u : same kind as `p`
-        Temperature [K]
+    p, p_0: absolute pressure, and that when combustion starts; T_0: temperature when combustion starts; kappa: gas
+    constant by heat capacity at constant pressure.
 
     Notes
     -----
@@ -86,27 +65,20 @@ def end_gas_temperature(p: Any, p_0: Any, T_0: Any, kappa: Any) -> Any:
     return T_0 * (p / p_0) ** kappa
 
 
-def share_of_delay(s_slope: Any, p: Any, T: Any, omega: Any, octane: Any) -> Any:
+def share_of_delay(
+    s_slope: Radian[Scalar], p: Scalar, T: Scalar, omega: RadPerSecond[Scalar], octane: Pure[Scalar]
+) -> Pure[Scalar]:
     r"""Livengood and Wu's integral over a stretch whose nodes lie evenly in a variable s from 0 to 1.
 
     .. math:: K = \int \frac{\mathrm{d}t}{\tau(p, T)} = \int_0^1 \frac{1}{\omega\,\tau}\,
               \frac{\mathrm{d}\varphi}{\mathrm{d}s}\,\mathrm{d}s
 
+    s_slope: dphi/ds at the nodes, n at least 6. Returns share: 1 where the end gas ignites by itself, shape (k,).
+
     Parameters
     ----------
-    s_slope : ndarray, shape (n,) or (k, n), or CasADi row
-        dphi/ds at the nodes, n at least 6 [rad]
     p, T : ndarray, shape (n,) or (k, n), or CasADi row
         Pressure and temperature of the end gas at the nodes, of k cycles side by side [Pa, K]
-    omega : float or CasADi expression
-        Crank speed [rad/s]
-    octane : float or CasADi expression
-        Octane number [-]
-
-    Returns
-    -------
-    share : float, ndarray of shape (k,) or CasADi expression
-        1 where the end gas ignites by itself [-]
 
     Notes
     -----
@@ -127,17 +99,13 @@ def share_of_delay(s_slope: Any, p: Any, T: Any, omega: Any, octane: Any) -> Any
     return ca.mtimes(rate, ca.DM(weights)) if isinstance(rate, _SYMBOLS) else (rate @ weights)[()]
 
 
-def knock_integral(found: Mapping[str, Any], steps: int, gas: ConstantGamma | NasaMixture, octane: Any) -> Any:
-    """Livengood and Wu's integral of a closed period, from the closing of the inlet to the end of combustion.
+def knock_integral(
+    found: Mapping[str, ca.MX], steps: int, gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
+) -> Scalar:
+    """Livengood and Wu's integral of a closed period, from the closing of the inlet to the end of combustion [-].
 
-    Parameters
-    ----------
-    found : mapping of str to CasADi expression
-        What `closed_function` gives: nodes `p` [Pa] and `t` [K], and the angles between the phases [rad]
-    steps : int
-        Steps of that function in all
-    octane : float or CasADi expression
-        Octane number of the fuel [-]
+    found: mapping of str to CasADi expression, what `closed_function` gives: nodes `p` [Pa] and `t` [K], and the angles
+    between the phases [rad]. steps: steps of that function in all. octane: octane number of the fuel.
     """
     first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
     before = found["p"][:first], found["t"][:first]
@@ -150,21 +118,14 @@ def knock_integral(found: Mapping[str, Any], steps: int, gas: ConstantGamma | Na
     return ahead + share_of_delay(burning * grading, p, T, found["omega"], octane)
 
 
-def knock_of_runs(found: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixture, octane: Any) -> np.ndarray:
+def knock_of_runs(
+    found: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
+) -> Pure[Array]:
     """The same integral of closed periods that are numbers, one beside the other.
 
-    Parameters
-    ----------
-    found : mapping of str to ndarray
-        Nodes `p` [Pa] and `t` [K] of shape (k, steps + 3), angles between the phases [rad] and `omega` [rad/s] of
-        shape (k,)
-    octane : float or ndarray, shape (k,)
-        Octane number of the fuel [-]
-
-    Returns
-    -------
-    share : ndarray, shape (k,)
-        1 where the end gas ignites by itself [-]
+    found: nodes `p` [Pa] and `t` [K] of shape (k, steps + 3), angles between the phases [rad] and `omega` [rad/s] of
+    shape (k,); octane: octane number of the fuel, shape (k,). Returns share: 1 where the end gas ignites by itself,
+    shape (k,).
     """
     steps = found["p"].shape[1] - 3
     first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
@@ -182,20 +143,16 @@ def knock_of_runs(found: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixt
 
 
 def knock_along(
-    curves: tuple[Any, Any], angles: tuple[float, float, float], omega: float, share: float, octane: float
+    curves: tuple[Callable[[Scalar], Scalar], Callable[[Scalar], Scalar]],
+    angles: tuple[Radian, Radian, Radian],
+    omega: RadPerSecond,
+    share: Pure,
+    octane: Pure,
 ) -> float:
     """The same integral along a cycle whose pressure [Pa] and temperature [K] are functions of the crank angle [rad].
 
-    Parameters
-    ----------
-    angles : tuple of float
-        Where the inlet closes, combustion starts and ends [rad]
-    omega : float
-        Crank speed [rad/s]
-    share : float
-        Gas constant by heat capacity at constant pressure [-]
-    octane : float
-        Octane number of the fuel [-]
+    angles: where the inlet closes, combustion starts and ends; share: gas constant by heat capacity at constant
+    pressure; octane: octane number of the fuel.
     """
     (pressure, temperature), (closes, starts, ends) = curves, angles
     before, during = np.linspace(closes, starts, _NODES), np.linspace(starts, ends, _NODES)
@@ -205,7 +162,7 @@ def knock_along(
     return float(ahead + share_of_delay(ends - starts, p, T, omega, octane))
 
 
-def kappa(gas: ConstantGamma | NasaMixture, T: Any) -> Any:
+def kappa(gas: ConstantGamma | NasaMixture, T: Scalar) -> Scalar:
     """Gas constant by heat capacity at constant pressure, of the unburnt gas at a temperature [K]."""
     air = properties(gas, T, 0.0)
     return air.gas_constant / (air.heat_capacity + air.gas_constant)

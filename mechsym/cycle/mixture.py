@@ -5,12 +5,14 @@ internal energy u, heat capacity c_v = du/dT, du/dX at constant T, and gas const
 298.15 K (NASA) or at 0 K (constant gamma); the heat of combustion enters the cycle as heat release.
 """
 
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import Annotated, NamedTuple
 
 import casadi as ca
 
 from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Kelvin, Pure, Scalar, Viscosity
 
 UNIVERSAL = 8.31446261815324  # [J/(mol K)], CODATA 2018, exact
 T_REFERENCE = 298.15  # zero of the sensible energies [K]
@@ -58,23 +60,13 @@ class NasaMixture:
     excess_air: float = quantity("-", default=1.0, low=1, about="air over stoichiometric air")
 
 
-def properties(gas: ConstantGamma | NasaMixture, t: Value, burnt: Value) -> Properties:
+def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[Scalar]) -> Properties:
     r"""Properties of the cylinder gas.
 
     .. math:: u = c_v T \;\text{(constant)}, \qquad
         u = (1 - X)\,u_{air}(T) + X\,u_{products}(T), \; R = (1 - X) R_{air} + X R_{products} \;\text{(NASA)}
 
-    Parameters
-    ----------
-    t : float or CasADi expression
-        Temperature [K]
-    burnt : float or CasADi expression
-        Burnt mass fraction X, 0 to 1 [-]
-
-    Returns
-    -------
-    properties : Properties
-        u [J/kg], c_v [J/(kg*K)], du/dX [J/kg], R [J/(kg*K)]
+    burnt: burnt mass fraction X, 0 to 1. Returns properties: u [J/kg], c_v [J/(kg*K)], du/dX [J/kg], R [J/(kg*K)].
 
     Notes
     -----
@@ -96,18 +88,8 @@ def properties(gas: ConstantGamma | NasaMixture, t: Value, burnt: Value) -> Prop
     raise TypeError(f"no gas model for {type(gas).__name__}")
 
 
-def viscosity(t: Value) -> Value:
+def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
     """Dynamic viscosity of air.
-
-    Parameters
-    ----------
-    t : float, ndarray or CasADi expression
-        Temperature [K]
-
-    Returns
-    -------
-    mu : same kind as `t`
-        Dynamic viscosity [Pa*s]
 
     Notes
     -----
@@ -116,18 +98,8 @@ def viscosity(t: Value) -> Value:
     return 7.457e-6 + 4.1547e-8 * t - 7.4793e-12 * t**2
 
 
-def conductivity(t: Value) -> Value:
+def conductivity(t: Kelvin[Scalar]) -> Annotated[Scalar, "W/(m*K)"]:
     """Thermal conductivity of air.
-
-    Parameters
-    ----------
-    t : float, ndarray or CasADi expression
-        Temperature [K]
-
-    Returns
-    -------
-    k : same kind as `t`
-        Thermal conductivity [W/(m*K)]
 
     Notes
     -----
@@ -156,11 +128,11 @@ def _mass_fractions(moles: dict[str, float]) -> dict[str, float]:
     return {s: n * _MOLAR_MASS[s] / total for s, n in moles.items()}
 
 
-def _sum(fractions: dict[str, float], value: Any) -> Value:
+def _sum(fractions: dict[str, float], value: Callable[[str], Value]) -> Value:
     return sum(y * value(species) for species, y in fractions.items())
 
 
-def _mix(air: dict[str, float], products: dict[str, float], burnt: Value, value: Any) -> Value:
+def _mix(air: dict[str, float], products: dict[str, float], burnt: Value, value: Callable[[str], Value]) -> Value:
     return (1 - burnt) * _sum(air, value) + burnt * _sum(products, value)
 
 

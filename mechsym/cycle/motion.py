@@ -9,7 +9,6 @@ hypocycloid with e = r, and a crank train's cylinder as that of a single throw.
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -21,7 +20,9 @@ from mechsym.cycle.dead_centres import check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, bind
-from mechsym.mechanisms.traits import traits_of
+from mechsym.mechanisms.roles import PistonRole
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Radian
 
 _TURN = 2 * math.pi
 
@@ -31,21 +32,11 @@ def piston_motion(
 ) -> Motion:
     """The motion of a mechanism's piston, with the mechanism's parameters still free.
 
-    Parameters
-    ----------
-    name : str
-        Name of a mechanism with one coordinate, or one left by its loops, and a piston
-    guesses : mapping of str to float, optional
-        Of dependent coordinates; the numbers of a mechanism with loops are bound [rad] or [m]
-    number : int
-        Place of its role in the declaration, from 0
-
-    Returns
-    -------
-    motion : Motion
-        Travel and its derivatives, and the loads that limit a design
+    name: name of a mechanism with one coordinate, or one left by its loops, and a piston. guesses: of dependent
+    coordinates; the numbers of a mechanism with loops are bound [rad] or [m]. number: place of its role in the
+    declaration, from 0. Returns motion: travel and its derivatives, and the loads that limit a design.
     """
-    role = piston_roles(name)[number]
+    role = pistons_of(name)[number]
     symbols = {key: ca.SX.sym(key) for key in parameters}
     mechanism = bind(name, symbols)
     if mechanism.dependents:
@@ -54,17 +45,17 @@ def piston_motion(
         raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
     found = Motion(
         name=name,
-        function=_travel(mechanism, symbols, role["travel"], parameters),
+        function=_travel(mechanism, symbols, role.travel, parameters),
         parameters=dict(parameters),
-        masses=tuple(role.get("masses", ())),
-        loads=_loads(mechanism, symbols, role, parameters) if role.get("loads") else None,
+        masses=role.masses,
+        loads=_loads(mechanism, symbols, role, parameters) if role.loads else None,
     )
     found = with_bottom(found)
     check_motion(found)
     return found
 
 
-def piston_roles(name: str) -> list[dict[str, Any]]:
+def pistons_of(name: str) -> tuple[PistonRole, ...]:
     """What the declaration of a mechanism says of its pistons.
 
     Raises
@@ -72,7 +63,7 @@ def piston_roles(name: str) -> list[dict[str, Any]]:
     BadInput
         It has none
     """
-    found = list(mechanisms.listing(name).get("roles", {}).get("piston", []))
+    found = mechanisms.roles_of(name).pistons
     if not found:
         raise BadInput(
             f"mechanism {name!r} has no piston for an engine cycle; declare one with m.piston(name, travel=x, force=F)"
@@ -85,18 +76,10 @@ def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float] | None = N
     return loops.reduced(dataclasses.replace(mechanism, dependents={**mechanism.dependents, **(guesses or {})}))[0]
 
 
-def top_of(travel: ca.Function) -> float:
+def top_of(travel: ca.Function) -> Radian:
     """Angle of top dead centre.
 
-    Parameters
-    ----------
-    travel : casadi.Function
-        Angle [rad] to travel [m] and its slope [m/rad]
-
-    Returns
-    -------
-    phi : float
-        In [0, 2 pi) [rad]
+    travel: angle [rad] to travel [m] and its slope [m/rad]. Returns phi: in [0, 2 pi).
     """
     return dead_centre(travel, 1.0)
 
@@ -125,48 +108,20 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
     return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
 
 
-def one_cylinder(name: str, parameters: Any) -> tuple[str, Any]:
-    """A mechanism as one cylinder of it sees itself.
-
-    Parameters
-    ----------
-    parameters : record
-        Of the mechanism of that name
-
-    Returns
-    -------
-    name, parameters : str, record
-        A mechanism that has one piston and its travel as `x`
-    """
-    known = traits_of(name)
-    return known.alone(parameters) if known is not None and known.alone is not None else (name, parameters)
-
-
 def piston_travel(
-    name: str, parameters: Any, guesses: Mapping[str, float] | None = None, number: int = 0
+    name: str, parameters: Record, guesses: Mapping[str, float] | None = None, number: int = 0
 ) -> ca.Function:
     """Travel of a piston of a mechanism, from its top dead centre on.
 
-    Parameters
-    ----------
-    parameters : record
-        Of the mechanism of that name
-    guesses : mapping of str to float, optional
-        Of dependent coordinates [rad] or [m]
-    number : int
-        Place of its role in the declaration, from 0
-
-    Returns
-    -------
-    function : casadi.Function
-        phi to `x` [m] and `dx_dphi` [m/rad]
+    guesses: of dependent coordinates [rad] or [m]; number: place of its role in the declaration, from 0. Returns
+    function: phi to `x` [m] and `dx_dphi` [m/rad].
     """
     mechanism = mechanisms.build(name, parameters)
     if mechanism.dependents:
         mechanism = one_coordinate(mechanism, guesses)
     if len(mechanism.coordinates) != 1:
         raise BadInput(f"mechanism {name} has no piston that a cycle could drive")
-    travel = from_top(slopes(mechanism, piston_roles(name)[number]["travel"], {}))
+    travel = from_top(slopes(mechanism, pistons_of(name)[number].travel, {}))
     phi = ca.SX.sym("phi")
     return ca.Function("travel", [phi], travel.call([phi])[:2], ["phi"], ["x", "dx_dphi"])
 
@@ -174,12 +129,8 @@ def piston_travel(
 def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.Function:
     """A kinematic output of a mechanism with one coordinate, and its derivatives by it.
 
-    Parameters
-    ----------
-    Returns
-    -------
-    function : casadi.Function
-        Angle, and a second input of the parameters in `symbols` if any are still free, to value, slope and curvature
+    Returns function: angle, and a second input of the parameters in `symbols` if any are still free, to value, slope
+    and curvature.
     """
     q, phi = mechanism.coordinates[0], ca.SX.sym("phi")
     kinematics = mechanism.functions["kinematics"]
@@ -189,6 +140,13 @@ def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.
     second = values.get(f"d2{name}_d{q}2", ca.jacobian(first, phi))
     given = [ca.vertcat(*symbols.values())] if symbols else []
     return ca.Function("slopes", [phi, *given], [x, first, second])
+
+
+def travel_of(mechanism: Mechanism, name: str) -> ca.Function:
+    """Travel of a piston and its derivative over the crank angle [rad]: [m], [m/rad]."""
+    phi = ca.SX.sym("phi")
+    found = slopes(mechanism, name, {})
+    return ca.Function("travel", [phi], found.call([phi]), ["phi"], ["x", "dx_dphi", "d2x_dphi2"])
 
 
 def from_top(found: ca.Function, parameters: Mapping[str, float] | None = None) -> ca.Function:
@@ -211,14 +169,14 @@ def _travel(
 
 
 def _loads(
-    mechanism: Mechanism, symbols: Mapping[str, ca.SX], role: Mapping[str, Any], parameters: Mapping[str, float]
+    mechanism: Mechanism, symbols: Mapping[str, ca.SX], role: PistonRole, parameters: Mapping[str, float]
 ) -> ca.Function:
     q, phi, omega, force = mechanism.coordinates[0], *(ca.SX.sym(n) for n in ("phi", "omega", "F"))
     reactions, numbers = mechanism.functions["reactions"], ca.DM(list(parameters.values()))
-    travel = slopes(mechanism, role["travel"], symbols)
+    travel = slopes(mechanism, role.travel, symbols)
     top = top_of(ca.Function("travel", [phi], travel.call([phi, numbers])[:2]))
-    state: dict[str, Any] = {q: phi + top if top else phi, f"{q}d": omega, role["force"]: force}
+    state = {q: phi + top if top else phi, f"{q}d": omega, role.force: force}
     values = reactions(**{n: state.get(n, symbols.get(n, 0)) for n in reactions.name_in()})
-    outputs = [values[n] for n in role["loads"]]
+    outputs = [values[n] for n in role.loads]
     return ca.Function("loads", [phi, ca.vertcat(*symbols.values()), omega, force], outputs,
-                       ["phi", "parameters", "omega", "F"], list(role["loads"]))  # fmt: skip
+                       ["phi", "parameters", "omega", "F"], list(role.loads))  # fmt: skip

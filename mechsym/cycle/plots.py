@@ -1,14 +1,32 @@
-"""Pictures of engine cycles: the closed period at one speed, and figures over the speeds."""
+"""Pictures of engine cycles: the closed period, a cycle with its gas exchange, a Stirling turn, figures over speeds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from mechsym.cycle.breathing.flow import valve_lift
+from mechsym.cycle.breathing.records import Breathing
+from mechsym.files import Json
 from mechsym.quantities import display
-from mechsym.style import BLUE, GREEN, RED, SERIES, axis_unit, legend, over_angle, panels, unit_words, write_picture
+from mechsym.style import (
+    BLUE,
+    GREEN,
+    INK,
+    RED,
+    SERIES,
+    axis_unit,
+    legend,
+    over_angle,
+    panels,
+    unit_words,
+    write_picture,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _MAP = (("torque_avg", "mean torque", "N*m"), ("power_kw", "power", "kW"), ("sfc_g_kwh", "consumption", "g/(kW*h)"),
         ("p_max_mpa", "peak pressure", "MPa"))  # fmt: skip
@@ -18,10 +36,7 @@ _LOOKS = (("-", BLUE), ("--", RED), (":", GREEN))
 def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
     """Pressure over volume and angle, and the torque of one piston.
 
-    Parameters
-    ----------
-    curves : mapping of str to ndarray, shape (k,)
-        See `cycle.curves`
+    curves: see `cycle.curves`, shape (k,).
     """
     figure, axes = panels(12, 3.6, 1, 3, "Pressure over volume and crank angle, and torque of one piston")
     phi, p, v, torque = np.radians(curves["phi_deg"]), curves["p_pa"], curves["v_m3"], curves["torque_nm"]
@@ -40,7 +55,7 @@ def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
     return write_picture(path, figure)
 
 
-def both_logarithmic(axis: Any) -> None:
+def both_logarithmic(axis: "Axes") -> None:
     """Few and plain numbers on two logarithmic axes."""
     for one in (axis.xaxis, axis.yaxis):
         low, high = one.get_view_interval()
@@ -49,13 +64,10 @@ def both_logarithmic(axis: Any) -> None:
         one.set_minor_formatter(NullFormatter())
 
 
-def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) -> Path:
+def performance_picture(path: Path, engines: Mapping[str, Json]) -> Path:
     """Torque, power, consumption, peak pressure and energy shares over the speeds.
 
-    Parameters
-    ----------
-    engines : mapping of str to mapping
-        Name of each engine to its `cycle.columns`
+    engines: mapping of str to mapping, name of each engine to its `cycle.columns`.
     """
     figure, axes = panels(12, 7.2, 2, 3, "Torque, power, consumption, peak pressure and shares of energy over speed")
     (turning, turning_unit), runs = axis_unit("rpm"), tuple(zip(_LOOKS, engines.items(), strict=False))
@@ -87,14 +99,15 @@ def performance_picture(path: Path, engines: Mapping[str, Mapping[str, Any]]) ->
 
 
 def pareto_picture(
-    path: Path, columns: Mapping[str, Any], objective: str, against: str, units: Mapping[str, str]
+    path: Path,
+    columns: Mapping[str, Sequence[float] | np.ndarray],
+    objective: str,
+    against: str,
+    units: Mapping[str, str],
 ) -> Path:
     """Front of two figures, and the design along it.
 
-    Parameters
-    ----------
-    columns : mapping of str to sequence
-        Both figures and the design variables, point by point, in SI [units]
+    columns: mapping of str to sequence, both figures and the design variables, point by point, in SI [units].
     """
     variables = [name for name in columns if name not in (objective, against)]
     names = [objective, *variables]
@@ -107,12 +120,70 @@ def pareto_picture(
     return write_picture(path, figure)
 
 
-def _known(engines: Mapping[str, Mapping[str, Any]], key: str) -> bool:
+def _known(engines: Mapping[str, Json], key: str) -> bool:
     return any(np.isfinite(np.asarray(found[key], dtype=float)).any() for found in engines.values())
 
 
-def _without_start(engines: Mapping[str, Mapping[str, Any]], key: str) -> tuple[float, float]:
+def _without_start(engines: Mapping[str, Json], key: str) -> tuple[float, float]:
     # at a few rpm all heat goes into the walls and the consumption leaves the picture
     values = np.concatenate([found[key] for found in engines.values()])
     low = float(np.nanmin(values))
     return 0.98 * low, min(float(np.nanmax(values)), 1.4 * low)
+
+
+def breathing_picture(path: Path, curves: Mapping[str, np.ndarray], breathing: Breathing) -> Path:
+    """Pressure over volume, and pressures and valve lifts over the angle.
+
+    curves: see `breathing.engine.curves`.
+    """
+    figure, axes = panels(12, 3.9, 1, 3, "Both loops, pressures of the three volumes, and lift of the valves")
+    phi, p, v = np.radians(curves["phi_deg"]), curves["p_pa"], curves["v_m3"]
+    (factor, unit), (room, room_unit), (angle, angle_unit) = (
+        axis_unit(si, values) for si, values in (("Pa", p), ("m^3", v), ("rad", phi))
+    )
+    axes[0].loglog(_closed(v) * room, _closed(p) * factor, color=BLUE)
+    both_logarithmic(axes[0])
+    axes[0].set(xlabel=f"volume [{room_unit}]", ylabel=f"absolute pressure [{unit}]")
+    for name, key, color in (
+        ("cylinder", "p_pa", BLUE), ("plenum", "p_plenum_pa", GREEN), ("manifold", "p_manifold_pa", RED)
+    ):  # fmt: skip
+        axes[1].plot(phi * angle, curves[key] * factor, color=color, label=name)
+    axes[1].set_ylim(0, 2 * max(curves["p_plenum_pa"].max(), curves["p_manifold_pa"].max()) * factor)
+    axes[1].set_ylabel(f"absolute pressure [{unit}]")
+    for name, color in (("exhaust", RED), ("inlet", GREEN)):
+        ends = tuple(getattr(breathing, f"{name}_{event}") for event in ("opens", "closes", "lift"))
+        lift = np.array([float(valve_lift(float(at), *ends)) for at in phi])
+        factor, unit = axis_unit("m", lift)
+        axes[2].plot(phi * angle, lift * factor, color=color, label=name)
+    axes[2].set_ylabel(f"lift of the valve [{unit}]")
+    for axis in axes[1:]:
+        axis.set_xlabel(f"crank angle from firing TDC [{angle_unit}]")
+        if angle_unit == "deg":
+            axis.set_xticks(range(-180, 541, 180))
+        legend(axis)
+    return write_picture(path, figure)
+
+
+def _closed(values: np.ndarray) -> np.ndarray:
+    return np.append(values, values[0])
+
+
+def stirling_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
+    """Both p-V diagrams and the temperatures of the working spaces.
+
+    curves: mapping of str to ndarray, shape (n,), `phi_deg`, `p_pa`, `v_e_m3`, `v_c_m3`, `t_e_k`, `t_c_k`.
+    """
+    figure, axes = panels(11, 3.8, 1, 3, "Pressure over the volumes, and temperatures over the shaft angle")
+    hot, cold, p = (_closed(curves[key]) for key in ("v_e_m3", "v_c_m3", "p_pa"))
+    (room, room_unit), (factor, unit) = axis_unit("m^3", hot + cold), axis_unit("Pa", p)
+    angle = over_angle(axes[2], 2 * np.pi, "shaft angle")
+    axes[1].plot((hot + cold) * room, p * factor, color=INK)
+    for name, volume, kind, color in (("expansion", hot, "t_e_k", RED), ("compression", cold, "t_c_k", BLUE)):
+        axes[0].plot(volume * room, p * factor, color=color, label=name)
+        axes[2].plot(np.radians(curves["phi_deg"]) * angle, curves[kind], color=color, label=name)
+    for axis, of in ((axes[0], "the space"), (axes[1], "both spaces")):
+        axis.set(xlabel=f"volume of {of} [{room_unit}]", ylabel=f"pressure [{unit}]")
+    axes[2].set_ylabel("temperature [K]")
+    for axis in axes:
+        legend(axis)
+    return write_picture(path, figure)

@@ -17,7 +17,8 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, travel
-from mechsym.quantities import record
+from mechsym.quantities.results import quantity, result
+from mechsym.quantities.units import Array, Pascal, Radian, Scalar
 
 ATMOSPHERE = 101325.0
 
@@ -26,7 +27,7 @@ _PANEL = math.pi / 90
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
-@record
+@result
 class Pressure:
     """Cylinder pressure over one period."""
 
@@ -34,76 +35,46 @@ class Pressure:
     period: float  #: 2 pi (two-stroke) or 4 pi (four-stroke) [rad]
     kinks: tuple[float, ...]  #: Crank angles in [0, period) where p is not smooth [rad]
     #: ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
-    absolute: Callable[[Any], Any]
-    #: Highest pressure [Pa] and its crank angle in (-period/2, period/2] [rad]
-    p_max: float
-    phi_p_max: float
-    mean_indicated: float  #: Mean indicated pressure, net over the period [Pa]
-    t_max: float | None = None  #: Highest mean temperature of the gas; None where its mass is not known [K]
+    absolute: Callable[[Scalar], Scalar]
+    p_max: float = quantity("Pa", card="p_max")  #: Absolute
+    phi_p_max: float = quantity("rad")  #: Crank angle of the peak, in (-period/2, period/2]
+    mean_indicated: float = quantity("Pa", card="IMEP net")  #: Net over the period
+    #: Highest mean temperature of the gas; None where its mass is not known
+    t_max: float | None = quantity("K", default=None, card="peak temperature")
     #: Names and crank angles of the events, for tables and plots [rad]
     phases: Mapping[str, float] = dataclasses.field(default_factory=dict)
     facts: tuple[str, ...] = ()  #: What was assumed and what came out, one sentence each
     doubts: tuple[str, ...] = ()  #: What looks physically implausible, one sentence each; empty if nothing does
 
 
-def periodic(function: Callable[[Any], Any], period: float, start: float = 0.0) -> Callable[[Any], Any]:
+def periodic(function: Callable[[Scalar], Scalar], period: Radian, start: Radian = 0.0) -> Callable[[Scalar], Scalar]:
     """The periodic continuation of a function known on one period.
 
-    Parameters
-    ----------
-    function : callable
-        Of angles in [start, start + period)
-    period : float
-        2 pi or 4 pi [rad]
-    start : float
-        Where the known period begins [rad]
-
-    Returns
-    -------
-    function : callable
-        Of any real angle [rad]
+    function: callable, of angles in [start, start + period); period: 2 pi or 4 pi; start: where the known period
+    begins. Returns function: callable, of any real angle [rad].
     """
 
-    def continued(phi: Any) -> Any:
+    def continued(phi: Scalar) -> Scalar:
         return function(start + np.remainder(np.asarray(phi, dtype=float) - start, period))
 
     return continued
 
 
-def wrapped(angles: Any, period: float) -> Any:
+def wrapped(angles: Radian[Scalar], period: Radian) -> Radian[Scalar]:
     """Angles moved into [0, period).
 
-    Parameters
-    ----------
-    angles : float or ndarray
-        Any real angles [rad]
-    period : float
-        2 pi or 4 pi [rad]
-
-    Returns
-    -------
-    angles : float or ndarray
-        The same angles in [0, period) [rad]
+    angles: any real angles; period: 2 pi or 4 pi.
     """
     inside = np.remainder(angles, period)
     # the remainder of a tiny negative number rounds up to the period itself
     return np.where(inside >= period, 0.0, inside)[()]
 
 
-def quadrature(period: float, kinks: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+def quadrature(period: Radian, kinks: tuple[Radian, ...]) -> tuple[Radian[Array], Radian[Array]]:
     """Nodes and weights that integrate a function with these kinks over one period.
 
-    Parameters
-    ----------
-    period : float
-        2 pi or 4 pi [rad]
-    kinks : tuple of float
-        Angles in [0, period) where panels must end [rad]
-
-    Returns
-    -------
-    phi, weights : ndarray, shape (n,)
-        Nodes and weights of composite Gauss-Legendre panels [rad]
+    period: 2 pi or 4 pi; kinks: angles in [0, period) where panels must end. Returns phi, weights: nodes and weights of
+    composite Gauss-Legendre panels.
     """
     count = round(period / _PANEL)
     edges = np.union1d(np.linspace(0.0, period, count + 1), kinks)
@@ -113,45 +84,32 @@ def quadrature(period: float, kinks: tuple[float, ...]) -> tuple[np.ndarray, np.
 
 
 def mean_indicated_pressure(
-    absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...], cylinder: Chamber
-) -> float:
+    absolute: Callable[[Scalar], Scalar], period: Radian, kinks: tuple[Radian, ...], cylinder: Chamber
+) -> Pascal:
     r"""Work of the gas over one period, by swept volume.
 
     .. math:: p_{mi} = \frac{1}{V_d}\oint p\,dV = \frac{1}{s}\int_0^{T} p\,x'(\varphi)\,d\varphi
 
-    Parameters
-    ----------
-    absolute : callable
-        Pressure of the crank angle [Pa]
-    period : float
-        T: 2 pi or 4 pi; over 4 pi the gas exchange counts (net value) [rad]
-    kinks : tuple of float
-        Angles in [0, period) where the pressure is not smooth [rad]
-
-    Returns
-    -------
-    p_mi : float
-        Mean indicated pressure [Pa]
+    absolute: callable, pressure of the crank angle [Pa]. period: T: 2 pi or 4 pi; over 4 pi the gas exchange counts
+    (net value). kinks: angles in [0, period) where the pressure is not smooth. Returns p_mi: mean indicated pressure.
     """
     phi, weights = quadrature(period, kinks)
     return float(np.sum(weights * absolute(phi) * travel(cylinder.motion, phi)[1]) / cylinder.stroke)
 
 
 def pressure_over(
-    kind: str, absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...], cylinder: Chamber, **rest: Any
+    kind: str,
+    absolute: Callable[[Scalar], Scalar],
+    period: Radian,
+    kinks: tuple[Radian, ...],
+    cylinder: Chamber,
+    **rest: Any,
 ) -> Pressure:
     """The record of a pressure, with its peak and its work.
 
-    Parameters
-    ----------
-    absolute : callable
-        Pressure of the crank angle [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-    kinks : tuple of float
-        Angles in [0, period) where the pressure is not smooth [rad]
-    rest : keyword arguments
-        Fields `t_max`, `phases`, `facts` and `doubts` of the record, as far as there are any
+    absolute: callable, pressure of the crank angle [Pa]; period: 2 pi or 4 pi; kinks: angles in [0, period) where the
+    pressure is not smooth; rest: keyword arguments, fields `t_max`, `phases`, `facts` and `doubts` of the record, as
+    far as there are any.
     """
     p_max, phi_p_max = peak(absolute, period, kinks)
     mean = mean_indicated_pressure(absolute, period, kinks, cylinder)
@@ -161,24 +119,11 @@ def pressure_over(
     )  # fmt: skip
 
 
-def peak(absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...]) -> tuple[float, float]:
+def peak(absolute: Callable[[Scalar], Scalar], period: Radian, kinks: tuple[Radian, ...]) -> tuple[Pascal, Radian]:
     """Highest pressure and its angle.
 
-    Parameters
-    ----------
-    absolute : callable
-        Pressure of the crank angle [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-    kinks : tuple of float
-        Angles in [0, period) where the pressure is not smooth [rad]
-
-    Returns
-    -------
-    p_max : float
-        Highest pressure [Pa]
-    phi : float
-        Its angle in (-period/2, period/2] [rad]
+    absolute: callable, pressure of the crank angle [Pa]; period: 2 pi or 4 pi; kinks: angles in [0, period) where the
+    pressure is not smooth. Returns phi: its angle in (-period/2, period/2].
     """
     phi = np.union1d(np.linspace(-period / 2, period / 2, 2881)[1:], _centred(np.asarray(kinks), period))
     at = phi[int(np.argmax(absolute(phi)))]
@@ -190,5 +135,5 @@ def peak(absolute: Callable[[Any], Any], period: float, kinks: tuple[float, ...]
     return float(absolute(best)), float(_centred(best, period))
 
 
-def _centred(angle: Any, period: float) -> Any:
+def _centred(angle: Scalar, period: float) -> Scalar:
     return period / 2 - np.remainder(period / 2 - angle, period)

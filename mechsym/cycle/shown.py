@@ -1,13 +1,21 @@
-"""What of a gas on a piston is worth seeing."""
+"""What of a gas on a piston, of the figures of a cycle and of two engines side by side is worth seeing."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.cycle.chamber import volume
+from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns
+from mechsym.cycle.compare import EngineComparison
+from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.findings import of_cycle
 from mechsym.cycle.gas import Gas
-from mechsym.page import Card, Picture, View, shows
-from mechsym.quantities.display import quantity_text
+from mechsym.cycle.pressure import Pressure
+from mechsym.files import Json
+from mechsym.page import Card, Picture, View, card, shows
+from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.results import Columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,13 +26,13 @@ def gas_view(gas: Gas) -> View:
     """Pressures of a gas and its indicator diagram."""
     pressure = gas.pressure
     cards = [
-        Card(name="peak pressure", value=quantity_text(pressure.p_max, "Pa", 4), about="absolute"),
-        Card(name="mean indicated pressure", value=quantity_text(pressure.mean_indicated, "Pa", 4)),
+        card(Pressure, "p_max", pressure.p_max, "absolute"),
+        card(Pressure, "mean_indicated", pressure.mean_indicated),
     ]
     if pressure.t_max is not None:
-        cards.append(Card(name="peak temperature", value=quantity_text(pressure.t_max, "K", 4)))
+        cards.append(card(Pressure, "t_max", pressure.t_max))
     see = f"Absolute pressure over the {_angle(gas)}, and over the volume: the area is the work."
-    drawn = () if gas.on_shaft else (Picture(name="indicator", see=see, draw=lambda: indicator(gas)),)
+    drawn = (Picture(name="indicator", see=see, draw=lambda: indicator(gas)),)
     return View(title=f"Gas, {pressure.kind}", cards=tuple(cards), pictures=drawn, columns=lambda: _columns(gas))
 
 
@@ -34,10 +42,15 @@ def _angle(gas: Gas) -> str:
     return "angle from firing dead centre" if fires else "crank angle"
 
 
-def _columns(gas: Gas) -> dict[str, np.ndarray]:
+def _columns(gas: Gas) -> Columns:
     phi = np.unique(np.append(np.linspace(0, gas.pressure.period, 1441), gas.pressure.kinks))
-    told = {"phi": phi, "pressure": gas.pressure.absolute(phi), "piston_force": gas.force(phi)}
-    return told if gas.on_shaft else told | {"volume [m^3]": np.asarray(volume(gas.chamber, phi)).ravel()}
+    columns = {
+        "phi": phi,
+        "pressure": gas.pressure.absolute(phi),
+        "piston_force": gas.force(phi),
+        "volume": np.asarray(volume(gas.chamber, phi)).ravel(),
+    }
+    return Columns(columns, {"phi": "rad", "pressure": "Pa", "piston_force": "N", "volume": "m^3"})
 
 
 def indicator(gas: Gas) -> "Figure":
@@ -46,7 +59,7 @@ def indicator(gas: Gas) -> "Figure":
 
     figure, (left, right) = panels(9, 3.2, 1, 2, "Pressure over angle and volume")
     columns = _columns(gas)
-    p, room = columns["pressure"], columns["volume [m^3]"]
+    p, room = columns["pressure"], columns["volume"]
     (factor, unit), (scale, room_unit) = axis_unit("Pa", p), axis_unit("m^3", room)
     angle = over_angle(left, gas.pressure.period, _angle(gas))
     left.plot(columns["phi"] * angle, p * factor, color=BLUE)
@@ -54,3 +67,77 @@ def indicator(gas: Gas) -> "Figure":
     right.plot(room * scale, p * factor, color=BLUE)
     right.set(xlabel=f"volume [{room_unit}]", ylabel=f"absolute pressure [{unit}]")
     return figure
+
+
+_SHOWN = ("brake_power_kw", "brake_mep_kpa", "brake_sfc_g_kwh", "brake_torque", "power_kw", "mep_kpa", "sfc_g_kwh",
+          "torque_avg", "p_max_mpa", "brake_efficiency", "efficiency", "mechanical_efficiency", "ca50_deg")  # fmt: skip
+_LEAST = ("brake_sfc_g_kwh", "sfc_g_kwh")  # of several speeds the least is shown, of others the largest
+_OF_ONE_SPEED = ("ca50_deg",)
+
+
+@shows(CycleFigures)
+def cycle_view(found: CycleFigures) -> View:
+    """Brake figures first, indicated ones beside them; of several speeds each where it is best."""
+    rpm = np.asarray(found["speed_rpm"])
+    one, rubs = rpm.size == 1, np.any(found.get("friction_mep_kpa", 0.0))
+    words = {} if found.source is None else found.source.page.words
+    cards = [card(CycleColumns, "speed_rpm", rpm[0])] if one else []
+    cylinders = found.get("cylinders", 1)
+    for key in _SHOWN:
+        values = np.asarray(found.get(key, np.nan), dtype=float)
+        unknown = not rubs and key in AFTER_FRICTION
+        if unknown or not np.isfinite(values).any() or not one and key in _OF_ONE_SPEED:
+            continue
+        k = int((np.nanargmin if key in _LEAST else np.nanargmax)(values))
+        about = [] if one else [f"{'least' if key in _LEAST else 'largest'}, at {figure(float(rpm[k]), 4)} rpm"]
+        if cylinders > 1 and key in found.get("per_cylinder", {}):
+            about.append(f"of {cylinders} {found.get('each', 'cylinder')}s together")
+        if key == "p_max_mpa" and one:
+            about.append(f"at {figure(float(np.ravel(found['p_max_angle_deg'])[k]), 3)} deg")
+        if key in _ABOUT:
+            about.append(_ABOUT[key] if "heat_in_j" not in found else "of the heat from the hot side")
+        shown = card(CycleColumns, key, values.flat[k], ", ".join(about))
+        cards.append(replace(shown, name=words.get(key, shown.name)))
+    drawn = (
+        () if one else (Picture(name="speeds", see="Torque and power over the speed.", draw=lambda: _speeds(found)),)
+    )
+    return View(title="Engine cycle", cards=tuple(cards), pictures=drawn, columns=lambda: _flat(found, rpm.size),
+                findings=lambda: of_cycle(found))  # fmt: skip
+
+
+_ABOUT = {
+    "efficiency": "of the fuel's heating value", "brake_efficiency": "of the fuel's heating value",
+    "mechanical_efficiency": "brake by net indicated power", "ca50_deg": "half of the heat is released, from firing "
+    "dead centre",
+}  # fmt: skip
+
+
+def _flat(found: Json, size: int) -> Columns:
+    return Columns({k: v for k, v in found.items() if isinstance(v, np.ndarray) and v.shape == (size,)}, UNITS)
+
+
+def _speeds(found: Json) -> "Figure":
+    from mechsym.style import BLUE, RED, axis_unit, legend, panels
+
+    made, axes = panels(9, 3.2, 1, 2, "Torque and power over the speed")
+    omega = np.asarray(found["speed_rpm"]) * np.pi / 30
+    rubs = np.any(found.get("friction_mep_kpa", 0.0))
+    curves = (("torque", "brake_torque", "torque_avg", 1.0, "N*m"), ("power", "brake_power_kw", "power_kw", 1e3, "W"))
+    for axis, (name, brake, indicated, times, si) in zip(axes, curves, strict=True):
+        keys = {**({"brake": brake} if rubs else {}), "indicated": indicated}
+        (across, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit(si, times * np.asarray(found[indicated]))
+        for (label, key), look, color in zip(keys.items(), ("-", "--"), (BLUE, RED), strict=False):
+            axis.plot(omega * across, times * factor * np.asarray(found[key]), look, color=color, label=label)
+        axis.set(xlabel=f"speed [{rpm}]", ylabel=f"{name} [{unit}]")
+        legend(axis)
+    return made
+
+
+@shows(EngineComparison)
+def comparison_view(found: EngineComparison) -> View:
+    """Where the torque curves of two engines cross."""
+    crossing = ", ".join(quantity_text(float(v) * np.pi / 30, "rad/s") for v in found.numbers.crossover_rpm)
+    where = Card(name="mean torque crosses at", value=crossing or "no speed")
+    names = ("quantity", "speed_rpm", "a", "b", "difference", "unit")
+    columns = {name: [getattr(row, name) for row in found.numbers.table] for name in names}
+    return View(title="Two engines", cards=(where,), columns=lambda: columns)

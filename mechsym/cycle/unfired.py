@@ -10,16 +10,14 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from mechsym.quantities.units import Radian
 
-def unfired(force: Callable[[np.ndarray], np.ndarray], period: float) -> Callable[[np.ndarray], np.ndarray]:
+
+def unfired(force: Callable[[np.ndarray], np.ndarray], period: Radian) -> Callable[[np.ndarray], np.ndarray]:
     """Force on the piston [N] over the crank angle in a turn without combustion, from that with it.
 
-    Parameters
-    ----------
-    force : callable
-        Angle from firing dead centre [rad] to net force on the piston, which grows with the pressure [N]
-    period : float
-        Of the cycle [rad]
+    force: angle from firing dead centre [rad] to net force on the piston, which grows with the pressure [N]; period: of
+    the cycle.
     """
 
     def without(phi: np.ndarray) -> np.ndarray:

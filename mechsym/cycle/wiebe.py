@@ -11,43 +11,23 @@ a scale, not a stop. Floats, arrays and CasADi symbols are taken; the derivative
 y = 0, also with respect to m.
 """
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym.cycle.values import Value
+from mechsym.quantities.units import Pure, Scalar
 
 # Smallest y of the symbolic form: log(y), which the derivative with respect to m needs, stays finite
 _TINY = 1e-300
 
-# Fitted sets of Shen et al. (2020), from low to high load
-SHEN_2020 = (
-    {"a_p": 3.415, "a_d": 23.8, "m_p": 1.148, "m_d": 1.006, "b": 0.6749},
-    {"a_p": 3.769, "a_d": 23.72, "m_p": 1.292, "m_d": 0.9729, "b": 0.6481},
-    {"a_p": 3.45, "a_d": 17.28, "m_p": 1.578, "m_d": 0.9035, "b": 0.6992},
-    {"a_p": 3.319, "a_d": 12.71, "m_p": 2.2, "m_d": 0.7247, "b": 0.8023},
-)
 
-
-def wiebe(y: Value, a: Value, m: Value) -> Value:
+def wiebe(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
     r"""Burnt fraction of one Wiebe function.
 
     .. math:: f = 1 - \exp(-a\,y^{m+1}), \quad y \ge 0
 
-    Parameters
-    ----------
-    y : float, ndarray or casadi symbol
-        (phi - start) / duration; values below 0 count as 0 [-]
-    a : float or casadi symbol
-        Completeness: f(1) = 1 - exp(-a) [-]
-    m : float or casadi symbol
-        Form factor, m >= 0 [-]
-
-    Returns
-    -------
-    f : like y
-        Burnt fraction, 0 <= f < 1 [-]
+    y: (phi - start) / duration; values below 0 count as 0. a: completeness: f(1) = 1 - exp(-a). m: form factor, m >= 0.
 
     Notes
     -----
@@ -57,24 +37,13 @@ def wiebe(y: Value, a: Value, m: Value) -> Value:
     return -_expm1(-a * _from_start(y) ** (m + 1))
 
 
-def dwiebe_dy(y: Value, a: Value, m: Value) -> Value:
+def dwiebe_dy(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
     r"""Burning rate of one Wiebe function.
 
     .. math:: \frac{df}{dy} = a (m+1)\, y^m \exp(-a\,y^{m+1}), \quad y \ge 0
 
-    Parameters
-    ----------
-    y : float, ndarray or casadi symbol
-        (phi - start) / duration; the rate is 0 below 0 [-]
-    a : float or casadi symbol
-        Completeness [-]
-    m : float or casadi symbol
-        Form factor, m >= 0 [-]
-
-    Returns
-    -------
-    rate : like y
-        df/dy; divide by the duration for df/dphi [-]
+    y: (phi - start) / duration; the rate is 0 below 0. a: completeness. m: form factor, m >= 0. Returns rate: df/dy;
+    divide by the duration for df/dphi.
 
     Notes
     -----
@@ -84,26 +53,15 @@ def dwiebe_dy(y: Value, a: Value, m: Value) -> Value:
     return _where_burning(y, a * (m + 1) * t**m * _exp(-a * t ** (m + 1)))
 
 
-def double_wiebe(y: Value, a_p: Value, m_p: Value, a_d: Value, m_d: Value, b: Value) -> Value:
+def double_wiebe(
+    y: Pure[Scalar], a_p: Pure[Scalar], m_p: Pure[Scalar], a_d: Pure[Scalar], m_d: Pure[Scalar], b: Pure[Scalar]
+) -> Pure[Scalar]:
     r"""Burnt fraction of a premixed and a diffusive Wiebe function with a common start.
 
     .. math:: f = (1-b)\,[1-\exp(-a_p\,y^{m_p+1})] + b\,[1-\exp(-a_d\,y^{m_d+1})]
 
-    Parameters
-    ----------
-    y : float, ndarray or casadi symbol
-        (phi - start) / duration; values below 0 count as 0 [-]
-    a_p, m_p : float or casadi symbol
-        Completeness and form factor of the share 1 - b [-]
-    a_d, m_d : float or casadi symbol
-        Completeness and form factor of the share b [-]
-    b : float or casadi symbol
-        Share of the second function, 0 <= b <= 1 [-]
-
-    Returns
-    -------
-    f : like y
-        Burnt fraction [-]
+    y: (phi - start) / duration; values below 0 count as 0. a_p, m_p: completeness and form factor of the share 1 - b.
+    a_d, m_d: completeness and form factor of the share b. b: share of the second function, 0 <= b <= 1.
 
     Notes
     -----
@@ -112,31 +70,51 @@ def double_wiebe(y: Value, a_p: Value, m_p: Value, a_d: Value, m_d: Value, b: Va
     return (1 - b) * wiebe(y, a_p, m_p) + b * wiebe(y, a_d, m_d)
 
 
-def ddouble_wiebe_dy(y: Value, a_p: Value, m_p: Value, a_d: Value, m_d: Value, b: Value) -> Value:
+def ddouble_wiebe_dy(
+    y: Pure[Scalar], a_p: Pure[Scalar], m_p: Pure[Scalar], a_d: Pure[Scalar], m_d: Pure[Scalar], b: Pure[Scalar]
+) -> Pure[Scalar]:
     r"""Burning rate of `double_wiebe`.
 
     .. math:: \frac{df}{dy} = (1-b)\,f_p'(y) + b\,f_d'(y)
 
-    Parameters
-    ----------
-    y : float, ndarray or casadi symbol
-        (phi - start) / duration; the rate is 0 below 0 [-]
-    a_p, m_p : float or casadi symbol
-        Completeness and form factor of the share 1 - b [-]
-    a_d, m_d : float or casadi symbol
-        Completeness and form factor of the share b [-]
-    b : float or casadi symbol
-        Share of the second function, 0 <= b <= 1 [-]
-
-    Returns
-    -------
-    rate : like y
-        df/dy; divide by the duration for df/dphi [-]
+    y: (phi - start) / duration; the rate is 0 below 0. a_p, m_p: completeness and form factor of the share 1 - b. a_d,
+    m_d: completeness and form factor of the share b. b: share of the second function, 0 <= b <= 1. Returns rate: df/dy;
+    divide by the duration for df/dphi.
     """
     return (1 - b) * dwiebe_dy(y, a_p, m_p) + b * dwiebe_dy(y, a_d, m_d)
 
 
-def _symbolic(value: Any) -> bool:
+BURNT = {"ca10_deg": 0.1, "ca50_deg": 0.5, "ca90_deg": 0.9}  #: Shares of the heat whose angles are told
+
+
+def burnt_at(share: Pure, a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
+    r"""Where a share of what has burnt at the nominal end is burnt.
+
+    .. math:: y = \left(-\ln[1 - s(1 - e^{-a})]/a\right)^{1/(m+1)}
+
+    a, m: completeness and form factor of `wiebe`. Returns y: (phi - start) / duration.
+
+    Examples
+    --------
+    >>> round(float(burnt_at(0.5, 5.0, 2.0)), 4)
+    0.5159
+    """
+    return (-np.log1p(share * np.expm1(-a)) / a) ** (1 / (np.asarray(m) + 1))
+
+
+def double_burnt_at(share: Pure, shape: tuple[float, ...], end: Pure) -> Pure:
+    r"""Where a share of what burns is burnt, y of :math:`f(y) = s f(y_{end})`.
+
+    shape: a_p, m_p, a_d, m_d, b of `double_wiebe` [-]. end: y where burning stops; infinite where nothing cuts it off.
+    Returns y: (phi - start) / duration.
+    """
+    wanted, last = share * float(double_wiebe(end, *shape)), 1.0
+    while double_wiebe(last, *shape) < wanted:
+        last *= 2
+    return float(scipy.optimize.brentq(lambda y: double_wiebe(y, *shape) - wanted, 0.0, last, xtol=1e-14))
+
+
+def _symbolic(value: object) -> bool:
     return isinstance(value, (ca.SX, ca.MX))
 
 
@@ -149,9 +127,9 @@ def _where_burning(y: Value, rate: Value) -> Value:
     return ca.if_else(y >= 0, rate, 0) if _symbolic(y) else np.where(np.asarray(y) >= 0, rate, 0.0)[()]
 
 
-def _exp(value: Any) -> Value:
+def _exp(value: Value) -> Value:
     return ca.exp(value) if _symbolic(value) else np.exp(value)
 
 
-def _expm1(value: Any) -> Value:
+def _expm1(value: Value) -> Value:
     return ca.expm1(value) if _symbolic(value) else np.expm1(value)

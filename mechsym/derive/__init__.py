@@ -1,19 +1,17 @@
 """The symbolic side: declare a mechanism, derive its exact equations, generate code from them. The only home of sympy
 besides `mechsym.audit`.
 
-declare.py    what a mechanism is made of (bodies, joints, springs, forces; records in elements.py, letters and
-              units in letters.py, dimensions.py; refusals with file and line in refuse.py)
+declare.py    what a mechanism is made of (bodies, springs, forces; coordinates, parameters, joints and names in
+              letters.py, units in dimensions.py; refusals with file and line in refuse.py)
 linkage.py    links and joints without algebra; closing.py places them, by dyads.py or by constraint
-roles.py      what parts are for: pistons, rotors, bearings, guides, teeth, drawing
+roles.py      what parts are for: pistons, rotors, bearings, guides, teeth; drawing.py  how they look
 tape.py       named intermediates and their named derivatives
-outputs.py    what shall come out beside the equations
-rates.py      velocities and accelerations of named expressions
+rates.py      velocities and accelerations of named expressions, and what shall come out beside the equations
 lagrange.py   mass matrix, bias, generalised forces, energies, reactions
 textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
 identity.py   is an expression zero? numbers at 50 digits refute, a polynomial certificate proves
 printer.py    sympy -> CasADi text and expressions
-autodiff.py   the same from T - V by automatic differentiation, for loops in loops
-emit.py       one readable module of Python per mechanism, stamp.py its header
+emit.py       one readable module of Python per mechanism, with its stamp
 listing.py    the equations as LaTeX and MathML for reports
 build.py      from derivations/ to generated/, or compare the two
 files.py      mechanisms in files of the user's own
@@ -45,9 +43,8 @@ from sympy import (
 
 from mechsym.derive.declare import Declaration as Mechanism
 from mechsym.derive.lagrange import Equations, derive, given_equations
-from mechsym.derive.outputs import output, output_dynamic
 from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi
-from mechsym.derive.rates import acceleration, reaction, velocities, velocity
+from mechsym.derive.rates import acceleration, output, output_dynamic, reaction, velocities, velocity
 
 __all__ = [
     "Abs", "And", "Equations", "Max", "Mechanism", "Min", "Mod", "Not", "Or", "Piecewise", "Rational",

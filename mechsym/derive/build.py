@@ -7,10 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mechsym.derive.declare import Declaration
-from mechsym.derive.emit import module_text
+from mechsym.derive.emit import digest, module_text
 from mechsym.derive.lagrange import derive
 from mechsym.derive.listing import listing
-from mechsym.derive.stamp import digest
 from mechsym.derive.textbook import disagreements
 from mechsym.errors import BadInput
 from mechsym.files import write_text
@@ -19,22 +18,16 @@ from mechsym.files import write_text
 def folders() -> tuple[Path, Path, Path]:
     """Where the derivations, the generated code and the derivation core live.
 
-    Returns
-    -------
-    derivations, generated, core : Path
-        Folders
+    Returns derivations, generated, core: folders.
     """
-    found = [importlib.import_module(f"mechsym.{name}").__file__ for name in ("derivations", "generated", "derive")]
-    return tuple(Path(str(f)).parent for f in found)  # type: ignore[return-value]
+    files = [importlib.import_module(f"mechsym.{name}").__file__ for name in ("derivations", "generated", "derive")]
+    return tuple(Path(str(f)).parent for f in files)  # type: ignore[return-value]
 
 
 def scripts() -> list[str]:
     """Names of the derivation scripts.
 
-    Returns
-    -------
-    names : list of str
-        Sorted file stems
+    Returns names: sorted file stems.
     """
     return sorted(p.stem for p in folders()[0].glob("*.py") if p.stem != "__init__")
 
@@ -42,15 +35,7 @@ def scripts() -> list[str]:
 def declared(name: str) -> Declaration:
     """The declaration that a script makes.
 
-    Parameters
-    ----------
-    name : str
-        Name of the script and of its function
-
-    Returns
-    -------
-    mechanism : Declaration
-        A fresh declaration
+    name: name of the script and of its function. Returns mechanism: a fresh declaration.
 
     Raises
     ------
@@ -65,15 +50,7 @@ def declared(name: str) -> Declaration:
 def source_digest(name: str) -> str:
     """Hash of a script and of the derivation core: equal hashes mean that the generated file is not stale.
 
-    Parameters
-    ----------
-    name : str
-        Name of the script
-
-    Returns
-    -------
-    digits : str
-        16 hex digits
+    Returns digits: 16 hex digits.
     """
     derivations, _, core = folders()
     return digest(
@@ -84,15 +61,7 @@ def source_digest(name: str) -> str:
 def build(name: str) -> dict[str, str]:
     """The generated files of one script, after the textbook check.
 
-    Parameters
-    ----------
-    name : str
-        Name of the script
-
-    Returns
-    -------
-    files : dict of str to str
-        Path below `generated/` to text
+    Returns files: path below `generated/` to text.
 
     Raises
     ------
@@ -112,15 +81,7 @@ def build(name: str) -> dict[str, str]:
 def write(names: Iterable[str] | None = None) -> list[str]:
     """Regenerate files that differ; with no names, all of them, and remove files without a script.
 
-    Parameters
-    ----------
-    names : iterable of str, optional
-        Scripts to run
-
-    Returns
-    -------
-    written : list of str
-        Files written or removed, below `generated/`
+    names: scripts to run. Returns written: files written or removed, below `generated/`.
     """
     generated, written = folders()[1], []
     for name in names or scripts():
@@ -138,40 +99,29 @@ def write(names: Iterable[str] | None = None) -> list[str]:
 def orphans() -> list[str]:
     """Generated files that no script makes.
 
-    Returns
-    -------
-    files : list of str
-        Paths below `generated/`
+    Returns files: paths below `generated/`.
     """
-    generated, made = folders()[1], set(scripts())
-    found = [*generated.glob("*.py"), *generated.glob("equations/*.json")]
-    return sorted(str(p.relative_to(generated)) for p in found if p.stem not in made and p.name != "__init__.py")
+    generated, known = folders()[1], set(scripts())
+    files = [*generated.glob("*.py"), *generated.glob("equations/*.json")]
+    return sorted(str(p.relative_to(generated)) for p in files if p.stem not in known and p.name != "__init__.py")
 
 
 def differences(names: Iterable[str] | None = None) -> dict[str, str]:
     """What `write` would change.
 
-    Parameters
-    ----------
-    names : iterable of str, optional
-        Scripts to compare
-
-    Returns
-    -------
-    differs : dict of str to str
-        Path below `generated/` to a unified diff
+    names: scripts to compare. Returns differs: path below `generated/` to a unified diff.
     """
-    found = {}
+    diffs = {}
     for name in names or scripts():
         for file, text in build(name).items():
             if (stored := _stored(file)) != text:
                 lines = difflib.unified_diff(
                     stored.splitlines(), text.splitlines(), f"generated/{file}", "derived", lineterm=""
                 )
-                found[file] = "\n".join(lines)
+                diffs[file] = "\n".join(lines)
     if not names:
-        found |= {file: f"generated/{file} has no derivation" for file in orphans()}
-    return found
+        diffs |= {file: f"generated/{file} has no derivation" for file in orphans()}
+    return diffs
 
 
 def _stored(file: str) -> str:

@@ -1,14 +1,13 @@
 """Units of expressions, checked while a mechanism is declared: exponents of kg, m, s, K; angles are pure numbers."""
 
 from collections.abc import Mapping
-from typing import Any
 
-from sympy import Abs, Add, Expr, Max, Min, Mod, Mul, Piecewise, Pow, Symbol, atan2, sign
+from sympy import Abs, Add, Expr, Max, Min, Mod, Mul, Piecewise, Pow, Rational, Symbol, atan2, sign
 
 from mechsym import quantities
 from mechsym.derive.refuse import refuse
 
-Dimension = tuple[Any, ...]
+Dimension = tuple[Rational | int, ...]
 PURE: Dimension = (0, 0, 0, 0)
 _BASE = ("kg", "m", "s", "K")
 
@@ -16,15 +15,7 @@ _BASE = ("kg", "m", "s", "K")
 def of_unit(unit: str) -> Dimension:
     """Exponents of a unit.
 
-    Parameters
-    ----------
-    unit : str
-        Product of units, `"-"` for a pure number
-
-    Returns
-    -------
-    dimension : tuple
-        Of kg, m, s, K
+    unit: product of units, `"-"` for a pure number. Returns dimension: of kg, m, s, K.
     """
     return quantities.dimension(unit)
 
@@ -32,18 +23,10 @@ def of_unit(unit: str) -> Dimension:
 def in_words(dimension: Dimension) -> str:
     """A dimension as a unit that people write.
 
-    Parameters
-    ----------
-    dimension : tuple
-        Exponents of kg, m, s, K
-
-    Returns
-    -------
-    unit : str
-        For example ``kg*m^2/s^2``, ``-`` for a pure number
+    dimension: exponents of kg, m, s, K. Returns unit: for example ``kg*m^2/s^2``, ``-`` for a pure number.
     """
 
-    def product(powers: list[tuple[str, Any]]) -> str:
+    def product(powers: list[tuple[str, Rational | int]]) -> str:
         return "*".join(b if p == 1 else f"{b}^{p}" for b, p in powers)
 
     above = product([(b, p) for b, p in zip(_BASE, dimension, strict=True) if p > 0])
@@ -56,17 +39,8 @@ def in_words(dimension: Dimension) -> str:
 def dimension_of(expression: Expr, letters: Mapping[Symbol, Dimension | None]) -> Dimension | None:
     """Dimension of an expression; a sum of unlike terms is refused.
 
-    Parameters
-    ----------
-    expression : Expr
-        In letters
-    letters : mapping of Symbol to tuple or None
-        Dimension of each letter, None where it is not known
-
-    Returns
-    -------
-    dimension : tuple or None
-        None for 0 and for what is not known
+    expression: in letters; letters: dimension of each letter, None where it is not known. Returns dimension: None for 0
+    and for what is not known.
     """
     if expression.is_Symbol:
         return letters.get(expression)
@@ -76,41 +50,31 @@ def dimension_of(expression: Expr, letters: Mapping[Symbol, Dimension | None]) -
     if isinstance(expression, (Add, Max, Min, Mod, Piecewise)):
         return _alike(expression, parts)
     if isinstance(expression, Mul):
-        return _product(parts)
+        known = [p for p in parts if p is not None]
+        return tuple(sum(powers) for powers in zip(*known, strict=True)) if len(known) == len(parts) else None
     if isinstance(expression, Pow):
-        return _power(expression, parts)
+        base = parts[0]
+        if base is None or base == PURE:
+            return base
+        if not expression.exp.is_number:
+            refuse(f"{expression} raises {in_words(base)} to a letter; only pure numbers may be")
+        return tuple(p * expression.exp for p in base)
     if isinstance(expression, Abs):
         return parts[0]
     if isinstance(expression, (atan2, sign)):
         _alike(expression, parts)
         return PURE
-    for argument, found in zip(expression.args, parts, strict=True):
-        if found not in (None, PURE):
-            refuse(f"{expression} takes a pure number or an angle, but {argument} is in {in_words(found)}")
+    for argument, dimension in zip(expression.args, parts, strict=True):
+        if dimension not in (None, PURE):
+            refuse(f"{expression} takes a pure number or an angle, but {argument} is in {in_words(dimension)}")
     return PURE
 
 
 def _alike(expression: Expr, parts: list[Dimension | None]) -> Dimension | None:
     terms = expression.args if not isinstance(expression, Piecewise) else [e for e, _ in expression.args]
     known = [(t, p) for t, p in zip(terms, parts, strict=False) if p is not None]
-    for term, found in known[1:]:
-        if found != known[0][1]:
-            one, other = in_words(known[0][1]), in_words(found)
+    for term, dimension in known[1:]:
+        if dimension != known[0][1]:
+            one, other = in_words(known[0][1]), in_words(dimension)
             refuse(f"{expression} adds {known[0][0]} in {one} to {term} in {other}; both must have one unit")
     return known[0][1] if known else None
-
-
-def _product(parts: list[Dimension | None]) -> Dimension | None:
-    known = [p for p in parts if p is not None]
-    if len(known) < len(parts):
-        return None
-    return tuple(sum(powers) for powers in zip(*known, strict=True))
-
-
-def _power(expression: Pow, parts: list[Dimension | None]) -> Dimension | None:
-    base = parts[0]
-    if base in (None, PURE):
-        return base
-    if not expression.exp.is_number:
-        refuse(f"{expression} raises {in_words(base)} to a letter; only pure numbers may be")
-    return tuple(p * expression.exp for p in base)

@@ -9,25 +9,39 @@ R_n at the reference point of the second link's line, and the moment M about it.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from sympy import Expr, Integer, Symbol, cos, sin, sqrt
 
-from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint, Pair, named_point
+from mechsym.derive.linkage import Joint, Link, Linkage, LinkLine, LinkPoint, Pair, named_point
 from mechsym.derive.refuse import refuse
 
-Declaration = Any  # the declaration, which imports this module
 
-
-def target(m: Declaration, link: Link, joint: Joint) -> Pair:
+def target(m: Linkage, link: Link, joint: Joint) -> Pair:
     """Where a pin holds the point of a link that is to be placed."""
     dx, dy = m.displace(joint)
-    x, y = named_point(m, joint.name, joint.other(link).xy)
-    s = joint.sign(link)
-    return x + s * dx, y + s * dy
+    if joint.place is None:
+        other, s = joint.other(link), joint.sign(link)
+        further = None if other.link.placed else pinned_at(m, other, (joint,))
+        x, y = named_point(m, joint.name, other.xy if further is None else target(m, other.link, further))
+        joint.place = x + s * dx, y + s * dy
+        if further is not None:
+            further.used = False  # it has yet to place the link between
+    return joint.place
 
 
-def place(m: Declaration, link: Link, local: Pair, position: Pair) -> None:
+def pinned_at(m: Linkage, point: LinkPoint, beside: tuple[Joint, ...] = ()) -> Joint | None:
+    """A pin that tells where a point of a link lies whose angle is not known yet: a joint of three bodies or more."""
+    for joint in m.link_joints:
+        if joint.kind != "pin" or joint in beside or point.link not in (joint.first.link, joint.second.link):
+            continue
+        own, other = joint.side(point.link), joint.other(point.link)
+        if (own.u, own.v) == (point.u, point.v):
+            if other.link.placed or pinned_at(m, other, (*beside, joint)):
+                return joint
+    return None
+
+
+def place(m: Linkage, link: Link, local: Pair, position: Pair) -> None:
     """Place a link of known angle by one of its points, and give it its body."""
     if link.turns is not None and not link.turns.is_Symbol and not link.turns.is_number:
         link.turns = m.let(f"angle_{link.name}", link.turns, "rad")
@@ -42,13 +56,13 @@ def place(m: Declaration, link: Link, local: Pair, position: Pair) -> None:
         m.body(link.name, turns=link.turns, inertia=link.inertia)
 
 
-def place_by_pin(m: Declaration, link: Link, joint: Joint, position: Pair) -> None:
+def place_by_pin(m: Linkage, link: Link, joint: Joint, position: Pair) -> None:
     """Place a link of known angle by the point of it that a pin holds."""
     point = joint.side(link)
     place(m, link, (point.u, point.v), position)
 
 
-def _along(m: Declaration, link: Link, start: LinkPoint, end: LinkPoint, way: Pair) -> None:
+def _along(m: Linkage, link: Link, start: LinkPoint, end: LinkPoint, way: Pair) -> None:
     """Angle of a link from the way between two of its points."""
     (wx, wy), u, v = way, end.u - start.u, end.v - start.v
     square = u**2 + v**2
@@ -56,10 +70,11 @@ def _along(m: Declaration, link: Link, start: LinkPoint, end: LinkPoint, way: Pa
     link.turns = _direction(m, f"angle_{link.name}", c, s)
 
 
-def _direction(m: Declaration, name: str, c: Expr, s: Expr) -> Symbol:
-    found = m.tape.define_direction(name, c, s)
-    m.units[name], m.dimensions[found] = "rad", (0, 0, 0, 0)
-    return found
+def _direction(m: Linkage, name: str, c: Expr, s: Expr) -> Symbol:
+    m._take(name, "rad", f"sin_{name}", f"cos_{name}")
+    symbol = m.tape.define_direction(name, m._checked(c, "-", name), m._checked(s, "-", name))
+    m.dimensions[symbol] = (0, 0, 0, 0)
+    return symbol
 
 
 @dataclass(frozen=True)
@@ -71,7 +86,7 @@ class Rail:
     reference: Pair  # in the link's axes
 
 
-def on_line(m: Declaration, link: Link, joint: Joint) -> Rail:
+def on_line(m: Linkage, link: Link, joint: Joint) -> Rail:
     """Angle of a link from a slider on a placed line, and the line that its reference point follows."""
     own, rail, s = joint.side(link), joint.other(link), joint.sign(link)
     n, turn = m.displace(joint)
@@ -83,13 +98,13 @@ def on_line(m: Declaration, link: Link, joint: Joint) -> Rail:
     return Rail(start, (cos(way), sin(way)), (own.u, own.v))
 
 
-def _offset(link: Link, rail: Rail, point: Any) -> Pair:
+def _offset(link: Link, rail: Rail, point: LinkPoint) -> Pair:
     """A point of a sliding link while its reference is at the rail's start."""
     x, y = link.turn((point.u - rail.reference[0], point.v - rail.reference[1]))
     return rail.start[0] + x, rail.start[1] + y
 
 
-def _slide(m: Declaration, link: Link, rail: Rail, s: Expr) -> None:
+def _slide(m: Linkage, link: Link, rail: Rail, s: Expr) -> None:
     s = m.let(f"slide_of_{link.name}", s, "m")
     place(m, link, rail.reference, (rail.start[0] + s * rail.e[0], rail.start[1] + s * rail.e[1]))
 
@@ -98,7 +113,7 @@ def _branch(*joints: Joint) -> int:
     return next((j.branch for j in joints if j.branch), 1)
 
 
-def _minus(a: Pair, b: Pair, s: int = 1, d: Any = (0, 0)) -> Pair:
+def _minus(a: Pair, b: Pair, s: int = 1, d: tuple[Expr | float, ...] = (0, 0)) -> Pair:
     return a[0] - b[0] - s * d[0], a[1] - b[1] - s * d[1]
 
 
@@ -114,7 +129,7 @@ def _square(start: LinkPoint, end: LinkPoint) -> Expr:
     return (end.u - start.u) ** 2 + (end.v - start.v) ** 2
 
 
-def _rrr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rrr(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, B = target(m, a, ja), target(m, b, jb)
     d, s, k = m.displace(inner), inner.sign(b), inner.name
@@ -130,13 +145,13 @@ def _rrr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Lin
     place_by_pin(m, b, jb, B)
 
 
-def _reach(m: Declaration, name: str, w: Pair, e: Pair, square: Expr, branch: int) -> Expr:
+def _reach(m: Linkage, name: str, w: Pair, e: Pair, square: Expr, branch: int) -> Expr:
     """How far along a line a point lies at a distance from another."""
     across = m.let(f"across_{name}", _cross(w, e), "m")
     return m.let(f"along_{name}", branch * sqrt(square - across**2) - _dot(w, e), "m")
 
 
-def _rrp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rrp(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, rail = target(m, a, ja), on_line(m, b, jb)
     w = _minus(_offset(b, rail, inner.side(b)), A, inner.sign(b), m.displace(inner))
@@ -146,14 +161,14 @@ def _rrp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Lin
     _slide(m, b, rail, s)
 
 
-def _in_line(line: LinkLine, point: Any) -> Pair:
+def _in_line(line: LinkLine, point: LinkPoint) -> Pair:
     """A point of a link in the axes of one of its lines."""
     u, v = point.u - line.u, point.v - line.v
     c, s = cos(line.tilt), sin(line.tilt)
     return u * c + v * s, v * c - u * s
 
 
-def _aim(m: Declaration, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
+def _aim(m: Linkage, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
     """Direction of a line at a signed distance: its normal component of D is h."""
     D = m.let(f"way_x_{name}", D[0], "m"), m.let(f"way_y_{name}", D[1], "m")
     square, h = m.let(f"square_{name}", _dot(D, D), "m^2"), m.let(f"off_{name}", h, "m")
@@ -161,7 +176,7 @@ def _aim(m: Declaration, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
     return _direction(m, f"beta_{name}", (D[0] * along + D[1] * h) / square, (D[1] * along - D[0] * h) / square)
 
 
-def _rpr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rpr(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = (one, other) if inner.first.link is one[0] else (other, one)
     A, B = target(m, a, ja), target(m, b, jb)
     n, turn = m.displace(inner)
@@ -174,7 +189,7 @@ def _rpr(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Lin
     place_by_pin(m, b, jb, B)
 
 
-def _prp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _prp(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     ra, rb = on_line(m, a, ja), on_line(m, b, jb)
     W = _minus(_offset(b, rb, inner.side(b)), _offset(a, ra, inner.side(a)), inner.sign(b), m.displace(inner))
@@ -182,7 +197,7 @@ def _prp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Lin
     _slide(m, b, rb, _cross(W, ra.e) / _cross(ra.e, rb.e))
 
 
-def _rpp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
+def _rpp(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
     (a, ja), (b, jb) = one, other
     A, rail = target(m, a, ja), on_line(m, b, jb)
     la, lb, s, (n, turn) = inner.side(a), inner.side(b), inner.sign(a), m.displace(inner)
@@ -195,7 +210,7 @@ def _rpp(m: Declaration, one: tuple[Link, Joint], inner: Joint, other: tuple[Lin
     _slide(m, b, rail, (_dot(normal, gap) - s * n) / _dot(normal, rail.e))
 
 
-def _slider_and_slot(m: Declaration, link: Link, slider: Joint, slot: Joint) -> bool:
+def _slider_and_slot(m: Linkage, link: Link, slider: Joint, slot: Joint) -> bool:
     rail, (n,) = on_line(m, link, slider), m.displace(slot)
     n = n if isinstance(slot.second, LinkPoint) else -n
     own, fixed = slot.side(link), slot.other(link)
@@ -208,7 +223,7 @@ def _slider_and_slot(m: Declaration, link: Link, slider: Joint, slot: Joint) -> 
     return True
 
 
-def _pin_and_slot(m: Declaration, link: Link, pin: Joint, slot: Joint) -> bool:
+def _pin_and_slot(m: Linkage, link: Link, pin: Joint, slot: Joint) -> bool:
     A, (n,) = target(m, link, pin), m.displace(slot)
     n = n if isinstance(slot.second, LinkPoint) else -n
     own, fixed, branch = slot.side(link), slot.other(link), _branch(slot, pin)
@@ -231,10 +246,12 @@ def rolled(joint: Joint, gamma: Expr, first: Expr, second: Expr) -> Expr:
     return (r1 - s * r2) * gamma + s * r2 * second - r1 * first
 
 
-def line_of_centres(m: Declaration, joint: Joint, second: Pair) -> Symbol:
+def line_of_centres(m: Linkage, joint: Joint, second: Pair) -> Symbol:
     """Angle through which the line of centres has turned; its rates are those of the geometry."""
     x, y = _minus(second, joint.first.xy)
-    roots = _roots(m, (x, y))
+    needed = m.tape.needed([m.tape.named(x), m.tape.named(y)])
+    letters = x.free_symbols.union(y.free_symbols, *(m.tape.entries[n].free_symbols for n in needed))
+    roots = {s for s in letters if s in m.q and s not in m.joint_list}
     turning = [k for k in m.links if k.origin is not None and (k.given or k.turns in m.dependent_list)]
     carriers = [k.turns for k in turning if k.angle.free_symbols & roots]
     if roots and not carriers:
@@ -243,14 +260,7 @@ def line_of_centres(m: Declaration, joint: Joint, second: Pair) -> Symbol:
     return m.tape.define_turn(f"gamma_{joint.name}", carriers[0] if carriers else Integer(0), x, y)
 
 
-def _roots(m: Declaration, pair: Pair) -> set[Symbol]:
-    needed = m.tape.needed([m.tape.named(e) for e in pair])
-    held = set(m.joint_list)
-    found = {s for n in needed for s in m.tape.entries[n].free_symbols} | {s for e in pair for s in e.free_symbols}
-    return {s for s in found if s in m.q and s not in held}
-
-
-def _pin_and_gear(m: Declaration, link: Link, pin: Joint, gear: Joint) -> bool:
+def _pin_and_gear(m: Linkage, link: Link, pin: Joint, gear: Joint) -> bool:
     own, held = gear.side(link), pin.side(link)
     if (own.u, own.v) != (held.u, held.v) or gear.first.link is link:
         return False
@@ -263,8 +273,10 @@ def _pin_and_gear(m: Declaration, link: Link, pin: Joint, gear: Joint) -> bool:
 
 
 SINGLES: dict[tuple[str, str], Callable[..., bool]] = {
-    ("slider", "slot"): _slider_and_slot, ("pin", "slot"): _pin_and_slot, ("pin", "gear"): _pin_and_gear,
-}  # fmt: skip
+    ("slider", "slot"): _slider_and_slot,
+    ("pin", "slot"): _pin_and_slot,
+    ("pin", "gear"): _pin_and_gear,
+}
 DYADS: dict[tuple[str, str, str], Callable[..., None]] = {
     ("pin", "pin", "pin"): _rrr, ("pin", "pin", "slider"): _rrp, ("pin", "slider", "pin"): _rpr,
     ("slider", "pin", "slider"): _prp, ("pin", "slider", "slider"): _rpp,

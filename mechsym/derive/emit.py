@@ -1,16 +1,38 @@
 """One readable module of Python per mechanism: header, tables of names, one function per group of equations."""
 
+import hashlib
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import sympy
 from sympy import Expr, Integer, Symbol, cse, numbered_symbols
 
 from mechsym.derive.lagrange import Equations, multiplier
 from mechsym.derive.printer import casadi_text
 from mechsym.derive.rates import accelerations, velocities
 from mechsym.derive.refuse import refuse
-from mechsym.derive.stamp import digest, header
+
+
+def header(script: str, source_hash: str, body_hash: str) -> str:
+    """The stamp of a generated file: what it came from and that it is not to be edited.
+
+    script: path of the derivation; source_hash, body_hash: 16 hex digits each. Returns text: comment lines.
+    """
+    return (
+        f"# Generated from {script} by mechsym.derive. Do NOT edit: run `make derive`.\n"
+        f"# source sha256: {source_hash}   ({script} + mechsym/derive/*.py, newlines normalised)\n"
+        f"# body   sha256: {body_hash}   (everything below this header)\n"
+        f"# sympy {sympy.__version__}\n"
+    )
+
+
+def digest(text: str) -> str:
+    """First 16 hex digits of the SHA-256 of a text with newlines normalised.
+
+    text: any text.
+    """
+    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,21 +55,13 @@ class Group:
 def groups(equations: Equations) -> list[Group]:
     """The functions that are generated for a mechanism.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-
-    Returns
-    -------
-    groups : list of Group
-        Flat list, in the order of the module
+    Returns groups: flat list, in the order of the module.
     """
     q = [v.name for v in equations.mechanism.q]
     mass = {f"mass_{a}_{b}": equations.mass_matrix[i][j] for i, a in enumerate(q) for j, b in enumerate(q)}
     bias = {f"bias_{a}": e for a, e in zip(q, equations.bias, strict=True)}
     force = {f"force_{a}": e for a, e in zip(q, equations.generalized_force, strict=True)}
-    found = [
+    functions = [
         Group(name="kinematics", about="Kinematics at given coordinates.", outputs=equations.kinematics),
         Group(
             name="dynamics",
@@ -57,13 +71,13 @@ def groups(equations: Equations) -> list[Group]:
     ]
     if equations.kinetic_energy is not None and equations.potential_energy is not None:
         energy = {"kinetic_energy": equations.kinetic_energy, "potential_energy": equations.potential_energy}
-        found.append(Group(name="energy", about="Energies; the potential is zero at the origin.", outputs=energy))
+        functions.append(Group(name="energy", about="Energies; the potential is zero at the origin.", outputs=energy))
     if equations.reactions:
         about = "Joint reactions (first body on second) and other outputs that need accelerations."
-        found.append(Group(name="reactions", about=about, outputs=equations.reactions))
+        functions.append(Group(name="reactions", about=about, outputs=equations.reactions))
     if equations.momentum:
         about = "Rates of momentum, and of angular momentum about the origin, of all bodies: the sum of outer forces."
-        found.append(Group(name="momentum", about=about, outputs=equations.momentum))
+        functions.append(Group(name="momentum", about=about, outputs=equations.momentum))
     if equations.constraint_jacobian:
         names = list(equations.mechanism.constraints)
         rows = zip(names, equations.constraint_jacobian, strict=True)
@@ -71,28 +85,16 @@ def groups(equations: Equations) -> list[Group]:
         velocity_terms = {f"bias_{c}": e for c, e in zip(names, equations.constraint_bias, strict=True)}
         closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
         about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
-        found.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
+        functions.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
     if points := equations.mechanism.shape_points:
-        found.append(Group(name="drawing", about="Points and sizes that a drawing needs.", outputs=points))
-    return found
+        functions.append(Group(name="drawing", about="Points and sizes that a drawing needs.", outputs=points))
+    return functions
 
 
 def assignments(equations: Equations, outputs: Mapping[str, Expr]) -> tuple[list[tuple[Symbol, Expr]], dict[str, Expr]]:
     """The needed part of the tape in order, joints held at zero, repeated terms named `_t0, _t1, ...`.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-    outputs : mapping of str to Expr
-        What is wanted
-
-    Returns
-    -------
-    steps : list of (Symbol, Expr)
-        Assignments in order
-    results : dict of str to Expr
-        The outputs in terms of them
+    outputs: what is wanted. Returns steps: assignments in order; results: the outputs in terms of them.
     """
     tape = equations.mechanism.tape
     held: dict[Symbol, Expr] = dict.fromkeys(equations.mechanism.joint_list, Integer(0))
@@ -150,19 +152,7 @@ def _interleave(
 def arguments(equations: Equations, steps: list[tuple[Symbol, Expr]], results: Mapping[str, Expr]) -> list[str]:
     """Letters that a function needs, in the order coordinates, velocities, accelerations, inputs, parameters.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-    steps : list of (Symbol, Expr)
-        Assignments
-    results : mapping of str to Expr
-        Outputs
-
-    Returns
-    -------
-    names : list of str
-        Argument names
+    steps: assignments; results: outputs. Returns names: argument names.
 
     Raises
     ------
@@ -186,19 +176,7 @@ def _multipliers(equations: Equations) -> list[Symbol]:
 def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
     """Text of one generated function and its arguments.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-    group : Group
-        What to generate
-
-    Returns
-    -------
-    text : str
-        Python source of the function
-    names : list of str
-        Its arguments
+    group: what to generate. Returns text: Python source of the function.
     """
     steps, results = assignments(equations, group.outputs)
     names = arguments(equations, steps, results)
@@ -206,10 +184,10 @@ def function_text(equations: Equations, group: Group) -> tuple[str, list[str]]:
     units = m.units | {v.name: f"{m.units[q.name]}/s" for q, v in zip(m.q, velocities(m), strict=True)}
     units |= {a.name: f"{m.units[q.name]}/s^2" for q, a in zip(m.q, accelerations(m), strict=True)}
     units |= {s.name: m.units.get(s.name, "-") for s in _multipliers(equations)}
-    given = ", ".join(f"{n} [{units[n]}]" for n in names)
+    taken = ", ".join(f"{n} [{units[n]}]" for n in names)
     body = [f"{s.name} = {casadi_text(e)}" for s, e in steps]
     body += [f"{n} = {casadi_text(e)}" for n, e in results.items() if e != Symbol(n, real=True)]
-    doc = _wrapped(f"Takes {given or 'nothing'}.") + _wrapped(f"Returns {', '.join(results)}.")
+    doc = _wrapped(f"Takes {taken or 'nothing'}.") + _wrapped(f"Returns {', '.join(results)}.")
     lines = [f"def {group.name}({', '.join(names)}):", f'    """{group.about}', "", *doc, '    """']
     lines += [f"    {line}" for line in body]
     returned = f"{', '.join(results)}{',' if len(results) == 1 else ''}" or "()"
@@ -223,19 +201,8 @@ def _wrapped(text: str) -> list[str]:
 def module_text(equations: Equations, script: str, source_hash: str) -> str:
     """Text of the generated module with its header.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-    script : str
-        Path of the derivation from the project's top, for the header
-    source_hash : str
-        Hash of the derivation and of `mechsym/derive`
-
-    Returns
-    -------
-    text : str
-        Python source
+    script: path of the derivation from the project's top, for the header; source_hash: hash of the derivation and of
+    `mechsym/derive`. Returns text: Python source.
     """
     m = equations.mechanism
     parts, table = [], []

@@ -1,34 +1,30 @@
 """Mechanism files of the user's own: run the file, find what it declares, derive it, check it by differentiation."""
 
 import contextlib
+import importlib
 import importlib.util
 import inspect
 import sys
 import traceback
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
-from mechsym.derive.autodiff import disagreement
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
-from mechsym.derive.listing import listing
+from mechsym.derive.linkage import Link
+from mechsym.derive.listing import Listing, listing
+from mechsym.derive.printer import UnsupportedNode
+from mechsym.derive.textbook import disagreement
 from mechsym.errors import BadInput, suggest
+from mechsym.inputs import imports_from, sources
 
 
 def run(path: Path) -> ModuleType:
     """Run a mechanism file; what it refuses or raises becomes one line with file and line.
 
-    Parameters
-    ----------
-    path : Path
-        A Python file
-
-    Returns
-    -------
-    module : module
-        What it defines
+    path: a Python file. Returns module: what it defines.
 
     Raises
     ------
@@ -41,41 +37,67 @@ def run(path: Path) -> ModuleType:
     if spec is None or spec.loader is None:
         raise BadInput(f"{path} is no Python file; its name must end in .py")
     module = importlib.util.module_from_spec(spec)
-    kept = list(sys.path)
-    sys.path.insert(0, str(path.parent))  # helpers beside it
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # what it prints is no result
+        with _imports_beside(path), contextlib.redirect_stdout(sys.stderr):  # what it prints is no result
             spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise _refusal(path, error) from None
-    finally:
-        sys.path[:] = kept
     return module
+
+
+@contextlib.contextmanager
+def _imports_beside(path: Path) -> Iterator[None]:
+    """Helpers beside a file are read anew: they may have changed, and another file may have some of the same name."""
+    folder = imports_from(path)
+    helpers = {file.relative_to(folder).parts[0].removesuffix(".py") for file in sources(path)}
+
+    def loaded() -> dict[str, ModuleType]:
+        return {name: module for name, module in sys.modules.items() if name.partition(".")[0] in helpers}
+
+    before, paths, writes = loaded(), list(sys.path), sys.dont_write_bytecode
+    for name in before:
+        del sys.modules[name]
+    sys.path.insert(0, str(folder))
+    sys.dont_write_bytecode = True  # a second edit within a second would not be seen
+    importlib.invalidate_caches()
+    try:
+        yield
+    finally:
+        sys.path[:], sys.dont_write_bytecode = paths, writes
+        for name in loaded():
+            del sys.modules[name]
+        sys.modules.update(before)
 
 
 def _refusal(path: Path, error: BaseException) -> BadInput:
     """What a file raised, in one line with its place."""
     frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename) == path]
     line = error.lineno if isinstance(error, SyntaxError) else frames[-1].lineno if frames else None
-    place = f"{path.name}:{line}: "
+    place = f"{path.name}:{line}: " if line else f"{path.name}: "
     text = " ".join(str(error).split()) or "no message"
     if isinstance(error, BadInput):
         return BadInput(text if text.startswith(f"{path.name}:") else place + text)
-    return BadInput(f"{place}{type(error).__name__}: {text}")
+    return BadInput(f"{place}{type(error).__name__}: {text}{_way_out(error)}")
+
+
+def _way_out(error: BaseException) -> str:
+    """How a part of a declaration is called, where a file calls it otherwise."""
+    if isinstance(error, AttributeError) and isinstance(error.obj, (Declaration, Link)):
+        kind = type(error.obj)
+        return f"; {suggest(str(error.name), [n for n in dir(kind) if not n.startswith('_')])}"
+    owner, dot, name = str(error).partition("()")[0].rpartition(".")
+    called = getattr(Link if owner == "Link" else Declaration, name, None)
+    if not isinstance(error, TypeError) or not dot or called is None:
+        return ""
+    _, *parameters = inspect.signature(called).parameters.values()
+    shown = inspect.Signature([p.replace(annotation=p.empty) for p in parameters])
+    return f"; write {'Mechanism' if name == '__init__' else name}{shown}"
 
 
 def declared_in(path: Path) -> dict[str, Declaration]:
     """The mechanisms of a file: what its functions without arguments return, or what stands in it.
 
-    Parameters
-    ----------
-    path : Path
-        A Python file
-
-    Returns
-    -------
-    mechanisms : dict of str to Declaration
-        By name, in the order of the file
+    path: a Python file. Returns mechanisms: by name, in the order of the file.
 
     Raises
     ------
@@ -83,75 +105,49 @@ def declared_in(path: Path) -> dict[str, Declaration]:
         It declares none, or two of one name
     """
     module = run(path)
-    found: list[Declaration] = [v for v in vars(module).values() if isinstance(v, Declaration)]
+    declared: list[Declaration] = [v for v in vars(module).values() if isinstance(v, Declaration)]
     for name, value in vars(module).items():
-        if inspect.isfunction(value) and value.__module__ == module.__name__ and _bare(name, value):
+        if name.startswith(("_", "test")) or not inspect.isfunction(value) or value.__module__ != module.__name__:
+            continue
+        if all(p.default is not p.empty for p in inspect.signature(value).parameters.values()):
             try:
                 with contextlib.redirect_stdout(sys.stderr):
-                    made = value()
+                    returned = value()
             except (Exception, SystemExit) as error:
                 raise _refusal(path, error) from None
-            found += [made] if isinstance(made, Declaration) else []
-    by_name = {m.name: m for m in found}
-    if not found:
+            declared += [returned] if isinstance(returned, Declaration) else []
+    by_name = {m.name: m for m in declared}
+    if not declared:
         raise BadInput(f"{path} declares no mechanism; write a function that makes one and returns it")
-    if len(by_name) < len(found):
-        raise BadInput(f"{path} declares two mechanisms of one name ({', '.join(m.name for m in found)})")
+    if len(by_name) < len(declared):
+        raise BadInput(f"{path} declares two mechanisms of one name ({', '.join(m.name for m in declared)})")
     return by_name
-
-
-def _bare(name: str, function: Any) -> bool:
-    if name.startswith("_") or name.startswith("test"):
-        return False
-    return all(p.default is not p.empty for p in inspect.signature(function).parameters.values())
 
 
 def chosen(path: Path, name: str = "") -> Declaration:
     """The mechanism of a file, by name where there are several.
 
-    Parameters
-    ----------
-    path : Path
-        A Python file
-    name : str
-        Name of the mechanism
-
-    Returns
-    -------
-    mechanism : Declaration
-        Its declaration
+    path: a Python file.
 
     Raises
     ------
     BadInput
         None of that name, or several and no name
     """
-    found = declared_in(path)
-    if not name and len(found) > 1:
-        raise BadInput(f"{path} declares {', '.join(found)}; choose one: {path.name}:{next(iter(found))}")
-    if name and name not in found:
-        raise BadInput(f"{path} declares no mechanism {name!r}; {suggest(name, found)}")
-    return found[name] if name else next(iter(found.values()))
+    declared = declared_in(path)
+    if not name and len(declared) > 1:
+        raise BadInput(f"{path} declares {', '.join(declared)}; choose one: {path.name}:{next(iter(declared))}")
+    if name and name not in declared:
+        raise BadInput(f"{path} declares no mechanism {name!r}; {suggest(name, declared)}")
+    return declared[name] if name else next(iter(declared.values()))
 
 
-def build(path: Path, name: str, source_hash: str) -> tuple[str, dict[str, Any]]:
+def build(path: Path, name: str, source_hash: str) -> tuple[str, Listing]:
     """Generated code and listing of a mechanism in a file, after the check against T - V.
 
-    Parameters
-    ----------
-    path : Path
-        A Python file
-    name : str
-        Name of the mechanism, empty where there is one
-    source_hash : str
-        For the header
-
-    Returns
-    -------
-    code : str
-        Text of the generated module
-    listing : dict
-        See `mechsym.derive.listing`; `checked` says how many random states agreed
+    path: a Python file; name: name of the mechanism, empty where there is one; source_hash: for the header. Returns
+    code: str, text of the generated module. listing: see `mechsym.derive.listing`; `checked` says how many random
+    states agreed.
 
     Raises
     ------
@@ -159,12 +155,15 @@ def build(path: Path, name: str, source_hash: str) -> tuple[str, dict[str, Any]]
         The declaration is refused, or its equations differ from those of T - V
     """
     declaration = chosen(path, name)
-    equations = derive(declaration)
+    try:
+        equations = derive(declaration)
+        code = module_text(equations, path.name, source_hash)
+    except UnsupportedNode as error:
+        raise BadInput(f"{declaration.where[declaration.name]}: {error}") from None
     states, wrong = disagreement(equations)
     if wrong > 1e-8:
         raise BadInput(
             f"{path.name}: the equations differ from those of T - V by {wrong:.1g} (relative): what is declared is not "
             "one mechanism; declare it in smaller steps and see which joint, angle or force brings the difference"
         )
-    code = module_text(equations, path.name, source_hash)
-    return code, listing(equations) | {"checked": states}
+    return code, {**listing(equations), "checked": states}

@@ -7,32 +7,27 @@ become letters. What then vanishes as a polynomial vanishes everywhere. A failur
 
 import random
 from collections.abc import Sequence
+from contextvars import ContextVar
 from functools import cache, reduce
+from math import comb, prod
 
 import mpmath
 import sympy
 from sympy import Dummy, Expr, Integer, Pow, Rational, Symbol, cos, lambdify, sin
 
-# beyond these an expression takes minutes to expand, and is not tried
+# beyond these an expression takes minutes to expand, and is not tried: 6 and more times what any proof has needed
 MAX_OPERATIONS = 4000
 MAX_POWER = 12
+MAX_TERMS = 10_000
+MAX_MULTIPLE = 24  # of an angle, or angles in a sum
 _DIGITS = 50
+_most: ContextVar[int] = ContextVar("most", default=MAX_TERMS)  # of the proof that is under way
 
 
 def random_state(symbols: Sequence[Symbol], generator: random.Random) -> dict[Symbol, Rational]:
     """Random rational values in [1/10, 1], so that a rod is longer than its crank and no root is imaginary.
 
-    Parameters
-    ----------
-    symbols : sequence of Symbol
-        What gets a value
-    generator : random.Random
-        Seeded generator
-
-    Returns
-    -------
-    state : dict of Symbol to Rational
-        Values
+    symbols: what gets a value; generator: seeded generator.
     """
     return {s: Rational(generator.randint(100, 1000), 1000) for s in symbols}
 
@@ -40,19 +35,8 @@ def random_state(symbols: Sequence[Symbol], generator: random.Random) -> dict[Sy
 def vanishes_at_random_points(expression: Expr, scale: Expr, states: Sequence[dict[Symbol, Rational]]) -> bool:
     """Whether the expression is below 1e-40 of a scale at every state, with 50 digits.
 
-    Parameters
-    ----------
-    expression : Expr
-        The difference that should vanish
-    scale : Expr
-        What it is compared with
-    states : sequence of dict
-        Values of all letters, the same letters in each
-
-    Returns
-    -------
-    zero : bool
-        False is a refutation, True is evidence only
+    expression: the difference that should vanish; scale: what it is compared with; states: values of all letters, the
+    same letters in each. Returns zero: False is a refutation, True is evidence only.
     """
     letters = list(states[0])
     evaluate = lambdify(letters, [expression, scale], "mpmath", cse=True)
@@ -65,37 +49,68 @@ def vanishes_at_random_points(expression: Expr, scale: Expr, states: Sequence[di
     return True
 
 
-def vanishes(expression: Expr) -> bool:
+def vanishes(expression: Expr, terms: int = MAX_TERMS) -> bool:
     """Whether an expression reduces to the zero polynomial.
 
-    Parameters
-    ----------
-    expression : Expr
-        In letters, sines, cosines, roots and powers
-
-    Returns
-    -------
-    zero : bool
-        True is a proof wherever the expression is real; False means that this reduction found none
+    expression: in letters, sines, cosines, roots and powers; terms: most terms that opened brackets may have. Returns
+    zero: True is a proof wherever the expression is real; False means that this reduction found none.
     """
-    if expression.count_ops() > MAX_OPERATIONS or any(abs(p.exp) > MAX_POWER for p in _number_powers(expression)):
+    too_high = any(p.exp.is_number and abs(p.exp) > MAX_POWER for p in expression.atoms(Pow))
+    if expression.count_ops() > MAX_OPERATIONS or too_high:
         return False
+    token = _most.set(terms)
+    try:
+        return _reduces_to_zero(expression)
+    except _TooLong:
+        return False
+    finally:
+        _most.reset(token)
+
+
+class _TooLong(Exception):
+    """An expression that has too many terms when its brackets are opened."""
+
+
+def _reduces_to_zero(expression: Expr) -> bool:
     expression = _circular(expression)
     letters: dict[Expr, Dummy] = {}
     polynomial = _without_roots(expression, letters)
     numerator = sympy.fraction(sympy.together(polynomial))[0]
     for _ in range(len(letters) + 1):
-        numerator = sympy.fraction(sympy.together(_lower_roots(sympy.expand(numerator), letters)))[0]
-    return _lower_cosines(sympy.expand(numerator)) == 0
+        numerator = sympy.fraction(sympy.together(_lower_roots(_opened(numerator), letters)))[0]
+    return _lower_cosines(_opened(numerator)) == 0
 
 
-def _number_powers(expression: Expr) -> list[Pow]:
-    return [p for p in expression.atoms(Pow) if p.exp.is_number]
+def _opened(expression: Expr) -> Expr:
+    # with all brackets opened, where that stays within bounds
+    _terms(expression, {})
+    return sympy.expand(expression)
+
+
+def _terms(expression: Expr, known: dict[Expr, int]) -> int:
+    # at most so many terms, the parts that are opened on the way included
+    if expression in known or not expression.args:
+        return known.get(expression, 1)
+    counts = [_terms(a, known) for a in expression.args]
+    count = 1
+    if expression.is_Add:
+        count = sum(counts)
+    elif expression.is_Mul:
+        count = prod(counts)
+    elif isinstance(expression, Pow) and expression.exp.is_Integer:
+        power = abs(int(expression.exp))
+        count = comb(counts[0] + power - 1, power)
+    known[expression] = count
+    if max(count, len(known)) > _most.get():
+        raise _TooLong
+    return count
 
 
 def _circular(expression: Expr) -> Expr:
     expression = expression.replace(sympy.tan, lambda x: sin(x) / cos(x)).replace(sympy.cot, lambda x: cos(x) / sin(x))
-    arguments = [sympy.expand(f.args[0]) for f in expression.atoms(sin, cos)]
+    arguments = [_opened(f.args[0]) for f in expression.atoms(sin, cos)]
+    if any(sum(abs(c) for c in a.as_coefficients_dict().values()) > MAX_MULTIPLE for a in arguments):
+        raise _TooLong
     divisors: dict[Expr, int] = {}
     for argument in arguments:
         for atom, coefficient in argument.as_coefficients_dict().items():
@@ -134,8 +149,8 @@ def _square_free(base: Expr) -> tuple[Expr, Expr, Expr, Expr]:
     above, below = sympy.fraction(sympy.together(base))
     if not below.is_positive:
         # a denominator that may be negative stays in the radicand
-        return Integer(1), Integer(1), sympy.together(_lower_cosines(sympy.expand(base))), Integer(1)
-    content, factors = sympy.sqf_list(_lower_cosines(sympy.expand(above * below)))
+        return Integer(1), Integer(1), sympy.together(_lower_cosines(_opened(base))), Integer(1)
+    content, factors = sympy.sqf_list(_lower_cosines(_opened(above * below)))
     outside, inside = Integer(1), Integer(1)
     for factor, power in factors:
         if factor.is_positive:
@@ -143,7 +158,7 @@ def _square_free(base: Expr) -> tuple[Expr, Expr, Expr, Expr]:
             inside *= factor ** (power % 2)
         else:
             inside *= factor**power
-    return content, outside, sympy.expand(inside), below
+    return content, outside, _opened(inside), below
 
 
 def _letter_of(square: Expr, letters: dict[Expr, Dummy]) -> Expr:
@@ -163,7 +178,7 @@ def _lower_roots(polynomial: Expr, letters: dict[Expr, Dummy]) -> Expr:
                 lambda e, d=letter: isinstance(e, Pow) and e.base == d and e.exp.is_Integer,
                 lambda e, s=square: lower(e, s),
             )
-    return sympy.expand(polynomial)
+    return _opened(polynomial)
 
 
 def _lower_cosines(polynomial: Expr) -> Expr:
@@ -175,5 +190,6 @@ def _lower_cosine(polynomial: Expr, angle: Expr) -> Expr:
     def lower(power: Pow) -> Expr:
         return (1 - sin(angle) ** 2) ** (power.exp // 2) * cos(angle) ** (power.exp % 2)
 
-    found = polynomial.replace(lambda e: isinstance(e, Pow) and e.base == cos(angle) and e.exp.is_Integer, lower)
-    return sympy.expand(found)
+    return _opened(
+        polynomial.replace(lambda e: isinstance(e, Pow) and e.base == cos(angle) and e.exp.is_Integer, lower)
+    )

@@ -10,13 +10,12 @@ displacement is one more coordinate whose acceleration is zero: its equation giv
 
 from dataclasses import dataclass
 
-from sympy import Expr, Integer, Rational, Symbol, sympify
+from sympy import Expr, Integer, Rational, Symbol
 
 from mechsym.derive.closing import finish
-from mechsym.derive.declare import Declaration
-from mechsym.derive.elements import Body
+from mechsym.derive.declare import Body, Declaration
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
-from mechsym.derive.refuse import refuse
+from mechsym.derive.refuse import refuse, require_declaration
 from mechsym.derive.roles import require_reactions
 
 
@@ -62,40 +61,37 @@ class Equations:
 def given_equations(m: Declaration, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
     """Declare a model by its equations only: mass_matrix * qdd + bias = force. It has no energies.
 
-    Parameters
-    ----------
-    m : Declaration
-        The declaration, without bodies
-    mass_matrix : list of list of Expr
-        Coefficients of the accelerations
-    bias : list of Expr
-        Terms with velocities, on the left
-    force : list of Expr
-        Right-hand sides
+    m: the declaration, without bodies; mass_matrix: coefficients of the accelerations; bias: terms with velocities, on
+    the left; force: right-hand sides.
     """
-    named = m.tape.named
-    rows = [[named(sympify(e)) for e in row] for row in mass_matrix]
-    m.given = (rows, [named(sympify(e)) for e in bias], [named(sympify(e)) for e in force])
+    require_declaration(m, "given_equations(m, [[I]], [0], [M])")
+    n = len(m.q)
+    if not all(isinstance(part, list) and len(part) == n for part in (mass_matrix, bias, force)):
+        refuse(f"{n} coordinates have {n} equations; write lists of {n} rows of the mass matrix, biases and forces")
+    if not all(isinstance(row, list) and len(row) == n for row in mass_matrix):
+        refuse(f"{n} coordinates have a mass matrix of {n} rows of {n}; write a list of lists")
+
+    def named(value: Expr | float) -> Expr:
+        return m.tape.named(m._checked(value, "", "equation"))
+
+    m.given = ([[named(e) for e in row] for row in mass_matrix], [named(e) for e in bias], [named(e) for e in force])
 
 
 def derive(m: Declaration) -> Equations:
     """Exact equations of a declared mechanism.
 
-    Parameters
-    ----------
-    m : Declaration
-        The declaration
-
-    Returns
-    -------
-    equations : Equations
-        Mass matrix, bias, forces, energies, reactions
+    Returns equations: mass matrix, bias, forces, energies, reactions.
     """
     finish(m)
     if not m.q:
         refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])
-    _count_constraints(m)
-    require_reactions(m)
+    # without dependents only the rank is wanted, see mechsym.mechanisms.constraints
+    held, count = len(m.dependent_list), len(m.constraints)
+    if held != count and (held or (count and m.joint_list)):
+        why = f"{count} constraints hold {held} dependent coordinates"
+        state = "open" if count < held else "held twice"
+        refuse(f"{why}; the loop is {state}: declare as many m.dependents", m.where[m.name])
+    require_reactions(m, m.link_joints)
     if m.given is not None:
         rows, bias, force = m.given
         return Equations(
@@ -109,38 +105,33 @@ def derive(m: Declaration) -> Equations:
             kinematics={s.name: s for s in m.kinematic_outputs},
             momentum={},
         )
-    mass = [[_mass(m, a, b) for b in m.q] for a in m.q]
+    mass = [[sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0)) for b in m.q] for a in m.q]
     _require_mass(m, mass)
     kinematics: dict[str, Expr] = {s.name: s for s in m.kinematic_outputs}
     if len(m.q) == 1:
-        inertia = m.let("inertia", mass[0][0], "kg" if m.units[m.q[0].name] == "m" else "kg*m^2")
+        q, per = m.q[0], m.units[m.q[0].name]
+        unit, slope = "kg" if per == "m" else "kg*m^2", f"dinertia_d{q}"
+        inertia = m.let("inertia", mass[0][0], unit)
         mass = [[inertia]]
-        kinematics["inertia"] = inertia
-        kinematics[f"dinertia_d{m.q[0].name}"] = m.tape.derivative(inertia, m.q[0])
+        kinematics |= {"inertia": inertia, slope: m.tape.derivative(inertia, q)}
+        m.units[slope] = f"{unit}/{per}"
+    u = velocities(m)
+    terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
+    weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
+    springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
     return Equations(
         mechanism=m,
         mass_matrix=tuple(map(tuple, mass)),
-        bias=tuple(_bias(m, v) for v in m.q),
+        bias=tuple(sum((_body_bias(m, body, v) for body in m.bodies), Integer(0)) for v in m.q),
         generalized_force=tuple(generalized_force(m, v) for v in m.q),
-        kinetic_energy=_kinetic_energy(m, mass),
-        potential_energy=_potential_energy(m),
+        kinetic_energy=Rational(1, 2) * sum(terms, Integer(0)),
+        potential_energy=m.tape.named(sum([*weight, *springs], Integer(0))),
         reactions=_reactions(m),
         kinematics=kinematics,
         momentum=_momentum(m),
         constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
         constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
     )
-
-
-def _count_constraints(m: Declaration) -> None:
-    # without dependents only the rank is wanted, see mechsym.mechanisms.constraints
-    held, made = len(m.dependent_list), len(m.constraints)
-    if held != made and (held or (made and m.joint_list)):
-        why = f"{made} constraints hold {held} dependent coordinates"
-        refuse(
-            f"{why}; the loop is {'open' if made < held else 'held twice'}: declare as many m.dependents",
-            m.where[m.name],
-        )
 
 
 def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:
@@ -151,20 +142,12 @@ def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:
             refuse(why, m.where[q.name])
 
 
-def _mass(m: Declaration, a: Symbol, b: Symbol) -> Expr:
-    return sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0))
-
-
 def _body_mass(m: Declaration, body: Body, a: Symbol, b: Symbol) -> Expr:
     d = m.tape.diff
     turning = body.inertia * d(body.turns, a) * d(body.turns, b)
     if body.about_axis:
         return turning
     return body.mass * sum((d(p, a) * d(p, b) for p in body.at), Integer(0)) + turning
-
-
-def _bias(m: Declaration, a: Symbol) -> Expr:
-    return sum((_body_bias(m, body, a) for body in m.bodies), Integer(0))
 
 
 def _body_bias(m: Declaration, body: Body, a: Symbol) -> Expr:
@@ -178,17 +161,7 @@ def _body_bias(m: Declaration, body: Body, a: Symbol) -> Expr:
 def generalized_force(m: Declaration, a: Symbol) -> Expr:
     r"""Generalised force by virtual work, :math:`Q_a = \sum f\,\partial s / \partial a`.
 
-    Parameters
-    ----------
-    m : Declaration
-        The declaration
-    a : Symbol
-        Coordinate or joint displacement
-
-    Returns
-    -------
-    force : Expr
-        Gravity, springs, dampers and applied forces together
+    a: coordinate or joint displacement. Returns force: gravity, springs, dampers and applied forces together.
     """
     d = m.tape.diff
     weight = [b.mass * g * d(p, a) for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
@@ -200,17 +173,14 @@ def generalized_force(m: Declaration, a: Symbol) -> Expr:
 
 def _reactions(m: Declaration) -> dict[str, Expr]:
     # friction and separating forces depend on other reactions: these are put in, in the order of the joints
-    found: dict[Symbol, Expr] = {}
+    reactions: dict[Symbol, Expr] = {}
     for joint in m.joint_list:
-        found[m.reaction_of[joint]] = _reaction(m, joint).xreplace(found)
+        reactions[m.reaction_of[joint]] = _reaction(m, joint).xreplace(reactions)
     multipliers = {s.name: s for s in m.multiplier_of.values()}
-    outputs = (
-        {s.name: e for s, e in found.items()}
-        | multipliers
-        | {n: e.xreplace(found) for n, e in m.dynamic_outputs.items()}
-    )
+    outputs = {s.name: e for s, e in reactions.items()} | multipliers
+    outputs |= {n: e.xreplace(reactions) for n, e in m.dynamic_outputs.items()}
     for name, expression in outputs.items():
-        if unknown := sorted(s.name for s in expression.free_symbols & found.keys()):
+        if unknown := sorted(s.name for s in expression.free_symbols & reactions.keys()):
             raise ValueError(f"{name} depends on {', '.join(unknown)}; declare the joint of that reaction earlier")
     return outputs
 
@@ -227,17 +197,7 @@ def _reaction(m: Declaration, joint: Symbol) -> Expr:
 def multiplier(m: Declaration, constraint: str) -> Symbol:
     """Letter of a constraint's multiplier: the reaction of the joint that it closes, or `force_<constraint>`.
 
-    Parameters
-    ----------
-    m : Declaration
-        The declaration
-    constraint : str
-        Name of the constraint
-
-    Returns
-    -------
-    symbol : Symbol
-        An argument of the reactions
+    Returns symbol: an argument of the reactions.
     """
     return m.multiplier_of.get(constraint, Symbol(f"force_{constraint}", real=True))
 
@@ -250,15 +210,3 @@ def _momentum(m: Declaration) -> dict[str, Expr]:
         turning += body.inertia * acceleration(m, body.turns)
         turning += 0 if body.about_axis else body.mass * (px * ay - py * ax)
     return {"momentum_rate_x": x, "momentum_rate_y": y, "angular_momentum_rate": turning}
-
-
-def _kinetic_energy(m: Declaration, mass: list[list[Expr]]) -> Expr:
-    u = velocities(m)
-    terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
-    return Rational(1, 2) * sum(terms, Integer(0))
-
-
-def _potential_energy(m: Declaration) -> Expr:
-    weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
-    springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
-    return m.tape.named(sum([*weight, *springs], Integer(0)))

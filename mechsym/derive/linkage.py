@@ -10,12 +10,16 @@ A joint says its name, the first and the second body; its reaction is the force 
 placed as soon as their joints allow a closed form (closing.py); what remains closes by constraint.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, Integer, Symbol, cos, sin, sympify
+from sympy import Expr, Integer, Symbol, cos, sin
 
+from mechsym.derive.letters import Letters
+from mechsym.derive.printer import read
 from mechsym.derive.refuse import place, refuse
+from mechsym.quantities.units import Radian
 
 Pair = tuple[Expr, Expr]
 
@@ -58,14 +62,14 @@ class LinkLine:
 class Link:
     """A rigid body with axes of its own; `turns` is its angle where that is known beforehand."""
 
-    m: Any  # the declaration
+    m: "Linkage"
     name: str
     mass: Expr = Integer(0)
     centre: Pair = (Integer(0), Integer(0))
     inertia: Expr = Integer(0)
     turns: Expr | None = None
     origin: Pair | None = None
-    guess: float = 0.0
+    guess: float | None = None
     where: str = ""
     turned: Symbol | None = None  # carrier of a gear's line of centres
     given: bool = field(default=False)
@@ -73,11 +77,11 @@ class Link:
     def __repr__(self) -> str:
         return self.name
 
-    def at(self, u: Any = 0, v: Any = 0) -> LinkPoint:
+    def at(self, u: Expr | float = 0, v: Expr | float = 0) -> LinkPoint:
         """A point of the link, in its own axes [m]."""
         return LinkPoint(self, *(self.m._checked(c, "m", f"point of {self.name}") for c in (u, v)))
 
-    def line(self, u: Any = 0, v: Any = 0, *, angle: Any = 0) -> LinkLine:
+    def line(self, u: Expr | float = 0, v: Expr | float = 0, *, angle: Expr | float = 0) -> LinkLine:
         """A line of the link through a point [m] at an angle [rad], in its own axes."""
         at = self.at(u, v)
         return LinkLine(self, at.u, at.v, self.m._checked(angle, "rad", "line"))
@@ -122,7 +126,9 @@ class Joint:
     inside: bool = False
     used: bool = False
     where: str = ""
-    displacements: tuple[Symbol, ...] = ()
+    displacements: tuple[Expr, ...] = ()
+    place: Pair | None = None  # of a pin, seen from the placed side
+    through: "tuple[Joint, Joint] | None" = None  # pins at one point of a link between, in place of one of its own
 
     def side(self, link: Link) -> Any:
         """What the joint holds of a link."""
@@ -140,59 +146,61 @@ class Joint:
 _DISPLACED = {"pin": ("x", "y"), "slider": ("n", "turn"), "slot": ("n",), "gear": ("t",)}
 
 
-class Linkage:
+class Linkage(Letters):
     """The part of a declaration that is made of links and joints."""
 
-    name: str
+    body: Callable[..., None]  # see `Declaration`
 
     def _start_linkage(self) -> None:
         self.links: list[Link] = []
         self.link_joints: list[Joint] = []
-        m: Any = self
-        self.frame = Link(m, "frame", turns=Integer(0), origin=(Integer(0), Integer(0)))
+        self.frame = Link(self, "frame", turns=Integer(0), origin=(Integer(0), Integer(0)))
 
     def link(
-        self, name: str, *, turns: Any = None, mass: Any = 0, centre: Any = (0, 0), inertia: Any = 0, guess: float = 0.0
+        self,
+        name: str,
+        *,
+        turns: Expr | float | None = None,
+        mass: Expr | float = 0,
+        centre: object = (0, 0),
+        inertia: Expr | float = 0,
+        guess: Radian | None = None,
     ) -> Link:
         """Add a rigid link.
 
+        turns: Expr, optional, its angle where that is known: a coordinate of the crank [rad]. mass, inertia: Expr, mass
+        [kg], inertia about the centre of mass [kg*m^2]. centre: tuple of Expr, centre of mass in the link's axes [m].
+        Returns link: its points are `link.at(u, v)`, its lines `link.line(u, v, angle=..)`.
+
         Parameters
         ----------
-        name : str
-            Name of the link
-        turns : Expr, optional
-            Its angle where that is known: a coordinate of the crank [rad]
-        mass, inertia : Expr
-            Mass [kg], inertia about the centre of mass [kg*m^2]
-        centre : tuple of Expr
-            Centre of mass in the link's axes [m]
-        guess : float
-            Angle near which it starts, where the loop closes by constraint [rad]
-
-        Returns
-        -------
-        link : Link
-            Its points are `link.at(u, v)`, its lines `link.line(u, v, angle=..)`
+        guess : float, optional
+            Angle near which it starts, 0 without, where the loop closes by constraint; refused where a closed form with
+            its `branch` leaves it without use
         """
-        m: Any = self
         if name == "frame" or any(k.name == name for k in self.links):
             refuse(f"the link {name!r} is declared twice in {self.name}; give one of them another name")
-        found = Link(m, name, guess=float(guess), where=place(), given=turns is not None)
-        found.turns = None if turns is None else m._checked(turns, "rad", f"angle of {name}")
-        found.mass, found.inertia = m._checked(mass, "kg", "mass"), m._checked(inertia, "kg*m^2", "inertia")
-        found.centre = tuple(m._checked(c, "m", f"centre of {name}") for c in centre)
-        self.links.append(found)
-        return found
+        self._usable(name)
+        new = Link(self, name, where=place(), given=turns is not None)
+        new.guess = None if guess is None else self._number(guess, f"guess of {name}")
+        new.turns = None if turns is None else self._checked(turns, "rad", f"angle of {name}")
+        if new.given and guess is not None:
+            refuse(f"the link {name!r} turns by {turns}, which leaves its guess without use; leave guess away")
+        new.mass = self._constant(mass, "kg", f"mass of {name}")
+        new.inertia = self._constant(inertia, "kg*m^2", f"inertia of {name}")
+        new.centre = self._pair(centre, "m", f"centre of {name}")
+        self.links.append(new)
+        return new
 
-    def pin(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
+    def pin(self, name: str, first: object, second: object, *, branch: int = 0) -> None:
         """Join two points (a link stands for its origin); `branch` 1 or -1 chooses the side of a dyad."""
         self._join(Joint("pin", name, point_of(first), point_of(second), branch))
 
-    def slider(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
+    def slider(self, name: str, first: object, second: object, *, branch: int = 0) -> None:
         """Let a line of the second slide on a line of the first (a link stands for its own u axis)."""
         self._join(Joint("slider", name, _line(first), _line(second), branch))
 
-    def slot(self, name: str, first: Any, second: Any, *, branch: int = 0) -> None:
+    def slot(self, name: str, first: object, second: object, *, branch: int = 0) -> None:
         """Hold a point of one link on a line of the other."""
         pair = [s if isinstance(s, (LinkLine, LinkPoint)) else point_of(s) for s in (first, second)]
         if {type(s) for s in pair} != {LinkLine, LinkPoint}:
@@ -201,14 +209,22 @@ class Linkage:
             )
         self._join(Joint("slot", name, pair[0], pair[1], branch))
 
-    def gear(self, name: str, first: Any, second: Any, *, radii: tuple[Any, Any], inside: bool = False) -> None:
+    def gear(self, name: str, first: object, second: object, *, radii: object, inside: bool = False) -> None:
         """Let pitch circles of radii [m] about two points roll; `inside` puts the second within the first (a ring)."""
-        m: Any = self
-        sizes = tuple(m._checked(r, "m", f"pitch radius of {name}") for r in radii)
+        if not isinstance(inside, bool):
+            refuse(f"inside = {inside!r} of the gear {name!r} must be True or False")
+        sizes = self._pair(radii, "m", f"pitch radii of {name}")
+        above = [r.subs({s: Symbol(s.name, positive=True) for s in r.free_symbols}) for r in sizes]
+        if any(r.is_zero or r.is_negative for r in above):
+            refuse(f"the gear {name!r} has pitch radii {sizes}; both must be above 0, and inside=True makes a ring")
         self._join(Joint("gear", name, point_of(first), point_of(second), radii=sizes, inside=inside))
 
     def _join(self, joint: Joint) -> None:
         joint.where = place()
+        self._usable(joint.name)
+        for side in (joint.first, joint.second):
+            if side.link.m is not self:
+                refuse(f"the joint {joint.name!r} takes {side} of {side.link.m.name}; name links of {self.name}")
         for known in self.link_joints:
             if known.name == joint.name:
                 refuse(f"the joint {joint.name!r} has two owners (first at {known.where}); give one another name")
@@ -223,20 +239,36 @@ class Linkage:
         """Place what has a closed form (see `Declaration`)."""
         raise NotImplementedError
 
-    def displace(self, joint: Joint) -> tuple[Symbol, ...]:
+    def _point(self, name: str, value: Expr | float) -> Expr:
+        value = self._checked(value, "m", name)
+        return value if value.is_Number or value.is_Symbol else self.let(name, value, "m")
+
+    def settle(self, link: Link | None = None) -> None:
+        """Place a link, or all of them (see `Declaration`)."""
+        raise NotImplementedError
+
+    def displace(self, joint: Joint) -> tuple[Expr, ...]:
         """Displacements of a joint that places a link; their generalised forces are its reactions."""
-        m: Any = self
+        joint.used = True
+        if joint.displacements:
+            return joint.displacements
+        if joint.through:
+            one, other = joint.through
+            pairs = zip(self.displace(one), self.displace(other), strict=True)
+            signs = -one.sign(joint.first.link), other.sign(joint.second.link)
+            joint.displacements = tuple(signs[0] * d + signs[1] * e for d, e in pairs)
+            one.used = False  # it has yet to place the link between
+            return joint.displacements
         parts = _DISPLACED[joint.kind]
         about = f"{joint.first.link.name} on {joint.second.link.name}, {joint.kind} {joint.name}"
         for part in parts:
             unit, stem = ("N*m", "M") if part == "turn" else ("N", f"R_{part}")
-            found = m.joints(f"s{part}_{joint.name}", about, unit, f"{stem}_{joint.name}")
-            joint.displacements += (found,)
-        joint.used = True
+            displacement = self.joints(f"s{part}_{joint.name}", about, unit, f"{stem}_{joint.name}")
+            joint.displacements += (displacement,)
         return joint.displacements
 
 
-def point_of(part: Any) -> LinkPoint:
+def point_of(part: object) -> LinkPoint:
     """A point of a link; a link stands for its origin."""
     if isinstance(part, Link):
         return part.at()
@@ -245,7 +277,7 @@ def point_of(part: Any) -> LinkPoint:
     return part
 
 
-def _line(part: Any) -> LinkLine:
+def _line(part: object) -> LinkLine:
     if isinstance(part, Link):
         return part.line()
     if not isinstance(part, LinkLine):
@@ -253,6 +285,6 @@ def _line(part: Any) -> LinkLine:
     return part
 
 
-def named_point(m: Any, name: str, pair: Pair) -> Pair:
+def named_point(m: Linkage, name: str, pair: Pair) -> Pair:
     """A point of the frame by its names `x_name, y_name`, where it is not a number or a letter."""
-    return m._point(f"x_{name}", sympify(pair[0])), m._point(f"y_{name}", sympify(pair[1]))
+    return m._point(f"x_{name}", read(pair[0])), m._point(f"y_{name}", read(pair[1]))

@@ -1,14 +1,17 @@
 """The equations of a mechanism as LaTeX and MathML, stored beside the generated code so that reports need no sympy."""
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NotRequired, TypedDict, cast
 
 from sympy import Eq, Expr, Integer, Mul, Symbol, cos, latex, mathml, sin
 
-from mechsym.derive.declare import Declaration
+from mechsym.derive.declare import Declaration, Element
 from mechsym.derive.emit import groups
 from mechsym.derive.lagrange import Equations
+from mechsym.derive.linkage import Link, LinkPoint
 from mechsym.derive.rates import accelerations, velocities
+from mechsym.files import Json
 
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
 _LATEX = {"lam": r"\lambda", "phi": r"\varphi", "inertia": "I"}
@@ -19,22 +22,41 @@ _GREEK = {
 }  # fmt: skip
 
 
-def listing(equations: Equations) -> dict[str, Any]:
+class Listing(TypedDict):
+    """What is stored of a mechanism beside its code; units are by letter."""
+
+    name: str
+    about: str
+    source: str
+    coordinates: dict[str, str]
+    parameters: dict[str, str]
+    inputs: dict[str, str]
+    outputs: dict[str, str]
+    reactions: NotRequired[dict[str, str]]  #: What bears each
+    constraints: NotRequired[list[str]]
+    checked: NotRequired[int]  #: Random states at which T - V agreed
+    equations: list[dict[str, str]]  #: Title, LaTeX and MathML of each
+    dependents: NotRequired[list[str]]
+    guesses: NotRequired[dict[str, float]]
+    multipliers: NotRequired[dict[str, str]]
+    ranges: NotRequired[dict[str, Json]]
+    requires: NotRequired[list[dict[str, str]]]
+    roles: NotRequired[dict[str, list[Json]]]  #: Of each kind of `mechsym.mechanisms.roles`
+    shapes: NotRequired[list[Json]]
+    sketch: NotRequired[list[Json]]
+    links: NotRequired[list[Json]]
+    springs: NotRequired[list[str]]
+    dampers: NotRequired[list[str]]
+
+
+def listing(equations: Equations) -> Listing:
     """Letters, units, source and equations of a mechanism, ready for JSON.
 
-    Parameters
-    ----------
-    equations : Equations
-        Derived equations
-
-    Returns
-    -------
-    listing : dict
-        Keys name, about, source, coordinates, parameters, inputs, outputs, reactions, equations
+    Returns listing: keys name, about, source, coordinates, parameters, inputs, outputs, reactions, equations.
     """
     m = equations.mechanism
     outputs = [name for g in groups(equations) if g.name in ("kinematics", "reactions") for name in g.outputs]
-    return {
+    stored = {
         "name": m.name,
         "about": m.about,
         "source": m.source,
@@ -47,19 +69,50 @@ def listing(equations: Equations) -> dict[str, Any]:
         **_own(m),
         "equations": [_equation(m, *row) for row in _rows(equations)],
     }
+    return cast(Listing, stored)
 
 
-def _own(m: Declaration) -> dict[str, Any]:
+def _own(m: Declaration) -> Json:
     """What only some declarations say."""
-    said: dict[str, Any] = {
+    said = {
         "dependents": [s.name for s in m.dependent_list],
         "guesses": m.guesses,
         "multipliers": {c: s.name for c, s in m.multiplier_of.items()},
         "ranges": m.ranges,
+        "requires": m.requires,
         "roles": m.roles,
         "shapes": m.shapes,
+        "sketch": m.sketches,
+        "links": [link for link in map(partial(_link, m), m.links) if link],
+        "springs": _constants(m, m.springs),
+        "dampers": _constants(m, m.dampers),
     }
     return {key: value for key, value in said.items() if value}
+
+
+def _constants(m: Declaration, elements: Sequence[Element]) -> list[str]:
+    """Stiffness or damping of elements, by letters of the parameters; one that moves is left out."""
+    return [str(e.value) for e in elements if e.value.free_symbols <= {*m.parameter_list}]
+
+
+def _link(m: Declaration, link: Link) -> Json:
+    """Mass, inertia, centre and joints of a link in its own axes, by letters of the parameters; empty without any."""
+    joints = [joint for joint in m.link_joints if link in (joint.first.link, joint.second.link)]
+    sides = [joint.side(link) for joint in joints]
+    points = list(dict.fromkeys((str(p.u), str(p.v)) for p in sides if isinstance(p, LinkPoint)))
+    free = {s for p in sides if isinstance(p, LinkPoint) for s in p.u.free_symbols | p.v.free_symbols}
+    if link.mass == link.inertia == 0 or len(points) < 2 or not free <= {*m.parameter_list}:
+        return {}
+    ground = [joint.side(link) for joint in joints if joint.other(link).link is m.frame and joint.kind == "pin"]
+    return {
+        "name": link.name,
+        "mass": str(link.mass),
+        "inertia": str(link.inertia),
+        "centre": [str(c) for c in link.centre],
+        "points": points,
+        "pivot": next(((str(p.u), str(p.v)) for p in ground if isinstance(p, LinkPoint)), None),
+        "turns": str(link.turns) if link.turns in m.q and link.turns not in m.dependent_list else "",
+    }
 
 
 def _unit(m: Declaration, name: str) -> str:
@@ -126,8 +179,8 @@ def _circular(m: Declaration, symbol: Symbol) -> tuple[str, Symbol] | None:
 
 
 def _stem(m: Declaration, symbol: Symbol) -> tuple[str, int]:
-    for order, found in enumerate((velocities(m), accelerations(m)), 1):
-        names = [s.name for s in found]
+    for order, rates in enumerate((velocities(m), accelerations(m)), 1):
+        names = [s.name for s in rates]
         if symbol.name in names:
             return m.q[names.index(symbol.name)].name, order
     return symbol.name, 0

@@ -12,13 +12,15 @@ Examples
 """
 
 import keyword
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
 
 import sympy as sp
 from sympy.core.relational import Relational
 from sympy.printing.precedence import PRECEDENCE, precedence
 from sympy.printing.str import StrPrinter
+
+from mechsym.errors import shown
+from mechsym.quantities.units import Scalar
 
 
 class UnsupportedNode(ValueError):
@@ -41,32 +43,35 @@ _NODES = {
 }  # fmt: skip
 
 
+def require_known(expr: sp.Basic | float) -> None:
+    """Refuse an expression that holds what cannot be printed.
+
+    Raises
+    ------
+    UnsupportedNode
+        Names the node and what is known
+    """
+    for node in sp.preorder_traversal(expr):
+        name = type(node).__name__
+        if isinstance(node, sp.Float):
+            raise UnsupportedNode(f"the number {node} is a Float and would be rounded; write a Rational or a parameter")
+        if isinstance(node, sp.Basic) and name not in _NODES and name not in _FUNCTIONS:
+            raise UnsupportedNode(f"{name!r} in {expr} has no CasADi counterpart; known are {known()}")
+        if isinstance(node, sp.Piecewise) and node.args[-1].cond != sp.true:
+            raise UnsupportedNode(f"{node} has no value where no condition holds; end it with (value, True)")
+
+
 class _Printer(StrPrinter):
     """Prints whitelisted nodes; the order of terms is sympy's canonical one, so the text is reproducible."""
 
     printmethod = "_casadi"
 
-    def doprint(self, expr: Any) -> str:
+    def doprint(self, expr: sp.Basic | float) -> str:
         """Check every node against the list, then print.
 
-        Parameters
-        ----------
-        expr : Expr
-            sympy expression
-
-        Returns
-        -------
-        text : str
-            Python text
+        expr: Expr, sympy expression. Returns text: Python text.
         """
-        for node in sp.preorder_traversal(expr):
-            name = type(node).__name__
-            if isinstance(node, sp.Float):
-                raise UnsupportedNode(
-                    f"the number {node} is a Float and would be rounded; write a Rational or a parameter"
-                )
-            if isinstance(node, sp.Basic) and name not in _NODES and name not in _FUNCTIONS:
-                raise UnsupportedNode(f"{name!r} in {expr} has no CasADi counterpart; known are {known()}")
+        require_known(expr)
         return self._print(expr)
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
@@ -80,10 +85,10 @@ class _Printer(StrPrinter):
     def _print_Rational(self, expr: sp.Rational) -> str:
         return f"{expr.p} / {expr.q}"
 
-    def _print_Pi(self, expr: Any) -> str:
+    def _print_Pi(self, expr: sp.Basic | float) -> str:
         return "ca.pi"
 
-    def _print_Exp1(self, expr: Any) -> str:
+    def _print_Exp1(self, expr: sp.Basic | float) -> str:
         return "ca.exp(1)"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
@@ -98,7 +103,7 @@ class _Printer(StrPrinter):
             return f"1 / {base}**{-expr.exp}"
         return f"{base}**{self.parenthesize(expr.exp, PRECEDENCE['Pow'], strict=False)}"
 
-    def _print_Function(self, expr: Any) -> str:
+    def _print_Function(self, expr: sp.Function) -> str:
         return f"ca.{_FUNCTIONS[type(expr).__name__]}({', '.join(self._print(a) for a in expr.args)})"
 
     def _print_Mod(self, expr: sp.Mod) -> str:
@@ -106,7 +111,7 @@ class _Printer(StrPrinter):
         a, b = (self.parenthesize(arg, PRECEDENCE["Mul"], strict=False) for arg in expr.args)
         return f"({a} - {b} * ca.floor({a} / {b}))"
 
-    def _fold(self, function: str, args: Any) -> str:
+    def _fold(self, function: str, args: Iterable[sp.Expr]) -> str:
         texts = [self._print(a) for a in args]
         result = texts[-1]
         for text in reversed(texts[:-1]):
@@ -128,19 +133,17 @@ class _Printer(StrPrinter):
     def _print_Not(self, expr: sp.Not) -> str:
         return f"ca.logic_not({self._print(expr.args[0])})"
 
-    def _print_BooleanTrue(self, expr: Any) -> str:
+    def _print_BooleanTrue(self, expr: sp.Basic | float) -> str:
         return "1"
 
-    def _print_BooleanFalse(self, expr: Any) -> str:
+    def _print_BooleanFalse(self, expr: sp.Basic | float) -> str:
         return "0"
 
     def _print_Relational(self, expr: Relational) -> str:
         return f"{_RELATIONS[expr.rel_op]}({self._print(expr.lhs)}, {self._print(expr.rhs)})"
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
-        *branches, (last, condition) = expr.args
-        if condition != sp.true:
-            raise UnsupportedNode(f"{expr} has no value where no condition holds; end it with (value, True)")
+        *branches, (last, _) = expr.args
         result = self._print(last)
         for value, test in reversed(branches):
             result = f"ca.if_else({self._print(test)}, {self._print(value)}, {result})"
@@ -175,7 +178,7 @@ class _Printer(StrPrinter):
         loose = precedence(factor) <= PRECEDENCE["Mul"] or "/" in text and isinstance(factor, (sp.Pow, sp.Rational))
         return f"({text})" if loose and not factor.is_Atom or factor.is_Rational and not factor.is_Integer else text
 
-    def _print_Add(self, expr: sp.Add, order: Any = None) -> str:
+    def _print_Add(self, expr: sp.Add, order: object = None) -> str:
         text = ""
         for term in self._as_ordered_terms(expr, order=order):
             part = self._print(term)
@@ -190,49 +193,45 @@ class _Printer(StrPrinter):
 def known() -> str:
     """The functions and nodes that are printed.
 
-    Returns
-    -------
-    names : str
-        Sorted, separated by commas
+    Returns names: sorted, separated by commas.
     """
     return ", ".join(sorted([*_FUNCTIONS, *_NODES], key=str.lower))
 
 
-def casadi_text(expression: Any) -> str:
+def read(value: object) -> sp.Basic:
+    """A number or what sympy has made, as sympy has it.
+
+    Raises
+    ------
+    UnsupportedNode
+        A text, alone or in a list: sympy would read it by running it
+    """
+    try:
+        if isinstance(value, (sp.Basic, sp.MatrixBase)) or not isinstance(value, Iterable):
+            return sp.sympify(value, strict=True)
+    except (sp.SympifyError, TypeError):
+        pass
+    raise UnsupportedNode(f"{shown(value)} is no expression of sympy; write the letters themselves, no text")
+
+
+def casadi_text(expression: sp.Basic | float) -> str:
     """Python text that evaluates the expression with CasADi functions (`ca.`).
 
-    Parameters
-    ----------
-    expression : Expr, Boolean or Matrix
-        sympy expression without Floats
-
-    Returns
-    -------
-    text : str
-        One Python expression
+    expression: Expr, Boolean or Matrix, sympy expression without Floats.
 
     Raises
     ------
     UnsupportedNode
         A node that is not on the list; the message names it
     """
-    return _Printer().doprint(sp.sympify(expression))
+    return _Printer().doprint(read(expression))
 
 
-def to_casadi(expression: Any, letters: Mapping[str, Any]) -> Any:
+def to_casadi(expression: sp.Basic | float, letters: Mapping[str, Scalar]) -> Scalar:
     """The expression evaluated on CasADi symbols, matrices or floats.
 
-    Parameters
-    ----------
-    expression : Expr, Boolean or Matrix
-        sympy expression without Floats
-    letters : mapping of str to value
-        CasADi symbol or number for each free letter
-
-    Returns
-    -------
-    value : casadi.SX, MX, DM or float
-        Of the same kind as the letters
+    expression: Expr, Boolean or Matrix, sympy expression without Floats; letters: mapping of str to value, CasADi
+    symbol or number for each free letter. Returns value: of their kind [unit of the expression].
 
     Raises
     ------
@@ -241,7 +240,7 @@ def to_casadi(expression: Any, letters: Mapping[str, Any]) -> Any:
     """
     import casadi as ca
 
-    missing = sorted(s.name for s in sp.sympify(expression).free_symbols if s.name not in letters)
+    missing = sorted(s.name for s in read(expression).free_symbols if s.name not in letters)
     if missing:
         raise UnsupportedNode(f"no value for {', '.join(missing)}; given are {', '.join(sorted(letters))}")
     code = compile(casadi_text(expression), "<casadi_text>", "eval")

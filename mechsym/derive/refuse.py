@@ -10,15 +10,15 @@ _HERE = str(Path(__file__).parent)
 
 
 def place() -> str:
-    """File and line of the declaration that is being read.
+    """File and line of the declaration that is being read; those of its mechanism where all of it is read.
 
-    Returns
-    -------
-    place : str
-        For example ``scotch.py:14``
+    Returns place: for example ``scotch.py:14``.
     """
     frame = sys._getframe(1)
     while frame.f_back and (frame.f_code.co_filename.startswith(_HERE) or "sympy" in frame.f_code.co_filename):
+        if frame.f_code.co_name == "derive":  # of lagrange.py
+            read = frame.f_locals["m"]
+            return str(read.where[read.name])
         frame = frame.f_back
     return f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"
 
@@ -26,12 +26,8 @@ def place() -> str:
 def refuse(message: str, where: str = "") -> NoReturn:
     """Refuse a declaration in one line.
 
-    Parameters
-    ----------
-    message : str
-        What is wrong, what is allowed, the way out
-    where : str
-        File and line, where that is not the line that is being read
+    message: what is wrong, what is allowed, the way out; where: file and line, where that is not the line that is being
+    read.
 
     Raises
     ------
@@ -39,3 +35,9 @@ def refuse(message: str, where: str = "") -> NoReturn:
         With file and line in front
     """
     raise BadInput(f"{where or place()}: {message}")
+
+
+def require_declaration(m: object, call: str) -> None:
+    """Refuse a call that forgets the mechanism; `call` shows how it is written."""
+    if not hasattr(m, "tape"):
+        refuse(f"{m!r} is no mechanism; write {call}")

@@ -8,7 +8,9 @@ in them and no derivative is ever expanded into trigonometric functions.
 
 from collections.abc import Callable, Iterable
 
-from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, sin, sqrt, sympify
+from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, sin, sqrt
+
+from mechsym.derive.printer import read
 
 Rule = Callable[[Symbol], Expr]
 
@@ -16,10 +18,7 @@ Rule = Callable[[Symbol], Expr]
 class Intermediates:
     """Ordered assignments with derivatives by the chain rule.
 
-    Parameters
-    ----------
-    coordinates : iterable of Symbol
-        What intermediates are differentiated by and may take sine and cosine of
+    coordinates: what intermediates are differentiated by and may take sine and cosine of.
     """
 
     def __init__(self, coordinates: Iterable[Symbol] = ()) -> None:
@@ -32,24 +31,15 @@ class Intermediates:
     def define(self, name: str, value: Expr | int) -> Symbol:
         """Put `name = value` on the tape.
 
-        Parameters
-        ----------
-        name : str
-            A new identifier
-        value : Expr
-            Expression in earlier names, coordinates and parameters; no floating-point numbers
-
-        Returns
-        -------
-        symbol : Symbol
-            The name as a symbol
+        name: a new identifier. value: expression in earlier names, coordinates and parameters; no floating-point
+        numbers.
 
         Raises
         ------
         ValueError
             The name is taken, is not an identifier, or the value holds a Float
         """
-        symbol, expression = Symbol(name, real=True), self.named(sympify(value))
+        symbol, expression = Symbol(name, real=True), self.named(read(value))
         if not name.isidentifier() or name.startswith("_"):
             raise ValueError(f"{name!r} is not a usable name; use letters, digits and inner underscores")
         if symbol in self.entries or symbol in self.variables:
@@ -62,17 +52,7 @@ class Intermediates:
     def define_angle(self, name: str, sine: Expr) -> Symbol:
         """Put an angle in (-pi/2, pi/2) on the tape by its sine, with its cosine as a name of its own.
 
-        Parameters
-        ----------
-        name : str
-            Name of the angle; `sin_name` and `cos_name` are defined with it
-        sine : Expr
-            Sine of the angle
-
-        Returns
-        -------
-        angle : Symbol
-            The angle
+        name: name of the angle; `sin_name` and `cos_name` are defined with it.
         """
         s = self.define(f"sin_{name}", sine)
         c = self.define(f"cos_{name}", sqrt(1 - s**2))
@@ -84,17 +64,8 @@ class Intermediates:
     def define_direction(self, name: str, cosine: Expr, sine: Expr) -> Symbol:
         """Put an angle on the tape by its cosine and sine, of which one follows from the other.
 
-        Parameters
-        ----------
-        name : str
-            Name of the angle; `sin_name` and `cos_name` are defined with it
-        cosine, sine : Expr
-            Their squares add up to 1, displaced joints included
-
-        Returns
-        -------
-        angle : Symbol
-            The angle
+        name: name of the angle; `sin_name` and `cos_name` are defined with it. cosine, sine: their squares add up to 1,
+        displaced joints included.
         """
         c, s = self.define(f"cos_{name}", cosine), self.define(f"sin_{name}", sine)
         values = self.entries[c], self.entries[s]
@@ -107,19 +78,7 @@ class Intermediates:
     def define_turn(self, name: str, value: Expr, x: Expr, y: Expr) -> Symbol:
         """Put the turn of a line on the tape: `value` where joints are held, rates from the line's ends.
 
-        Parameters
-        ----------
-        name : str
-            Name of the angle
-        value : Expr
-            Its value, without the jumps of an arc tangent
-        x, y : Expr
-            The line from end to end
-
-        Returns
-        -------
-        angle : Symbol
-            The angle
+        name: name of the angle; value: its value, without the jumps of an arc tangent; x, y: the line from end to end.
         """
         ends = self.named(x), self.named(y)
         angle = self.define(name, value)
@@ -130,18 +89,10 @@ class Intermediates:
     def named(self, expression: Expr) -> Expr:
         """Replace sine and cosine of single names by the tape's names for them.
 
-        Parameters
-        ----------
-        expression : Expr
-            Any expression
-
-        Returns
-        -------
-        expression : Expr
-            The same value
+        expression: any expression.
         """
-        found = sorted(expression.atoms(sin, cos), key=str)
-        return expression.xreplace({f: self._circular(f) for f in found})
+        functions = sorted(expression.atoms(sin, cos), key=str)
+        return expression.xreplace({f: self._circular(f) for f in functions})
 
     def _circular(self, function: Expr) -> Expr:
         angle = function.args[0]
@@ -157,17 +108,8 @@ class Intermediates:
     def diff(self, expression: Expr, variable: Symbol) -> Expr:
         """Total derivative of an expression in names.
 
-        Parameters
-        ----------
-        expression : Expr
-            Expression in names, coordinates and parameters
-        variable : Symbol
-            Coordinate or joint displacement
-
-        Returns
-        -------
-        derivative : Expr
-            Expression in names, among them new named derivatives
+        expression: expression in names, coordinates and parameters; variable: coordinate or joint displacement. Returns
+        derivative: expression in names, among them new named derivatives.
         """
         expression = self.named(expression)
         symbols = sorted(expression.free_symbols, key=lambda s: s.name)
@@ -176,17 +118,8 @@ class Intermediates:
     def derivative(self, symbol: Symbol, variable: Symbol) -> Expr:
         """Derivative of one name, itself a name unless it is a number or a single symbol.
 
-        Parameters
-        ----------
-        symbol : Symbol
-            A name, coordinate or parameter
-        variable : Symbol
-            Coordinate or joint displacement
-
-        Returns
-        -------
-        derivative : Expr
-            Usually a symbol such as `dx_dphi`
+        symbol: a name, coordinate or parameter; variable: coordinate or joint displacement. Returns derivative: usually
+        a symbol such as `dx_dphi`.
         """
         if symbol == variable:
             return Integer(1)
@@ -216,32 +149,15 @@ class Intermediates:
     def derived_from(self, symbol: Symbol) -> tuple[Symbol, tuple[Symbol, ...]]:
         """What a name is the derivative of, and by which variables.
 
-        Parameters
-        ----------
-        symbol : Symbol
-            Any name
-
-        Returns
-        -------
-        root : Symbol
-            The name itself when it is no derivative
-        by : tuple of Symbol
-            Variables with repetition, empty when it is no derivative
+        symbol: any name. Returns root: the name itself when it is no derivative; by: variables with repetition, empty
+        when it is no derivative.
         """
         return self._derived_from.get(symbol, (symbol, ()))
 
     def flat(self, expression: Expr) -> Expr:
         """The expression with every name replaced by its definition, down to coordinates and parameters.
 
-        Parameters
-        ----------
-        expression : Expr
-            Expression in names
-
-        Returns
-        -------
-        expression : Expr
-            Closed form
+        Returns expression: closed form.
         """
         values: dict[Symbol, Expr] = {}
         for symbol in self.needed([expression]):
@@ -251,15 +167,7 @@ class Intermediates:
     def needed(self, expressions: Iterable[Expr]) -> list[Symbol]:
         """Names that the expressions depend on, in the order of definition.
 
-        Parameters
-        ----------
-        expressions : iterable of Expr
-            Expressions in names
-
-        Returns
-        -------
-        names : list of Symbol
-            An order in which each name follows what it uses
+        Returns names: an order in which each name follows what it uses.
         """
         done: dict[Symbol, None] = {}
 
@@ -277,17 +185,7 @@ class Intermediates:
 def derivative_name(root: str, by: list[str]) -> str:
     """Name of a derivative: `dx_dphi`, `d2x_dphi2`, and `d2x0_dphi0_dphi0` where a letter ends in a digit.
 
-    Parameters
-    ----------
-    root : str
-        What is differentiated
-    by : list of str
-        What it is differentiated by, with repetition
-
-    Returns
-    -------
-    name : str
-        An identifier
+    root: what is differentiated; by: what it is differentiated by, with repetition. Returns name: an identifier.
     """
     order = len(by)
     head = f"d{root}" if order == 1 else f"d{order}{root}"

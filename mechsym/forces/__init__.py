@@ -2,16 +2,12 @@
 
 turn.py         mechanism, gas, speed -> gas forces and exact reactions over the angle, the power they must balance
 loads.py        reactions under common names: side force, crank pin radial and tangential, main bearing
-table.py        forces.csv and its extremes
 textbook.py     the chains of Moroianu (2017) and Prymak: two-mass rod, Terskih's rule, their errors
 indicated.py    the chain backwards: cylinder pressure out of a measured torque on the shaft
-harmonics.py    orders of torque and shaking forces
-shaking.py      what shakes the frame, the counterweight that shakes it least, balance that was asked for
-friction.py     first-order losses from the frictionless reactions
-comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force
-friction_law.py the mechanism's friction as a law of the engine cycle
-claims.py       what the sources claim about friction and loads, judged by the comparison
-result.py       all of it in one record
+shaking.py      orders; what shakes the frame, the counterweight that shakes it least, balance that was asked for
+friction.py     first-order losses from the frictionless reactions, of rings, and as a law of the engine cycle
+comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force; the sources' claims judged
+result.py       all of it in one record, with the table forces.csv and its extremes
 summary.py      the record in numbers
 """
 
@@ -22,7 +18,7 @@ _NAMES = {
     "compare": "mechsym.forces.comparison:compare",
     "crank_drive": "mechsym.forces.turn:crank_drive",
     "CrankDrive": "mechsym.forces.turn:CrankDrive",
-    "fit": "mechsym.forces.friction_law:fit",
+    "fit": "mechsym.forces.friction:fit",
     "Forces": "mechsym.forces.result:Forces",
     "forces": "mechsym.forces.result:forces",
     "Friction": "mechsym.forces.friction:Friction",

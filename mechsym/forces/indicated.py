@@ -10,7 +10,7 @@ At a dead centre x' = 0: no torque tells of the pressure, and none is told there
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Area, Array, Joule, NewtonMetre, Pascal, Radian, RadPerSecond, Scalar
 
 NORMAL_95 = 1.959963984540054  # half width of the 95 % interval of a normal distribution, in standard deviations [-]
 _DEAD = 1e-6  # of the largest lever: below it the round-off of the torque is all that is left
@@ -48,31 +49,16 @@ class IndicatedPressure:
 
 
 def shaft_lines(
-    mechanism: Mechanism, areas: Mapping[str, float], phi: np.ndarray, omega: float, held: Mapping[str, float]
-) -> tuple[np.ndarray, np.ndarray]:
+    mechanism: Mechanism, areas: Mapping[str, Area], phi: Radian[Array], omega: RadPerSecond, held: Mapping[str, float]
+) -> tuple[NewtonMetre[Array], Annotated[Array, "N*m/Pa"]]:
     r"""Torque on the load without gas, and how much of it a pressure adds.
 
     .. math:: M_0 = Q(0) - b, \qquad h = Q(A) - Q(0)
 
     with generalised force Q and bias b of the derived equations at constant speed.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Reduced to the angle of its shaft, as `crank_drive` builds it
-    areas : mapping of str to float
-        By input the force that one pascal gives it, with its sign [m^2]
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    omega : float
-        Speed of the shaft [rad/s]
-    held : mapping of str to float
-        Inputs that do not change [N] or [N*m]
-
-    Returns
-    -------
-    idle, lever : ndarray, shape (n,)
-        M_0 [N*m] and h [N*m/Pa]
+    mechanism: reduced to the angle of its shaft, as `crank_drive` builds it; areas: by input the force that one pascal
+    gives it, with its sign; held: inputs that do not change [N] or [N*m].
 
     Notes
     -----
@@ -91,12 +77,12 @@ def shaft_lines(
     1.0
     """
     (q,) = mechanism.coordinates
-    letters: dict[str, Any] = {q: phi, f"{q}d": np.full_like(phi, omega), **held}
+    letters: dict[str, Scalar] = {q: phi, f"{q}d": np.full_like(phi, omega), **held}
     dynamics = mechanism.functions["dynamics"]
 
-    def torque(push: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-        found = list(along(dynamics, letters | dict(push)).values())
-        return found[2].ravel() + 0 * phi, found[1].ravel() + 0 * phi
+    def torque(push: Mapping[str, Scalar]) -> tuple[np.ndarray, np.ndarray]:
+        _, bias, force = along(dynamics, letters | dict(push)).values()
+        return force.ravel() + 0 * phi, bias.ravel() + 0 * phi
 
     none, bias = torque({})
     lever, _ = torque({name: held.get(name, 0.0) + area for name, area in areas.items()})
@@ -104,7 +90,7 @@ def shaft_lines(
 
 
 def pressure_from_torque(
-    measured: CrankTorque, idle: np.ndarray, lever: np.ndarray, p_back: float
+    measured: CrankTorque, idle: NewtonMetre[Array], lever: Annotated[Array, "N*m/Pa"], p_back: Pascal
 ) -> IndicatedPressure:
     r"""Pressure out of a measured torque, with the uncertainty that the noise of the torque gives it.
 
@@ -113,17 +99,8 @@ def pressure_from_torque(
     Told is what has a 95 % interval of a half width below the pressure that the largest gas torque shows at the largest
     lever: :math:`1.96\,\sigma_p < \max|M - M_0| / \max|h|`. The gap about a dead centre grows with the noise.
 
-    Parameters
-    ----------
-    idle, lever : ndarray, shape (n,)
-        M_0 [N*m] and h [N*m/Pa], as `shaft_lines` gives them
-    p_back : float
-        Absolute pressure on the other side of the piston [Pa]
-
-    Returns
-    -------
-    found : IndicatedPressure
-        At every angle of the torque [Pa]
+    idle, lever: M_0 and h, as `shaft_lines` gives them; p_back: absolute pressure on the other side of the piston.
+    Returns pressure: at every angle of the torque [Pa].
 
     Raises
     ------
@@ -138,8 +115,8 @@ def pressure_from_torque(
     Examples
     --------
     >>> one = CrankTorque(phi=np.array([1.0]), torque=np.array([30.0]), omega=100.0, noise=1.0)
-    >>> found = pressure_from_torque(one, np.array([10.0]), np.array([1e-4]), 1e5)
-    >>> round(float(found.p[0])), round(float(found.error[0]))
+    >>> indicated = pressure_from_torque(one, np.array([10.0]), np.array([1e-4]), 1e5)
+    >>> round(float(indicated.p[0])), round(float(indicated.error[0]))
     (300000, 10000)
     """
     gas = measured.torque - (idle if measured.with_inertia else 0.0)
@@ -148,32 +125,23 @@ def pressure_from_torque(
     turning = size > _DEAD * size.max()
     safe = np.where(turning, lever, size.max())
     error = measured.noise / np.abs(safe)
-    told = turning & (NORMAL_95 * error < limit)
-    if not told.any():
+    clear = turning & (NORMAL_95 * error < limit)
+    if not clear.any():
         raise BadInput(
             f"noise = {measured.noise:g} N*m hides the torque of the gas, at most {np.abs(gas).max():g} N*m; "
             f"below {np.abs(gas).max() / NORMAL_95:.4g} N*m it tells a pressure: average more cycles"
         )
-    return IndicatedPressure(
-        phi=measured.phi, p=p_back + gas / safe, error=error, told=told, gas=gas, lever=lever, limit=limit
-    )  # fmt: skip
+    p = p_back + gas / safe
+    return IndicatedPressure(phi=measured.phi, p=p, error=error, told=clear, gas=gas, lever=lever, limit=limit)
 
 
-def work(measured: CrankTorque, found: IndicatedPressure, period: float) -> tuple[float, float]:
+def work(measured: CrankTorque, pressure: IndicatedPressure, period: Radian) -> tuple[Joule, Joule]:
     r"""Work of the gas over a cycle, which needs no pressure and knows no gap, with its standard deviation.
 
     .. math:: W = \oint (M - M_0)\,d\varphi \approx \sum_i w_i (M - M_0)_i, \qquad
         \sigma_W = \sigma_M \sqrt{\sum_i w_i^2}
 
-    Parameters
-    ----------
-    period : float
-        2 pi or 4 pi, over which the rows go [rad]
-
-    Returns
-    -------
-    work, error : float
-        W and its standard deviation [J]
+    period: 2 pi or 4 pi, over which the rows go.
 
     Notes
     -----
@@ -183,29 +151,21 @@ def work(measured: CrankTorque, found: IndicatedPressure, period: float) -> tupl
     --------
     >>> phi = np.arange(4) * np.pi / 2
     >>> one = CrankTorque(phi=phi, torque=np.array([1.0, 3.0, 1.0, 3.0]), omega=1.0, noise=0.1)
-    >>> found = pressure_from_torque(one, np.zeros(4), np.ones(4), 0.0)
-    >>> [round(v, 3) for v in work(one, found, 2 * np.pi)]
+    >>> indicated = pressure_from_torque(one, np.zeros(4), np.ones(4), 0.0)
+    >>> [round(v, 3) for v in work(one, indicated, 2 * np.pi)]
     [12.566, 0.314]
     """
-    around = np.concatenate([[found.phi[-1] - period], found.phi, [found.phi[0] + period]])
+    around = np.concatenate([[pressure.phi[-1] - period], pressure.phi, [pressure.phi[0] + period]])
     weights = (around[2:] - around[:-2]) / 2
-    return float(weights @ found.gas), float(measured.noise * np.sqrt(weights @ weights))
+    return float(weights @ pressure.gas), float(measured.noise * np.sqrt(weights @ weights))
 
 
-def scatter(torque: np.ndarray) -> float:
+def scatter(torque: NewtonMetre[Array]) -> NewtonMetre:
     r"""Standard deviation of the noise that a smooth curve shows by itself.
 
     .. math:: \sigma \approx 1.4826\,\mathrm{median}|\Delta^3 M| / \sqrt{20}
 
-    Parameters
-    ----------
-    torque : ndarray, shape (n,)
-        Rows one after the other [N*m]
-
-    Returns
-    -------
-    sigma : float
-        Standard deviation [N*m]
+    torque: rows one after the other.
 
     Notes
     -----
@@ -219,13 +179,10 @@ def scatter(torque: np.ndarray) -> float:
     return float(1.4826 * np.median(np.abs(np.diff(torque, 3))) / np.sqrt(20.0))
 
 
-def gaps(found: IndicatedPressure) -> list[tuple[float, float]]:
+def gaps(pressure: IndicatedPressure) -> list[tuple[Radian, Radian]]:
     """Angles where nothing is told [rad].
 
-    Returns
-    -------
-    gaps : list of (float, float)
-        First and last row without a pressure, one pair a gap [rad]
+    Returns gaps: first and last row without a pressure, one pair a gap.
     """
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], found.told, [True]]).astype(int)))
-    return [(float(found.phi[a]), float(found.phi[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], pressure.told, [True]]).astype(int)))
+    return [(float(pressure.phi[a]), float(pressure.phi[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]

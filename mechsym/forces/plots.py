@@ -1,13 +1,21 @@
 """Pictures of forces: chain over the turn, polar diagrams, orders, friction, comparison. All return a figure."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechsym.forces.balance import BalancedEngine, amplitudes
+from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+from mechsym.forces.indicated import NORMAL_95, IndicatedPressure
 from mechsym.forces.loads import polar, radial, tangential
 from mechsym.forces.result import Forces
+from mechsym.forces.shaking import Harmonics
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import Radian
 from mechsym.style import (
+    BLUE,
     INK,
     QUIET,
     SERIES,
@@ -20,61 +28,71 @@ from mechsym.style import (
     panels,
     same_path,
     unit_words,
+    write_picture,
 )
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 _MOST_CURVES = 6
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
 
-def chain(found: Forces) -> "Figure":
+def chain(forces: Forces) -> "Figure":
     """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact forces.
 
-    Returns
-    -------
-    figure : Figure
-        Four panels over the crank angle
+    Returns figure: four panels over the crank angle.
     """
     figure, axes = panels(9, 9, 4, 1, "Forces and torque over the crank angle", sharex=True)
-    table, pin = found.columns, found.loads.pins[0]
+    table = forces.columns
     phi = np.radians(table["phi_deg"])
     angle = over_angle(axes[3], float(phi[-1] + phi[1]))
     teeth: dict[str, np.ndarray] = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
-    _curves(axes[0], phi * angle, found.turn.inputs or {"no gas force": np.zeros_like(phi)}, "gas force")
-    exact, rods = {"radial, outwards": radial(pin), "tangential": tangential(pin)}, lumped(found)
-    _curves(axes[1], phi * angle, exact | rods, _label(pin.name), dotted=tuple(rods))
-    _curves(axes[2], phi * angle, teeth or found.loads.guides, "teeth" if teeth else "side force")
-    factor, unit = axis_unit("N*m", found.turn.torque)
-    axes[3].plot(phi * angle, found.turn.torque * factor, color=SERIES[0])
-    axes[3].axhline(found.turn.torque.mean() * factor, color=QUIET, lw=1, ls="--", label="mean")
+    _curves(axes[0], phi * angle, forces.turn.inputs or {"no gas force": np.zeros_like(phi)}, "gas force")
+    rods = lumped(forces)
+    exact, name = _borne_most(forces)
+    _curves(axes[1], phi * angle, exact | rods, name, dotted=tuple(rods))
+    guides = forces.loads.guides or {"no guide named": np.zeros_like(phi)}
+    _curves(axes[2], phi * angle, teeth or guides, "teeth" if teeth else "side force")
+    factor, unit = axis_unit("N*m", forces.turn.torque)
+    axes[3].plot(phi * angle, forces.turn.torque * factor, color=SERIES[0])
+    axes[3].axhline(forces.turn.torque.mean() * factor, color=QUIET, lw=1, ls="--", label="mean")
     axes[3].set_ylabel(f"torque [{unit}]")
     legend(axes[3])
     return figure
 
 
-def lumped(found: Forces) -> dict[str, np.ndarray]:
+def _borne_most(result: Forces) -> tuple[dict[str, np.ndarray], str]:
+    """Forces on the first crank pin; of a mechanism without one the largest joint forces; and what they are."""
+    if pins := result.loads.pins:
+        return {"radial, outwards": radial(pins[0]), "tangential": tangential(pins[0])}, _label(pins[0].name)
+    forces = [(n, v) for n, v in result.turn.reactions.items() if result.columns.units[n] == "N"]
+    largest = sorted(forces, key=lambda one: -float(np.abs(one[1]).max()))[:4]
+    return dict(largest) or {"no joint force": np.zeros_like(result.turn.phi)}, "joint forces"
+
+
+def lumped(forces: Forces) -> dict[str, np.ndarray]:
     """Crank pin forces of the rod as two masses, where the case has that chain and they are others than the exact."""
-    table, pin, names = found.columns, found.loads.pins[0], ("two_mass", "terskih")
+    if not forces.chains:
+        return {}
+    table, pin, names = forces.columns, forces.loads.pins[0], ("two_mass", "terskih")
     rods = {f"radial, {_label(n)}": (-table[f"{n}_Z"], radial(pin)) for n in names if f"{n}_Z" in table}
     rods |= {f"tangential, {_label(n)}": (table[f"{n}_T"], tangential(pin)) for n in names if f"{n}_T" in table}
     size = max((float(np.abs(exact).max()) for _, exact in rods.values()), default=0.0)
     return {name: rod for name, (rod, exact) in rods.items() if np.abs(rod - exact).max() > 1e-6 * size}
 
 
-def polar_diagrams(found: Forces) -> "Figure":
+def polar_diagrams(forces: Forces) -> "Figure":
     """Load on each crank pin as its crank sees it, and on each main bearing as the frame sees it.
 
-    Returns
-    -------
-    figure : Figure
-        One panel for the pins, one for the bearings, at most six curves each
+    Returns figure: one panel for the pins, one for the bearings, at most six curves each.
     """
     figure, axes = panels(9, 5.2, 1, 2, "Polar diagrams of crank pins and main bearings")
-    curves = polar(found.turn, found.loads)
-    of_pins = {p.name for p in found.loads.pins}
+    curves = polar(forces.loads)
+    of_pins = {p.name for p in forces.loads.pins}
     labels = ("radial, outwards", "tangential"), ("along x", "along y")
     for axis, is_pin, (x, y) in zip(axes, (True, False), labels, strict=True):
         stacked = {_label(n): np.concatenate(v) for n, v in curves.items() if (n in of_pins) == is_pin}
@@ -82,15 +100,38 @@ def polar_diagrams(found: Forces) -> "Figure":
         factor, unit = axis_unit("N", *(v for both in chosen.values() for v in both))
         for (name, (across, up)), color in zip(chosen.items(), SERIES, strict=False):
             axis.plot(_closed(across) * factor, _closed(up) * factor, color=color, lw=1.2, label=_short(name))
-            _mark_angles(axis, found.turn.phi, across * factor, up * factor, color, named=len(chosen) == 1)
-        turns = round(found.turn.period / (2 * np.pi))
-        told = f"\nnumbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}" if len(chosen) == 1 else ""
+            _mark_angles(axis, forces.turn.phi, across * factor, up * factor, color, named=len(chosen) == 1)
+        turns = round(forces.turn.period / (2 * np.pi))
+        marks = f"\nnumbers: crank angle [deg], {turns} turn{'s' * (turns > 1)}" if len(chosen) == 1 else ""
         axis.plot(0, 0, "+", color=INK)
-        axis.set(xlabel=f"{x} [{unit}]{told}", ylabel=f"{y} [{unit}]")
+        axis.set(xlabel=f"{x} [{unit}]{marks}", ylabel=f"{y} [{unit}]")
         axis.locator_params(axis="x", nbins=4)  # numbers of newtons are long
         axis.set_aspect("equal", adjustable="datalim")
         heading(axis, "crank pins, in the crank" if is_pin else "main bearings, in the frame")
         legend(axis)
+    return figure
+
+
+def journal_loads(forces: Forces) -> "Figure":
+    """Load of the shaft on each main bearing, seen from the block and from the shaft.
+
+    Returns figure: two panels, at most six curves each.
+    """
+    figure, axes = panels(9, 5.2, 1, 2, "Loads of the main bearings at their places")
+    turning = {f"{one.z}{one.sense}": np.exp(-1j * one.sense * forces.turn.phi) for one in forces.journals}
+    loads = {f"{one.z}{one.sense}": one.x + 1j * one.y for one in forces.journals}
+    names = {f"{one.z}{one.sense}": f"z = {quantity_text(one.z, 'm', 3)}" for one in forces.journals}
+    factor, unit = axis_unit("N", *(abs(load) for load in loads.values()))
+    for axis, seen, frame in zip(axes, ({}, turning), ("in the block", "in the shaft"), strict=True):
+        for (key, load), color in zip(list(loads.items())[:_MOST_CURVES], SERIES, strict=False):
+            curve = _closed(load * seen.get(key, 1.0)) * factor
+            axis.plot(curve.real, curve.imag, color=color, lw=1.2, label=names[key])
+        axis.plot(0, 0, "+", color=INK)
+        axis.set(xlabel=f"along x [{unit}]", ylabel=f"along y [{unit}]")
+        axis.locator_params(axis="x", nbins=4)
+        axis.set_aspect("equal", adjustable="datalim")
+        heading(axis, frame)
+    legend(axes[0])
     return figure
 
 
@@ -100,7 +141,7 @@ def _short(name: str) -> str:
     return name if len(names) < 3 else f"{names[0]} and {len(names) - 1} others alike"
 
 
-def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color: str, named: bool) -> None:
+def _mark_angles(axis: "Axes", phi: np.ndarray, x: np.ndarray, y: np.ndarray, color: str, named: bool) -> None:
     """Dots every 30 degrees of the crank, numbers every 60 where there is room; over two turns every 60 and 120."""
     every = len(phi) // 12
     axis.plot(x[::every], y[::every], ".", color=color, ms=4)
@@ -115,35 +156,34 @@ def _mark_angles(axis: Any, phi: np.ndarray, x: np.ndarray, y: np.ndarray, color
         axis.annotate(text, (x[i], y[i]), (3, 3), textcoords="offset points", fontsize=7, color=INK)
 
 
-def orders(found: Forces) -> "Figure":
+def orders(result: Forces) -> "Figure":
     """Orders of the torque, and of the shaking force and moments."""
-    shown = {n: o for n, o in found.shaking.orders.items() if n != "roll"}
-    moments = {n: o for n, o in shown.items() if n.startswith("rocking")}
-    forces = {n: o for n, o in shown.items() if n not in moments}
-    acting = [(orders, si, name) for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment"))
-              if orders and max(_whole(o).max(initial=0.0) for o in orders.values()) >= _NOUGHT]  # fmt: skip
+    shaken = {} if result.shaking is None else result.shaking.orders
+    forces = {n: o for n, o in shaken.items() if n.startswith("force")}
+    moments = {n: o for n, o in shaken.items() if n.startswith("rocking")}
+    acting, notes = [], []
+    for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment")):
+        if max((_whole(o).max(initial=0.0) for o in orders.values()), default=0.0) >= _NOUGHT:
+            acting.append((orders, si, name))
+        else:
+            notes.append(f"no {name} shakes the frame: below 1 {unit_words(si)}")
     what = "".join(f", the shaking {name}" for *_, name in acting)
     figure, (left, *others) = panels(9, 3.8, 1, 1 + len(acting), f"Orders of the torque{what}")
-    torque = found.torque_orders
+    torque = result.torque_orders
     factor, unit = axis_unit("N*m", torque.amplitude[1:])
     left.bar(torque.order[1:], torque.amplitude[1:] * factor, width=0.35, color=SERIES[0])
-    told = [
-        f"no {name} shakes the frame: below 1 {unit_words(si)}"
-        for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment"))
-        if all(name != shaking for *_, shaking in acting)
-    ]
-    left.set(xlabel="\n".join(["order [-]", *told]), ylabel=f"torque amplitude [{unit}]")
+    left.set(xlabel="\n".join(["order [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
     for axis, (orders, si, name) in zip(others, acting, strict=True):
         _order_bars(axis, orders, si, f"{name} on the frame")
     return figure
 
 
-def _whole(found: Any) -> np.ndarray:
+def _whole(of: Harmonics) -> np.ndarray:
     """Amplitudes of the first six whole orders."""
-    return np.asarray(found.amplitude)[np.isclose(found.order % 1, 0) & (found.order > 0) & (found.order <= 6)]
+    return of.amplitude[np.isclose(of.order % 1, 0) & (of.order > 0) & (of.order <= 6)]
 
 
-def _order_bars(axis: Any, orders: dict[str, Any], si: str, name: str) -> None:
+def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) -> None:
     factor, unit = axis_unit(si, *map(_whole, orders.values()))
     largest = max(_whole(o).max() for o in orders.values())
     acting = {_label(n): _whole(o) for n, o in orders.items() if _whole(o).max() > _SEEN * largest}
@@ -155,15 +195,30 @@ def _order_bars(axis: Any, orders: dict[str, Any], si: str, name: str) -> None:
     legend(axis)
 
 
-def friction(found: Forces) -> "Figure":
+def balance_orders(one: BalancedEngine) -> "Figure":
+    """Force and couple on the frame by order, before and after."""
+    figure, axes = panels(9, 3.8, 1, 2, "Force and couple on the frame by order")
+    for axis, name, unit in zip(axes, ("force", "couple"), ("N", "N*m"), strict=True):
+        both = [amplitudes(getattr(shaken, name), one.turn) for shaken in (one.before, one.after)]
+        factor, shown = axis_unit(unit, *(np.array(list(values.values())) for values in both))
+        for values, label, color, beside in zip(both, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
+            place, height = np.array(list(values))[:8] + beside, np.array(list(values.values()))[:8]
+            axis.bar(place, height * factor, width=0.38, color=color, label=label)
+        axis.set(xlabel="order [-]", ylabel=f"{name} [{shown}]")
+        axis.set_xticks(range(1, 9))
+        legend(axis)
+    return figure
+
+
+def friction(forces: Forces) -> "Figure":
     """Friction power over the cycle by place."""
-    assert found.losses is not None
+    assert forces.losses is not None
     figure, (axis,) = panels(9, 4, title="Friction power over the crank angle by place")
-    names = [n for n, v in found.losses.curves.items() if np.abs(v).max() > 0]
-    values = [found.losses.curves[n] for n in names]
+    names = [n for n, v in forces.losses.curves.items() if np.abs(v).max() > 0]
+    values = [forces.losses.curves[n] for n in names]
     factor, unit = axis_unit("W", np.sum(values, axis=0) if values else 0.0)
-    labels = [f"{_label(n)}: mean {found.losses.places[n] * factor:.3g} {unit}" for n in names]
-    phi = np.radians(found.columns["phi_deg"])
+    labels = [f"{_label(n)}: mean {forces.losses.places[n] * factor:.3g} {unit}" for n in names]
+    phi = np.radians(forces.columns["phi_deg"])
     angle = over_angle(axis, float(phi[-1] + phi[1]))
     axis.stackplot(phi * angle, [v * factor for v in values], labels=labels, colors=SERIES, lw=0)
     axis.set_ylabel(f"friction power [{unit}]")
@@ -171,29 +226,48 @@ def friction(found: Forces) -> "Figure":
     return figure
 
 
-def comparison(rows: Sequence[dict[str, Any]]) -> "Figure":
+def brake_bar(forces: Forces) -> "Figure":
+    """One bar of the net indicated power: what reaches the shaft, and the parts of friction."""
+    lost = forces.losses
+    assert lost is not None and lost.mechanical_efficiency is not None
+    figure, (axis,) = panels(9, 2.1, title="Net indicated power: brake power and the parts of friction")
+    parts = {name: value for name, value in lost.places.items() if value > 0}
+    brake = lost.indicated_power - sum(parts.values())
+    factor, unit = axis_unit("W", lost.indicated_power)
+    start = 0.0
+    for color, (name, value) in zip((INK, *SERIES), {"brake": brake, **parts}.items(), strict=False):
+        share = 100 * value / lost.indicated_power
+        axis.barh(0, value * factor, 0.6, left=start * factor, color=color, label=f"{_label(name)} {share:.3g} %")
+        start += value
+    axis.set_yticks([])
+    axis.set(xlabel=f"net indicated power [{unit}]", xlim=(0, lost.indicated_power * factor))
+    legend(axis)
+    return figure
+
+
+def comparison(rows: Sequence[ComparedMechanism]) -> "Figure":
     """Loads and friction of the compared mechanisms."""
     height = 0.55 * len(rows) + 2.4
     figure, (left, right) = panels(9, height, 1, 2, "Loads and friction of the compared mechanisms", sharey=True)
     place = np.arange(len(rows))[::-1]
     loads = (("side_force_max", "guide"), ("crank_pin_max", "crank pin"), ("tooth_force_max", "teeth"))
-    factor, unit = axis_unit("N", *([row[key] or 0.0 for row in rows] for key, _ in loads))
+    factor, unit = axis_unit("N", *([getattr(row, key) or 0.0 for row in rows] for key, _ in loads))
     for i, (key, label) in enumerate(loads):
-        width = [(row[key] or 0.0) * factor for row in rows]
+        width = [(getattr(row, key) or 0.0) * factor for row in rows]
         left.barh(place + 0.25 * (1 - i), width, 0.23, color=SERIES[i], label=label)
     left.set(xlabel=f"largest force [{unit}]")
-    left.set_yticks(place, [_label(row["mechanism"]) for row in rows], fontsize=8)
+    left.set_yticks(place, [_label(row.mechanism) for row in rows], fontsize=8)
     legend(left, width=2.6)
-    _friction_bars(right, place, rows)
+    _friction_bars(right, place, [row.friction for row in rows if row.friction is not None])
     return figure
 
 
-def _friction_bars(axis: Any, place: np.ndarray, rows: Sequence[dict[str, Any]]) -> None:
-    if "friction_places" not in rows[0]:
+def _friction_bars(axis: "Axes", place: np.ndarray, rows: Sequence[ComparedFriction]) -> None:
+    if not rows:
         axis.set_axis_off()
         return
     names = ("guides", "piston_pins", "crank_pins", "main_bearings", "teeth", "rings")
-    widths = {name: np.array([row["friction_places"].get(name, 0.0) for row in rows]) for name in names}
+    widths = {name: np.array([row.friction_places.get(name, 0.0) for row in rows]) for name in names}
     end = np.sum(list(widths.values()), axis=0)
     factor, unit = axis_unit("W", end)
     start = np.zeros(len(rows))
@@ -202,14 +276,14 @@ def _friction_bars(axis: Any, place: np.ndarray, rows: Sequence[dict[str, Any]])
             axis.barh(place, width * factor, 0.6, left=start, color=SERIES[i], label=_label(name))
         start = start + width * factor
     for y, x, row in zip(place, start, rows, strict=True):
-        efficiency = row["mechanical_efficiency"]
+        efficiency = row.mechanical_efficiency
         axis.text(x, y, "" if efficiency is None else f" {100 * efficiency:.1f} %", va="center", fontsize=8)
-    axis.set(xlabel=f"friction per piston [{unit}], mechanical efficiency", xlim=(0, 1.25 * (start.max() or 1.0)))
+    axis.set(xlabel=f"friction per piston [{unit}], and what it leaves", xlim=(0, 1.25 * (start.max() or 1.0)))
     legend(axis, width=2.6)
 
 
 def _curves(
-    axis: Any, angle: np.ndarray, curves: Mapping[str, np.ndarray], name: str, dotted: tuple[str, ...] = ()
+    axis: "Axes", angle: np.ndarray, curves: Mapping[str, np.ndarray], name: str, dotted: tuple[str, ...] = ()
 ) -> None:
     """Forces [N] over an angle in the unit of the axis; those that lie on each other are named once."""
     factor, unit = axis_unit("N", *curves.values())
@@ -228,3 +302,20 @@ def _closed(values: np.ndarray) -> np.ndarray:
 
 def _label(name: str) -> str:
     return name.replace("_", " ")
+
+
+def pressure_picture(path: Path, indicated: IndicatedPressure, period: Radian) -> Path:
+    """Absolute pressure over the angle with its 95 % interval; gaps at the dead centres stay empty.
+
+    period: of the cycle.
+    """
+    figure, axes = panels(8, 4, 1, 1, "Pressure that the torque tells, and its 95 % interval")
+    axis = axes[0]
+    p, half = (np.where(indicated.told, v, np.nan) for v in (indicated.p, NORMAL_95 * indicated.error))
+    (factor, unit), angle = axis_unit("Pa", indicated.p[indicated.told]), over_angle(axis, period)
+    phi = indicated.phi * angle
+    axis.fill_between(phi, (p - half) * factor, (p + half) * factor, color=BLUE, alpha=0.25, linewidth=0, label="95 %")
+    axis.plot(phi, p * factor, color=BLUE, label="pressure")
+    axis.set_ylabel(f"absolute pressure [{unit}]")
+    legend(axis)
+    return write_picture(path, figure)

@@ -1,65 +1,103 @@
 """Files of a force analysis: one HTML page that opens offline, tables, summary, pictures."""
 
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from mechsym.files import to_json, write_quantities, write_text
-from mechsym.forces.borne import borne
-from mechsym.forces.result import Forces
+from mechsym.files import Json, to_json, write_quantities, write_text
+from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+from mechsym.forces.result import Forces, extremes
+from mechsym.forces.summary import quantities
 from mechsym.mechanisms import plots as plots_mechanism
+from mechsym.mechanisms.drawing import Shapes, drawn
 from mechsym.page import page
+from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
 
-def write(found: Forces, numbers: dict[str, Any], folder: Path, about: str) -> list[Path]:
+def write(result: Forces, numbers: Json, folder: Path, about: str) -> list[Path]:
     """Write page, tables, summary and pictures.
 
-    Parameters
-    ----------
-    folder : Path
-        Where to write; made when missing
-    about : str
-        What the page says of the machine
+    folder: where to write; made when missing. about: what the page says of the machine.
     """
-    drive, figures = found.turn.drive, _figures(found)
-    turning = plots_mechanism.animation(drive.name, drive.parameters, about, _bore(found))
+    shapes = drawing_of(result)
+    pictures = {picture.name: picture.draw() for picture in result.view.pictures}
+    if shapes is not None:
+        pictures["mechanism"] = plots_mechanism.figure_of(shapes, 0.8)
+    figures = {name: svg(figure) for name, figure in pictures.items()}
     files = [
-        write_text(folder / "report.html", html(found, numbers, figures, about)),
-        write_quantities(folder / "forces.csv", found.columns),
+        write_text(folder / "report.html", html(result, numbers, figures, about)),
+        write_quantities(folder / "forces.csv", result.columns, result.columns.units),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
-        write_text(folder / "mechanism.html", turning),
     ]
-    if found.comparison is not None:
-        files.append(write_quantities(folder / "comparison.csv", _table(found.comparison)))
+    if shapes is not None:
+        files.append(write_text(folder / "mechanism.html", plots_mechanism.animation_of(shapes, about)))
+    if result.comparison is not None:
+        rows = [tell(row) for row in result.comparison]
+        names = [name for name, value in rows[0].items() if not isinstance(value, Mapping)]
+        columns: dict[str, Any] = {name: ["" if row[name] is None else row[name] for row in rows] for name in names}
+        units = units_of(ComparedMechanism) | units_of(ComparedFriction)
+        files.append(write_quantities(folder / "comparison.csv", columns, units))
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 
-def html(found: Forces, numbers: dict[str, Any], figures: dict[str, str], about: str) -> str:
+def html(result: Forces, numbers: Json, figures: dict[str, str], about: str) -> str:
     """The page as text."""
-    rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(numbers)]
+    rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
+    see = {picture.name: picture.see for picture in result.view.pictures}
     largest = max(abs(value) for value in numbers["max"].values())
     return page(
-        "forces.html", numbers=numbers, figures=figures, about=about, see=_see(found), rows=rows,
-        cards=found.view.cards, several=any(row["of"] for row in rows), largest=largest,
-        heaviest=largest / found.turn.omega**2,
+        "forces.html", numbers=numbers, figures=figures, about=about, see=see, rows=rows,
+        cards=result.view.cards, several=any(row["of"] for row in rows), largest=largest,
+        heaviest=largest / result.turn.omega**2, closing=numbers.get(numbers["mechanism"]),
     )  # fmt: skip
 
 
-def _see(found: Forces) -> dict[str, str]:
-    return {picture.name: picture.see for picture in found.view.pictures}
+def drawing_of(forces: Forces) -> Callable[[float], Shapes] | None:
+    """The mechanism at a crank angle [rad]; None where nothing draws it."""
+    one, gas = forces.turn.drive, forces.turn.gas
+    bore = None if gas is None else float(gas.chamber.bore)
+    return drawn(one.name, one.parameters, one.mechanism, bore)
 
 
-def _bore(found: Forces) -> float | None:
-    return None if found.turn.gas is None else float(found.turn.gas.chamber.bore)
+# what bears a load, by how its name starts
+_BEARS = {
+    "p": "gas in the cylinder", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from its load",
+    "pin_and_guide": "pin and guides together", "crank_pin": "crank pin, in the crank's frame",
+    "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
+    "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",
+    "tooth": "teeth", "piston_torque": "crank, from the piston", "guide_combination": "guides together",
+    "journal": "journal of the planet or slider", "X_": "guide of the slider",
+}  # fmt: skip
+_RAW = re.compile(r"_force_[xy](_|$)")
+_NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")
 
 
-def _figures(found: Forces) -> dict[str, str]:
-    drive = found.turn.drive
-    drawn = {picture.name: picture.draw() for picture in found.view.pictures}
-    drawn["mechanism"] = plots_mechanism.figure(drive.name, drive.parameters, 0.8, _bore(found))
-    return {name: svg(figure) for name, figure in drawn.items()}
-
-
-def _table(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    names = [k for k, v in rows[0].items() if not isinstance(v, dict)]
-    return {k: ["" if row[k] is None else row[k] for row in rows] for k in names}
+def borne(forces: Forces) -> list[Json]:
+    """Rows of a name, quantity, of which cylinders or throws, max, min (SI), unit, and what bears it."""
+    rows: dict[tuple[str, ...], Json] = {}
+    largest, smallest = extremes(forces.columns)
+    joints = forces.turn.drive.roles.joints
+    gas = {one.face.input for one in forces.turn.acting}
+    other = set(forces.turn.drive.mechanism.inputs) - gas  # what acts and is no gas
+    for name in quantities(forces):
+        number, ends = _NUMBERED.search(name), (largest[name], smallest[name])
+        printed = tuple(f"{value:.6g}" for value in ends)
+        # the same force under the mechanism's own name
+        if _RAW.search(name) and any(key[1:] == printed and "bearing" in key[0] for key in rows):
+            continue
+        pattern = name if name in joints else _NUMBERED.sub(r"\1*", name)
+        row = rows.setdefault((pattern, *printed), {"names": [], "of": [], "ends": ends})
+        row["names"].append(name)
+        row["of"] += [number[2]] if number else []
+    table = []
+    for (pattern, *_), row in rows.items():
+        several, name, (high, low) = len(row["of"]) > 1, row["names"][0], row["ends"]
+        fitting = [start for start in _BEARS if pattern.startswith(start)]
+        on = _BEARS[max(fitting, key=len)] if fitting and pattern not in other else joints.get(pattern, "")
+        table.append({
+            "name": name, "quantity": pattern if several else name, "of": ", ".join(row["of"]) if several else "",
+            "max": high, "min": low, "unit": forces.columns.units[name], "on": on,
+        })  # fmt: skip
+    return table

@@ -8,6 +8,8 @@ one that turns against it,
 A counterweight on the crank only has the first: the one that leaves the least mean square cancels c_+ exactly. For a
 single slider crank that is half of the reciprocating mass. On a shaft of several throws two counterweights, one at each
 end, cancel the part of force and couple that turns with the crank, and so leave the least mean square of both.
+
+An order k counts oscillations per turn of the crank; a four-stroke cycle has half orders too.
 """
 
 import cmath
@@ -15,11 +17,45 @@ import math
 
 import numpy as np
 
-from mechsym.forces.harmonics import Harmonics, orders, whole
 from mechsym.forces.loads import roll_sense
-from mechsym.forces.turn import Turn, chain_of
-from mechsym.mechanisms.chain import stroke_force
+from mechsym.forces.mains import place
+from mechsym.forces.turn import Turn, main_roles, mass_with
+from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Array, Pure, Radian
+
+
+@record
+class Harmonics:
+    """Harmonics of one quantity, arrays of shape (m,)."""
+
+    order: np.ndarray  #: Oscillations per turn, 0 first [-]
+    amplitude: np.ndarray  #: a_k; the mean for order 0, with its sign [unit of the quantity]
+    phase: np.ndarray  #: delta_k, where the oscillation has its crest [rad]
+
+
+def orders(values: Pure[Array], period: Radian, highest: Pure = 12.0) -> Harmonics:
+    """Harmonics of a quantity given at evenly spaced angles.
+
+    values: over one period, without its end, in any unit; period: period, 2 pi or 4 pi; highest: highest order wanted.
+    """
+    n = len(values)
+    spectrum = np.fft.rfft(values) / n
+    order = np.arange(len(spectrum)) * 2 * math.pi / period
+    wanted = order <= highest + 1e-9
+    amplitude = 2 * np.abs(spectrum)
+    amplitude[0] = spectrum[0].real
+    return Harmonics(order=order[wanted], amplitude=amplitude[wanted], phase=-np.angle(spectrum[wanted]))
+
+
+def whole(harmonics: Harmonics, order: int) -> complex:
+    """One whole order as a complex amplitude.
+
+    Returns amplitude: a exp(-i delta), so that the quantity is Re(a exp(i (k phi - delta))).
+    """
+    at = int(np.argmin(np.abs(harmonics.order - order)))
+    return complex(harmonics.amplitude[at] * np.exp(-1j * harmonics.phase[at]))
+
 
 _NAMES = {
     "force_x": "momentum_rate_x",
@@ -71,13 +107,25 @@ class Shaking:
     planes: tuple[PlaneWeight, ...]
 
 
-def shaking(turn: Turn) -> Shaking:
-    """Shaking forces and moments of a turn."""
+def shaking(turn: Turn) -> Shaking | None:
+    """Shaking forces and moments of a turn; None of a mechanism whose momentum is not known."""
+    if not turn.momentum:
+        return None
     curves = {name: -turn.momentum[key] for name, key in _NAMES.items() if key in turn.momentum}
-    curves["roll"] = -(turn.momentum["angular_momentum_rate"] + roll_sense(turn) * turn.torque)
-    found = {name: orders(values, turn.period) for name, values in curves.items()}
-    counterweight, planes = _counterweight(turn, curves), _planes(turn, curves)
-    return Shaking(curves=curves, orders=found, counterweight=counterweight, planes=planes)
+    if (roll := roll_moment(turn)) is not None:
+        curves["roll"] = roll
+    return Shaking(
+        curves=curves,
+        orders={name: orders(values, turn.period) for name, values in curves.items()},
+        counterweight=_counterweight(turn, curves),
+        planes=_planes(turn, curves),
+    )
+
+
+def roll_moment(turn: Turn) -> np.ndarray | None:
+    """Moment on the frame about the shaft; None of a mechanism that does not tell it: shape (n,) [N*m]."""
+    rate = turn.momentum.get("angular_momentum_rate")
+    return None if rate is None else -(rate + roll_sense(turn) * turn.torque)
 
 
 def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
@@ -94,43 +142,86 @@ def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
 
 
 def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...]:
-    ends = chain_of(turn.drive).ends(turn.drive.parameters)
-    if ends is None:
+    """A pair at both ends of a shaft whose throws all turn one way."""
+    mains = main_roles(turn)
+    places = [place(turn, role) for role in mains]
+    if not places or min(places) == max(places) or {role.sense for role in mains} != {1.0}:
         return ()
-    z = np.array(ends)
+    z = np.array([min(places), max(places)])
     force, couple = (curves[f"force_{n}"] for n in "xy"), (curves["rocking_y"], -curves["rocking_x"])
     turning = [np.mean((x + 1j * y) * np.exp(-1j * turn.phi)) for x, y in (tuple(force), couple)]
-    found = np.linalg.solve(np.array([[1.0, 1.0], z]), -np.array(turning) / turn.omega**2)
+    weights = np.linalg.solve(np.array([[1.0, 1.0], z]), -np.array(turning) / turn.omega**2)
     return tuple(
         PlaneWeight(z=float(place), unbalance=float(abs(u)), angle=cmath.phase(u) % (2 * math.pi))
-        for place, u in zip(z, found.tolist(), strict=True)
+        for place, u in zip(z, weights.tolist(), strict=True)
     )
 
 
-def verdict(turn: Turn, found: Shaking, wanted: BalanceWanted) -> list[str]:
+def verdict(turn: Turn, shakes: Shaking, wanted: BalanceWanted) -> list[str]:
     """Why an arrangement does not have the balance that was asked for.
 
-    Returns
-    -------
-    reasons : list of str
-        One sentence for each force or moment that is left; empty when the balance is reached
+    Returns reasons: one sentence for each force or moment that is left; empty when the balance is reached.
     """
     reasons = []
     for order in wanted.orders:
         for name, unit in (("force_x", "N"), ("force_y", "N"), ("rocking_x", "N m"), ("rocking_y", "N m")):
-            if name not in found.orders:
+            if name not in shakes.orders:
                 continue
-            left, scale = abs(whole(found.orders[name], int(order))), _scale(turn, name)
+            left, scale = abs(whole(shakes.orders[name], int(order))), _scale(turn, name)
             if scale > 0 and left > wanted.limit * scale:
                 reasons.append(
                     f"order {order:g} of {name} is left with {left:.4g} {unit}, {100 * left / scale:.3g} % of one "
-                    f"cylinder's; {chain_of(turn.drive).advice(turn, name, int(order))}"
+                    f"cylinder's; {_advice(turn, shakes, name, int(order))}"
                 )
     return reasons
 
 
 def _scale(turn: Turn, name: str) -> float:
     """Force of one cylinder's reciprocating mass, for a couple times the length of the shaft."""
-    chain, mass = chain_of(turn.drive), chain_of(turn.drive).mass
-    force = chain.inertia(turn) if chain.inertia is not None else stroke_force(turn, mass(turn.drive))
-    return force * (chain.lever(turn.drive.parameters) if name.startswith("rocking") else 1.0)
+    roles, letters = turn.drive.roles, turn.drive.mechanism.parameters
+    force = 0.0
+    for part in roles.faces or roles.pistons:
+        force = max(force, float(mass_with(part, letters) * np.ptp(turn.kinematics[part.travel]) / 2 * turn.omega**2))
+    if name.startswith("rocking"):
+        force *= float(np.ptp([place(turn, role) for role in main_roles(turn)] or [0.0]))
+    return force
+
+
+def _advice(turn: Turn, shakes: Shaking, name: str, order: int) -> str:
+    """What to do about an order of a shaking force or couple that is left."""
+    pins = [role for role in turn.drive.roles.bearings if role.throw is not None]
+    names = ", ".join(f"{math.degrees(role.phase) % 360:g}" for role in pins)
+    if name.startswith("rocking"):
+        return f"cranks at {names} deg are no mirror image about the middle of the shaft; order them symmetrically"
+    if "rocking_x" in shakes.orders:
+        n = len(main_roles(turn))
+        return (
+            f"cranks at {names} deg: the arrows exp(i {order} phase) do not add up to zero; {n} equal throws "
+            f"{360 / n:g} deg apart cancel every order that is no multiple of {n}"
+        )
+    return _two_axes(turn, shakes) or (
+        "one cylinder cannot balance itself; a counterweight takes at most the part that turns with the crank"
+    )
+
+
+def _two_axes(turn: Turn, shakes: Shaking) -> str:
+    """The same of pistons on two axes at right angles, whose forces may add up to one that turns; empty for others."""
+    heavy = dict.fromkeys(face.masses for face in turn.drive.roles.faces if face.masses)
+    rotor = next((rotor for rotor in turn.drive.roles.rotors if rotor.unbalance), None)
+    if len(heavy) != 2 or rotor is None:
+        return ""
+    letters = turn.drive.mechanism.parameters
+    a, b = (masses[0] for masses in heavy)
+    m_a, m_b = (float(amount(mass, letters)) for mass in (a, b))
+    if m_a != m_b:
+        throw = next(role.throw for role in turn.drive.roles.bearings if role.throw is not None)
+        return (
+            f"{a} = {m_a:g} kg and {b} = {m_b:g} kg: a force ({a} - {b}) {throw} omega^2 turns against the crank, and "
+            "no counterweight on it takes that; make the two axes equally heavy"
+        )
+    has, weight = float(amount(rotor.unbalance, letters)), shakes.counterweight
+    wanted = has + weight.unbalance * math.cos(weight.angle)
+    return (
+        f"the resultant turns with the crank: a counterweight of {rotor.unbalance} = {wanted:.4g} kg m on the "
+        f"crank takes all of it, the case has {has:.4g} kg m"
+    )

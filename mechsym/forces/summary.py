@@ -1,127 +1,276 @@
 """The forces of a turn in numbers: largest and smallest, orders, losses, claims."""
 
-import dataclasses
 import math
-from typing import Any
+from collections.abc import Mapping
 
-from mechsym.forces import claims, textbook
-from mechsym.forces.friction import Losses
-from mechsym.forces.harmonics import Harmonics
+import numpy as np
+
+from mechsym import mechanisms
+from mechsym.forces import textbook
+from mechsym.forces.comparison import ComparedMechanism, claims, left_out
+from mechsym.forces.film import Orbit, beyond
+from mechsym.forces.friction import NO_PLACE, Losses
 from mechsym.forces.loads import power_residual
-from mechsym.forces.result import Forces
-from mechsym.forces.shaking import Shaking
-from mechsym.forces.table import angle_of_largest, extremes
-from mechsym.forces.turn import Turn, chain_named, pushes
-from mechsym.mechanisms.traits import with_chain
+from mechsym.forces.mains import specific_load
+from mechsym.forces.result import Forces, angle_of_largest, extremes
+from mechsym.forces.shaking import Harmonics, Shaking
+from mechsym.forces.turn import Turn
+from mechsym.mechanisms.amounts import amount
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.results import Columns, part, quantity, result
 
 _FIRST_ORDER = 0.9  # below this efficiency the frictionless reactions are no longer good for friction
-_RAW = ("phi", "x", "psi", "R_", "two_mass", "terskih")  # motion, reactions that have a name besides, chains
 
 
-def summary(found: Forces, case: str, source: str = "") -> dict[str, Any]:
-    """The result under the names of the command line.
+@result
+class OrderTable:
+    """Harmonics of one quantity."""
 
-    Parameters
-    ----------
-    case, source : str
-        Name of the case, and the source whose engine it is: only the claims of that source are judged
+    unit: str  #: Of the quantity
+    order: list[float] = quantity("-")  #: Oscillations per turn, 0 first
+    amplitude: list[float] = quantity("@unit")  #: The mean for order 0, with its sign
+    phase: list[float] = quantity("rad")  #: Where the oscillation has its crest
 
-    Returns
-    -------
-    summary : dict
-        `max`, `min`, `power_residual`, `angle_of_max_deg`, `torque_orders`, `shaking`, `friction`, `two_mass`,
-        `weight`, `rodless`, `unbalanced`, `comparison`, `claims`, `facts`; what a mechanism does not have is null
+
+@result
+class CounterweightNumbers:
+    """The counterweight on the crank that leaves the least mean square of the shaking force."""
+
+    unbalance: float = quantity("kg*m")  #: Mass times radius
+    rms_before: float = quantity("N", card="shaking force")  #: Root mean square of the shaking force without it
+    rms_after: float = quantity("N")  #: The same with it
+    angle_deg: float = quantity("deg")  #: Where it stands on the crank, in the sense of rotation
+
+
+@result
+class PlaneNumbers:
+    """One of two counterweights that balance force and couple together."""
+
+    z: float = quantity("m")  #: Place along the shaft
+    unbalance: float = quantity("kg*m")  #: Mass times radius
+    angle_deg: float = quantity("deg")  #: Where it stands at shaft angle 0, in the sense of rotation
+
+
+@result
+class JournalNumbers:
+    """A main bearing and what the shaft presses on it."""
+
+    z: float = quantity("m")  #: Place along the shaft
+    load_max: float = quantity("N")  #: Largest over the cycle
+    load_mean: float = quantity("N")  #: Mean over the cycle
+    angle_of_max_deg: float = quantity("deg")  #: Crank angle of the largest
+    #: Largest load over width times diameter; null where `[shaft]` does not give them
+    specific_load: float | None = quantity("Pa")
+    film_min: float | None = quantity("m")  #: Least oil film of a short bearing; null where `[shaft]` gives no oil
+    eccentricity_max: float | None = quantity("-")  #: Largest, over the clearance
+    film_power: float | None = quantity("W")  #: Shear of a full film and squeezing: an upper estimate of the heat
+
+
+@result
+class ShakingNumbers:
+    """What shakes the frame."""
+
+    orders: Mapping[str, OrderTable] = part()  #: Of forces and moments on the frame
+    counterweight: CounterweightNumbers = part()
+    planes: tuple[PlaneNumbers, ...] = part()  #: A pair for force and couple; empty for a single throw
+
+
+@result
+class FrictionNumbers:
+    """Friction of a machine at constant speed, of the first order."""
+
+    power: float = quantity("W")  #: Mean power lost
+    places: Mapping[str, float] = quantity("W")  #: The same by place
+    indicated_power: float = quantity("W")  #: Mean power of the gas
+    mechanical_efficiency: float | None = quantity("-")  #: Null where the gas gives no power
+    friction_mean_pressure: float | None = quantity("Pa")  #: Work lost in a cycle over the swept volume
+    note: str | None = part()  #: What to declare where no place is named
+
+
+@result
+class ClosingNumbers:
+    """How an overconstrained mechanism was closed, and what its masses do to the frame."""
+
+    constraint_rank: int = quantity("-")  #: Independent ones of its constraints
+    constraint_count: int = quantity("-")  #: All of its constraints
+    closing_rule: str = part()
+    inertia_resultant_max: float = quantity("N")  #: Of all that moves but the crank's own unbalance
+    inertia_resultant_min: float = quantity("N")  #: The same, least
+    resultant_off_crank_deg: float = quantity("deg")  #: Largest angle between it and the crank
+
+
+@result
+class BalanceNumbers:
+    """The balance that `[shaking]` asks for."""
+
+    reached: bool = quantity("-")  #: Whether all that was asked for is balanced
+    reasons: list[str] = part()
+
+
+@result
+class ForceNumbers:
+    """Forces of a machine over one cycle at constant speed."""
+
+    case: str = part()
+    mechanism: str = part()
+    speed_rpm: float = quantity("rpm")  #: Of the crank
+    max: Columns = part()  #: Largest value of every column of the table
+    min: Columns = part()  #: Smallest value of every column of the table
+    angle_of_max_deg: Mapping[str, float] = quantity("deg")  #: Where each is largest
+    power_residual: float = quantity("-")  #: Gap of two ways to the power of the load, over the largest power
+    torque_mean: float = quantity("N*m")  #: Of the load
+    driving_torque_mean: float = quantity("N*m")  #: What drives it beside the gas
+    torque_orders: OrderTable = part()
+    journals: tuple[JournalNumbers, ...] = part()  #: Main bearings; empty where their places are not known
+    shaking: ShakingNumbers | None = part()
+    friction: FrictionNumbers | None = part()  #: Where the case has coefficients
+    #: Error of the chains of the sources by force, of a slider crank
+    two_mass: Mapping[str, Mapping[str, float]] | None = quantity("-")
+    weight: Mapping[str, float] | None = quantity("-")  #: What the weights do to the forces of a slider crank
+    closing: Mapping[str, ClosingNumbers | None] = part(inline=True)  #: By overconstrained mechanism
+    balance: BalanceNumbers = part()
+    comparison: list[ComparedMechanism] | None = part()  #: At equal stroke, mass and gas
+    claims: list[dict[str, str]] = part()  #: Of the source, judged
+    facts: list[str] = part()
+    units: Mapping[str, str] = part()  #: Of the columns
+    reactions: Mapping[str, str] = part()  #: Which body acts on which
+
+
+def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
+    """The result in numbers.
+
+    case, source: name of the case, and the source whose engine it is: only the claims of that source are judged.
     """
-    one = found.turn
-    largest, smallest = extremes(found.columns)
-    angles = {k: angle_of_largest(one.phi, v) for k, v in found.columns.items() if k != "phi_deg"}
-    return {
-        "case": case,
-        "mechanism": one.drive.name,
-        "speed_rpm": one.omega * 30 / math.pi,
-        "max": largest,
-        "min": smallest,
-        "angle_of_max_deg": angles,
-        "power_residual": power_residual(one, found.loads),
-        "torque_mean": float(one.torque.mean()),
-        "torque_orders": _order_table(found.torque_orders),
-        "shaking": _shaking(found.shaking),
-        "friction": None if found.losses is None else _friction(found.losses),
-        "two_mass": _two_mass(found) or None,
-        "weight": textbook.weight_shares(one) if found.chains else None,
-        **_told(one),
-        "balance": {"reached": not found.unbalanced, "reasons": found.unbalanced},
-        "comparison": found.comparison,
-        "claims": [row for row in _claims(found) if row["source"] == source],
-        "facts": _facts(found),
-    }
+    one, table = forces.turn, forces.columns
+    largest, smallest = extremes(table)
+    name = mechanisms.listing(one.drive.name)["name"]
+    # of the package, what a closing rule has to close
+    closing: dict[str, ClosingNumbers | None] = {}
+    for other in mechanisms.names():
+        if not mechanisms.own.is_file(other) and mechanisms.roles_of(other).closings:
+            closing[other] = None
+    if one.drive.closing:
+        closing[name] = _closing(one)
+    judged, shares = [] if forces.comparison is None else claims(forces.comparison), None
+    if forces.chains:
+        shares = textbook.weight_shares(one)
+        judged.append(left_out(shares, None if forces.losses is None else forces.losses.mechanical_efficiency))
+    return ForceNumbers(
+        case=case,
+        mechanism=name,
+        speed_rpm=one.omega * 30 / math.pi,
+        max=Columns(largest, table.units),
+        min=Columns(smallest, table.units),
+        angle_of_max_deg={k: angle_of_largest(one.phi, v) for k, v in table.items() if k != "phi_deg"},
+        power_residual=power_residual(one, forces.loads),
+        torque_mean=float(one.torque.mean()),
+        driving_torque_mean=float(one.driving.mean()),
+        torque_orders=_order_table(forces.torque_orders, "N*m"),
+        journals=_journals(forces),
+        shaking=None if forces.shaking is None else _shaking(forces.shaking),
+        friction=None if forces.losses is None else _friction(forces, forces.losses),
+        two_mass={name: textbook.errors(one, chain) for name, chain in forces.chains.items()} or None,
+        weight=shares,
+        closing=closing,
+        balance=BalanceNumbers(reached=not forces.unbalanced, reasons=forces.unbalanced),
+        comparison=forces.comparison,
+        claims=[row for row in judged if row["source"] == source],
+        facts=_facts(forces),
+        units={"phi": "rad", **table.units},
+        reactions=one.drive.roles.joints,
+    )
 
 
-def quantities(numbers: dict[str, Any]) -> list[str]:
-    """Columns that a reader wants to see the extremes of.
-
-    Returns
-    -------
-    names : list of str
-        Without motion, raw reactions and the printed chains
-    """
-    return [name for name in numbers["max"] if not name.startswith(_RAW)]
-
-
-def _order_table(found: Harmonics) -> dict[str, list[float]]:
-    return {"order": found.order.tolist(), "amplitude": found.amplitude.tolist(), "phase": found.phase.tolist()}
+def quantities(forces: Forces) -> list[str]:
+    """Columns that a reader wants to see the extremes of: without motion, printed chains, and reactions that a part
+    of the mechanism has under its own name."""
+    roles, one = forces.turn.drive.roles, forces.turn
+    named = {name for bearing in roles.bearings if bearing.at for name in bearing.reactions}
+    named |= {guide.reaction for guide in roles.guides if guide.at and guide.reaction}
+    hidden = {name for name in named if name.startswith("R_")} | {"phi_deg", "driving_torque", *one.kinematics}
+    hidden |= set(one.drive.mechanism.inputs) - set(one.inputs)
+    return [name for name in forces.columns if name not in hidden and not name.startswith(tuple(forces.chains))]
 
 
-def _shaking(found: Shaking) -> dict[str, Any]:
-    counterweight = dataclasses.asdict(found.counterweight)
-    angle = counterweight.pop("angle")
-    return {
-        "orders": {name: _order_table(values) for name, values in found.orders.items()},
-        "counterweight": counterweight | {"angle_deg": math.degrees(angle)},
-        "planes": [{"z": p.z, "unbalance": p.unbalance, "angle_deg": math.degrees(p.angle)} for p in found.planes],
-    }
+def _order_table(of: Harmonics, unit: str) -> OrderTable:
+    return OrderTable(unit=unit, order=of.order.tolist(), amplitude=of.amplitude.tolist(), phase=of.phase.tolist())
 
 
-def _friction(found: Losses) -> dict[str, Any]:
-    return {
-        "power": sum(found.places.values()),
-        "places": found.places,
-        "indicated_power": found.indicated_power,
-        "mechanical_efficiency": found.mechanical_efficiency,
-        "friction_mean_pressure": found.friction_mean_pressure,
-    }
+def _journals(forces: Forces) -> tuple[JournalNumbers, ...]:
+    orbits: tuple[Orbit | None, ...] = forces.orbits or (None,) * len(forces.journals)
+    return tuple(
+        JournalNumbers(
+            z=journal.z,
+            load_max=float(journal.load.max()),
+            load_mean=float(journal.load.mean()),
+            angle_of_max_deg=angle_of_largest(forces.turn.phi, journal.load),
+            specific_load=specific_load(journal, forces.bearings),
+            film_min=None if orbit is None else orbit.thinnest,
+            eccentricity_max=None if orbit is None else float(np.abs(orbit.eccentricity).max()),
+            film_power=None if orbit is None else orbit.power,
+        )
+        for journal, orbit in zip(forces.journals, orbits, strict=True)
+    )
 
 
-def _two_mass(found: Forces) -> dict[str, dict[str, float]]:
-    return {name: textbook.errors(found.turn, chain) for name, chain in found.chains.items()}
+def _shaking(shaking: Shaking) -> ShakingNumbers:
+    weight = shaking.counterweight
+    return ShakingNumbers(
+        orders={n: _order_table(o, "N" if n.startswith("force") else "N*m") for n, o in shaking.orders.items()},
+        counterweight=CounterweightNumbers(
+            unbalance=weight.unbalance, rms_before=weight.rms_before, rms_after=weight.rms_after,
+            angle_deg=math.degrees(weight.angle),
+        ),
+        planes=tuple(
+            PlaneNumbers(z=p.z, unbalance=p.unbalance, angle_deg=math.degrees(p.angle)) for p in shaking.planes
+        ),
+    )  # fmt: skip
 
 
-def half(found: Forces) -> bool:
+def _friction(forces: Forces, lost: Losses) -> FrictionNumbers:
+    return FrictionNumbers(
+        power=sum(lost.places.values()),
+        places=lost.places,
+        indicated_power=lost.indicated_power,
+        mechanical_efficiency=lost.mechanical_efficiency,
+        friction_mean_pressure=lost.friction_mean_pressure,
+        note=None if lost.places.keys() - {"rings"} else NO_PLACE,
+    )
+
+
+def half(forces: Forces) -> bool:
     """Whether the turn is that of one piston of two that share a chamber."""
-    gas = found.turn.gas
-    return gas is not None and len(pushes(found.turn.drive, gas, found.turn.phi[:1])) < gas.chamber.pistons
+    gas = forces.turn.gas
+    return gas is not None and len({one.face.input for one in forces.turn.acting}) < gas.chamber.pistons
 
 
-def _facts(found: Forces) -> list[str]:
-    gas, lost = found.turn.gas, found.losses
+def _facts(forces: Forces) -> list[str]:
+    gas, lost = forces.turn.gas, forces.losses
     facts = list(gas.pressure.facts) if gas else ["no gas acts: the case has no [cycle]"]
-    if half(found):
+    if half(forces):
         facts.append("loads, torque and friction are those of one piston with its crank; the engine has two of them")
     if lost is not None and lost.mechanical_efficiency is not None and lost.mechanical_efficiency < _FIRST_ORDER:
         share = 100 * (1 - lost.mechanical_efficiency)
         facts.append(f"friction takes {share:.3g} %: first order only, it would change the reactions by about as much")
+    for journal, orbit in zip(forces.journals, forces.orbits, strict=False):
+        if why := beyond(forces.bearings, orbit):
+            facts.append(f"film of the main bearing at z = {quantity_text(journal.z, 'm', 4)}: {why}")
     return facts
 
 
-def _claims(found: Forces) -> list[dict[str, str]]:
-    judged = [] if found.comparison is None else claims.claims(found.comparison)
-    if found.chains:
-        efficiency = None if found.losses is None else found.losses.mechanical_efficiency
-        judged.append(claims.left_out(textbook.weight_shares(found.turn), efficiency))
-    return judged
-
-
-def _told(one: Turn) -> dict[str, Any]:
-    """What only some mechanisms have to tell, by their names; null where it is another that turns."""
-    known = {name: told for name in with_chain() if (told := chain_named(name).told) is not None}
-    return {name: told(one) if one.drive.name == name else None for name, told in known.items()}
+def _closing(one: Turn) -> ClosingNumbers:
+    count, roles = len(mechanisms.listing(one.drive.name)["reactions"]), one.drive.roles
+    letters = one.drive.mechanism.parameters
+    # of link, sliders and pistons; the crank's own unbalance is there to balance it
+    rate = one.momentum["momentum_rate_x"] + 1j * one.momentum["momentum_rate_y"]
+    own = sum(float(amount(rotor.unbalance, letters)) for rotor in roles.rotors)
+    in_crank = -rate * np.exp(-1j * one.phi) - own * one.omega**2
+    size = np.abs(in_crank)
+    return ClosingNumbers(
+        constraint_rank=count - len(roles.closings),
+        constraint_count=count,
+        closing_rule=type(one.drive.closing).__name__,
+        inertia_resultant_max=float(size.max()),
+        inertia_resultant_min=float(size.min()),
+        resultant_off_crank_deg=math.degrees(float(np.abs(np.angle(in_crank)).max())),
+    )

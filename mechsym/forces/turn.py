@@ -1,43 +1,84 @@
 r"""A machine over one cycle at constant speed: gas forces, exact reactions, and the power that they must balance.
 
-At constant speed the load must take, at every angle, what gas and weight give and the moving masses do not store:
+At constant speed the load must take, at every angle, what gas, dampers and weight give and the moving masses do not
+store:
 
 .. math:: M_\mathrm{load}\,\omega = P_\mathrm{gas} - \frac{d}{dt}(T + V)
 
-The same torque follows from the forces on the crank alone; their difference is the power residual.
+The same torque follows from the equations of motion, and from the forces on the crank pins; the largest difference is
+the power residual.
 """
 
+import dataclasses
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
+from mechsym.cycle.motion import slopes, top_of
 from mechsym.errors import BadInput
+from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along
-from mechsym.mechanisms.chain import CrankChain
+from mechsym.mechanisms.closing import ClosingRule, closed
+from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.traits import traits_of, with_chain
+from mechsym.mechanisms.roles import BearingRole, FaceRole, PartRoles, PistonRole
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
     from mechsym.cycle.gas import Gas
+    from mechsym.mechanisms.faces import RodlessFaces
 
 _STEPS_PER_TURN = 1440
 
 
 @record
+class GasFace:
+    """Where gas acts on a mechanism."""
+
+    input: str  #: Takes its force
+    travel: str  #: Output by which its piston moves
+    fires: float  #: Shaft angle at which it fires [rad]
+    area: float | None = None  #: Where it is not that of the bore [m^2]
+    sense: float = 1.0  #: 1 where the gas pushes along the travel, else -1 [-]
+    mass: float = 0.0  #: That moves with it [kg]
+    throw: int = 0  #: Which coordinate turns it
+
+
+@record
+class Acting:
+    """A cylinder with its gas."""
+
+    face: GasFace
+    gas: "Gas"
+
+    @property
+    def area(self) -> float:
+        """Of its piston [m^2]."""
+        return self.gas.chamber.area if self.face.area is None else self.face.area
+
+    def force(self, phi: np.ndarray) -> np.ndarray:
+        """On the input that takes it, over the shaft angle [rad]: [N]."""
+        net = self.gas.pressure.absolute(phi - self.face.fires) - self.gas.p_back
+        return net * self.area if self.face.sense > 0 else -net * self.area
+
+
+@record
 class CrankDrive:
-    """A mechanism with pistons as its force chain sees it."""
+    """A mechanism as its force chain sees it."""
 
     name: str
-    parameters: Any  #: The mechanism's record
+    parameters: Record  #: Of the mechanism
     mechanism: Mechanism  #: With one coordinate and all reactions
-    #: Working faces, and how the parts of an overconstrained mechanism give way; None for the others
-    faces: Any = None
-    closing: Any = None
+    roles: PartRoles
+    #: Working faces that a case chooses, and how an overconstrained mechanism gives way; None for the others
+    faces: "RodlessFaces | None" = None
+    closing: ClosingRule | None = None
 
 
 @record
@@ -45,131 +86,231 @@ class Turn:
     """One cycle at constant speed, evenly spaced angles without the last."""
 
     drive: CrankDrive
-    gas: "Gas | None"
+    acting: tuple[Acting, ...]
     #: Crank speed [rad/s], period of the cycle [rad]
     omega: float
     period: float
     phi: np.ndarray  #: shape (n,): Crank angles [rad]
-    inputs: Mapping[str, np.ndarray]  #: shape (n,): Gas forces by the mechanism's input [N]
+    inputs: Mapping[str, np.ndarray]  #: shape (n,): Gas forces, and what else acts, by the mechanism's input
     #: shape (n,): Outputs of the mechanism at these angles
     kinematics: Mapping[str, np.ndarray]
     reactions: Mapping[str, np.ndarray]
     momentum: Mapping[str, np.ndarray]
     torque: np.ndarray  #: shape (n,): Torque for the load, from the energies [N*m]
+    driving: np.ndarray  #: shape (n,): Torque that holds the speed, from the equations of motion [N*m]
     gas_power: np.ndarray  #: shape (n,): Power of the gas forces [W]
 
     # a turn is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
 
+    @property
+    def gas(self) -> "Gas | None":
+        """Gas of the first cylinder."""
+        return self.acting[0].gas if self.acting else None
 
-def turn(drive: CrankDrive, gas: "Gas | None", omega: float) -> Turn:
+    def rate(self, names: str | Sequence[str]) -> np.ndarray:
+        """Speed of an output or of the coordinate, or of several that add up: shape (n,) [unit/s]."""
+        q, speed = self.drive.mechanism.coordinates[0], np.zeros_like(self.phi)
+        for name in (names,) if isinstance(names, str) else names:
+            slope: Any = 1.0 if name == q else self.kinematics.get(f"d{name}_d{q}")
+            if slope is None:
+                slope = np.asarray(slopes(self.drive.mechanism, name, {})(self.phi[None, :])[1]).ravel()
+            speed = speed + slope * self.omega
+        return speed
+
+
+Gases: TypeAlias = "Gas | Sequence[Acting] | None"
+
+
+def turn(drive: CrankDrive, gas: Gases, omega: RadPerSecond) -> Turn:
     """One cycle at a speed.
 
     Parameters
     ----------
-    gas : Gas or None
-        None: only inertia and weight act
-    omega : float
-        Crank speed [rad/s]
+    gas : Gas, sequence of Acting or None
+        Of every cylinder alike, or of each; None: only inertia and weight act
     """
-    return at(drive, gas, omega, angles(gas))
+    acts = acting(drive, gas)
+    return at(drive, acts, omega, angles(period_of(acts)))
 
 
-def crank_drive(name: str, parameters: Any, faces: Any = None, closing: Any = None) -> CrankDrive:
+def crank_drive(
+    name: str, parameters: Record, faces: "RodlessFaces | None" = None, closing: ClosingRule | None = None
+) -> CrankDrive:
     """A mechanism with one coordinate and every reaction determined.
 
-    Parameters
-    ----------
-    parameters : record
-        Of the mechanism of that name; a crank train stands on a rigid shaft
-    faces : record, optional
-        Where gas acts, for a mechanism that has a choice
-    closing : closing rule, optional
-        What an overconstrained mechanism needs besides
-    """
-    rigid = chain_named(name).rigid
-    mechanism = mechanisms.build(name, parameters) if rigid is None else rigid(parameters, closing)
-    return CrankDrive(name=name, parameters=parameters, mechanism=mechanism, faces=faces, closing=closing)
-
-
-def chain_of(drive: CrankDrive) -> CrankChain:
-    """What the module of a drive's mechanism says of its forces."""
-    return chain_named(drive.name)
-
-
-def chain_named(name: str) -> CrankChain:
-    """What the module of a mechanism says of its forces.
+    parameters: of the mechanism of that name; a crank train stands on a rigid shaft. faces: record, optional, where gas
+    acts, for a mechanism that has a choice. closing: closing rule, optional, what an overconstrained mechanism needs
+    besides.
 
     Raises
     ------
     BadInput
-        It has none, or says nothing of them
+        More than one coordinate is free, or the closing rule is missing
     """
-    known = traits_of(name)
-    if known is None or known.chain is None:
-        raise BadInput(f"forces of {name} are not known; there are {', '.join(with_chain())}")
-    return known.chain
+    return drive_with(mechanisms.rigid(name, parameters), name, parameters, faces, closing)
 
 
-def at(drive: CrankDrive, gas: "Gas | None", omega: float, phi: np.ndarray) -> Turn:
+def drive_with(
+    mechanism: Mechanism,
+    name: str,
+    parameters: Record,
+    faces: "RodlessFaces | None" = None,
+    closing: ClosingRule | None = None,
+) -> CrankDrive:
+    """The same of a mechanism that is reduced to one coordinate already."""
+    roles = plan_of(name).parts(parameters)
+    for role in roles.closings:
+        if closing is None:
+            raise BadInput(f"{mechanism.name} is overconstrained: give the closing rule")
+        mechanism = closed(mechanism, role, closing)
+    return CrankDrive(name=name, parameters=parameters, mechanism=mechanism, roles=roles, faces=faces, closing=closing)
+
+
+def gas_faces(
+    roles: PartRoles, letters: Mapping[str, float], faces: "RodlessFaces | None" = None
+) -> tuple[GasFace, ...]:
+    """Where gas acts on a mechanism: on its pistons with their dead centres at 0, or on faces, as the case chooses.
+
+    letters: its parameters [SI]; faces: record, optional, section `[faces]`.
+
+    Raises
+    ------
+    BadInput
+        The case has to choose, and does not
+    """
+    if not roles.faces:
+        return tuple(
+            GasFace(input=role.force, travel=role.travel, fires=role.fires, mass=mass_with(role, letters))
+            for role in roles.pistons
+        )
+    by_name = {face.name: face for face in roles.faces}
+    rows: list[tuple[FaceRole, float | None, float]]
+    if not roles.chosen:
+        rows = [(face, None, float(face.fires or 0.0)) for face in roles.faces]
+    elif faces is None:
+        raise BadInput("gas acts on the faces of a rodless engine; give them")
+    else:
+        chosen = zip(faces.sides, faces.areas, faces.firing, strict=True)
+        rows = [(by_name[side], area, fires) for side, area, fires in chosen]
+    return tuple(
+        GasFace(
+            input=face.force, travel=face.travel, fires=fires, area=area, sense=face.sense,
+            mass=mass_with(face, letters), throw=face.throw,
+        )
+        for face, area, fires in rows
+    )  # fmt: skip
+
+
+def main_roles(turn: Turn, sense: Pure | None = None) -> list[BearingRole]:
+    """The throws of a shaft by their main bearings."""
+    mains = [role for role in turn.drive.roles.bearings if role.at == "main_bearings"]
+    return [role for role in mains if sense is None or role.sense == sense]
+
+
+def faces_of(drive: CrankDrive) -> tuple[GasFace, ...]:
+    """Where gas acts on a drive; pistons of a declaration fire at their own top dead centres."""
+    faces = gas_faces(drive.roles, drive.mechanism.parameters, drive.faces)
+    if drive.roles.faces:
+        return faces
+    tops = (top_of(slopes(drive.mechanism, one.travel, {})) for one in faces)
+    return tuple(dataclasses.replace(one, fires=top + one.fires) for one, top in zip(faces, tops, strict=True))
+
+
+def mass_with(part: PistonRole | FaceRole, letters: Mapping[str, float]) -> Kilogram:
+    """Mass that moves with a piston or a face."""
+    return sum(float(amount(mass, letters)) for mass in part.masses)
+
+
+def acting(drive: CrankDrive, gas: Gases) -> tuple[Acting, ...]:
+    """The cylinders of a drive with their gas."""
+    if gas is None:
+        return ()
+    if isinstance(gas, Sequence):
+        return tuple(gas)
+    if gas.pistons:  # one gas pushes all of them, by the angle of the shaft
+        shared = zip(gas_faces(drive.roles, drive.mechanism.parameters, drive.faces), gas.pistons, strict=True)
+        return tuple(Acting(gas=gas, face=dataclasses.replace(one, fires=0.0, area=area)) for one, area in shared)
+    plan_of(drive.name).require_firing(drive.parameters, gas.pressure.period)
+    return tuple(Acting(face=one, gas=gas) for one in faces_of(drive))
+
+
+def period_of(acts: Sequence[Acting]) -> float:
+    """Period of the gas of all cylinders [rad]."""
+    return max((one.gas.pressure.period for one in acts), default=2 * math.pi)
+
+
+def at(
+    drive: CrankDrive,
+    gas: Gases,
+    omega: RadPerSecond,
+    phi: Radian[Array],
+    held: Mapping[str, np.ndarray] | None = None,
+    period: Radian | None = None,
+) -> Turn:
     """Forces of a mechanism at given angles.
 
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    phi : ndarray, shape (n,)
-        Crank angles, evenly spaced over a period [rad]
+    phi: crank angles, evenly spaced over a period. held: what acts besides the gas, by input, shape (n,) [unit].
+    period: of all that acts; that of the gas without it.
     """
-    inputs, mechanism = pushes(drive, gas, phi), drive.mechanism
-    letters = _letters(mechanism, omega, phi) | inputs
+    acts, mechanism = acting(drive, gas), drive.mechanism
+    pushed = pushes(acts, phi)
+    inputs = pushed if not held else _sums(pushed, held)
+    idle = _letters(mechanism, omega, phi)
+    letters = idle | inputs
     kinematics, reactions, momentum = (
-        _along(mechanism.functions[name], letters) for name in ("kinematics", "reactions", "momentum")
+        _along(mechanism.functions[name], letters) if name in mechanism.functions else {}
+        for name in ("kinematics", "reactions", "momentum")
     )
-    work, slope = _work_and_slope(mechanism, letters)
+    reactions.pop(f"driving_{mechanism.coordinates[0]}", None)  # the same torque
+    dynamics = _along(mechanism.functions["dynamics"], letters)
+    powers = _along(_powers(mechanism), letters)
+    gained = powers["work"] if not held else _along(_powers(mechanism), idle | pushed)["work"]
     return Turn(
         drive=drive,
-        gas=gas,
+        acting=acts,
         omega=omega,
-        period=gas.pressure.period if gas else 2 * math.pi,
+        period=period_of(acts) if period is None else period,
         phi=phi,
         inputs=inputs,
         kinematics=kinematics,
         reactions=reactions,
         momentum=momentum,
-        torque=work - slope,
-        gas_power=work * omega,
+        torque=powers["work"] + powers["damping"] - powers["slope"],
+        driving=dynamics["bias"] - dynamics["generalized_force"],
+        gas_power=gained * omega,
     )
 
 
-def shaft_torque(drive: CrankDrive, gas: "Gas | None", omega: float) -> np.ndarray:
+def shaft_torque(
+    drive: CrankDrive, acts: Sequence[Acting], omega: RadPerSecond, phi: Radian[Array], held: Mapping[str, np.ndarray]
+) -> NewtonMetre[Array]:
     """Torque for the load over a cycle, without the reactions.
 
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-
-    Returns
-    -------
-    torque : ndarray, shape (n,)
-        As `Turn.torque` [N*m]
+    held: what acts besides the gas, by input, shape (n,) [unit]. Returns torque: as `Turn.torque`.
     """
-    phi = angles(gas)
-    work, slope = _work_and_slope(drive.mechanism, _letters(drive.mechanism, omega, phi) | pushes(drive, gas, phi))
-    return work - slope
+    inputs = _sums(pushes(acts, phi), held)
+    powers = _along(_powers(drive.mechanism), _letters(drive.mechanism, omega, phi) | inputs)
+    return powers["work"] + powers["damping"] - powers["slope"]
 
 
-def angles(gas: "Gas | None") -> np.ndarray:
-    """Evenly spaced angles of a cycle without the last [rad]."""
-    period = gas.pressure.period if gas else 2 * math.pi
+def angles(period: float) -> np.ndarray:
+    """Evenly spaced angles of a period [rad] without the last [rad]."""
     steps = round(_STEPS_PER_TURN * period / (2 * math.pi))
     return np.arange(steps) * period / steps
 
 
-def _work_and_slope(mechanism: Mechanism, letters: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    work = _along(_virtual_work(mechanism), letters)["gas"]
-    return work, _along(_energy_slope(mechanism), letters)["slope"]
+def pushes(acts: Sequence[Acting], phi: np.ndarray) -> dict[str, np.ndarray]:
+    """Gas forces by the input of the mechanism that takes them, over crank angles [rad]: shape (n,) [N]."""
+    forces: dict[str, np.ndarray] = {}
+    for one in acts:
+        name, force = one.face.input, one.force(phi)
+        forces[name] = forces[name] + force if name in forces else force
+    return forces
+
+
+def _sums(one: Mapping[str, np.ndarray], other: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {**one, **{name: one[name] + values if name in one else values for name, values in other.items()}}
 
 
 def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, np.ndarray]:
@@ -178,56 +319,23 @@ def _letters(mechanism: Mechanism, omega: float, phi: np.ndarray) -> dict[str, n
     return {q: phi, f"{q}d": none + omega, f"{q}dd": none} | dict.fromkeys(mechanism.inputs, none)
 
 
-def pushes(drive: CrankDrive, gas: "Gas | None", phi: np.ndarray) -> dict[str, np.ndarray]:
-    """Gas forces by the input of the mechanism that takes them [N].
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    """
-    if gas is None:
-        return {}
-
-    def net(angle: np.ndarray) -> np.ndarray:
-        return gas.pressure.absolute(angle) - gas.p_back
-
-    if gas.pistons:
-        return {f"F{i + 1}": net(phi) * area for i, area in enumerate(gas.pistons)}
-    return chain_of(drive).pushes(drive, net, gas.chamber.area, phi, gas.pressure.period)
-
-
 def _along(function: ca.Function, letters: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     return along(function, {name: letters[name] for name in function.name_in()})
 
 
-def _virtual_work(mechanism: Mechanism) -> ca.Function:
-    """Torque of the gas forces alone: generalised force with them less without them."""
-    dynamics = mechanism.functions["dynamics"]
+def _powers(mechanism: Mechanism) -> ca.Function:
+    """At constant speed, by the angle: work of the inputs and of the dampers, and the slope of the energies [N*m]."""
+    dynamics, energy = mechanism.functions["dynamics"], mechanism.functions["energy"]
     letters = {n: ca.SX.sym(n) for n in dynamics.name_in()}
+    named = [letters[n] for n in mechanism.inputs if n in letters]
     force = dynamics(**letters)["generalized_force"]
-    loads = [n for n in mechanism.inputs if n not in gas_inputs(mechanism)]
-    given = ca.substitute(force, ca.vertcat(*(letters[n] for n in loads)), ca.DM.zeros(len(loads)))
-    names = gas_inputs(mechanism)
-    idle = ca.substitute(given, ca.vertcat(*(letters[n] for n in names)), ca.DM.zeros(len(names)))
-    return ca.Function("work", list(letters.values()), [given - idle], list(letters), ["gas"])
-
-
-def _energy_slope(mechanism: Mechanism) -> ca.Function:
-    """d(T + V)/dphi at constant speed."""
-    energy = mechanism.functions["energy"]
-    letters = {n: ca.SX.sym(n) for n in energy.name_in()}
-    found = energy(**letters)
-    slope = ca.gradient(found["kinetic_energy"] + found["potential_energy"], letters[mechanism.coordinates[0]])
-    return ca.Function("slope", list(letters.values()), [slope], list(letters), ["slope"])
-
-
-def gas_inputs(mechanism: Mechanism) -> list[str]:
-    """Inputs of a mechanism that are gas forces.
-
-    Returns
-    -------
-    names : list of str
-        All inputs that start with F
-    """
-    return [n for n in mechanism.inputs if n.startswith("F")]
+    inputs = ca.vertcat(*named) if named else ca.SX(0, 1)
+    idle = ca.substitute(force, inputs, ca.DM.zeros(len(named))) if named else force
+    stored = energy(**{n: letters[n] for n in energy.name_in()})
+    q, u = (letters[f"{mechanism.coordinates[0]}{dot}"] for dot in ("", "d"))
+    damped = ca.jacobian(idle, u).nnz() > 0
+    damping = idle + ca.gradient(stored["potential_energy"], q) if damped else ca.SX(0)
+    slope = ca.gradient(stored["kinetic_energy"] + stored["potential_energy"], q)
+    return ca.Function(
+        "powers", list(letters.values()), [force - idle, damping, slope], list(letters), ["work", "damping", "slope"]
+    )

@@ -11,14 +11,15 @@ result      a finished design                                         summary, p
 from mechsym.quantities import lazily
 
 _NAMES = {
-    "AirAbsolute": "mechsym.hinge.springs:AirAbsolute",
-    "AirGauge": "mechsym.hinge.springs:AirGauge",
+    "AirAbsolute": "mechsym.hinge.springs.air:AirAbsolute",
+    "AirGauge": "mechsym.hinge.springs.air:AirGauge",
     "at_angles": "mechsym.hinge.contact:at_angles",
-    "Coil": "mechsym.hinge.springs:Coil",
+    "Coil": "mechsym.hinge.springs.coil:Coil",
     "crank_torque": "mechsym.hinge.guide:crank_torque",
     "cut": "mechsym.hinge.guide:cut",
     "fitted": "mechsym.hinge.fitted:fitted",
     "judge": "mechsym.hinge.limits:judge",
+    "Limits": "mechsym.hinge.choices:Limits",
     "parallel": "mechsym.hinge.rollers:parallel",
     "refit": "mechsym.hinge.guide:refit",
     "retune": "mechsym.hinge.retune:retune",

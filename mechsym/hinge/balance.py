@@ -44,15 +44,7 @@ class Balance:
 def balance(hinge: Hinge, kind: str) -> Balance:
     """The part of the hinge torque that the hinge takes.
 
-    Parameters
-    ----------
-    hinge : Hinge
-        Torque that would keep the speed constant
-
-    Returns
-    -------
-    balance : Balance
-        The torque, the rest and its ripple
+    hinge: torque that would keep the speed constant. Returns balance: the torque, the rest and its ripple.
     """
     if kind not in BALANCES:
         raise BadInput(f"balance = {kind!r} is not an option; options are {', '.join(BALANCES)}")
@@ -83,15 +75,7 @@ def turn_mean(torque: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
 
     .. math:: \bar M(\varphi) = \frac1k \sum_{i=0}^{k-1} M(\varphi + 2 \pi i)
 
-    Parameters
-    ----------
-    torque : PPoly
-        Torque over k whole turns [N*m]
-
-    Returns
-    -------
-    mean : PPoly
-        Torque of period 2 pi [N*m]
+    torque: torque over k whole turns [N*m]. Returns mean: torque of period 2 pi [N*m].
     """
     turns = round(torque.x[-1] / _TURN)
     shifts = _TURN * np.arange(turns)[:, None]

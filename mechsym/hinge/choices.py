@@ -18,7 +18,10 @@ Source: Zotov et al. (2024), section 3, draws two rollers on one track, which ca
 import math
 
 from mechsym.errors import BadInput
+from mechsym.hinge.bounds.spring import CLOSING, SPRING_PRESSURE
+from mechsym.hinge.bounds.track import HERTZ_STRESS, PRESSURE_ANGLE, ROLLER_REACTION, UNDERCUT
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Pure, Radian
 
 BALANCES = ("whole_cycle", "every_turn")  # part of the torque that is balanced
 ROLLERS = {"two_tracks": 2, "one_roller": 1, "half_speed_pi_periodic": 2}
@@ -33,7 +36,9 @@ class GuideParameters:
     start: str = choice("placed", "as_printed", default="placed", about="where the turn starts on the spring's curve")
     #: Shaft axis to roller centre where the spring has its free height [m]
     rho0: float = quantity("m", above=0, high=100, about="roller centre to shaft axis at free height")
-    z_margin: float = quantity("m", default=0.0, low=0, about="smallest closing of a placed start")
+    z_margin: float = quantity(
+        "m", default=0.0, low=0, about="smallest closing of a placed start", only=("start", "placed")
+    )
     shaft_ratio: float = quantity("-", default=1.0, above=0, about="turns of the guide's shaft per turn of the crank")
     #: Part of the torque to balance, `whole_cycle` or `every_turn`
     balance: str = choice(*BALANCES, default="whole_cycle", about="part of the torque to balance")
@@ -41,39 +46,29 @@ class GuideParameters:
 
 @record
 class Limits:
-    """What the spring, the track and the rollers may be asked."""
+    """What the spring, the track and the rollers may be asked; one row for each limit, see `bounds.face`."""
 
-    spring_pressure: float = quantity("Pa", above=0, about="excess pressure in the air spring")
-    closing_share: float = quantity("-", above=0, high=1, about="closing over free height, z / H")
-    pressure_angle: float = quantity("rad", above=0, below=math.pi / 2, about="pressure angle")
-    profile_radius: float = quantity("m", low=0, about="radius of the profile where it bulges towards the roller")
-    roller_reaction: float = quantity("N", above=0, about="contact force on a roller")
-    hertz_stress: float = quantity("Pa", above=0, about="contact pressure")
+    spring_pressure: float = SPRING_PRESSURE.setting()
+    closing_share: float = CLOSING.setting()
+    pressure_angle: float = PRESSURE_ANGLE.setting()
+    profile_radius: float = UNDERCUT.setting()
+    roller_reaction: float = ROLLER_REACTION.setting()
+    hertz_stress: float = HERTZ_STRESS.setting()
 
 
-def closing_ratio(arrangement: str, period: float) -> float:
+def closing_ratio(arrangement: str, period: Radian) -> Pure:
     """The fastest shaft on which a track closes after one turn.
 
-    Parameters
-    ----------
-    period : float
-        Period of the torque over the crank angle [rad]
-
-    Returns
-    -------
-    shaft_ratio : float
-        Turns of the guide's shaft per turn of the crank [-]
+    period: period of the torque over the crank angle. Returns shaft_ratio: turns of the guide's shaft per turn of the
+    crank.
     """
     return 2 * math.pi / (period * _PERIODS_MULTIPLE_OF[arrangement])
 
 
-def refuse_open_track(parameters: GuideParameters, period: float) -> None:
+def refuse_open_track(parameters: GuideParameters, period: Radian) -> None:
     """Refuse a shaft ratio with which the track would not close.
 
-    Parameters
-    ----------
-    period : float
-        Period of the torque over the crank angle [rad]
+    period: period of the torque over the crank angle.
     """
     multiple = _PERIODS_MULTIPLE_OF[parameters.arrangement]
     periods = 2 * math.pi / (period * parameters.shaft_ratio)

@@ -1,15 +1,19 @@
 """One turn of the guide in numbers: path, spring, contact and torque at many angles."""
 
-import dataclasses
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from mechsym import periodic
 from mechsym.hinge import rollers
-from mechsym.hinge.guide import Guide, closing, path, spring_state
+from mechsym.hinge.bounds.face import Station
+from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.guide import Guide, path, warmth
 from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs.face import Spring
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Metre, Pure, Radian, RadPerSecond
 
 
 @record
@@ -39,15 +43,13 @@ class Contact:
     #: On the guide's shaft: driving, and lost to rolling resistance of all rollers [N*m]
     torque: np.ndarray
     loss_torque: np.ndarray
+    station: Station  #: The same, as limits ask it
 
 
-def at_angles(guide: Guide, parameters: RollerParameters, theta: np.ndarray) -> Contact:
+def at_angles(guide: Guide, parameters: RollerParameters, theta: Radian[Array]) -> Contact:
     """The turn at given angles, for tables and plots.
 
-    Parameters
-    ----------
-    theta : ndarray, shape (n,)
-        Angles of the guide's shaft [rad]
+    theta: angles of the guide's shaft.
     """
     rho = path(guide)
     values = [rho(theta), rho.derivative()(theta), rho.derivative(2)(theta)]
@@ -57,10 +59,7 @@ def at_angles(guide: Guide, parameters: RollerParameters, theta: np.ndarray) -> 
 def at_pieces(guide: Guide, parameters: RollerParameters) -> Contact:
     """The turn at points dense enough for extremes; each kink appears twice, with the values of both its sides.
 
-    Returns
-    -------
-    contact : Contact
-        Arrays of shape (n,), angles not decreasing
+    Returns contact: arrays of shape (n,), angles not decreasing.
     """
     rho = path(guide)
     theta = periodic.piece_points(rho, 65)
@@ -68,26 +67,35 @@ def at_pieces(guide: Guide, parameters: RollerParameters) -> Contact:
     return _contact(guide, parameters, theta.ravel(), values)
 
 
-def columns(contact: Contact) -> dict[str, np.ndarray]:
-    """The turn as columns of a CSV file.
+def station_of(
+    spring: Spring, choices: GuideParameters, rollers: RollerParameters, omega: RadPerSecond,
+    values: Sequence[Metre[Array]], warm: Pure[Array] | None = None,
+) -> Station:  # fmt: skip
+    """A guide at angles of its track.
 
-    Returns
-    -------
-    columns : dict of str to ndarray
-        By field name; the pressure only of a gas spring
+    omega: speed of the crank. values: path and its derivatives there. warm: state of the gas, where it has one.
     """
-    values = {field.name: getattr(contact, field.name) for field in dataclasses.fields(contact)}
-    return {name: value for name, value in values.items() if value is not None}
+    count = ROLLERS[choices.arrangement]
+    rho, drho, d2rho = values
+    z = count * (choices.rho0 - rho)
+    return Station(
+        spring=spring, rollers=rollers, count=count, rho0=choices.rho0, omega=omega * choices.shaft_ratio,
+        rho=rho, drho=drho, d2rho=d2rho, z=z, force=spring.force(z, warm), warm=warm,
+    )  # fmt: skip
+
+
+def end_stations(along: Station, extremes: Metre[Array]) -> Station:
+    """Both ends of the path by its largest and smallest radius; a gas with a state has no force of its closing."""
+    z, spring = along.count * (along.rho0 - extremes), along.spring
+    force = None if spring.state else spring.force(z)
+    return replace(along, rho=extremes, drho=0.0, d2rho=0.0, z=z, force=force, warm=None)
 
 
 def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, values: Sequence[np.ndarray]) -> Contact:
     rho, drho, d2rho = values
-    chosen, z = guide.parameters, closing(guide, rho)
-    force, pressure = spring_state(guide, theta, z)
-    kappa = rollers.curvature(rho, drho, d2rho)
-    inertia_force = rollers.inertia_force(rho, d2rho, guide.omega * chosen.shaft_ratio)
-    # rollers that turn with the shaft are pressed outwards by their own mass too
-    reaction = rollers.reaction(force + parameters.moving_mass * inertia_force, rho, drho)
+    chosen = guide.parameters
+    warm = warmth(guide)(theta) if guide.spring.state else None
+    at = station_of(guide.spring, chosen, parameters, guide.omega, values, warm)
     offset = parameters.plane_offset if chosen.arrangement == "two_tracks" else 0.0
     return Contact(
         theta=theta,
@@ -95,16 +103,17 @@ def _contact(guide: Guide, parameters: RollerParameters, theta: np.ndarray, valu
         rho=rho,
         drho=drho,
         d2rho=d2rho,
-        z=z,
-        force=force,
-        pressure=pressure,
-        pressure_angle=rollers.pressure_angle(rho, drho),
-        curvature=kappa,
-        reaction_1=reaction,
-        reaction_2=force if guide.rollers == 1 else reaction,
-        hertz_stress=rollers.hertz_stress(reaction, kappa, parameters),
-        tilting_couple=rollers.tilting_couple(reaction, offset),
-        inertia_force=inertia_force,
-        torque=guide.rollers * force * drho,
-        loss_torque=guide.rollers * rollers.loss_torque(reaction, rho, drho, parameters),
+        z=at.z,
+        force=at.force,
+        pressure=at.pressure,
+        pressure_angle=at.pressure_angle,
+        curvature=at.curvature,
+        reaction_1=at.reaction,
+        reaction_2=at.force if guide.rollers == 1 else at.reaction,
+        hertz_stress=at.hertz_stress,
+        tilting_couple=rollers.tilting_couple(at.reaction, offset),
+        inertia_force=rollers.inertia_force(rho, d2rho, at.omega),
+        torque=guide.rollers * at.force * drho,
+        loss_torque=guide.rollers * rollers.loss_torque(at.reaction, rho, drho, parameters),
+        station=at,
     )

@@ -13,9 +13,9 @@ import numpy as np
 
 from mechsym.hinge.guide import Guide, closing, path
 from mechsym.hinge.rollers import RollerParameters, parallel
-from mechsym.hinge.springs import Coil
 from mechsym.mechanisms.drawing import Circle, Line, Point, Shapes
 from mechsym.mechanisms.drawn_parts import box, turned
+from mechsym.quantities.units import Array, Metre
 
 _CORNERS = 181  # of a track
 _COILS = 9
@@ -36,13 +36,10 @@ def elastic_hinge(guide: Guide, rollers: RollerParameters) -> Callable[[float], 
     return shapes
 
 
-def same_after_half_a_turn(points: np.ndarray) -> bool:
+def same_after_half_a_turn(points: Metre[Array]) -> bool:
     """Whether a closed curve, given at even angles with both ends, comes back to itself after half a turn.
 
-    Parameters
-    ----------
-    points : ndarray, shape (n, 2)
-        Any n that is odd [m]
+    points: any n that is odd, shape (n, 2).
     """
     half = len(points) // 2
     return bool(np.abs(points[half:] + points[: half + 1]).max() < 1e-6 * float(np.abs(points).max()))
@@ -65,10 +62,10 @@ def _corners(points: np.ndarray) -> tuple[Point, ...]:
 def _spring(guide: Guide, rollers: RollerParameters, rho: float) -> Iterator[Line | Circle]:
     """Along x: the roller of the first track at +rho, of the second at -rho or a seat on the shaft."""
     z, both = float(closing(guide, np.array(rho))), guide.rollers == 2
-    if isinstance(guide.spring, Coil):
-        yield from _coil(rho, rollers.radius, both)
-    else:
+    if guide.spring.gas:
         yield from _gas(guide, rollers.radius, rho, z, both)
+    else:
+        yield from _coil(rho, rollers.radius, both)
     for x in (rho, -rho) if both else (rho,):
         yield Circle(role="roller", centre=(x, 0.0), radius=rollers.radius)
         yield Circle(role="joint", centre=(x, 0.0), radius=0.2 * rollers.radius)
@@ -77,7 +74,7 @@ def _spring(guide: Guide, rollers: RollerParameters, rho: float) -> Iterator[Lin
 def _gas(guide: Guide, radius: float, rho: float, z: float, both: bool) -> Iterator[Line | Circle]:
     """Column of gas between two pistons in a sleeve; their rods, of constant length, end at the rollers."""
     spring = guide.spring
-    length, bore = spring.H - z, math.sqrt(4 * spring.A / math.pi)  # type: ignore[union-attr]
+    length, bore = spring.H - z, math.sqrt(4 * spring.area / math.pi)
     thick = min(0.25 * bore, 0.08 * guide.parameters.rho0)
     # one roller: the seat stands so far behind the shaft that the rod keeps the roller's radius and a piston's length
     seat = -length / 2 if both else min(0.0, guide.parameters.rho0 - spring.H - radius - 2 * thick)

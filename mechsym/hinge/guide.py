@@ -18,7 +18,6 @@ Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import scipy
@@ -27,15 +26,12 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
-from mechsym.hinge.law_path import LawSpring, can_be_given, law_path, takes_work, work_range
-from mechsym.hinge.law_path import status as law_status
-from mechsym.hinge.springs import law
-from mechsym.hinge.thermal import AirThermal, GasTurn, thermal_pressure
-from mechsym.hinge.thermal_guide import ThermalPath, gas_on, thermal_path, warmth_of
+from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Metre, NewtonMetre, Radian
 
-Spring = LawSpring | AirThermal
+_POINTS = 1440  # angles of a period at which a gas with a state is followed
 
 
 @record
@@ -46,30 +42,17 @@ class Guide:
     spring: Spring  #: Spring in it: the one it was cut for, or another (see `refit`)
     omega: float  #: Crank speed that it was made for [rad/s]
     rollers: int  #: Rollers c that move the spring
-    #: `cut`; or why not: `takes_work` (no spring gives this torque), `spring_bottoms`, `spring_pulls` (this spring
-    #: cannot hold the work), `crosses_axis` (rho would not stay positive)
-    status: str
+    status: str  #: `cut`, or why not, see `TrackPath`
     reason: str
-    #: Path of the roller centres over the angle theta of the guide's shaft [m]; None unless cut
-    rho: "scipy.interpolate.PPoly | None"
+    rho: "scipy.interpolate.PPoly | None"  #: Path over the angle theta of the guide's shaft [m]; None unless cut
     closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
 def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) -> Guide:
-    r"""Guide that makes a spring give a torque.
+    """Guide that makes a spring give a torque, as the spring says, see `Spring.path`.
 
-    .. math:: U(z) = U_0 - W(\varphi), \qquad \rho = \rho_0 - z / c, \qquad
-              \frac{d\rho}{d\theta} = \frac{M_h}{\text{shaft ratio}\; c\, F(z)}
-
-    Parameters
-    ----------
-    wanted : Hinge or Balance
-        Torque to give with its work: all of it, or the part that was chosen
-
-    Returns
-    -------
-    guide : Guide
-        The path, or status and reason
+    wanted: torque to give with its work: all of it, or the part that was chosen. Returns guide: the path, or status and
+    reason.
 
     Raises
     ------
@@ -78,40 +61,22 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
 
     Notes
     -----
-    Source: Zotov et al. (2024), eqs. (9) to (11): U_0 = 0, c = 2, gauge law. The slope is fitted and the path is its
-    exact integral, so that the torque of the path is exact too. Massless rollers and spring, no friction.
+    Valid: massless rollers and spring, no friction.
     """
-    rollers = ROLLERS[parameters.arrangement]
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
         raise BadInput(f"guide.z_margin = {parameters.z_margin:g} m is not below spring.H = {spring.H:g} m")
-    if isinstance(spring, AirThermal):
-        return _cut_thermal(wanted, spring, parameters)
-    low, high = work_range(wanted)
-    at_start = 0.0 if parameters.start == "as_printed" else float(law(spring).energy(parameters.z_margin)) + high
-    status, reason = law_status(wanted, spring, parameters, at_start - high, at_start - low)
-    rho, closure = law_path(wanted, spring, parameters, at_start) if status == "cut" else (None, 0.0)
+    track = spring.path(wanted, parameters)
     return Guide(
         parameters=parameters,
         spring=spring,
         omega=wanted.omega,
-        rollers=rollers,
-        status=status,
-        reason=reason,
-        rho=rho,
-        closure=closure,
+        rollers=ROLLERS[parameters.arrangement],
+        status=track.status,
+        reason=track.reason,
+        rho=track.rho,
+        closure=track.closure,
     )
-
-
-def _cut_thermal(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParameters) -> Guide:
-    if can_be_given(wanted):
-        found = thermal_path(wanted, spring, parameters)
-    else:
-        found = ThermalPath(rho=None, status="takes_work", reason=takes_work(wanted), kept=0.0, closure=0.0)
-    return Guide(
-        parameters=parameters, spring=spring, omega=wanted.omega, rollers=ROLLERS[parameters.arrangement],
-        status=found.status, reason=found.reason, rho=found.rho, closure=found.closure,
-    )  # fmt: skip
 
 
 def refit(guide: Guide, spring: Spring) -> Guide:
@@ -122,10 +87,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
 def path(guide: Guide) -> "scipy.interpolate.PPoly":
     """The path of the roller centres.
 
-    Returns
-    -------
-    rho : PPoly
-        Over the angle of the guide's shaft [m]
+    Returns rho: over the angle of the guide's shaft [m].
 
     Raises
     ------
@@ -137,74 +99,56 @@ def path(guide: Guide) -> "scipy.interpolate.PPoly":
     return guide.rho
 
 
-def closing(guide: Guide, rho: np.ndarray) -> np.ndarray:
+def closing(guide: Guide, rho: Metre[Array]) -> Metre[Array]:
     r"""Closing of the spring.
 
     .. math:: z = c\,(\rho_0 - \rho)
 
-    Parameters
-    ----------
-    rho : ndarray
-        Distance of the roller centres [m]
-
-    Returns
-    -------
-    z : ndarray
-        Shape of `rho` [m]
+    rho: distance of the roller centres.
     """
     return guide.rollers * (guide.parameters.rho0 - rho)
 
 
-def spring_state(guide: Guide, theta: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Force of the spring on each roller [N] and excess pressure in it [Pa]; a gas that exchanges heat runs steadily.
+def spring_state(guide: Guide, theta: Radian[Array], z: Metre[Array]) -> tuple[np.ndarray, np.ndarray | None]:
+    """Force of the spring on each roller [N] and excess pressure in it [Pa]; a gas with a state runs steadily.
 
-    Parameters
-    ----------
-    theta : ndarray, shape (n,)
-        Angle of the guide's shaft, which a spring with a law of its closing does not ask for [rad]
-    z : ndarray, shape (n,)
-        Closing [m]
+    theta: angle of the guide's shaft, which a spring whose closing says all does not ask for; z: closing.
     """
-    spring = guide.spring
-    if not isinstance(spring, AirThermal):
-        functions = law(spring)
-        return functions.force(z), None if functions.pressure is None else functions.pressure(z)
-    pressure = thermal_pressure(z, spring.H, spring.p0, spring.pa, warmth(guide, spring)(theta))
-    return spring.A * pressure, pressure
+    warm = warmth(guide)(theta) if guide.spring.state else None
+    return guide.spring.force(z, warm), guide.spring.pressure(z, warm)
 
 
-def gas_turn(guide: Guide, spring: AirThermal) -> GasTurn:
-    """Steady turn of a gas in the spring of a guide at its speed, at even angles of a period."""
-    return gas_on(spring, path(guide), partial(closing, guide), guide.omega * guide.parameters.shaft_ratio)
+def gas_turn(guide: Guide) -> GasTurn:
+    """Steady turn of a gas with a state at the speed of its guide, at even angles of a period."""
+    rho = path(guide)
+    period = float(rho.x[-1] - rho.x[0])
+    theta = rho.x[0] + np.arange(_POINTS) * period / _POINTS
+    omega = guide.omega * guide.parameters.shaft_ratio
+    return guide.spring.turn(closing(guide, rho(theta)), np.full(_POINTS, period / _POINTS), omega)
 
 
-def warmth(guide: Guide, spring: AirThermal) -> "scipy.interpolate.PPoly":
-    """Temperature of that gas by the wall's [-] over the angle of the guide's shaft."""
-    return warmth_of(spring, gas_turn(guide, spring), path(guide))
+def warmth(guide: Guide) -> "scipy.interpolate.PPoly":
+    """Its temperature by the wall's [-] over the angle of the guide's shaft."""
+    rho, turn = path(guide), gas_turn(guide)
+    values = np.append(turn.warmth, turn.warmth[0])
+    curve = scipy.interpolate.CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
+    return scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
 
 
 def kept_torque(guide: Guide) -> float:
     """Mean torque on the crank that a gas keeps as heat, 0 for springs that give all back [N*m]."""
-    if not isinstance(guide.spring, AirThermal) or guide.rho is None:
+    if not guide.spring.state or guide.rho is None:
         return 0.0
     period = float(guide.rho.x[-1] - guide.rho.x[0])
-    return guide.parameters.shaft_ratio * gas_turn(guide, guide.spring).loss / period
+    return guide.parameters.shaft_ratio * gas_turn(guide).loss / period
 
 
-def crank_torque(guide: Guide, phi: np.ndarray) -> np.ndarray:
+def crank_torque(guide: Guide, phi: Radian[Array]) -> NewtonMetre[Array]:
     r"""Torque of a guide on the crank by virtual work, with the spring that is in it.
 
     .. math:: M_h^* = \text{shaft ratio}\; c\, F(z)\, \frac{d\rho}{d\theta}
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angle [rad]
-
-    Returns
-    -------
-    torque : ndarray, shape (n,)
-        On the crank, positive driving [N*m]
+    Returns torque: on the crank, positive driving.
 
     Notes
     -----
@@ -219,26 +163,21 @@ def crank_torque(guide: Guide, phi: np.ndarray) -> np.ndarray:
 def torque_function(guide: Guide) -> Callable[[float], float]:
     """The same torque as a fast function of one float, for time simulations.
 
-    Returns
-    -------
-    torque : callable
-        Crank angle, any real number [rad], to torque on the crank [N*m]; about 1.5 microseconds
+    Returns torque: crank angle, any real number [rad], to torque on the crank [N*m]; about 1.5 microseconds.
     """
-    point, force = periodic.scalar(path(guide)), _force_at(guide)
+    point, force = periodic.scalar(path(guide)), guide.spring.force
     c, rho0, ratio = guide.rollers, guide.parameters.rho0, guide.parameters.shaft_ratio
+    if guide.spring.state:
+        warm = periodic.scalar(warmth(guide))
+
+        def warm_torque(phi: float) -> float:
+            rho, slope = point(ratio * phi)
+            return float(ratio * c * force(c * (rho0 - rho), warm(ratio * phi)[0]) * slope)
+
+        return warm_torque
 
     def torque(phi: float) -> float:
         rho, slope = point(ratio * phi)
-        return ratio * c * force(c * (rho0 - rho), ratio * phi) * slope
+        return ratio * c * force(c * (rho0 - rho)) * slope
 
     return torque
-
-
-def _force_at(guide: Guide) -> Callable[[float, float], float]:
-    """Force [N] by closing [m] and angle of the guide's shaft [rad]."""
-    spring = guide.spring
-    if not isinstance(spring, AirThermal):
-        force = law(spring).force
-        return lambda z, theta: force(z)
-    warm, A, H, p0, pa = periodic.scalar(warmth(guide, spring)), spring.A, spring.H, spring.p0, spring.pa
-    return lambda z, theta: A * thermal_pressure(z, H, p0, pa, warm(theta)[0])

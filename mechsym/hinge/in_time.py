@@ -14,9 +14,8 @@ so that the balance has the energy in the gas and the heat that has left it, in 
 """
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import scipy
@@ -24,11 +23,10 @@ import scipy
 from mechsym.hinge import losses as laws
 from mechsym.hinge.guide import Guide, path, warmth
 from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.rollers import RollerParameters, inertia_force, loss_torque, reaction
-from mechsym.hinge.springs import law
-from mechsym.hinge.thermal import AirThermal, thermal_pressure
+from mechsym.hinge.rollers import RollerParameters, contact_force, loss_torque
 from mechsym.machine.record import Machine, kinks_of, period_of
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 from mechsym.simulate.problem import Along, Kinks, Part, Periodic, Problem, State
 
 HEAT = "spring_heat"
@@ -48,23 +46,17 @@ class RealHinge:
 def is_real(hinge: RealHinge) -> bool:
     """Whether a hinge has anything that the ideal one has not."""
     friction = hinge.losses is not None or hinge.rollers.friction != "none"
-    return friction or hinge.rollers.moving_mass > 0 or isinstance(hinge.guide.spring, AirThermal)
+    return friction or hinge.rollers.moving_mass > 0 or bool(hinge.guide.spring.state)
 
 
 def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Problem:
     """A problem of `simulate.engine` with a real hinge in place of its part `hinge`.
 
-    Parameters
-    ----------
-    problem : Problem
-        Of the machine, with the ideal hinge
-    machine : Machine
-        It says where the torque is not smooth
+    problem: of the machine, with the ideal hinge; machine: it says where the torque is not smooth.
     """
     rho = _over_crank(path(hinge.guide), hinge.guide.parameters.shaft_ratio)
     (q,) = problem.mechanism.coordinates
     curves = tuple(_curve(q, rho.derivative(i) if i else rho) for i in range(3))
-    spring = hinge.guide.spring
     parts = [replace(p, value=_torque(hinge)) if p.name == "hinge" else p for p in problem.parts]
     taken = tuple(Part(name=name, input="M_h", role="loss", value=value) for name, value in _friction(hinge).items())
     kinks = _kinks(kinks_of(machine), rho, period_of(machine))
@@ -72,7 +64,7 @@ def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Pro
         problem,
         parts=(*parts, *taken),
         curves=curves,
-        states=_gas(hinge, spring, problem.q0[0]) if isinstance(spring, AirThermal) else (),
+        states=_gas(hinge, problem.q0[0]) if hinge.guide.spring.state else (),
         stored=Along(function=functools.partial(_stored, hinge)),
         inertia=_inertia(q, hinge, rho),
         kinks=(Kinks(coordinate=q, angles=kinks, period=period_of(machine)),),
@@ -92,29 +84,26 @@ def _curve(coordinate: str, poly: "scipy.interpolate.PPoly") -> Periodic:
     return Periodic(coordinate=coordinate, value=curve, period=float(poly.x[-1] - poly.x[0]))
 
 
-def _path_at(hinge: RealHinge, u: Any, curves: Any) -> tuple[Any, Any, Any, Any]:
+def _path_at(hinge: RealHinge, u: Scalar, curves: Sequence[Scalar]) -> tuple[Scalar, Scalar, Scalar, Scalar]:
     """rho [m], its derivatives by the angle of the guide's shaft [m/rad, m/rad^2] and the speed of that [rad/s]."""
     rho, drho, d2rho = curves
     ratio = hinge.guide.parameters.shaft_ratio
     return rho, drho / ratio, d2rho / ratio**2, ratio * u[0]
 
 
-def _closing(hinge: RealHinge, rho: Any) -> Any:
+def _closing(hinge: RealHinge, rho: Scalar) -> Scalar:
     return hinge.guide.rollers * (hinge.guide.parameters.rho0 - rho)
 
 
-def _force(hinge: RealHinge, rho: Any, states: Any) -> Any:
+def _force(hinge: RealHinge, rho: Scalar, states: Sequence[Scalar]) -> Scalar:
     """Force of the spring on each roller [N]."""
-    spring, z = hinge.guide.spring, _closing(hinge, rho)
-    if isinstance(spring, AirThermal):
-        return spring.A * thermal_pressure(z, spring.H, spring.p0, spring.pa, states[0])
-    return law(spring).force(z)
+    return hinge.guide.spring.force(_closing(hinge, rho), states[0] if states else None)
 
 
 def _torque(hinge: RealHinge) -> Along:
     c, ratio = hinge.guide.rollers, hinge.guide.parameters.shaft_ratio
 
-    def torque(u: Any, curves: Any, states: Any) -> Any:
+    def torque(u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
         rho, drho, _, _ = _path_at(hinge, u, curves)
         return ratio * c * _force(hinge, rho, states) * drho
 
@@ -126,15 +115,15 @@ def _friction(hinge: RealHinge) -> dict[str, Along]:
     r, given, c = hinge.rollers, hinge.losses, hinge.guide.rollers
     ratio = hinge.guide.parameters.shaft_ratio
 
-    def taken(of: Callable[..., Any]) -> Along:
-        def value(u: Any, curves: Any, states: Any) -> Any:
+    def taken(of: Callable[..., Scalar]) -> Along:
+        def value(u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
             rho, drho, d2rho, omega = _path_at(hinge, u, curves)
             return -ratio * of(_force(hinge, rho, states), rho, drho, d2rho, omega)
 
         return Along(function=value)
 
-    def contact(F: Any, rho: Any, drho: Any, d2rho: Any, omega: Any) -> Any:
-        return reaction(F + r.moving_mass * inertia_force(rho, d2rho, omega), rho, drho)
+    def contact(F: Scalar, rho: Scalar, drho: Scalar, d2rho: Scalar, omega: Scalar) -> Scalar:
+        return contact_force(F, rho, drho, d2rho, r.moving_mass, omega)
 
     found = {}
     if given is not None:
@@ -157,35 +146,27 @@ def _friction(hinge: RealHinge) -> dict[str, Along]:
     return found
 
 
-def _capacity(spring: AirThermal) -> float:
-    """m c_v T_w of the gas [J]."""
-    return (spring.p0 + spring.pa) * spring.A * spring.H / (spring.gamma - 1)
-
-
-def _gas(hinge: RealHinge, spring: AirThermal, phi: float) -> tuple[State, ...]:
+def _gas(hinge: RealHinge, phi: float) -> tuple[State, ...]:
     """Temperature by the wall's, as it is in steady running, and the heat that the wall has taken."""
+    spring = hinge.guide.spring
 
-    def warming(u: Any, curves: Any, states: Any) -> Any:
+    def warming(u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
         rho, drho, _, omega = _path_at(hinge, u, curves)
-        growth = hinge.guide.rollers * drho * omega / (spring.H - _closing(hinge, rho))
-        return -(spring.gamma - 1) * states[0] * growth - (states[0] - 1) / spring.tau
+        return spring.warming(states[0], _closing(hinge, rho), hinge.guide.rollers * drho * omega)
 
-    def cooling(u: Any, curves: Any, states: Any) -> Any:
-        return _capacity(spring) * (states[0] - 1) / spring.tau
+    def cooling(u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
+        return spring.heat(states[0])
 
-    start = float(warmth(hinge.guide, spring)(hinge.guide.parameters.shaft_ratio * phi))
+    start = float(warmth(hinge.guide)(hinge.guide.parameters.shaft_ratio * phi))
     return (
-        State(name="warmth", unit="-", start=start, rate=Along(function=warming)),
+        State(name=spring.state, unit="-", start=start, rate=Along(function=warming)),
         State(name=HEAT, unit="J", start=0.0, role="heat", rate=Along(function=cooling)),
     )
 
 
-def _stored(hinge: RealHinge, u: Any, curves: Any, states: Any) -> Any:
+def _stored(hinge: RealHinge, u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
     """Energy in the spring [J]."""
-    spring, z = hinge.guide.spring, _closing(hinge, curves[0])
-    if isinstance(spring, AirThermal):
-        return _capacity(spring) * states[0] + spring.pa * spring.A * (spring.H - z)
-    return law(spring).energy(z)
+    return hinge.guide.spring.energy(_closing(hinge, curves[0]), states[0] if states else None)
 
 
 def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") -> tuple[Periodic, Periodic] | None:

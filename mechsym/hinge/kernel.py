@@ -4,7 +4,7 @@ r"""The limits of many guides at once: one compiled function of whatever is free
     kernel.margins(values)      values (n, 2) -> margins (n, m), the share of each limit that is left
     kernel.gradients(values)    -> (n, m, 2)
 
-The formulas are those of `springs`, `rollers` and `limits`, written out once for symbols. No path is fitted: closing,
+The formulas are those of `springs`, `rollers` and `bounds`, which take symbols. No path is fitted: closing,
 force and slope follow from the work at each angle, and the torque's own slope gives the second derivative,
 
 .. math:: \rho' = \frac{M}{c F}, \qquad \rho'' = \frac{M'}{c F} + \frac{M^2 F_z}{c F^3}
@@ -18,7 +18,6 @@ import functools
 import warnings
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -26,16 +25,22 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
+from mechsym.hinge.bounds.face import GuideLimit, Station, asked
+from mechsym.hinge.bounds.spring import ROOM
+from mechsym.hinge.bounds.track import CENTRE
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
-from mechsym.hinge.kernel_formulas import coordinate, of_limits, over_the_turn
-from mechsym.hinge.law_path import LawSpring
 from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs.face import Formulas, Spring, lettered
+from mechsym.hinge.springs.law_path import FULL
 from mechsym.native import compiled, compiled_all, marcher
+from mechsym.native.evaluate import Compiled
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Scalar
 
 _POINTS, _WIDE = 33, 0.5  # angles on a piece of the torque, and the width from which it has so many [rad]
 _BLOCK = 4096  # designs at once
-_PEAKS = 4  # tangent of the pressure angle, curvature inwards, reaction, contact pressure
+_Asked = Sequence[tuple[str, GuideLimit, Scalar]]  # key, limit and the symbol of its setting
 
 
 @record
@@ -55,32 +60,30 @@ class DesignKernel:
 class _KernelParts:
     angles: np.ndarray  #: shape (k,): Of the guide's shaft; an angle that stands twice is a kink [rad]
     stages: np.ndarray  #: shape (k, 3): Torque on that shaft [N*m], its slope [N*m/rad], work [J]
-    march: Callable[[np.ndarray], np.ndarray]  #: Lanes (all, n) to the index of each peak (4, n)
-    values: Any  #: Stage and lanes to the four quantities there
-    finish: Any  #: Lanes and peaks to margins, the last is above 0 where there is a guide
-    slopes: Callable[[], tuple[Any, Any]]  #: Derivatives of both by what is free
+    march: Callable[[np.ndarray], np.ndarray]  #: Lanes (all, n) to the index of each peak (peaks, n)
+    values: Compiled  #: Stage and lanes to the shares of the limits there
+    finish: Compiled  #: Lanes and peaks to margins, the last is above 0 where there is a guide
+    slopes: Callable[[], tuple[Compiled, Compiled]]  #: Derivatives of both by what is free
     names: tuple[str, ...]
+    peaks: tuple[int, ...]  #: Place among the names of each limit that has its peak somewhere around the turn
 
 
 def design_kernel(
-    wanted: Balance, spring: LawSpring, choices: GuideParameters, rollers: RollerParameters, limits: Limits,
+    wanted: Balance, spring: Spring, choices: GuideParameters, rollers: RollerParameters, limits: Limits,
     free: Sequence[str],
 ) -> DesignKernel:  # fmt: skip
     """Compile the limits of guides for one torque.
 
-    Parameters
-    ----------
-    free : sequence of str
-        Fields that differ between designs: `spring.p0`, `guide.rho0`, `rollers.radius`, `limits.closing_share`, ..
+    free: fields that differ between designs: `spring.p0`, `guide.rho0`, `rollers.radius`, `limits.closing_share`, .
 
     Raises
     ------
     BadInput
         A name is no number of these sections
     """
-    if not isinstance(spring, LawSpring):
+    if spring.state:
         raise BadInput("the limits of many guides at once take springs whose force follows from the closing alone")
-    given = {"spring": spring, "guide": choices, "rollers": rollers, "limits": limits}
+    given: dict[str, Record] = {"spring": spring, "guide": choices, "rollers": rollers, "limits": limits}
     chosen, numbers = _checked(free, given), _numbers_of(given)
     # all numbers come as lanes, so that one compiled function serves every case of a kind
     low, _, high, _ = periodic.extremes(wanted.work)
@@ -95,7 +98,8 @@ def design_kernel(
     with warnings.catch_warnings():
         # numpy's functions take symbols; casadi announces that it may do so otherwise one day
         warnings.simplefilter("ignore", FutureWarning)
-        parts = _parts(wanted, type(spring), choices, letters, list(symbols.values()), [symbols[n] for n in chosen])
+        law, of = lettered(spring, vars(letters["spring"])), [symbols[name] for name in chosen]
+        parts = _parts(wanted, law, choices, limits, letters, list(symbols.values()), of)
     return DesignKernel(
         free=tuple(chosen),
         limits=parts.names,
@@ -104,7 +108,7 @@ def design_kernel(
     )
 
 
-def _numbers_of(given: dict[str, Any]) -> dict[str, float]:
+def _numbers_of(given: dict[str, Record]) -> dict[str, float]:
     return {
         f"{section}.{f.name}": getattr(values, f.name)
         for section, values in given.items()
@@ -113,7 +117,7 @@ def _numbers_of(given: dict[str, Any]) -> dict[str, float]:
     }
 
 
-def _checked(free: Sequence[str], given: dict[str, Any]) -> list[str]:
+def _checked(free: Sequence[str], given: dict[str, Record]) -> list[str]:
     known = _numbers_of(given)
     for name in free:
         if name not in known:
@@ -141,24 +145,28 @@ def _in_blocks(
 
 def _parts(
     wanted: Balance,
-    kind: type[LawSpring],
+    spring: Spring,
     choices: GuideParameters,
+    limits: Limits,
     letters: dict[str, SimpleNamespace],
     p: list[ca.SX],
     free: list[ca.SX],
 ) -> _KernelParts:
-    ratio = choices.shaft_ratio
+    ratio, c = choices.shaft_ratio, ROLLERS[choices.arrangement]
     phi, stages = _stages(wanted, ratio)
-    air, of = coordinate(kind, letters["spring"]), letters["torque"]
+    law, of = spring.symbolic(), letters["torque"]
     zm = letters["guide"].z_margin
-    at_start = 0.0 if choices.start == "as_printed" else air.energy(air.of_closing(zm)) + of.high
-    stage, lane, c = ca.SX.sym("stage", 3), ca.vertcat(*p), ROLLERS[choices.arrangement]
-    found = ca.vertcat(*over_the_turn(stage, air, at_start, c, letters))
-    peaks = ca.SX.sym("peaks", _PEAKS)
-    margins = of_limits(kind, c, air, at_start - of.low, at_start - of.high, peaks, letters)
+    at_start = 0.0 if choices.start == "as_printed" else law.energy(zm) + of.high
+    stage, lane = ca.SX.sym("stage", 3), ca.vertcat(*p)
+    rows = [(key, limit, getattr(letters["limits"], key, None))
+            for key, limit, _ in asked(limits, CENTRE, ROOM) if limit.holds(spring, c)]  # fmt: skip
+    found = ca.vertcat(*_over_the_turn(stage, spring, law, at_start, c, letters, rows))
+    peaks = ca.SX.sym("peaks", found.numel())
+    margins = _of_limits(c, spring, at_start - of.low, at_start - of.high, peaks, letters, rows)
+    names = tuple(name for name in margins if name != "cut")
     values, chosen = ca.vertcat(*margins.values()), ca.vertcat(*free)
 
-    def slopes() -> tuple[Any, Any]:
+    def slopes() -> tuple[Compiled, Compiled]:
         by = [ca.jacobian(values, chosen), ca.jacobian(values, peaks)]
         made = compiled_all({
             "slopes": ca.Function("design_slopes", [stage, lane], [ca.jacobian(found, chosen)]),
@@ -173,8 +181,51 @@ def _parts(
         values=compiled(ca.Function("design_values", [stage, lane], [found])),
         finish=compiled(ca.Function("design_margins", [lane, peaks], [values])),
         slopes=functools.cache(slopes),
-        names=tuple(name for name in margins if name != "cut"),
+        names=names,
+        peaks=tuple(names.index(limit.name) for _, limit, _ in rows if not limit.by_closing),
     )
+
+
+def _over_the_turn(
+    stage: ca.SX,
+    spring: Spring,
+    law: Formulas,
+    at_start: Scalar,
+    c: int,
+    letters: dict[str, SimpleNamespace],
+    rows: _Asked,
+) -> list[ca.SX]:
+    """Shares of the limits that have their largest value somewhere around the turn."""
+    M, dM, W = stage[0], stage[1], stage[2]
+    z, F, F_z = law.along(at_start - W)
+    rho0 = letters["guide"].rho0
+    rho, drho = rho0 - z / c, M / (c * F)
+    at = Station(
+        spring=spring, rollers=letters["rollers"], count=c, rho0=rho0, omega=letters["torque"].omega, rho=rho,
+        drho=drho, d2rho=dM / (c * F) + M * F_z * drho / F**2, z=z, force=F,
+    )  # fmt: skip
+    return [(limit.rising or limit.share)(at, setting) for _, limit, setting in rows if not limit.by_closing]
+
+
+def _of_limits(
+    c: int, spring: Spring, most: Scalar, least: Scalar, peaks: ca.SX, letters: dict[str, SimpleNamespace], rows: _Asked
+) -> dict[str, ca.SX]:
+    """Margins by the names of the checks, and under `cut` a number above 0 where there is a guide."""
+    guide, H = letters["guide"], spring.H
+    closing = spring.symbolic().closing
+    z_max, z_min = closing(most), closing(least)
+    rho_min = guide.rho0 - z_max / c
+    end = Station(
+        spring=spring, rollers=letters["rollers"], count=c, rho0=guide.rho0, omega=letters["torque"].omega, rho=rho_min,
+        z=z_max, force=spring.force(z_max),
+    )  # fmt: skip
+    along = iter(ca.vertsplit(peaks))
+    margins = {"free_height": ca.if_else(z_min < -1e-12 * H, z_min / H, ca.inf)}
+    for _, limit, setting in rows:
+        share = limit.share(end, setting) if limit.by_closing else limit.of_rising(next(along), setting)
+        margins[limit.name] = ca.if_else(share > 0, 1 - share, ca.inf) if limit.signed else 1 - share
+    margins["cut"] = ca.fmin(ca.fmin(spring.force(z_min), FULL * H - z_max), rho_min)
+    return {name: ca.SX(value) for name, value in margins.items()}
 
 
 def _stages(wanted: Balance, ratio: float) -> tuple[np.ndarray, np.ndarray]:
@@ -191,31 +242,33 @@ def _stages(wanted: Balance, ratio: float) -> tuple[np.ndarray, np.ndarray]:
 
 def _march(stage: ca.SX, lane: ca.SX, found: ca.SX, stages: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     """Where around the turn each quantity is largest."""
-    state, number = ca.SX.sym("state", 2 * _PEAKS), ca.SX.sym("number")
-    best, place = state[:_PEAKS], state[_PEAKS:]
+    count = found.numel()
+    state, number = ca.SX.sym("state", 2 * count), ca.SX.sym("number")
+    best, place = state[:count], state[count:]
     larger = found > best
-    step = ca.vertcat(ca.fmax(best, found), *[ca.if_else(larger[i], number, place[i]) for i in range(_PEAKS)])
+    step = ca.vertcat(ca.fmax(best, found), *[ca.if_else(larger[i], number, place[i]) for i in range(count)])
     run = marcher(ca.Function("design_turn", [state, ca.vertcat(stage, number), lane], [step]))
     numbered = np.column_stack([stages, np.arange(len(stages), dtype=float)])
 
     def places(columns: np.ndarray) -> np.ndarray:
-        start = np.zeros((2 * _PEAKS, columns.shape[1]))
-        start[:_PEAKS] = -np.inf
-        return run(start, numbered, columns)[0][_PEAKS:].astype(int)
+        start = np.zeros((2 * count, columns.shape[1]))
+        start[:count] = -np.inf
+        return run(start, numbered, columns)[0][count:].astype(int)
 
     return places
 
 
 def _margins(parts: _KernelParts, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Margins (n, m); peaks (4, n), the weights (4, 3, n) of three neighbours, and the place (4, n) of the middle."""
+    """Margins (n, m); peaks (k, n), the weights (k, 3, n) of three neighbours, and the place (k, n) of the middle."""
     places = parts.march(columns)
-    tops = [_highest(parts, columns, k, places[k]) for k in range(_PEAKS)]
+    tops = [_highest(parts, columns, k, places[k]) for k in range(len(parts.peaks))]
     peaks, weights, middle = (np.stack([t[i] for t in tops]) for i in range(3))
     with np.errstate(all="ignore"):
         found = parts.finish.batch(*columns, *peaks)
     good = found[-1] > 0  # not a number counts as no guide
     margins = np.where(good, found[:-1], -1.0).T
-    margins[good & np.isinf(peaks[3]), parts.names.index("hertz_stress")] = np.inf
+    for name, peak in zip(parts.peaks, peaks, strict=True):  # infinite where an undercut leaves nothing to ask
+        margins[good & np.isinf(peak), name] = np.inf
     return margins, peaks, weights, middle
 
 
@@ -243,14 +296,15 @@ def _gradients(parts: _KernelParts, columns: np.ndarray) -> np.ndarray:
     of_values, of_margins = parts.slopes()
     n, m, stages = columns.shape[1], margins.shape[1], parts.stages
     found = of_margins.batch(*columns, *peaks)
-    k = len(found) // (m + 1) - _PEAKS
-    of_peaks = np.zeros((_PEAKS, k, n))
-    for peak in range(_PEAKS):
+    count = len(parts.peaks)
+    k = len(found) // (m + 1) - count
+    of_peaks = np.zeros((count, k, n))
+    for peak in range(count):
         for shift in (-1, 0, 1):
             here = stages[places[peak] + shift].T
-            jacobian = of_values.batch(*np.ascontiguousarray(here), *columns).reshape(k, _PEAKS, n)[:, peak]
+            jacobian = of_values.batch(*np.ascontiguousarray(here), *columns).reshape(k, count, n)[:, peak]
             of_peaks[peak] += np.where(weights[peak, shift + 1] != 0, weights[peak, shift + 1] * jacobian, 0.0)
-    direct, through = found[: k * (m + 1)].reshape(k, m + 1, n), found[k * (m + 1) :].reshape(_PEAKS, m + 1, n)
+    direct, through = found[: k * (m + 1)].reshape(k, m + 1, n), found[k * (m + 1) :].reshape(count, m + 1, n)
     total = direct + np.einsum("pmn,pkn->kmn", through, of_peaks)
     total = np.moveaxis(total[:, :m], (2, 1, 0), (0, 1, 2))
     return np.where(np.isfinite(margins)[..., None] & ~(margins == -1.0).all(axis=1)[:, None, None], total, 0.0)

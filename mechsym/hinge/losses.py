@@ -10,11 +10,19 @@ Without `[losses]` they are computed beside the ideal design; a case that has th
 too (`in_time`).
 """
 
-import math
-from typing import Any
-
 from mechsym.hinge.rollers import length
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import (
+    Kilogram,
+    Metre,
+    MetrePerRadian,
+    MetrePerRadian2,
+    Newton,
+    NewtonMetre,
+    Pure,
+    RadPerSecond,
+    Scalar,
+)
 
 
 @record
@@ -50,28 +58,21 @@ class LossTorques:
         return self.bearing + self.seal + self.guide + self.rolling + self.gas
 
 
-def bearing_torque(N: Any, rho: Any, drho: Any, mu: float, bearing_radius: float, radius: float, count: int) -> Any:
+def bearing_torque(
+    N: Newton[Scalar],
+    rho: Metre[Scalar],
+    drho: MetrePerRadian[Scalar],
+    mu: Pure,
+    bearing_radius: Metre[Scalar],
+    radius: Metre[Scalar],
+    count: int,
+) -> NewtonMetre[Scalar]:
     r"""Torque lost in the bearings of the rollers.
 
     .. math:: M = c\,\mu_b |N| r_b \left(\frac{\sqrt{\rho^2 + \rho'^2}}{r} + 1\right)
 
-    Parameters
-    ----------
-    N : ndarray, shape (n,), or casadi.SX
-        Contact force of each roller [N]
-    rho, drho : ndarray, shape (n,), or casadi.SX
-        Path of the roller centres [m] and its derivative [m/rad]
-    mu : float
-        Friction of the bearing [-]
-    bearing_radius : float
-        r_b, where it acts [m]
-    radius : float
-        r of the roller [m]
-
-    Returns
-    -------
-    torque : ndarray, shape (n,), or casadi.SX
-        On the shaft [N*m]
+    N: contact force of each roller; rho, drho: path of the roller centres and its derivative; mu: friction of the
+    bearing; bearing_radius: r_b, where it acts; radius: r of the roller. Returns torque: on the shaft.
 
     Notes
     -----
@@ -86,24 +87,13 @@ def bearing_torque(N: Any, rho: Any, drho: Any, mu: float, bearing_radius: float
     return count * mu * abs(N) * bearing_radius * (length(rho, drho) / radius + 1)
 
 
-def seal_torque(force: Any, drho: Any, mu: float, count: int) -> Any:
+def seal_torque(force: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, count: int) -> NewtonMetre[Scalar]:
     r"""Torque lost in the seals of the spring, whose friction follows the pressure.
 
     .. math:: M = c\,\mu_s |F \rho'|
 
-    Parameters
-    ----------
-    force : ndarray, shape (n,), or casadi.SX
-        Of the spring on each roller [N]
-    drho : ndarray, shape (n,), or casadi.SX
-        Derivative of the path [m/rad]
-    mu : float
-        Friction force by spring force [-]
-
-    Returns
-    -------
-    torque : ndarray, shape (n,), or casadi.SX
-        On the shaft [N*m]
+    force: of the spring on each roller; drho: derivative of the path; mu: friction force by spring force. Returns
+    torque: on the shaft.
 
     Notes
     -----
@@ -117,26 +107,20 @@ def seal_torque(force: Any, drho: Any, mu: float, count: int) -> Any:
     return count * mu * abs(force * drho)
 
 
-def side_force(force: Any, rho: Any, drho: Any, d2rho: Any, mass: float, omega: Any) -> Any:
+def side_force(
+    force: Newton[Scalar],
+    rho: Metre[Scalar],
+    drho: MetrePerRadian[Scalar],
+    d2rho: MetrePerRadian2[Scalar],
+    mass: Kilogram[Scalar],
+    omega: RadPerSecond[Scalar],
+) -> Newton[Scalar]:
     r"""Force of a piston on the guide of the spring, which carries the torque of the track into the shaft.
 
     .. math:: S = \left[F + m_h \omega^2 (\rho - \rho'')\right] \frac{\rho'}{\rho} - 2 m_h \omega^2 \rho'
 
-    Parameters
-    ----------
-    force : ndarray, shape (n,), or casadi.SX
-        Of the spring on each roller [N]
-    rho, drho, d2rho : ndarray, shape (n,), or casadi.SX
-        Path of the roller centres [m], [m/rad], [m/rad^2]
-    mass : float
-        m_h, moving with each roller [kg]
-    omega : float or casadi.SX
-        Speed of the shaft [rad/s]
-
-    Returns
-    -------
-    S : ndarray, shape (n,), or casadi.SX
-        Signed [N]
+    force: of the spring on each roller; rho, drho, d2rho: path of the roller centres; mass: m_h, moving with each
+    roller. Returns S: signed.
 
     Notes
     -----
@@ -152,24 +136,13 @@ def side_force(force: Any, rho: Any, drho: Any, d2rho: Any, mass: float, omega: 
     return (force + pull * (rho - d2rho)) * drho / rho - 2 * pull * drho
 
 
-def guide_torque(side: Any, drho: Any, mu: float, count: int) -> Any:
+def guide_torque(side: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, count: int) -> NewtonMetre[Scalar]:
     r"""Torque lost in the guides of the spring's pistons.
 
     .. math:: M = c\,\mu_g |S\,\rho'|
 
-    Parameters
-    ----------
-    side : ndarray, shape (n,), or casadi.SX
-        Side force S of each piston [N]
-    drho : ndarray, shape (n,), or casadi.SX
-        Derivative of the path [m/rad]
-    mu : float
-        Friction of the guide [-]
-
-    Returns
-    -------
-    torque : ndarray, shape (n,), or casadi.SX
-        On the shaft [N*m]
+    side: side force S of each piston; drho: derivative of the path; mu: friction of the guide. Returns torque: on the
+    shaft.
 
     Notes
     -----
@@ -181,34 +154,3 @@ def guide_torque(side: Any, drho: Any, mu: float, count: int) -> Any:
     100.0
     """
     return count * mu * abs(side * drho)
-
-
-def monotone_seal_torque(swing: float, mu: float, period: float = 2 * math.pi) -> float:
-    r"""Mean torque lost in the seals of a spring that closes once and opens once in a period.
-
-    .. math:: \bar M = \frac{2 \mu_s \Delta U}{T}
-
-    Parameters
-    ----------
-    swing : float
-        Largest less smallest energy in the spring [J]
-    mu : float
-        Friction force by spring force [-]
-    period : float
-        Angle in which it closes and opens [rad]
-
-    Returns
-    -------
-    torque : float
-        On the shaft [N*m]
-
-    Notes
-    -----
-    Source: the mean of `seal_torque`, integrated.
-
-    Examples
-    --------
-    >>> round(monotone_seal_torque(65e3, 0.01), 1)
-    206.9
-    """
-    return 2 * mu * swing / period

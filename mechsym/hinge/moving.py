@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.hinge.contact import at_angles
 from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.result import Design
@@ -19,7 +19,7 @@ from mechsym.style import axis_unit
 _FRAMES = 120
 
 
-def scenes(design: Design) -> list[dict[str, Any]]:
+def scenes(design: Design) -> list[Json]:
     """The engine, where there is a drawing of it, and the hinge, where there is a guide, over one period."""
     turns = design.hinge.period / (2 * np.pi)
     frames, found = round(_FRAMES * max(1.0, turns)), []
@@ -42,7 +42,7 @@ def engine(design: Design) -> Callable[[float], Shapes] | None:
     if (own := shapes_of(design)) is not None:
         return own
     gas = design.machine.gas
-    bore = float(gas.chamber.bore) if gas is not None and gas.has_pressure else None
+    bore = float(gas.chamber.bore) if gas is not None else None
     drawn = partial(shapes, design.machine.mechanism.name, design.origin.sections["parameters"], bore=bore)
     try:
         drawn(0.0)
@@ -51,11 +51,11 @@ def engine(design: Design) -> Callable[[float], Shapes] | None:
     return drawn
 
 
-def readouts(design: Design) -> list[dict[str, Any]]:
+def readouts(design: Design) -> list[Json]:
     """What is read beside the drawing: name, unit and the number as text for each frame."""
     turns = design.hinge.period / (2 * np.pi)
     phi = np.linspace(0, design.hinge.period, round(_FRAMES * max(1.0, turns)), endpoint=False)
-    rows: list[tuple[str, str, Any]] = [("torque on the crank", "N*m", design.hinge.torque(phi))]
+    rows: list[tuple[str, str, np.ndarray]] = [("torque on the crank", "N*m", design.hinge.torque(phi))]
     if design.usable is not None:
         theta = design.guide.parameters.shaft_ratio * phi % (2 * np.pi)
         turn = at_angles(design.usable, design.rollers, theta)
@@ -65,6 +65,6 @@ def readouts(design: Design) -> list[dict[str, Any]]:
     return [_readout(*row) for row in rows]
 
 
-def _readout(name: str, si: str, values: np.ndarray) -> dict[str, Any]:
+def _readout(name: str, si: str, values: np.ndarray) -> Json:
     factor, unit = axis_unit(si, values)
     return {"name": name, "unit": unit, "text": [figure(float(v), 4) for v in values * factor]}

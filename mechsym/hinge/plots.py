@@ -8,12 +8,14 @@ import numpy as np
 from mechsym.cycle.chamber import volume
 from mechsym.hinge.contact import Contact
 from mechsym.hinge.drawing import elastic_hinge, same_after_half_a_turn
-from mechsym.hinge.result import Design
+from mechsym.hinge.result import AtLoad, Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.trials import Trial
 from mechsym.machine.record import gas_of
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import velocities
+from mechsym.quantities.units import Metre
+from mechsym.simulate.steady import Steady
 from mechsym.style import (
     BLUE,
     GREEN,
@@ -65,10 +67,7 @@ def pressure(design: Design) -> "Figure":
 def torque(design: Design) -> "Figure":
     """The hinge torque with its parts, and its work.
 
-    Returns
-    -------
-    figure : Figure
-        Two panels over the crank angle
+    Returns figure: two panels over the crank angle.
     """
     hinge = design.hinge
     name = "Torque of the hinge with its parts, and its work"
@@ -91,22 +90,17 @@ def torque(design: Design) -> "Figure":
     return figure
 
 
-def track(design: Design, turn: Contact, radius: float) -> "Figure":
+def track(design: Design, turn: Contact, radius: Metre) -> "Figure":
     """The path of the roller centres and the cut profile, to scale.
 
-    Parameters
-    ----------
-    turn : Contact
-        The guide in numbers over a whole turn of its shaft
-    radius : float
-        Roller radius [m]
+    turn: the guide in numbers over a whole turn of its shaft.
     """
     figure, (axis,) = panels(5.4, 5.8, title="Path of the roller centres and cut profile, to scale")
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
     factor, unit = axis_unit("m", x, y)
     circle = design.guide.parameters.rho0 * np.exp(1j * np.linspace(0, 2 * np.pi, 361))
     path = turn.rho * np.exp(1j * turn.theta)
-    curves: list[tuple[Any, Any, str, dict[str, Any]]] = [
+    curves: list[tuple[np.ndarray, np.ndarray, str, dict[str, Any]]] = [
         (circle.real, circle.imag, GREY, {"linewidth": 0.8, "linestyle": "--", "label": "spring at free height"}),
         (path.real, path.imag, BLUE, {"label": "path of the roller centre"}),
         (x, y, RED, {"label": "cut profile, first track"}),
@@ -137,15 +131,8 @@ def hinge(design: Design) -> "Figure":
 def contact(turn: Contact) -> "Figure":
     """Roller reactions, pressure angle, spring pressure and curvature around the turn.
 
-    Parameters
-    ----------
-    turn : Contact
-        The guide in numbers over a whole turn of its shaft
-
-    Returns
-    -------
-    figure : Figure
-        Four panels over the angle of the guide's shaft
+    turn: the guide in numbers over a whole turn of its shaft. Returns figure: four panels over the angle of the guide's
+    shaft.
     """
     figure, axes = panels(9, 5.4, 2, 2, "Contact of rollers and guide around the turn", sharex=True)
     words = ("excess pressure in the spring", "Pa") if turn.pressure is not None else ("spring force", "N")
@@ -168,10 +155,7 @@ def contact(turn: Contact) -> "Figure":
 def speeds(design: Design) -> "Figure":
     """Crank speed of the trials side by side.
 
-    Returns
-    -------
-    figure : Figure
-        Two panels: with hinge, and all
+    Returns figure: two panels: with hinge, and all.
     """
     figure, (left, right) = panels(9, 4.2, 1, 2, "Crank speed of the runs over the turns")
     fitted = [t for t in design.trials if t.name not in ("without", "flywheel")]
@@ -228,3 +212,32 @@ def retuning(design: Design) -> "Figure":
     for axis in (left, right):
         legend(axis)
     return figure
+
+
+def loads(rows: Sequence[AtLoad]) -> "Figure":
+    """Ripple of a guide over the load, with the spring as designed and set anew, and that setting.
+
+    Returns figure: two panels; a cross at the top marks a load at which the crank does not turn steadily.
+    """
+    figure, (left, right) = panels(9, 3.6, 1, 2, "Speed ripple and setting of the spring over the load")
+    ordered = sorted(rows, key=lambda row: row.share)
+    shares = [100 * row.share for row in ordered]
+    for found, color, name in (
+        ([row.as_cut for row in ordered], RED, "spring as designed"),
+        ([row.reset for row in ordered], BLUE, "setting of that load"),
+    ):
+        # no line between the points: at the design's own load, which may lie between, there is no ripple
+        left.plot(shares, [_per_cent(s) for s in found], "o", color=color, markersize=5, label=name)
+        stopped = [share for share, s in zip(shares, found, strict=True) if s.speed_ripple is None]
+        left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
+    left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")
+    left.set_ylim(bottom=0)
+    legend(left)
+    right.plot(shares, [row.ratio for row in ordered], "o-", color=BLUE, markersize=4)
+    right.axhline(1.0, color=GREY, linewidth=0.8)
+    right.set(xlabel="load over that of the design [%]", ylabel="setting over that of the design [-]")
+    return figure
+
+
+def _per_cent(steady: Steady) -> float:
+    return float("nan") if steady.speed_ripple is None else 100 * steady.speed_ripple

@@ -20,14 +20,13 @@ from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import AirAbsolute, Coil
-from mechsym.hinge.thermal import AirThermal, GasTurn, turn, x_of_index
+from mechsym.hinge.springs.air_thermal import AirThermal
+from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
-from mechsym.machine.loads import ConstantLoad, Load, TableLoad
-from mechsym.machine.record import Machine, gas_of
-from mechsym.mechanisms.record import curves
+from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad
+from mechsym.machine.record import Machine, lever, only_gas
 from mechsym.quantities import quantity, record
-from mechsym.simulate import angle_turn
+from mechsym.simulate import angle
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
@@ -57,7 +56,8 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
     theta = np.arange(_POINTS) * 2 * np.pi / _POINTS
     contact = at_angles(guide, rollers, theta)
     taken = friction(contact, guide, rollers, given)
-    gas = gas_turn(contact, guide, given)
+    walled = guide.spring.with_wall(given, guide.omega * guide.parameters.shaft_ratio)
+    gas = None if walled is None else gas_turn(contact, guide, walled)
     means = {kind: float(np.mean(curve)) for kind, curve in taken.items()}
     heat = 0.0 if gas is None else max(0.0, guide.parameters.shaft_ratio * gas.loss / (2 * np.pi))
     lost = LossTorques(**means, gas=heat)
@@ -65,11 +65,11 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
     fill, ripple = 1.0, None
     # an engine may give less than the hinge takes; what is driven is driven harder
     if lost.total < wanted.load_torque or wanted.load_torque <= 0:
-        already = heat if isinstance(guide.spring, AirThermal) else 0.0  # its own load is lowered by it
-        fill, ripple = _best_fill(ideal, guide, contact, taken, given, lost.total - already, machine.omega)
+        already = heat if guide.spring.state else 0.0  # its own load is lowered by it
+        fill, ripple = _best_fill(ideal, guide, contact, taken, walled, lost.total - already, machine.omega)
     return Price(
         losses=lost, assumed=given, speed_ripple=ripple, fill=fill,
-        tau=None if gas is None else _time(guide, given), gas_index=None if gas is None else gas.n_effective,
+        tau=None if walled is None else walled.tau, gas_index=None if gas is None else gas.n_effective,
         misfire_speed_share=misfire_share(machine, wanted, guide, rollers),
     )  # fmt: skip
 
@@ -94,16 +94,10 @@ def friction(
     }
 
 
-def gas_turn(contact: Contact, guide: Guide, given: HingeLosses) -> GasTurn | None:
-    """The gas of the spring with a wall that takes heat; None for a coil."""
-    spring = guide.spring
-    if isinstance(spring, Coil):
-        return None
-    of = spring if isinstance(spring, AirThermal) else AirThermal(
-        A=spring.A, H=spring.H, p0=spring.p0, tau=_time(guide, given), gamma=given.gamma,
-        wall_temperature=given.wall_temperature, pa=spring.pa if isinstance(spring, AirAbsolute) else 0.0,
-    )  # fmt: skip
-    return turn(of, contact.z, np.full(_POINTS, 2 * np.pi / _POINTS), guide.omega * guide.parameters.shaft_ratio)
+def gas_turn(contact: Contact, guide: Guide, walled: AirThermal) -> GasTurn:
+    """The gas of the spring with a wall that takes heat, over a turn of the guide."""
+    step = np.full(_POINTS, 2 * np.pi / _POINTS)
+    return walled.turn(contact.z, step, guide.omega * guide.parameters.shaft_ratio)
 
 
 def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers: RollerParameters) -> float | None:
@@ -112,14 +106,14 @@ def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers:
     The gas goes back along its compression line, the load brakes on. None where there is no steady motion before, or
     the gas is known by its torque only.
     """
-    gas, fired = gas_of(machine), reduced(fitted(machine, wanted, guide))
-    if gas.on_shaft:
+    gas, fired = only_gas(machine), reduced(fitted(machine, wanted, guide))
+    if gas is None:
         return None
     period = gas.pressure.period
     without = unfired(gas.force, period)
 
     def torque(phi: np.ndarray) -> np.ndarray:
-        arm = _arm(machine, phi)
+        arm = lever(machine.mechanism, machine.gas_input)(phi)
         return np.asarray(fired.torque(phi) + (without(phi) - gas.force(phi)) * arm)
 
     missed = dataclasses.replace(
@@ -133,25 +127,10 @@ def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers:
         return None
     panels = dataclasses.replace(tabulate(missed), load=_panels(fired).load)
     energy = 0.5 * float(panels.inertia_edges[0]) * float(before.omega[0]) ** 2
-    found = angle_turn.turn(panels, 0.0, energy)
-    if angle_turn.lowest_energy(found) <= 0:
+    turn = angle.turn(panels, 0.0, energy)
+    if angle.lowest_energy(turn) <= 0:
         return 0.0
-    return float(angle_turn.speeds(panels, 0.0, found)[1].min()) / before.speed_mean
-
-
-def _arm(machine: Machine, phi: np.ndarray) -> np.ndarray:
-    (q,) = machine.mechanism.coordinates
-    return np.asarray(curves(machine.mechanism, phi)[f"dx_d{q}"])
-
-
-def _time(guide: Guide, given: HingeLosses) -> float:
-    """Time [s] of the gas to take the wall's temperature: as given, or such that the spring's index shows."""
-    if isinstance(guide.spring, AirThermal):
-        return guide.spring.tau
-    if given.tau > 0:
-        return given.tau
-    n = min(max(guide.spring.n, 1 + 1e-6), given.gamma - 1e-6)  # type: ignore[union-attr]
-    return x_of_index(n, given.gamma) / (guide.omega * guide.parameters.shaft_ratio)
+    return float(angle.speeds(panels, 0.0, turn)[1].min()) / before.speed_mean
 
 
 def _with_mass(machine: ReducedMachine, guide: Guide, contact: Contact, rollers: RollerParameters) -> ReducedMachine:
@@ -176,21 +155,21 @@ def _panels(machine: ReducedMachine) -> Panels:
 
 
 def _best_fill(
-    ideal: ReducedMachine, guide: Guide, contact: Contact, friction: dict[str, np.ndarray], given: HingeLosses,
+    ideal: ReducedMachine, guide: Guide, contact: Contact, friction: dict[str, np.ndarray], walled: AirThermal | None,
     lost: float, omega: float,
 ) -> tuple[float, float | None]:  # fmt: skip
     """Fill of the spring with the least steady ripple, and that ripple [-]; 1 for a coil."""
     taken, ratio, panels = np.sum(list(friction.values()), axis=0), guide.parameters.shaft_ratio, tabulate(ideal)
-    gas = gas_turn(contact, guide, given)
+    gas = None if walled is None else gas_turn(contact, guide, walled)
 
     def motion(fill: float) -> Steady:
         extra = -taken
-        if gas is not None and contact.pressure is not None:
-            pa = getattr(guide.spring, "pa", 0.0)
+        if walled is not None and gas is not None and contact.pressure is not None:
             # the temperature does not know the fill, the pressure is in proportion to it
-            filled = (fill * guide.spring.p0 + pa) / (guide.spring.p0 + pa)  # type: ignore[union-attr]
+            pa = walled.pa
+            filled = (fill * walled.p0 + pa) / (walled.p0 + pa)
             change = (gas.pressure + pa) * filled - pa - contact.pressure
-            extra = extra + ratio * guide.rollers * guide.spring.A * change * contact.drho  # type: ignore[union-attr]
+            extra = extra + ratio * guide.rollers * walled.A * change * contact.drho
         torque = panels.torque + _over(contact.theta, extra, ratio * panels.phi)
         real = dataclasses.replace(panels, torque=torque, load=_lowered(ideal.load, lost))
         if isinstance(real.load, ConstantLoad):
@@ -207,4 +186,6 @@ def _best_fill(
 def _lowered(load: Load, lost: float) -> Load:
     if isinstance(load, TableLoad):
         return dataclasses.replace(load, torques=tuple(t - lost for t in load.torques))
+    if isinstance(load, PropellerLoad) and (load.torque or 0.0) < lost:  # more is lost than it takes: it has to drive
+        return ConstantLoad(torque=(load.torque or 0.0) - lost)
     return dataclasses.replace(load, torque=(load.torque or 0.0) - lost)

@@ -6,7 +6,6 @@ computed when it is first asked for.
 
 import functools
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from mechsym.hinge import steady, trials
 from mechsym.hinge.balance import Balance
@@ -16,7 +15,8 @@ from mechsym.hinge.limits import Verdict
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import Price, price
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.steady import Flywheels, Retuned, Sensitivity
+from mechsym.hinge.steady import RIPPLE, Flywheels, Retuned, Sensitivity
+from mechsym.hinge.target import Target, guide_words
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.hinge.trials import Trial
 from mechsym.hinge.ways import Offer
@@ -24,28 +24,65 @@ from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.page import Shown
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import computed, quantity, result
 from mechsym.simulate.steady import Flywheel, Steady
 
 
-@record
+@result
 class AtLoad:
     """The hinge at one load."""
 
-    share: float  #: Load over that of the design [-]
+    share: float = quantity("-")  #: Load over that of the design
     mean_indicated_pressure: float  #: Load [Pa]
     as_cut: Steady
     reset: Steady  #: With the spring setting that fits this load's work best
-    #: That setting, p0 [Pa] or F0 of a coil [N], and over that of the design [-]
-    setting: float
-    ratio: float
+    setting: float  #: That setting [unit]
+    ratio: float  #: And over that of the design [-]
+    unit: str  # of the setting
+
+    @computed("bar")
+    def mep_bar(self) -> float:
+        """Mean indicated pressure."""
+        return self.mean_indicated_pressure / 1e5
+
+    @computed("-")
+    def speed_ripple(self) -> float | None:
+        """Steady ripple with the spring as designed; None where there is none."""
+        return self.as_cut.speed_ripple
+
+    @computed()
+    def reason(self) -> str:
+        """Why."""
+        return self.as_cut.reason
+
+    @computed("@unit")
+    def p0(self) -> float:
+        """Setting of the spring that fits the work of this load best."""
+        return self.setting
+
+    @computed("-")
+    def p0_ratio(self) -> float:
+        """That setting by that of the design."""
+        return self.ratio
+
+    @computed("-")
+    def speed_ripple_reset(self) -> float | None:
+        """Steady ripple with it."""
+        return self.reset.speed_ripple
+
+    @computed()
+    def reason_reset(self) -> str:
+        """Why there is none."""
+        return self.reset.reason
 
 
 @record
 class JudgedHinge:
     """What is known of a hinge before its guide is cut."""
 
-    machine: Machine
-    hinge: Hinge
+    machine: Machine  #: With its load as declared, perhaps without numbers
+    hinge: Hinge  #: Torque that keeps the speed constant
     verdict: Verdict
 
     @property
@@ -61,20 +98,17 @@ class Origin:
     name: str
     about: str = ""
     source: str = ""
-    sections: Mapping[str, Any]  #: Records by section
+    sections: Mapping[str, Record]  #: By section
 
 
 @record
-class Design(Shown):
+class Design(JudgedHinge, Shown):
     """A designed hinge and how it runs."""
 
     origin: Origin
-    machine: Machine  #: With its load as declared, perhaps without numbers
     rollers: RollerParameters
-    hinge: Hinge  #: Torque that keeps the speed constant
-    balance: Balance  #: Part of it that the guide gives
+    balance: Balance  #: Part of the torque that the guide gives
     guide: Guide  #: Guide, or why there is none
-    verdict: Verdict
     #: The other way to balance a torque that repeats every two turns; empty for a two-stroke engine
     instead: tuple[Offer, ...]
     flywheel_kept: float  #: Flywheel of the case [kg*m^2]
@@ -110,11 +144,6 @@ class Design(Shown):
             runs.append(trials.with_flywheel(self.machine, self.hinge, inertia, self.turns))
         return tuple(runs)
 
-    @property
-    def flywheels(self) -> Flywheels:
-        """What the hinge saves; the same for every guide of one engine."""
-        return steady.flywheels(self.machine, self.hinge)
-
     @functools.cached_property
     def beside_faulty(self) -> Flywheel | None:
         """The flywheel that a faulty hinge needs; None without a guide."""
@@ -138,6 +167,17 @@ class Design(Shown):
         """What the ideal design leaves out; None without a guide."""
         return price(self.machine, self.hinge, self.usable, self.rollers, self.assumed) if self.usable else None
 
+    @property
+    def target(self) -> Target:
+        """The ripple of every hinge, and whether this one keeps it with losses."""
+        real = None if self.price is None else self.price.speed_ripple
+        return Target(ripple=RIPPLE, with_losses=(real,), held=self.verdict.feasible)
+
+    @property
+    def answer(self) -> str:
+        """The verdict in a sentence."""
+        return guide_words(self.target, self.verdict.reason)
+
     @functools.cached_property
     def loads(self) -> tuple[AtLoad, ...]:
         """The same guide at the loads that were asked for."""
@@ -147,7 +187,7 @@ class Design(Shown):
 LATER = ("check", "trials", "flywheels", "beside_faulty", "sensitivities", "retuned", "price", "loads")
 
 
-def complete(design: Design, progress: Callable[[], Any] = lambda: None) -> Design:
+def complete(design: Design, progress: Callable[[], object] = lambda: None) -> Design:
     """Compute all of a design; `progress` is called after each part named in `LATER`."""
     for part in LATER:
         getattr(design, part)

@@ -6,8 +6,8 @@ setting s, so torque and work of the guide are too, and two criteria have a clos
 .. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad
           s = \frac{\langle M_h - M_0, M_1\rangle}{\langle M_1, M_1\rangle}
 
-The speed follows the missing work, not the missing torque (see `speed_from_work`), so the criteria on work serve it
-better.
+The speed follows the missing work, not the missing torque (see `mechsym.hinge.ripple`), so the criteria on work serve
+it better.
 
 Source: Zotov et al. (2024), eqs. (12) to (14) and fig. 6, who raise p0 by 1.9 and compare torques by eye.
 """
@@ -18,10 +18,10 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput
-from mechsym.hinge.guide import Guide, Spring
+from mechsym.hinge.guide import Guide
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.setting import Affine, affine, missing_work, setting_of, with_setting, work_swing
-from mechsym.hinge.springs import Coil
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.quantities import record
 
@@ -52,10 +52,7 @@ class Retuning:
 def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
     """Spring setting with which a guide comes nearest to the hinge that another speed needs.
 
-    Parameters
-    ----------
-    hinge : Hinge
-        Torque that the other speed needs
+    hinge: torque that the other speed needs.
 
     Raises
     ------
@@ -83,14 +80,8 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
 def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "given") -> Retuning:
     """What remains when a guide works at another speed with a given spring setting.
 
-    Parameters
-    ----------
-    hinge : Hinge
-        Torque that the other speed needs
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
-    criterion : str
-        Where the setting comes from, for the record
+    hinge: torque that the other speed needs; setting: p0 [Pa], or F0 of a coil [N]; criterion: where the setting comes
+    from, for the record.
     """
     parts = affine(guide, hinge)
     missing = parts.torque_wanted - parts.torque_0 - setting * parts.torque_1
@@ -108,7 +99,7 @@ def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "giv
 
 def _least_setting(spring: Spring) -> float:
     # a spring only pushes: where the other speed asks for the opposite torque, the best setting would be negative
-    return 0.0 if isinstance(spring, Coil) else 0.01 * setting_of(spring)
+    return 0.01 * setting_of(spring) if spring.gas else 0.0
 
 
 def _projection(wanted: np.ndarray, given: np.ndarray) -> float:

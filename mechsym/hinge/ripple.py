@@ -19,23 +19,21 @@ from itertools import accumulate
 import numpy as np
 import scipy
 
+from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond
+from mechsym.simulate.speed import Speed
 
-def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) -> np.ndarray | None:
+
+def constant_load_speed(
+    missing: Joule[Array], inertia: Inertia[Array], omega: RadPerSecond
+) -> RadPerSecond[Array] | None:
     """Crank speed around a period at constant load, for a given mean speed.
 
-    Parameters
-    ----------
-    missing : ndarray, shape (n,)
-        Work that is wanted and missing [J]
-    inertia : ndarray, shape (n,)
-        Reduced inertia [kg*m^2]
-    omega : float
-        Mean speed in time [rad/s]
+    missing: work that is wanted and missing; inertia: reduced inertia; omega: mean speed in time.
 
     Returns
     -------
     phid : ndarray, shape (n,), or None
-        Speed [rad/s]; None if no motion with that mean speed exists: the crank would stop
+        Speed; None if no motion with that mean speed exists: the crank would stop
 
     Notes
     -----
@@ -59,29 +57,15 @@ def constant_load_speed(missing: np.ndarray, inertia: np.ndarray, omega: float) 
 
 
 def propeller_load_speed(
-    missing: np.ndarray, inertia: np.ndarray, omega: float, load_torque: float, period: float
-) -> np.ndarray | None:
+    missing: Joule[Array], inertia: Inertia[Array], omega: RadPerSecond, load_torque: NewtonMetre, period: Radian
+) -> RadPerSecond[Array] | None:
     r"""Crank speed around a period when the load grows with the square of the speed.
 
     .. math:: E = g - w, \qquad g' = a\,(w - g), \qquad a = \frac{2 M_r}{I \omega^2}
 
-    Parameters
-    ----------
-    missing : ndarray, shape (n,)
-        Work w that is wanted and missing [J]
-    inertia : ndarray, shape (n,)
-        Reduced inertia I [kg*m^2]
-    omega : float
-        Speed at which the load takes the load torque [rad/s]
-    load_torque : float
-        M_r; where it is not positive a steady torque holds the machine in its place, see `settle` [N*m]
-    period : float
-        Period [rad]
-
-    Returns
-    -------
-    phid : ndarray, shape (n,), or None
-        Speed of the periodic motion, to which every run settles [rad/s]; None if the crank would stop
+    missing: work w that is wanted and missing. inertia: reduced inertia I. omega: speed at which the load takes the
+    load torque. load_torque: M_r; where it is not positive a steady torque holds the machine in its place, see
+    `settle`. Returns phid: speed of the periodic motion, to which every run settles; None if the crank would stop.
     """
     if load_torque <= 0:
         return constant_load_speed(missing, inertia, omega)
@@ -98,36 +82,20 @@ def propeller_load_speed(
     return None if squares.min() <= 0 else np.sqrt(squares)
 
 
-def mean_speed(phid: np.ndarray) -> float:
+def mean_speed(phid: RadPerSecond[Array]) -> RadPerSecond:
     """Mean in time of a speed given over even angles.
 
-    Parameters
-    ----------
-    phid : ndarray, shape (n,)
-        Speed, not negative [rad/s]
-
-    Returns
-    -------
-    mean : float
-        Angle over time of a period [rad/s]
+    phid: speed, not negative. Returns mean: angle over time of a period.
     """
     # a crank that stands at one angle takes for ever
     return 1 / float(np.mean(1 / phid)) if phid.min() > 0 else 0.0
 
 
-def ripple(phid: np.ndarray | None) -> float | None:
-    r"""Speed ripple.
+def ripple(phid: RadPerSecond[Array] | None) -> Pure | None:
+    """Speed ripple of a closed form, which knows the speed at its angles only; see `mechsym.simulate.speed.Speed`.
 
-    .. math:: \delta = \frac{\omega_{max} - \omega_{min}}{\omega_{mean}}
-
-    Parameters
-    ----------
-    phid : ndarray, shape (n,), or None
-        Speed over even angles [rad/s]; None for a crank that stops
-
-    Returns
-    -------
-    delta : float or None
-        Ripple [-]
+    phid: speed over even angles; None for a crank that stops.
     """
-    return None if phid is None or phid.min() <= 0 else float(np.ptp(phid)) / mean_speed(phid)
+    if phid is None or phid.min() <= 0:
+        return None
+    return Speed(mean=mean_speed(phid), min=float(phid.min()), max=float(phid.max())).ripple

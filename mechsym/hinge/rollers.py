@@ -16,12 +16,25 @@ et al. 2024, section 3). Neglected: mass of rollers, spring pistons and gas (see
 """
 
 import math
-from typing import Any
+from typing import Annotated, Protocol
 
 import casadi as ca
 import numpy as np
 
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import (
+    Array,
+    Kilogram,
+    Metre,
+    MetrePerRadian,
+    MetrePerRadian2,
+    Newton,
+    NewtonMetre,
+    Pascal,
+    Radian,
+    RadPerSecond,
+    Scalar,
+)
 
 
 @record
@@ -35,65 +48,46 @@ class RollerParameters:
     nu: float = quantity("-", default=0.3, low=0, high=0.5, about="Poisson's ratio of roller and track")
     #: `none`, or `rolling` with the resistance of `rolling_arm`
     friction: str = choice("none", "rolling", default="none", about="friction between roller and track")
-    rolling_arm: float = quantity("m", default=1e-6, low=0, about="rolling resistance moment over normal force")
+    rolling_arm: float = quantity(
+        "m", default=1e-6, low=0, about="rolling resistance moment over normal force", only=("friction", "rolling")
+    )
     moving_mass: float = quantity("kg", default=0.0, low=0, high=10000, about="mass that moves with each roller")
 
 
-def pressure_angle(rho: np.ndarray, drho: np.ndarray) -> np.ndarray:
+def pressure_angle(rho: Metre[Array], drho: MetrePerRadian[Array]) -> Radian[Array]:
     r"""Angle between the contact normal and the radius.
 
     .. math:: \tan\alpha = \frac{\rho'}{\rho}
 
-    Parameters
-    ----------
-    rho, drho : ndarray, shape (n,)
-        Path [m] and its derivative [m/rad]
-
-    Returns
-    -------
-    alpha : ndarray, shape (n,)
-        Signed [rad]
+    rho, drho: path and its derivative. Returns alpha: signed.
     """
     return np.arctan2(drho, rho)
 
 
-def curvature(rho: np.ndarray, drho: np.ndarray, d2rho: np.ndarray) -> np.ndarray:
+def curvature(
+    rho: Metre[Scalar], drho: MetrePerRadian[Scalar], d2rho: MetrePerRadian2[Scalar]
+) -> Annotated[Scalar, "1/m"]:
     r"""Curvature of the path of the roller centres.
 
     .. math:: \kappa = \frac{\rho^2 + 2\rho'^2 - \rho\rho''}{(\rho^2 + \rho'^2)^{3/2}}
 
-    Parameters
-    ----------
-    rho, drho, d2rho : ndarray, shape (n,)
-        Path [m] and its derivatives [m/rad], [m/rad^2]
-
-    Returns
-    -------
-    kappa : ndarray, shape (n,)
-        Positive around the shaft axis, negative where the path bends inwards [1/m]
+    rho, drho, d2rho: path and its derivatives. Returns kappa: positive around the shaft axis, negative where the path
+    bends inwards.
     """
     square = rho**2 + drho**2
     return (square + drho**2 - rho * d2rho) / (square * _root(square))
 
 
-def parallel(rho: np.ndarray, drho: np.ndarray, theta: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
+def parallel(
+    rho: Metre[Array], drho: MetrePerRadian[Array], theta: Radian[Array], distance: Metre
+) -> tuple[Metre[Array], Metre[Array]]:
     r"""Exact parallel curve outside the path: the cut profile at the roller radius, the path of a cutter nearer.
 
     .. math:: P = \rho\,e_r + d\,n, \qquad n = \frac{\rho\,e_r - \rho'\,e_\theta}{\sqrt{\rho^2 + \rho'^2}}
 
-    Parameters
-    ----------
-    rho, drho : ndarray, shape (n,)
-        Path [m] and its derivative [m/rad]
-    theta : ndarray, shape (n,)
-        Angle of the guide's shaft [rad]
-    distance : float
-        d: roller radius for the profile, roller radius minus cutter radius for the centre of a cutter [m]
-
-    Returns
-    -------
-    x, y : ndarray, shape (n,)
-        In the frame of the track, x along theta = 0 [m]
+    rho, drho: path and its derivative. theta: angle of the guide's shaft. distance: d: roller radius for the profile,
+    roller radius minus cutter radius for the centre of a cutter. Returns x, y: in the frame of the track, x along theta
+    = 0.
 
     Notes
     -----
@@ -104,52 +98,23 @@ def parallel(rho: np.ndarray, drho: np.ndarray, theta: np.ndarray, distance: flo
     return along * np.cos(theta) - across * np.sin(theta), along * np.sin(theta) + across * np.cos(theta)
 
 
-def profile_curvature(kappa: np.ndarray, radius: float) -> np.ndarray:
-    r"""Curvature of the cut profile.
-
-    .. math:: \kappa_p = \frac{\kappa}{1 + r\kappa}
-
-    Parameters
-    ----------
-    kappa : ndarray, shape (n,)
-        Curvature of the path, with 1 + r kappa > 0 [1/m]
-    radius : float
-        Roller radius r [m]
-
-    Returns
-    -------
-    kappa_p : ndarray, shape (n,)
-        Positive where the track is hollow, negative where it bulges towards the roller [1/m]
-    """
-    return kappa / (1 + radius * kappa)
-
-
-def _root(value: Any) -> Any:
+def _root(value: Scalar) -> Scalar:
     return ca.sqrt(value) if isinstance(value, ca.SX | ca.MX) else np.sqrt(value)
 
 
-def length(a: Any, b: Any) -> Any:
+def length(a: Scalar, b: Scalar) -> Scalar:
     """Root of the sum of squares, for numbers, arrays and CasADi symbols alike [unit of a]."""
     symbols = isinstance(a, ca.SX | ca.MX) or isinstance(b, ca.SX | ca.MX)
     return ca.hypot(a, b) if symbols else np.hypot(a, b)
 
 
-def reaction(force: Any, rho: Any, drho: Any) -> Any:
+def reaction(force: Newton[Scalar], rho: Metre[Scalar], drho: MetrePerRadian[Scalar]) -> Newton[Scalar]:
     r"""Contact force of a massless roller on its track, N1 and N2 of the source.
 
     .. math:: N = \frac{F}{\cos\alpha} = F\sqrt{1 + (\rho'/\rho)^2}
 
-    Parameters
-    ----------
-    force : ndarray, shape (n,), or casadi.SX
-        Spring force F [N]
-    rho, drho : ndarray, shape (n,), or casadi.SX
-        Path [m] and its derivative [m/rad]
-
-    Returns
-    -------
-    N : ndarray, shape (n,)
-        Along the normal; both rollers of a pair carry the same [N]
+    force: spring force F; rho, drho: path and its derivative. Returns N: along the normal; both rollers of a pair carry
+    the same.
 
     Notes
     -----
@@ -158,73 +123,93 @@ def reaction(force: Any, rho: Any, drho: Any) -> Any:
     return force * _root(1 + (drho / rho) ** 2)
 
 
-def hertz_stress(N: np.ndarray, kappa: np.ndarray, rollers: RollerParameters) -> np.ndarray:
+class Rolling(Protocol):
+    """Numbers of a roller and its track."""
+
+    @property
+    def radius(self) -> float:
+        """Of the roller [m]."""
+
+    @property
+    def width(self) -> float:
+        """Of contact [m]."""
+
+    @property
+    def E(self) -> float:
+        """Young's modulus of both [Pa]."""
+
+    @property
+    def nu(self) -> float:
+        """Poisson's ratio of both [-]."""
+
+
+def contact_modulus(rollers: Rolling) -> float:
+    """Modulus E* of a contact of two bodies of one material [Pa]."""
+    return rollers.E / (2 * (1 - rollers.nu**2))
+
+
+def hertz_stress(N: Newton[Array], kappa: Annotated[Array, "1/m"], rollers: Rolling) -> Pascal[Array]:
     r"""Largest pressure in the line contact of roller and track.
 
     .. math:: p_H = \sqrt{\frac{N E^*}{\pi\,w\,R_e}}, \qquad E^* = \frac{E}{2(1 - \nu^2)}, \qquad
               \frac1{R_e} = \frac1r - \frac{\kappa}{1 + r\kappa} = \frac1{r\,(1 + r\kappa)}
 
-    Parameters
-    ----------
-    N : ndarray, shape (n,)
-        Contact force [N]
-    kappa : ndarray, shape (n,)
-        Curvature of the path [1/m]
-
-    Returns
-    -------
-    p_H : ndarray, shape (n,)
-        Pressure in the middle of the contact; infinite where the profile is undercut, 0 where nothing presses [Pa]
+    kappa: curvature of the path. Returns p_H: pressure in the middle of the contact; infinite where the profile is
+    undercut, 0 where nothing presses.
 
     Notes
     -----
     Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c), load per unit width N / w. Valid: both bodies of
     one material, contact much narrower than r, no edge loading.
     """
-    modulus = rollers.E / (2 * (1 - rollers.nu**2))
     relative_radius = rollers.radius * np.maximum(1 + rollers.radius * kappa, 0.0)
     with np.errstate(divide="ignore"):
-        return np.sqrt(np.maximum(N, 0.0) * modulus / (math.pi * rollers.width * relative_radius))
+        return np.sqrt(np.maximum(N, 0.0) * contact_modulus(rollers) / (math.pi * rollers.width * relative_radius))
 
 
-def tilting_couple(N: np.ndarray, plane_offset: float) -> np.ndarray:
-    r"""Couple that tilts two tracks in offset planes.
+def contact_force(
+    force: Newton[Scalar],
+    rho: Metre[Scalar],
+    drho: MetrePerRadian[Scalar],
+    d2rho: MetrePerRadian2[Scalar],
+    mass: Kilogram[Scalar],
+    omega: RadPerSecond[Scalar],
+) -> Newton[Scalar]:
+    r"""Contact force of a roller with mass that turns with the shaft and is pressed outwards by it too.
+
+    .. math:: N = \left[F + m_h \omega^2 (\rho - \rho'')\right] \sqrt{1 + (\rho'/\rho)^2}
+
+    force: spring force F on each roller; rho, drho, d2rho: path and its derivatives; mass: m_h, moving with the roller;
+    omega: speed of the guide's shaft. Returns N: along the normal of the track.
+
+    Notes
+    -----
+    The torque of the track on the shaft is N sin(alpha) rho less the Coriolis force on the spring's guide; together
+    they are F rho' - omega^2 I_h'/2 for each roller. Without the traction that the roller's own inertia asks for.
+    """
+    return reaction(force + mass * inertia_force(rho, d2rho, omega), rho, drho)
+
+
+def tilting_couple(N: Newton[Array], plane_offset: Metre) -> NewtonMetre[Array]:
+    """Couple that tilts two tracks in offset planes.
 
     .. math:: C = N b
 
-    Parameters
-    ----------
-    N : ndarray, shape (n,)
-        Contact force of each roller; the two are opposite and b apart along the shaft [N]
-    plane_offset : float
-        Distance b of the planes [m]
-
-    Returns
-    -------
-    C : ndarray, shape (n,)
-        About an axis across the shaft, turning with the spring; the bearings of the hinge carry it [N*m]
+    N: contact force of each roller; the two are opposite and b apart along the shaft. Returns C: about an axis across
+    the shaft, turning with the spring; the bearings of the hinge carry it.
     """
     return N * plane_offset
 
 
-def loss_torque(N: Any, rho: Any, drho: Any, rollers: RollerParameters) -> Any:
+def loss_torque(
+    N: Newton[Scalar], rho: Metre[Scalar], drho: MetrePerRadian[Scalar], rollers: RollerParameters
+) -> NewtonMetre[Scalar]:
     r"""Torque that rolling resistance of one roller takes from the guide's shaft.
 
     .. math:: M_f = \frac{f N}{r}\,\sqrt{\rho^2 + \rho'^2}
 
-    Parameters
-    ----------
-    N : ndarray, shape (n,), or casadi.SX
-        Contact force [N]
-    rho, drho : ndarray, shape (n,), or casadi.SX
-        Path [m] and its derivative [m/rad]
-    rollers : RollerParameters
-        Friction by name; 0 for `none`
-
-    Returns
-    -------
-    M_f : ndarray, shape (n,)
-        Against the rotation [N*m]
+    N: contact force. rho, drho: path and its derivative. rollers: friction by name; 0 for `none`. Returns M_f: against
+    the rotation.
 
     Notes
     -----
@@ -235,21 +220,14 @@ def loss_torque(N: Any, rho: Any, drho: Any, rollers: RollerParameters) -> Any:
     return rollers.rolling_arm * N / rollers.radius * length(rho, drho)
 
 
-def inertia_force(rho: Any, d2rho: Any, omega: Any) -> Any:
+def inertia_force(
+    rho: Metre[Scalar], d2rho: MetrePerRadian2[Scalar], omega: RadPerSecond[Scalar]
+) -> Annotated[Scalar, "N/kg"]:
     r"""Radial force for each kilogram that moves with a roller: what the massless model leaves out.
 
     .. math:: f = \omega_\theta^2\,(\rho - \rho'')
 
-    Parameters
-    ----------
-    rho, d2rho : ndarray, shape (n,), or casadi.SX
-        Path [m] and its second derivative [m/rad^2]
-    omega : float or casadi.SX
-        Speed of the guide's shaft [rad/s]
-
-    Returns
-    -------
-    f : ndarray, shape (n,)
-        Outwards, for a spring that turns with the shaft; without the term rho if the tracks turn instead [N/kg]
+    rho, d2rho: path and its second derivative; omega: speed of the guide's shaft. Returns f: outwards, for a spring
+    that turns with the shaft; without the term rho if the tracks turn instead.
     """
     return omega**2 * (rho - d2rho)

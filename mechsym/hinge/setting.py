@@ -11,13 +11,13 @@ import dataclasses
 
 import numpy as np
 
-from mechsym.hinge.guide import Guide, Spring, closing, crank_torque, path, refit
-from mechsym.hinge.springs import Coil, law
-from mechsym.hinge.thermal import AirThermal
+from mechsym.hinge.guide import Guide, closing, crank_torque, path, refit
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import Array, Joule
 
 
 @record
@@ -41,59 +41,45 @@ class Affine:
 def setting_of(spring: Spring) -> float:
     """The value that retuning changes.
 
-    Returns
-    -------
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
+    Returns setting: p0 [Pa], or F0 of a coil [N].
     """
-    return spring.F0 if isinstance(spring, Coil) else spring.p0
+    return float(getattr(spring, spring.setting[0]))
 
 
 def setting_text(spring: Spring, setting: float) -> str:
     """A setting with its unit, for people, four digits.
 
-    Parameters
-    ----------
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
+    setting: p0 [Pa], or F0 of a coil [N].
     """
-    return quantity_text(setting, "N" if isinstance(spring, Coil) else "Pa", 4)
+    return quantity_text(setting, spring.setting[1], 4)
 
 
 def with_setting(spring: Spring, setting: float) -> Spring:
     """The same spring with another setting.
 
-    Parameters
-    ----------
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
+    setting: p0 [Pa], or F0 of a coil [N].
     """
-    if isinstance(spring, Coil):
-        return dataclasses.replace(spring, F0=setting)
-    return dataclasses.replace(spring, p0=setting)
+    return dataclasses.replace(spring, **{spring.setting[0]: setting})
 
 
 def affine(guide: Guide, hinge: Hinge) -> Affine:
     """Torque and work of a guide as functions of its spring setting, beside what a speed needs.
 
-    Returns
-    -------
-    parts : Affine
-        Arrays over one period of the hinge
+    Returns parts: arrays over one period of the hinge.
     """
     phi = even_angles(hinge.period)
     rho, ratio = path(guide), guide.parameters.shaft_ratio
     z = closing(guide, rho(ratio * np.append(phi, 0.0)))
     # two settings fix a straight line; the second is far enough from the first to lose no digits
     first = setting_of(guide.spring)
-    second = 2 * first if first > 0 else float(law(guide.spring).force(guide.spring.H))  # type: ignore[arg-type]
+    second = 2 * first if first > 0 else float(guide.spring.force(guide.spring.H))
     torques, works = [], []
     for spring in (guide.spring, with_setting(guide.spring, second)):
         torques.append(crank_torque(refit(guide, spring), phi))
-        if isinstance(spring, AirThermal):
+        if spring.state:
             works.append(_work(torques[-1], hinge.period))
         else:
-            energy = law(spring).energy(z)
+            energy = spring.energy(z)
             works.append(energy[-1] - energy[:-1])
     torque_1, work_1 = ((values[1] - values[0]) / (second - first) for values in (torques, works))
     return Affine(
@@ -116,33 +102,17 @@ def _work(torque: np.ndarray, period: float) -> np.ndarray:
     return np.cumsum(swing) - (swing + swing[0]) / 2
 
 
-def missing_work(parts: Affine, setting: float) -> np.ndarray:
+def missing_work(parts: Affine, setting: float) -> Joule[Array]:
     """Work that is wanted and missing.
 
-    Parameters
-    ----------
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
-
-    Returns
-    -------
-    work : ndarray, shape (n,)
-        From phi = 0 [J]
+    setting: p0 [Pa], or F0 of a coil [N]. Returns work: from phi = 0.
     """
     return parts.work_wanted - parts.work_0 - setting * parts.work_1
 
 
-def work_swing(parts: Affine, setting: float) -> float:
+def work_swing(parts: Affine, setting: float) -> Joule:
     """Largest minus smallest missing work.
 
-    Parameters
-    ----------
-    setting : float
-        p0 [Pa], or F0 of a coil [N]
-
-    Returns
-    -------
-    swing : float
-        Convex in the setting [J]
+    setting: p0 [Pa], or F0 of a coil [N]. Returns swing: convex in the setting.
     """
     return float(np.ptp(missing_work(parts, setting)))

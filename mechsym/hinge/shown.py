@@ -3,19 +3,18 @@
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
-from mechsym.hinge import plots, plots_loads
+from mechsym.hinge import plots
+from mechsym.hinge.findings import of_design
+from mechsym.hinge.limits import ALL_KEPT, Verdict
 from mechsym.hinge.result import Design
 from mechsym.hinge.setting import setting_of, setting_text
-from mechsym.hinge.springs import Coil
-from mechsym.hinge.summary import guide_turn, hinge_columns, summary
-from mechsym.machine.record import gas_of
+from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_turn, hinge_columns
 from mechsym.mechanisms.drawing import Shapes
-from mechsym.mechanisms.own_drawing import drawn
+from mechsym.mechanisms.drawing import declared as drawn
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
-from mechsym.page import Card, Picture, View, shows
+from mechsym.page import Card, Picture, View, card, shows
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 
@@ -25,27 +24,29 @@ def design_view(design: Design) -> View:
     """Verdict and numbers of a hinge; what runs is computed when it is asked for."""
     return View(
         title=f"Elastic hinge of {design.origin.name}",
-        cards=cards(design, summary(design)),
+        cards=cards(design, HingeNumbers(judged=design)),
         pictures=pictures(design),
         columns=lambda: hinge_columns(design),
+        findings=lambda: of_design(design),
     )
 
 
-def cards(design: Design, numbers: dict[str, Any]) -> tuple[Card, ...]:
+def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
     """The numbers that decide."""
-    guide, check, lost = numbers["guide"], numbers["check"], numbers["losses"]
+    guide, check, lost = numbers.guide, numbers.check, numbers.losses
     found = [
-        Card(name="guide", value="can be built" if guide["feasible"] else "cannot be built", about=guide["reason"],
-             mark="yes" if guide["feasible"] else "no"),
-        Card(name="speed ripple", value=ratio_text(check["speed_ripple"], 2), about="simulated with the hinge at "
-             f"{quantity_text(design.machine.omega, 'rad/s')}, ideal: no losses"),
-        Card(name="flywheel saved", value=quantity_text(numbers["flywheel_inertia_saved"], "kg*m^2", 4),
-             about="what a ripple of 1/50 would need without the hinge"),
+        Card(name="guide", value="can be cut" if guide.feasible else "cannot be built",
+             about=f"{design.target.words}; {guide.reason.removeprefix(ALL_KEPT)}" if guide.feasible else guide.reason,
+             mark="yes" if design.target.met else "no"),
+        Card(name="speed ripple", value=ratio_text(check.speed_ripple, 2), about="simulated with the hinge at "
+             f"{quantity_text(design.machine.omega, 'rad/s')}, {'with' if check.losses else 'ideal: no'} losses"),
+        card(HingeNumbers, "flywheel_inertia_saved", numbers.flywheel_inertia_saved,
+             "by an ideal hinge: what a ripple of 1/50 needs without one"),
         *_dimensions(design, guide),
     ]  # fmt: skip
     if lost is not None:
-        share, ripple = numbers["misfire_speed_share"], lost["speed_ripple"]
-        of_load = "" if lost["share"] is None else "of the load torque, "
+        share, ripple = numbers.misfire_speed_share, lost.speed_ripple
+        of_load = "" if lost.share is None else "of the load torque, "
         with_them = "no steady motion" if ripple is None else f"ripple {figure(ripple, 2)}"
         found += [
             Card(name="lost in the hinge", value=_lost(lost),
@@ -59,10 +60,10 @@ def cards(design: Design, numbers: dict[str, Any]) -> tuple[Card, ...]:
     return tuple(found)
 
 
-def _lost(lost: dict[str, Any]) -> str:
-    if lost["share"] is None:
-        return quantity_text(lost["total"], "N*m", 3)
-    return f"{figure(100 * lost['share'], 3)} %"
+def _lost(lost: HingeLossNumbers) -> str:
+    if lost.share is None:
+        return quantity_text(lost.torques.total, "N*m", 3)
+    return f"{figure(100 * lost.share, 3)} %"
 
 
 def shapes_of(design: Design) -> Callable[[float], Shapes] | None:
@@ -71,38 +72,36 @@ def shapes_of(design: Design) -> Callable[[float], Shapes] | None:
     return drawn(mechanism, listing(mechanism.name)) if "drawing" in mechanism.functions else None
 
 
-def _dimensions(design: Design, guide: dict[str, Any]) -> list[Card]:
+def _dimensions(design: Design, guide: Verdict) -> list[Card]:
     spring, setting = design.guide.spring, partial(setting_text, design.guide.spring)
-    sizes = "" if isinstance(spring, Coil) else f"piston {quantity_text(spring.A, 'm^2')}, column "\
+    sizes = "" if not spring.gas else f"piston {quantity_text(spring.area, 'm^2')}, column "\
         f"{quantity_text(spring.H, 'm')}, n = {figure(getattr(spring, 'n', None))}"  # fmt: skip
     found = [Card(name="spring", value=setting(setting_of(spring)), about=sizes)]
     if design.usable is None:
         return found
-    ends = [quantity_text(guide[f"rho_{end}"], "m", 4) for end in ("min", "max")]
+    ends = [quantity_text(rho, "m", 4) for rho in (guide.rho_min, guide.rho_max)]
     rollers = f"{design.guide.rollers} roller{'s' * (design.guide.rollers > 1)} of radius "
     about = f"{rollers}{quantity_text(design.rollers.radius, 'm', 4)}; spring closes "
-    about += " to ".join(quantity_text(guide[f"z_{end}"], "m", 4) for end in ("min", "max"))
-    force = quantity_text(guide["roller_reaction_max"], "N", 4)
+    about += " to ".join(quantity_text(z, "m", 4) for z in (guide.z_min, guide.z_max))
     return [
         Card(name="guide, radius of the roller centres", value=f"{ends[0]} to {ends[1]}", about=about), *found,
-        Card(name="force on a roller", value=force,
-             about=f"pressure angle up to {quantity_text(guide['pressure_angle_max'], 'rad', 3)}"),
+        card(Verdict, "roller_reaction_max", guide.roller_reaction_max,
+             f"pressure angle up to {quantity_text(guide.pressure_angle_max, 'rad', 3)}"),
     ]  # fmt: skip
 
 
 def pictures(design: Design) -> tuple[Picture, ...]:
     """The figures that there is something to draw for."""
-    kind = gas_of(design.machine).pressure.kind
+    gas = design.machine.gas
     found = [
-        Picture(name="pressure", draw=lambda: plots.pressure(design),
-                see=f"Pressure of the cycle {kind} with its events; the gas torque follows from it."),
         Picture(name="torque", draw=lambda: plots.torque(design),
                 see="Hinge torque on the crank with its parts, and below its work, which comes back after a period."),
         Picture(name="speeds", draw=lambda: plots.speeds(design),
                 see="Crank speed over the design speed: flat with the hinge, a wave without."),
     ]  # fmt: skip
-    if not gas_of(design.machine).has_pressure:
-        del found[0]
+    if gas is not None:
+        see = f"Pressure of the cycle {gas.pressure.kind} with its events; the gas torque follows from it."
+        found.insert(0, Picture(name="pressure", draw=lambda: plots.pressure(design), see=see))
     if (shapes := shapes_of(design)) is not None:
         found.insert(0, Picture(name="mechanism", draw=lambda: figure_of(shapes, math.pi / 3),
                                 see="The mechanism as its declaration draws it."))  # fmt: skip
@@ -124,7 +123,7 @@ def pictures(design: Design) -> tuple[Picture, ...]:
                              see=f"The same guide at {rpm} rpm: left the torque that is wanted and given, right the "
                              "speed over a steady turn."))  # fmt: skip
     if design.loads:
-        found.append(Picture(name="loads", draw=lambda: plots_loads.loads(design.loads),
+        found.append(Picture(name="loads", draw=lambda: plots.loads(design.loads),
                              see="Left: speed ripple over the load, a cross where the crank does not turn steadily. "
                              "Right: the setting of the spring that fits best."))  # fmt: skip
     return tuple(found)

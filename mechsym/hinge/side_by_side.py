@@ -7,21 +7,20 @@ of sums, so the numbers agree to about 1e-10 of theirs.
 import dataclasses
 from collections.abc import Sequence
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
-from mechsym.hinge import rollers as _rollers
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits, refuse_open_track
-from mechsym.hinge.law_path import FULL, LawSpring, can_be_given, work_range
-from mechsym.hinge.limits import Verdict, highest, undercut_radius, verdict
+from mechsym.hinge.contact import station_of
+from mechsym.hinge.limits import Verdict, verdict
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import LAWS, SpringLaw
-from mechsym.periodic.halving import DEGREE, first_edges, halved
+from mechsym.hinge.springs.face import Spring, lettered
+from mechsym.hinge.springs.law_path import FULL, can_be_given, work_range
+from mechsym.periodic import DEGREE, first_edges, halved
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
 
-contact: Any = _rollers  # its formulas take parameters that are arrays too
 _SHARES = (1 - np.cos(np.linspace(0, np.pi, 65))) / 2  # of a piece, as in `contact.at_pieces`
 _CACHED = 30_000  # points of all guides at once that stay in the cache
 _POWERS = np.arange(DEGREE + 1, -1, -1)
@@ -32,7 +31,7 @@ _TO_VALUES = [_SHARES[:, None] ** _POWERS[k:] for k in range(3)]
 class GuideDesign:
     """What decides a guide beside the torque."""
 
-    spring: LawSpring
+    spring: Spring
     choices: GuideParameters
     rollers: RollerParameters
     limits: Limits
@@ -50,8 +49,10 @@ class _Tracks:
 
 def verdicts(wanted: Balance, designs: Sequence[GuideDesign]) -> list[Verdict | None]:
     """Verdicts on guides for one torque; None where no guide can be cut, `judge` of `cut` says why."""
-    groups: dict[Any, list[int]] = {}
+    groups: dict[tuple[object, ...], list[int]] = {}
     for i, d in enumerate(designs):
+        if d.spring.state:  # its path is no function of the work alone
+            continue
         key = type(d.spring), d.choices.arrangement, d.choices.start, d.choices.shaft_ratio
         groups.setdefault(key, []).append(i)
     found: list[Verdict | None] = [None] * len(designs)
@@ -72,13 +73,12 @@ def _alike(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict | None]:
     found: list[Verdict | None] = [None] * len(designs)
     if good.any():
         kept = [d for d, fine in zip(designs, good, strict=True) if fine]
-        for i, numbers in zip(np.flatnonzero(good).tolist(), _numbers(wanted, kept), strict=True):
-            d = designs[i]
-            found[i] = verdict(numbers, d.spring, d.choices, d.rollers, d.limits)
+        for i, one in zip(np.flatnonzero(good).tolist(), _judged(wanted, kept), strict=True):
+            found[i] = one
     return found
 
 
-def _columns(records: Sequence[Any]) -> SimpleNamespace:
+def _columns(records: Sequence[Record]) -> SimpleNamespace:
     """The numbers of records of one kind as arrays of shape (n,), anything else as the first has it."""
     first = records[0]
     return SimpleNamespace(**{
@@ -87,89 +87,62 @@ def _columns(records: Sequence[Any]) -> SimpleNamespace:
     })  # fmt: skip
 
 
-def _law(kind: type, spring: SimpleNamespace, who: Any = slice(None)) -> SpringLaw:
-    return LAWS[kind](SimpleNamespace(**{name: values[who] for name, values in vars(spring).items()}))
+def _springs(springs: Sequence[Spring]) -> Spring:
+    """Many springs of one law as one, whose numbers are arrays."""
+    return lettered(springs[0], {name: np.array([getattr(s, name) for s in springs]) for name in vars(springs[0])})
 
 
-def _energies(wanted: Balance, law: SpringLaw, choices: SimpleNamespace) -> tuple[Any, Any, Any]:
+def _chosen(springs: Spring, who: np.ndarray) -> Spring:
+    return lettered(springs, {name: values[who] for name, values in vars(springs).items()})
+
+
+def _energies(wanted: Balance, springs: Spring, choices: SimpleNamespace) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Stored energy at the start, the smallest, the largest [J]."""
     low, high = work_range(wanted)
     at_start = 0.0 * choices.rho0
     if choices.start != "as_printed":
-        at_start = law.energy(choices.z_margin) + high
+        at_start = springs.energy(choices.z_margin) + high
     return at_start, at_start - high, at_start - low
 
 
 def _can_be_cut(wanted: Balance, designs: list[GuideDesign]) -> np.ndarray:
     """As `law_path.status`, for the springs of a group."""
-    spring, choices = _columns([d.spring for d in designs]), _columns([d.choices for d in designs])
-    law = _law(type(designs[0].spring), spring)
+    springs, choices = _springs([d.spring for d in designs]), _columns([d.choices for d in designs])
     with np.errstate(all="ignore"):  # what cannot be cut need not have a closing
-        _, least, most = _energies(wanted, law, choices)
-        held = (choices.z_margin < spring.H) & (most < law.energy_high) & (least > law.energy_low)
-        z_max = law.closing(np.where(held, most, 0.0))
-    return held & (z_max < FULL * law.z_high) & (choices.rho0 - z_max / ROLLERS[choices.arrangement] > 0)
+        _, least, most = _energies(wanted, springs, choices)
+        held = (choices.z_margin < springs.H) & (most < springs.energy_high) & (least > springs.energy_low)
+        z_max = springs.closing(np.where(held, most, 0.0))
+    return held & (z_max < FULL * springs.H) & (choices.rho0 - z_max / ROLLERS[choices.arrangement] > 0)
 
 
-def _numbers(wanted: Balance, designs: list[GuideDesign]) -> list[dict[str, Any]]:
-    """Numbers of guides that can be cut, by the names of `Verdict`."""
-    spring, choices, rollers = (_columns([getattr(d, n) for d in designs]) for n in ("spring", "choices", "rollers"))
-    kind, c = type(designs[0].spring), ROLLERS[choices.arrangement]
-    law = _law(kind, spring)
-    _, least, most = _energies(wanted, law, choices)
-    z_min, z_max = law.closing(least), law.closing(most)
-    tracks = _tracks(wanted, kind, spring, choices, designs[0].choices.shaft_ratio)
-    ends = np.append(np.flatnonzero(np.diff(tracks.who, prepend=-1)), len(tracks.who))
-    curves = _contact(wanted, _law(kind, spring, tracks.who[:, None]), choices, rollers, tracks)
-    found = []
-    for i, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
-        theta = tracks.theta[a:b].ravel()
-        top = {name: highest(theta, values[a:b].ravel()) for name, values in curves.items() if name != "curvature"}
-        couple = top["reaction"] * (rollers.plane_offset[i] if choices.arrangement == "two_tracks" else 0.0)
-        found.append({
-            "rho_min": float(choices.rho0[i] - z_max[i] / c), "rho_max": float(choices.rho0[i] - z_min[i] / c),
-            "z_min": float(z_min[i]), "z_max": float(z_max[i]),
-            "spring_force_max": float(law.force(z_max)[i]),
-            "spring_pressure_max": None if law.pressure is None else float(law.pressure(z_max)[i]),
-            "pressure_angle_max": top["angle"], "curvature_radius_min": 1 / top["bend"],
-            "undercut_radius": undercut_radius(curves["curvature"][a:b]), "roller_reaction_max": top["reaction"],
-            "hertz_stress_max": top["stress"], "tilting_couple_max": float(couple),
-            "closure": float(tracks.closure[i]),
-        })  # fmt: skip
-    return found
+def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
+    """Verdicts on guides that can be cut."""
+    springs, choices = _springs([d.spring for d in designs]), _columns([d.choices for d in designs])
+    _, least, most = _energies(wanted, springs, choices)
+    z = np.stack([springs.closing(least), springs.closing(most)])
+    extremes = choices.rho0 - z / ROLLERS[choices.arrangement]
+    tracks = _tracks(wanted, springs, choices, designs[0].choices.shaft_ratio)
+    cuts = np.append(np.flatnonzero(np.diff(tracks.who, prepend=-1)), len(tracks.who))
+    judged = []
+    for i, d in enumerate(designs):
+        a, b = cuts[i : i + 2]
+        values = [column[a:b].ravel() for column in tracks.values]
+        along = station_of(d.spring, d.choices, d.rollers, wanted.omega, values)
+        gap = float(tracks.closure[i])
+        judged.append(verdict(along, extremes[:, i], tracks.theta[a:b].ravel(), gap, d.choices, d.limits))
+    return judged
 
 
-def _contact(
-    wanted: Balance, law: SpringLaw, choices: SimpleNamespace, rollers: SimpleNamespace, tracks: _Tracks
-) -> dict[str, np.ndarray]:
-    """What is largest somewhere, at the points of all pieces; as `contact.at_pieces`."""
-    rho, drho, d2rho = tracks.values
-    at = SimpleNamespace(**{
-        name: values[tracks.who][:, None] if isinstance(values, np.ndarray) else values
-        for name, values in vars(rollers).items()
-    })  # fmt: skip
-    rho0, c = choices.rho0[tracks.who][:, None], ROLLERS[choices.arrangement]
-    kappa = contact.curvature(rho, drho, d2rho)
-    outwards = law.force(c * (rho0 - rho))
-    if rollers.moving_mass.any():
-        outwards = outwards + at.moving_mass * contact.inertia_force(rho, d2rho, wanted.omega * choices.shaft_ratio[0])
-    N = contact.reaction(outwards, rho, drho)
-    return {
-        "angle": np.abs(contact.pressure_angle(rho, drho)), "bend": np.abs(kappa), "curvature": kappa, "reaction": N,
-        "stress": contact.hertz_stress(N, kappa, at),
-    }  # fmt: skip
-
-
-def _tracks(wanted: Balance, kind: type, spring: SimpleNamespace, choices: SimpleNamespace, ratio: float) -> _Tracks:
+def _tracks(wanted: Balance, springs: Spring, choices: SimpleNamespace, ratio: float) -> _Tracks:
     """Paths as `law_path`: the slope is fitted, the path is its exact integral and closed."""
     c, count, period = ROLLERS[choices.arrangement], len(choices.rho0), wanted.period * ratio
-    at_start = _energies(wanted, _law(kind, spring), choices)[0]
+    at_start = _energies(wanted, springs, choices)[0]
 
     def z(theta: np.ndarray, who: np.ndarray) -> np.ndarray:
-        return np.asarray(_law(kind, spring, who).closing(at_start[who] - wanted.work(theta / ratio)))
+        return np.asarray(_chosen(springs, who).closing(at_start[who] - wanted.work(theta / ratio)))
 
     def slope(theta: np.ndarray, who: np.ndarray) -> np.ndarray:
-        force = _law(kind, spring, who).force(z(theta, who))
+        force = _chosen(springs, who).force(z(theta, who))
         return np.asarray(wanted.torque(theta / ratio) / (ratio * c * force))
 
     pieces = halved(slope, first_edges(wanted.torque.x * ratio, period), count)

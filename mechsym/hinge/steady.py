@@ -10,17 +10,17 @@ import functools
 import scipy
 
 from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide, Spring, refit
+from mechsym.hinge.guide import Guide, refit
 from mechsym.hinge.in_time import RealHinge
 from mechsym.hinge.retune import retune
 from mechsym.hinge.setting import setting_of, with_setting
-from mechsym.hinge.springs import Coil
-from mechsym.hinge.thermal import AirThermal
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import Trial, ready, run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
 from mechsym.quantities import record
+from mechsym.quantities.units import Pure
 from mechsym.simulate.angle import Panels, tabulate
 from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import (
@@ -33,7 +33,6 @@ from mechsym.simulate.steady import (
 )
 
 RIPPLE = 1 / 50
-_SENSITIVE = {Coil: (("F0", "N"), ("k", "N/m")), AirThermal: (("p0", "Pa"), ("tau", "s"))}
 
 
 @record
@@ -92,45 +91,34 @@ def beside_faulty(machine: Machine, wanted: Hinge, guide: Guide) -> Flywheel:
 def sensitivities(machine: Machine, wanted: Hinge, guide: Guide) -> list[Sensitivity]:
     """Steady motion with one quantity of the spring one per cent off.
 
-    Returns
-    -------
-    sensitivities : list of Sensitivity
-        p0 and n of an air spring, p0 and tau where it exchanges heat, F0 and k of a coil
+    Returns sensitivities: p0 and n of an air spring, p0 and tau where it exchanges heat, F0 and k of a coil.
     """
-    found = []
-    for name, unit in _SENSITIVE.get(type(guide.spring), (("p0", "Pa"), ("n", "-"))):
-        low, high = (
-            with_guide(machine, wanted, refit(guide, _scaled(guide.spring, name, factor))) for factor in (0.99, 1.01)
-        )
-        found.append(Sensitivity(name=name, unit=unit, value=getattr(guide.spring, name), low=low, high=high))
-    return found
+    rows, spring = [], guide.spring
+    fields = {field.name: field.metadata for field in dataclasses.fields(spring)}
+    for name in spring.sensitive:
+        value, least = getattr(spring, name), fields[name]["low"]
+        motions = []
+        for factor in (0.99, 1.01):
+            off = factor * value if least is None else max(factor * value, least)  # n = 1 is isothermal
+            changed = dataclasses.replace(spring, **{name: off})
+            motions.append(with_guide(machine, wanted, refit(guide, changed)))
+        low, high = motions
+        rows.append(Sensitivity(name=name, unit=fields[name]["unit"], value=value, low=low, high=high))
+    return rows
 
 
 def with_guide(machine: Machine, wanted: Hinge, guide: Guide) -> Steady:
     """Steady motion with a guide and the spring in it.
 
-    Parameters
-    ----------
-    wanted : Hinge
-        Gives the mean torque for the load
-
-    Returns
-    -------
-    steady : Steady
-        Motion, or why there is none
+    wanted: gives the mean torque for the load. Returns steady: motion, or why there is none.
     """
     return steady_state(_panels(machine, wanted, guide), machine.omega)
 
 
-def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Retuned:
+def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Retuned:
     """The spring setting with the least steady ripple at another speed, and how the engine runs with it.
 
-    Parameters
-    ----------
-    hinge : RealHinge
-        Guide as cut for the design speed, with what acts on it in time
-    turns : float
-        Turns to run in time [-]
+    hinge: guide as cut for the design speed, with what acts on it in time; turns: turns to run in time.
     """
     guide = hinge.guide
     design = setting_of(guide.spring)
@@ -169,8 +157,3 @@ def _panels(machine: Machine, wanted: Hinge, guide: Guide | None = None) -> Pane
     if isinstance(machine.load, ConstantLoad) and machine.load.torque is None:
         return dataclasses.replace(panels, load=ConstantLoad(torque=mean_torque(panels)))
     return panels
-
-
-def _scaled(spring: Spring, name: str, factor: float) -> Spring:
-    value = factor * getattr(spring, name)
-    return dataclasses.replace(spring, **{name: max(value, 1.0) if name == "n" else value})  # n = 1 is isothermal

@@ -1,164 +1,285 @@
-"""The numbers of a hinge design under the keys that scripts rely on, and its tables for files."""
+"""What `mechsym hinge` tells of a design, and its tables for files."""
 
 import dataclasses
-from collections.abc import Callable, Collection
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
 from mechsym.hinge.contact import Contact, at_angles
+from mechsym.hinge.limits import Verdict
+from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.hinge.result import AtLoad, Design, JudgedHinge
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.steady import RIPPLE
+from mechsym.hinge.target import Target
+from mechsym.hinge.trials import Trial
 from mechsym.hinge.ways import Offer
-from mechsym.machine.record import gas_of
 from mechsym.quantities import RPM
+from mechsym.quantities.results import Columns, computed, part, quantity, result
+
+#: Numbers that need no run besides what all guides of one engine share: a hundredth of the time of all
+QUICK = (
+    "speed_rpm", "p_max_bar", "mep_bar", "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean",
+    "hinge_work_max", "hinge_work_min", "guide", "flywheel_inertia_saved", "flywheel_inertia_to_turn", "ripple_wanted",
+)  # fmt: skip
 
 
-def summary(design: Design | JudgedHinge, only: Collection[str] | None = None) -> dict[str, Any]:
-    """Results of a design by name, in SI unless a key names another unit.
+@result
+class HingeCheck:
+    """The run that proves a design; all None without a guide."""
 
-    Parameters
-    ----------
-    design : Design or JudgedHinge
-        The second has what `QUICK` asks for
-    only : collection of str, optional
-        Keys that are wanted; what the others need is not computed
-
-    Returns
-    -------
-    summary : dict
-        Keys of the command `hinge`; what was not reached is None
-    """
-    return {key: value(design) for key, value in _VALUES.items() if only is None or key in only}
+    speed_ripple: float | None = quantity("-", default=None)  #: (max - min) / mean of the speed over the last period
+    energy_residual: float | None = quantity("-", default=None)  #: What the balance of energy leaves open
+    tolerance_difference: float | None = quantity("-", default=None)  #: Of a speed to the run at a finer tolerance
+    losses: Mapping[str, float] | None = quantity("N*m", default=None)  #: Mean torques; None of an ideal hinge
 
 
-def _guide(design: Design | JudgedHinge) -> dict[str, Any]:
-    verdict = design.verdict
-    numbers = (
-        "rho_min", "rho_max", "z_min", "z_max", "pressure_angle_max", "curvature_radius_min", "roller_reaction_max",
-        "spring_force_max", "spring_pressure_max", "hertz_stress_max", "tilting_couple_max", "undercut_radius",
-    )  # fmt: skip
-    return {
-        "feasible": verdict.feasible,
-        "reason": verdict.reason,
-        "margin": verdict.margin,
-        **{key: getattr(verdict, key) for key in numbers},
-    }
+@result
+class AssumedLosses(HingeLosses):
+    """Friction and heat as they were taken."""
+
+    tau: float | None = quantity(  # type: ignore[assignment]
+        "s", about="time of the gas to take the wall's temperature; None without gas"
+    )
 
 
-def _check(design: Design) -> dict[str, Any]:
-    check = design.check
-    return {
-        "speed_ripple": check.speed_ripple if check else None,
-        "energy_residual": check.result.energy.residual if check else None,
-        "tolerance_difference": check.result.tolerance_difference if check else None,
-        "losses": dict(check.losses) if check and check.losses else None,
-    }
+@result
+class HingeLossNumbers:
+    """What the ideal hinge leaves out."""
+
+    torques: LossTorques = part(inline=True)
+    total: float = quantity("N*m")  #: All of them
+    shares: Mapping[str, float | None] = quantity("-")  #: Each of them by the load torque
+    share: float | None = quantity("-")  #: All of them by the load torque; None where there is no load
+    speed_ripple: float | None = quantity("-")  #: Steady ripple with them; None where there is no steady motion
+    fill: float = quantity("-")  #: Fill of the spring with which it has that ripple, by that of the design
+    gas_index: float | None = quantity("-")  #: Index that the gas shows; None without gas
+    assumed: AssumedLosses = part()
 
 
-def offers(design: Design) -> list[dict[str, Any]]:
-    """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine."""
-    chosen = Offer(balance=design.balance, guide=design.guide, verdict=design.verdict)
-    return [
-        {
-            "balance": offer.balance.kind,
-            "shaft_ratio": offer.guide.parameters.shaft_ratio,
-            "feasible": offer.verdict.feasible,
-            "reason": offer.verdict.reason,
-            "work_left": offer.balance.rest_swing,
-            "ripple_constant_load": offer.balance.ripple_constant_load,
-            "ripple_propeller_load": offer.balance.ripple_propeller_load,
-        }
-        for offer in (chosen, *design.instead)
-    ]
+@result
+class NotRetuned:
+    """The other speed of a case that has none, or no guide."""
+
+    speed_rpm: float | None = quantity("rpm", default=None)  #: Other speed of the case
+    p0: float | None = quantity("@unit", default=None)  #: Setting of the spring with the least ripple there
+    speed_ripple: float | None = quantity("-", default=None)  #: Ripple that remains
+    unit: str = ""  # of the setting
 
 
-def _losses(design: Design) -> dict[str, Any] | None:
-    """What the flywheel saved does not say: losses in N m and shares of the load."""
-    price = design.price
-    if price is None:
-        return None
-    kinds = ("bearing", "seal", "guide", "rolling", "gas")
-    torques = {kind: getattr(price.losses, kind) for kind in kinds}
-    load = abs(design.hinge.load_torque) or None  # no share of a load where there is none
-    assumed = {f.name: getattr(price.assumed, f.name) for f in dataclasses.fields(price.assumed)}
-    return {
-        **torques,
-        "total": price.losses.total,
-        "shares": {kind: value / load if load else None for kind, value in torques.items()},
-        "share": price.losses.total / load if load else None,
-        "speed_ripple": price.speed_ripple,
-        "fill": price.fill,
-        "gas_index": price.gas_index,
-        "assumed": assumed | {"bearing_radius": price.assumed.bearing_radius or design.rollers.radius / 2,
-                              "tau": price.tau},
-    }  # fmt: skip
+@result
+class RetunedNumbers:
+    """The same guide at the other speed of the case."""
+
+    speed_rpm: float = quantity("rpm")  #: Other speed of the case
+    p0: float = quantity("@unit")  #: Setting of the spring with the least ripple there
+    p0_ratio: float = quantity("-")  #: That setting by that of the design
+    speed_ripple: float | None = quantity("-")  #: Ripple that remains
+    speed_ripple_paper_factor: float | None = quantity("-")  #: Ripple with the paper's factor 1.9 on the setting
+    torque_ratio_max: float = quantity("-")  #: Highest torque wanted there by that of the design
+    torque_ratio_min: float = quantity("-")  #: Lowest torque wanted there by that of the design
+    torque_ratio_peak: float = quantity("-")  #: Largest torque wanted there, by magnitude, by that of the design
+    unit: str  # of the setting
 
 
-def _run(trial: Any) -> dict[str, Any]:
-    event = trial.result.event
-    where = None if event is None else {"name": event.name, "t": event.t, "phi": event.state["phi"]}
-    residual = trial.result.energy.residual
-    return {"about": trial.about, "speed_ripple": trial.speed_ripple, "energy_residual": residual, "event": where}
+@result
+class HingeNumbers:
+    """The numbers of a design, each computed when it is asked for, in SI unless its name says otherwise."""
 
+    judged: JudgedHinge  # a Design, where more than `QUICK` is asked for
 
-def _retune(design: Design) -> dict[str, Any]:
-    again = design.retuned
-    if again is None:
-        return {"speed_rpm": None, "p0": None, "speed_ripple": None}
-    wanted, hinge = again.wanted, design.hinge
-    peaks = [max(abs(h.torque_max), abs(h.torque_min)) for h in (wanted, hinge)]
-    return {
-        "speed_rpm": again.other.omega / RPM,
-        "p0": again.setting,
-        "p0_ratio": again.ratio,
-        "speed_ripple": again.steady.speed_ripple,
-        "speed_ripple_paper_factor": again.paper.speed_ripple,
-        "torque_ratio_max": wanted.torque_max / hinge.torque_max,
-        "torque_ratio_min": wanted.torque_min / hinge.torque_min,
-        "torque_ratio_peak": peaks[0] / peaks[1],
-    }
+    @property
+    def design(self) -> Design:
+        """The design with its guide."""
+        assert isinstance(self.judged, Design)
+        return self.judged
 
+    @computed("rpm")
+    def speed_rpm(self) -> float:
+        """Speed of operation."""
+        return self.judged.machine.omega / RPM
 
-def _at_load(row: AtLoad) -> dict[str, Any]:
-    return {
-        "share": row.share,
-        "mep_bar": row.mean_indicated_pressure / 1e5,
-        "speed_ripple": row.as_cut.speed_ripple,
-        "reason": row.as_cut.reason,
-        "p0": row.setting,
-        "p0_ratio": row.ratio,
-        "speed_ripple_reset": row.reset.speed_ripple,
-        "reason_reset": row.reset.reason,
-    }
+    @computed("bar")
+    def p_max_bar(self) -> float | None:
+        """Largest pressure in the cylinder, absolute."""
+        gas = self.judged.machine.gas
+        return gas.pressure.p_max / 1e5 if gas else None
+
+    @computed("bar")
+    def mep_bar(self) -> float | None:
+        """Mean indicated pressure."""
+        gas = self.judged.machine.gas
+        return gas.pressure.mean_indicated / 1e5 if gas else None
+
+    @computed("N*m")
+    def load_torque(self) -> float:
+        """Torque that the engine can drive in the mean."""
+        return self.judged.hinge.load_torque
+
+    @computed("N*m")
+    def hinge_torque_max(self) -> float:
+        """Highest torque of the hinge, with its sign."""
+        return self.judged.hinge.torque_max
+
+    @computed("N*m")
+    def hinge_torque_min(self) -> float:
+        """Lowest torque of the hinge, with its sign."""
+        return self.judged.hinge.torque_min
+
+    @computed("N*m")
+    def hinge_torque_mean(self) -> float:
+        """Mean torque of the hinge, 0 of one that a spring can give."""
+        return self.judged.hinge.mean_torque
+
+    @computed("J")
+    def hinge_work_max(self) -> float:
+        """Highest work of the hinge since dead centre."""
+        return self.judged.hinge.work_max
+
+    @computed("J")
+    def hinge_work_min(self) -> float:
+        """Lowest work of the hinge since dead centre."""
+        return self.judged.hinge.work_min
+
+    @computed()
+    def guide(self) -> Verdict:
+        """The guide and its limits."""
+        return self.judged.verdict
+
+    @computed()
+    def check(self) -> HingeCheck:
+        """The run that proves the design."""
+        run = self.design.check
+        if run is None:
+            return HingeCheck()
+        energy = run.result.energy
+        return HingeCheck(
+            speed_ripple=run.speed_ripple,
+            energy_residual=energy.residual,
+            tolerance_difference=run.result.tolerance_difference,
+            losses=run.losses or None,
+        )
+
+    @computed()
+    def offers(self) -> tuple[Offer, ...]:
+        """The ways to balance the torque, with the ripple that each leaves; two for a four-stroke engine."""
+        design = self.design
+        return (Offer(taken=design.balance, track=design.guide, verdict=design.verdict), *design.instead)
+
+    @computed()
+    def runs(self) -> Mapping[str, Trial]:
+        """The runs in time by name."""
+        return {trial.name: trial for trial in self.design.trials}
+
+    @computed()
+    def retune(self) -> RetunedNumbers | NotRetuned:
+        """The same guide at the other speed of the case."""
+        again, hinge, unit = self.design.retuned, self.design.hinge, self.design.guide.spring.setting[1]
+        if again is None:
+            return NotRetuned(unit=unit)
+        wanted = again.wanted
+        peaks = [max(abs(h.torque_max), abs(h.torque_min)) for h in (wanted, hinge)]
+        return RetunedNumbers(
+            speed_rpm=again.other.omega / RPM,
+            p0=again.setting,
+            p0_ratio=again.ratio,
+            speed_ripple=again.steady.speed_ripple,
+            speed_ripple_paper_factor=again.paper.speed_ripple,
+            torque_ratio_max=wanted.torque_max / hinge.torque_max,
+            torque_ratio_min=wanted.torque_min / hinge.torque_min,
+            torque_ratio_peak=peaks[0] / peaks[1],
+            unit=unit,
+        )
+
+    @computed("-")
+    def sensitivity(self) -> Mapping[str, tuple[float | None, ...]]:
+        """Speed ripple with a number of the spring 1 per cent low and high."""
+        return {s.name: (s.low.speed_ripple, s.high.speed_ripple) for s in self.design.sensitivities}
+
+    @computed()
+    def loads(self) -> tuple[AtLoad, ...]:
+        """The same guide at the loads that were asked for."""
+        return self.design.loads
+
+    @computed("kg*m^2", card="flywheel saved")
+    def flywheel_inertia_saved(self) -> float | None:
+        """Inertia to add for a ripple of 1/50 without hinge, on top of the flywheel that the case keeps."""
+        return self.judged.flywheels.steady.inertia
+
+    @computed()
+    def losses(self) -> HingeLossNumbers | None:
+        """What the ideal hinge leaves out; None without a guide."""
+        price = self.design.price
+        if price is None:
+            return None
+        torques = price.losses
+        load = abs(self.design.hinge.load_torque) or None  # no share of a load where there is none
+        kinds = [field.name for field in dataclasses.fields(torques)]
+        assumed = {field.name: getattr(price.assumed, field.name) for field in dataclasses.fields(price.assumed)}
+        radius = price.assumed.bearing_radius or self.design.rollers.radius / 2
+        return HingeLossNumbers(
+            torques=torques,
+            total=torques.total,
+            shares={kind: getattr(torques, kind) / load if load else None for kind in kinds},
+            share=torques.total / load if load else None,
+            speed_ripple=price.speed_ripple,
+            fill=price.fill,
+            gas_index=price.gas_index,
+            assumed=AssumedLosses(**assumed | {"bearing_radius": radius, "tau": price.tau}),
+        )
+
+    @computed("-")
+    def misfire_speed_share(self) -> float | None:
+        """Lowest speed after one turn without combustion by the mean before; 0 for a stop, None where not known."""
+        return None if self.design.price is None else self.design.price.misfire_speed_share
+
+    @computed("kg*m^2")
+    def flywheel_inertia_to_turn(self) -> float | None:
+        """Smallest inertia to add with which the engine completes turns without hinge."""
+        return self.judged.flywheels.turns.inertia
+
+    @computed("kg*m^2")
+    def flywheel_inertia_beside_faulty(self) -> float | None:
+        """Inertia for a ripple of 1/50 beside a hinge whose setting is 2 per cent high; None without a guide."""
+        return None if self.design.beside_faulty is None else self.design.beside_faulty.inertia
+
+    @computed("-")
+    def ripple_wanted(self) -> float:
+        """Ripple that is asked for."""
+        return RIPPLE
+
+    @computed()
+    def target(self) -> Target:
+        """Whether that ripple is kept with losses."""
+        return self.design.target
+
+    @computed()
+    def verdict(self) -> str:
+        """The answer in a sentence."""
+        return self.design.answer
 
 
 def guide_turn(design: Design, points: int = 721) -> Contact:
-    """The guide in numbers over a whole turn of its shaft.
-
-    Parameters
-    ----------
-    points : int
-        Number of angles, both ends included
-    """
-    theta = np.linspace(0, 2 * np.pi, points)
-    return at_angles(design.guide, design.rollers, theta)
+    """The guide over a whole turn of its shaft, at so many angles, both ends included."""
+    return at_angles(design.guide, design.rollers, np.linspace(0, 2 * np.pi, points))
 
 
-def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
-    """Table of the hinge over a period of the crank.
+#: Of the columns of both tables
+_UNITS = {
+    "phi": "rad", "pressure": "Pa", "piston_force": "N", "hinge_torque": "N*m", "inertia_part": "N*m",
+    "gas_part": "N*m", "gravity_part": "N*m", "hinge_work": "J", "inertia": "kg*m^2",
+    "theta": "rad", "rho": "m", "drho_dtheta": "m/rad", "profile_x": "m", "profile_y": "m", "z": "m",
+    "spring_force": "N", "pressure_angle": "rad", "curvature": "1/m", "roller_reaction_1": "N",
+    "roller_reaction_2": "N", "hertz_stress": "Pa", "torque": "N*m", "spring_excess_pressure": "Pa",
+}  # fmt: skip
 
-    Parameters
-    ----------
-    points : int
-        Number of angles, both ends included
-    """
-    hinge = design.hinge
+
+def hinge_columns(design: Design, points: int = 721) -> Columns:
+    """Table of the hinge over a period of the crank, at so many angles, both ends included."""
+    hinge, gas = design.hinge, design.machine.gas
     phi = np.linspace(0, hinge.period, points)
-    gas = gas_of(design.machine)
-    pressed = {"pressure": gas.pressure.absolute(phi), "piston_force": gas.force(phi)} if gas.has_pressure else {}
-    return {
+    pressed = {"pressure": gas.pressure.absolute(phi), "piston_force": gas.force(phi)} if gas else {}
+    columns = {
         "phi": phi,
         **pressed,
         "hinge_torque": hinge.torque(phi),
@@ -168,55 +289,28 @@ def hinge_columns(design: Design, points: int = 721) -> dict[str, np.ndarray]:
         "hinge_work": hinge.work(phi),
         "inertia": hinge.inertia(phi),
     }
+    return Columns(columns, _UNITS)
 
 
-def guide_columns(design: Design, contact: Contact) -> dict[str, np.ndarray]:
-    """Table of the guide over a turn of its shaft: path, cut profile, contact.
-
-    Returns
-    -------
-    columns : dict of str to ndarray
-        SI units; the profile is in the frame of the track
-    """
+def guide_columns(design: Design, contact: Contact) -> Columns:
+    """Table of the guide over a turn of its shaft: path, cut profile in the frame of the track, contact."""
     x, y = parallel(contact.rho, contact.drho, contact.theta, design.rollers.radius)
     columns = {
-        "theta": contact.theta, "phi": contact.phi, "rho": contact.rho, "drho_dtheta": contact.drho,
-        "profile_x": x, "profile_y": y, "z": contact.z, "spring_force": contact.force,
-        "pressure_angle": contact.pressure_angle, "curvature": contact.curvature,
-        "roller_reaction_1": contact.reaction_1, "roller_reaction_2": contact.reaction_2,
-        "hertz_stress": contact.hertz_stress, "torque": contact.torque,
-    }  # fmt: skip
-    return columns | ({} if contact.pressure is None else {"spring_excess_pressure": contact.pressure})
-
-
-_VALUES: dict[str, Callable[[Any], Any]] = {
-    "speed_rpm": lambda d: d.machine.omega / RPM,
-    "p_max_bar": lambda d: gas_of(d.machine).pressure.p_max / 1e5 if gas_of(d.machine).has_pressure else None,
-    "mep_bar": lambda d: gas_of(d.machine).pressure.mean_indicated / 1e5 if gas_of(d.machine).has_pressure else None,
-    "load_torque": lambda d: d.hinge.load_torque,
-    "hinge_torque_max": lambda d: d.hinge.torque_max,
-    "hinge_torque_min": lambda d: d.hinge.torque_min,
-    "hinge_torque_mean": lambda d: d.hinge.mean_torque,
-    "hinge_work_max": lambda d: d.hinge.work_max,
-    "hinge_work_min": lambda d: d.hinge.work_min,
-    "guide": _guide,
-    "check": _check,
-    "offers": offers,
-    "runs": lambda d: {t.name: _run(t) for t in d.trials},
-    "retune": _retune,
-    "sensitivity": lambda d: {s.name: [s.low.speed_ripple, s.high.speed_ripple] for s in d.sensitivities},
-    "loads": lambda d: [_at_load(row) for row in d.loads],
-    # the engine already carries the flywheel that is kept, so what is missing without hinge comes on top of it
-    "flywheel_inertia_saved": lambda d: d.flywheels.steady.inertia,
-    "losses": _losses,
-    "misfire_speed_share": lambda d: getattr(d.price, "misfire_speed_share", None),
-    "flywheel_inertia_to_turn": lambda d: d.flywheels.turns.inertia,
-    "flywheel_inertia_beside_faulty": lambda d: getattr(d.beside_faulty, "inertia", None),
-    "ripple_wanted": lambda d: RIPPLE,
-}
-KEYS = tuple(_VALUES)
-#: Keys that need no run besides what all guides of one engine share: a hundredth of the time of all
-QUICK = (
-    "speed_rpm", "p_max_bar", "mep_bar", "load_torque", "hinge_torque_max", "hinge_torque_min", "hinge_torque_mean",
-    "hinge_work_max", "hinge_work_min", "guide", "flywheel_inertia_saved", "flywheel_inertia_to_turn", "ripple_wanted",
-)  # fmt: skip
+        "theta": contact.theta,
+        "phi": contact.phi,
+        "rho": contact.rho,
+        "drho_dtheta": contact.drho,
+        "profile_x": x,
+        "profile_y": y,
+        "z": contact.z,
+        "spring_force": contact.force,
+        "pressure_angle": contact.pressure_angle,
+        "curvature": contact.curvature,
+        "roller_reaction_1": contact.reaction_1,
+        "roller_reaction_2": contact.reaction_2,
+        "hertz_stress": contact.hertz_stress,
+        "torque": contact.torque,
+    }
+    if contact.pressure is not None:
+        columns["spring_excess_pressure"] = contact.pressure
+    return Columns(columns, _UNITS)

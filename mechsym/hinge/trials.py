@@ -1,7 +1,7 @@
 """The design put to the test by running it in time, side by side: without hinge, with it, and started 1 per cent fast.
 
 Each run audits its energy and takes the hinge's torque from the geometry of the guide and the law of the spring, never
-from the table it was designed from. `steadiness.py` finds steady motions without running them.
+from the table it was designed from. `steady.py` finds steady motions without running them.
 """
 
 from collections.abc import Mapping
@@ -17,48 +17,67 @@ from mechsym.hinge.price import friction
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, period_of
+from mechsym.mechanisms import roles_of
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.periodic import even_angles
-from mechsym.quantities import record
 from mechsym.quantities.display import figure
+from mechsym.quantities.results import computed, part, quantity, result
+from mechsym.quantities.units import Inertia, Pure, RadPerSecond
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import problem, reduced
+from mechsym.simulate.result import speed_ripple
 from mechsym.simulate.steady import steady_state
-from mechsym.simulate.summary import speed_ripple
 
 _ANGLES = 1440  # of a turn of the guide
 _LAWS: dict[str, Load] = {"constant": ConstantLoad(), "propeller": PropellerLoad()}
 
 
-@record
+@result
+class TrialEvent:
+    """What stopped a run."""
+
+    name: str = part()
+    t: float = quantity("s")  #: When
+    phi: float = quantity("rad")  #: Where the crank was
+
+
+@result
 class Trial:
     """One run in time."""
 
-    #: Key, and what is tried in a few words
-    name: str
-    about: str
+    name: str  # its key
+    about: str = part()  #: What is tried in a few words
+    speed_ripple: float | None = quantity("-")  #: (max - min) / mean over the last period; None if the shaft stopped
     result: Result
-    speed_ripple: float | None  #: (max - min) / mean over the last period; None if the shaft stopped before [-]
     #: Mean torque that each kind of loss took over the last period [N*m]; None for an ideal hinge
     losses: Mapping[str, float] | None = None
 
+    @computed("-")
+    def energy_residual(self) -> float | None:
+        """What the balance of energy leaves open."""
+        return self.result.energy.residual
+
+    @computed()
+    def event(self) -> TrialEvent | None:
+        """What stopped it."""
+        event = self.result.event
+        return None if event is None else TrialEvent(name=event.name, t=event.t, phi=event.state["phi"])
+
 
 def run(
-    name: str, about: str, machine: Machine, speed: float, turns: float, settings: Settings | None = None,
+    name: str,
+    about: str,
+    machine: Machine,
+    speed: RadPerSecond,
+    turns: Pure,
+    settings: Settings | None = None,
     real: RealHinge | None = None,
-) -> Trial:  # fmt: skip
+) -> Trial:
     """Run a machine in time from top dead centre.
 
-    Parameters
-    ----------
-    speed : float
-        Speed at the start [rad/s]
-    turns : float
-        Turns to run [-]
-    real : RealHinge or None
-        Losses and masses of its hinge; None for an ideal one
+    speed: speed at the start. real: losses and masses of its hinge; None for an ideal one.
     """
     what = problem(machine, speed, turns)
     result = simulate(
@@ -71,15 +90,10 @@ def run(
     return Trial(name=name, about=about, result=result, speed_ripple=ripple, losses=losses)
 
 
-def trial(name: str, machine: Machine, wanted: Hinge, hinge: RealHinge, turns: float) -> Trial:
+def trial(name: str, machine: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Trial:
     """One run with a guide.
 
-    Parameters
-    ----------
-    name : str
-        `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 per cent fast
-    turns : float
-        Turns to run [-]
+    name: `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 per cent fast.
     """
     kind, law = name.split("_")
     engine, real = ready(replace(machine, load=_LAWS[law]), wanted, hinge)
@@ -117,23 +131,12 @@ def _losses(result: Result, angle: str, period: float) -> dict[str, float]:
 
 
 def side_by_side(
-    machine: Machine, wanted: Hinge, hinge: RealHinge | None, turns: float, known: Trial | None
+    machine: Machine, wanted: Hinge, hinge: RealHinge | None, turns: Pure, known: Trial | None
 ) -> list[Trial]:
     """The runs of the report: without anything, and the hinge at the design speed and 1 per cent off.
 
-    Parameters
-    ----------
-    hinge : RealHinge or None
-        With what acts on it in time; None without a guide
-    turns : float
-        Turns to run [-]
-    known : Trial or None
-        One of them that has been run
-
-    Returns
-    -------
-    trials : list of Trial
-        Keys without, hinge_constant, off_constant, hinge_propeller, off_propeller
+    hinge: with what acts on it in time; None without a guide. turns: turns to run. known: one of them that has been
+    run. Returns trials: keys without, hinge_constant, off_constant, hinge_propeller, off_propeller.
     """
     runs = [run("without", "no hinge, no flywheel", fitted(machine, wanted), machine.omega, turns)]
     if hinge is None:
@@ -144,17 +147,10 @@ def side_by_side(
     return runs
 
 
-def with_flywheel(machine: Machine, wanted: Hinge, inertia: float, turns: float) -> Trial:
+def with_flywheel(machine: Machine, wanted: Hinge, inertia: Inertia, turns: Pure) -> Trial:
     """The engine without hinge and with a flywheel, run in time from its steady motion.
 
-    Parameters
-    ----------
-    wanted : Hinge
-        Gives the mean torque for the load
-    inertia : float
-        Flywheel on top of what the case keeps [kg*m^2]
-    turns : float
-        Turns to run [-]
+    wanted: gives the mean torque for the load; inertia: flywheel on top of what the case keeps.
     """
     mechanism = machine.mechanism
     heavier = _heavier(mechanism, inertia)
@@ -166,6 +162,9 @@ def with_flywheel(machine: Machine, wanted: Hinge, inertia: float, turns: float)
 
 def _heavier(mechanism: Mechanism, inertia: float) -> Mechanism:
     own = mechanism.parameters
-    if "I01" in own:  # inertia about the shaft axis
-        return bind(mechanism.name, {**own, "I01": own["I01"] + inertia})
+    letter = next((r.inertia for r in roles_of(mechanism.name).rotors if r.inertia), None)
+    if letter is not None:
+        heavy = bind(mechanism.name, {**own, letter: own[letter] + inertia})
+        if heavy.inputs == mechanism.inputs:  # nothing was put on its shaft, and no loop was closed
+            return heavy
     return with_inertia(mechanism, inertia)

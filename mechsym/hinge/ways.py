@@ -9,20 +9,56 @@ import dataclasses
 from mechsym.hinge import balance
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import BALANCES, GuideParameters, Limits, closing_ratio
-from mechsym.hinge.guide import Guide, Spring, cut
+from mechsym.hinge.guide import Guide, cut
 from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
-from mechsym.quantities import record
+from mechsym.quantities.results import computed, result
 
 
-@record
+@result
 class Offer:
     """One way to balance the torque, with its guide."""
 
-    balance: Balance  #: The part that the hinge takes, and the ripple that the rest leaves
-    guide: Guide  #: Guide, or why there is none
+    taken: Balance  # the part that the hinge takes
+    track: Guide  # or why there is none
     verdict: Verdict
+
+    @computed()
+    def balance(self) -> str:
+        """Part of the torque that is balanced."""
+        return self.taken.kind
+
+    @computed("-")
+    def shaft_ratio(self) -> float:
+        """Turns of the guide's shaft by those of the crank."""
+        return self.track.parameters.shaft_ratio
+
+    @computed("-")
+    def feasible(self) -> bool:
+        """Whether the guide can be built."""
+        return self.verdict.feasible
+
+    @computed()
+    def reason(self) -> str:
+        """The limits that are not kept, or the tightest one."""
+        return self.verdict.reason
+
+    @computed("J")
+    def work_left(self) -> float:
+        """Largest less smallest work that is left over."""
+        return self.taken.rest_swing
+
+    @computed("-")
+    def ripple_constant_load(self) -> float | None:
+        """Speed ripple that the rest leaves under a constant load; None for a stop."""
+        return self.taken.ripple_constant_load
+
+    @computed("-")
+    def ripple_propeller_load(self) -> float | None:
+        """Speed ripple that the rest leaves under a propeller's load; None for a stop."""
+        return self.taken.ripple_propeller_load
 
 
 def offers(
@@ -30,17 +66,8 @@ def offers(
 ) -> tuple[Offer, ...]:
     """The offer that was chosen, and for a torque that repeats every two turns the other one with the same spring.
 
-    Parameters
-    ----------
-    hinge : Hinge
-        Torque that would keep the speed constant
-    choices : GuideParameters
-        Arrangement, start, shaft ratio and balance
-
-    Returns
-    -------
-    offers : tuple of Offer
-        One or two, the chosen one first
+    hinge: torque that would keep the speed constant; choices: arrangement, start, shaft ratio and balance. Returns
+    offers: one or two, the chosen one first.
     """
     kinds = [choices.balance] + [k for k in BALANCES if k != choices.balance]
     parts = [balance.balance(hinge, kind) for kind in kinds]
@@ -50,7 +77,7 @@ def offers(
     for part in parts:
         wanted = choices if part is parts[0] else _instead(choices, part)
         track = cut(part, spring, wanted)
-        found.append(Offer(balance=part, guide=track, verdict=judge(track, rollers, limits)))
+        found.append(Offer(taken=part, track=track, verdict=judge(track, rollers, limits)))
     return tuple(found)
 
 

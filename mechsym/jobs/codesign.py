@@ -2,40 +2,45 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
-from mechsym import cases
+from mechsym import budget, cases
 from mechsym.cases import Case
+from mechsym.cases.needs import require
 from mechsym.codesign import changes, family, loss, real, scenarios
-from mechsym.codesign.cylinders import counts
+from mechsym.codesign.cylinders import Count, counts
+from mechsym.codesign.floor import floor, rollers_inertia
 from mechsym.codesign.front import cut_for_one, front, worth_it
-from mechsym.codesign.hardware import rollers_at_rest
-from mechsym.codesign.machines import bounds, hardware, point
+from mechsym.codesign.machines import hardware, point
 from mechsym.codesign.peers import peers, springs_of
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
-from mechsym.codesign.realise import CHOSEN, realise
+from mechsym.codesign.realise import RealisedNumbers, chosen, realise
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.schedule import RippleMap, ripple_map
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.uncertainty import spread
-from mechsym.codesign.verify import verify
+from mechsym.codesign.verify import Verified, verify
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.jobs.machine import machine
-from mechsym.machine.record import gas_of
 from mechsym.machine.torque_curve import TorqueCurve
 from mechsym.quantities import RPM
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import part, result
+from mechsym.quantities.units import Pure
 
 _SHARES = (0.12, 1.1)  # loads of the map by the full load
 _LOADS = 12  # computed; those between are interpolated
 _SCAVENGE = 0.1  # of the scavenge pressure that is missing in a scenario
 _LOSSY = (40, 240)  # most knots and least angles in a turn of a programme with friction and heat in it
+# time of a co-design and of each of its points [s]: measured on zotov-89 at 2 and 12 points
+_ONCE, _PER_POINT = 5.0, 0.65
+_HALF = 0.5  # of the speed that the picture's lost combustion leaves
 _MAP = 50  # speeds and loads of the map
 STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple of a front
 
@@ -43,18 +48,18 @@ STEPS = 6  # how often `codesign` calls `progress`, besides once for each ripple
 def codesign(
     case: Case,
     settings: CoDesignSettings,
-    ripples: Sequence[float] = (),
-    progress: Callable[[], Any] = lambda: None,
+    ripples: Sequence[Pure] = (),
+    progress: Callable[[], object] = lambda: None,
 ) -> CoDesignResult:
     """Guides, pressures and flywheel of a case for its range of speeds and loads.
 
-    Parameters
-    ----------
-    settings : CoDesignSettings
-        The case's own, or changed by options
-    ripples : sequence of float
-        Of a front, besides the one that is wanted [-]
+    settings: the case's own, or changed by options; ripples: of a front, besides the one that is wanted.
     """
+    require(case, "codesign")
+    points = len(settings.speeds) * len(settings.loads)
+    seconds = (_ONCE + _PER_POINT * points) * (1 + len(ripples))
+    what = f"a co-design of {points} points" + f" for {1 + len(ripples)} ripples" * bool(ripples)
+    budget.require(what, seconds, 0.0, "give fewer --speeds, --loads or --pareto")
     task = task_of(case, settings)
     progress()
     bound = rank(task.points)
@@ -65,21 +70,29 @@ def codesign(
     ready = programme(task)
     found = worth_it(solve(task, ready), bare, settings.saving)
     design = _heavy_enough(found, settings.misfire_speed)
+    given = solve(dataclasses.replace(task, free=())) if task.free else None
     progress()
     designs = front(task, ripples, ready, progress, settings.saving)
     verified = verify(design)
     progress()
-    assumed = _losses(case)
-    lost, misfire = loss.losses(design, assumed), scenarios.misfire_shares(design)
-    lossy = tuple(real.with_losses(design, k, assumed) for k in range(len(task.points)))
+    assumed, taken, misfire = _losses(case), _taken(case, settings), scenarios.misfire_shares(design)
+    lost, lossy = (
+        _ideal(verified)
+        if taken == "none"
+        else (
+            loss.losses(design, assumed),
+            tuple(real.with_losses(design, k, assumed) for k in range(len(task.points))),
+        )
+    )
     progress()
     return CoDesignResult(
-        name=case.name, about=case.about, design=design, bound=bound, bare=bare, cut=cut, verified=verified,
-        losses=lost, assumed=assumed, lossy=lossy, misfire=tuple(misfire), front=tuple(designs),
+        name=case.name, about=case.about, design=design, given=given, bound=bound, bare=bare, cut=cut,
+        floor=floor(design, bound, verified.steady_ripple), verified=verified,
+        losses=lost, assumed=assumed, lossy=lossy, taken=taken, misfire=tuple(misfire), front=tuple(designs),
     )  # fmt: skip
 
 
-def compared(result: CoDesignResult, progress: Callable[[], Any] = lambda: None) -> CoDesignResult:
+def compared(result: CoDesignResult, progress: Callable[[], object] = lambda: None) -> CoDesignResult:
     """The result with its peers at the ripples of its front: flywheel, coil springs, noncircular gears, two springs."""
     task = result.design.task
     ripples = sorted({task.ripple, *(d.task.ripple for d in result.front)})
@@ -91,27 +104,32 @@ def compared(result: CoDesignResult, progress: Callable[[], Any] = lambda: None)
     return dataclasses.replace(result, peers=(*found, *more))
 
 
-def beside(
-    result: CoDesignResult, cylinders: int, goal: str, progress: Callable[[], Any] = lambda: None
-) -> dict[str, Any]:
-    """What 1 to `cylinders` of these cylinders need, and the hardware of least `goal`; keys only for what is asked."""
-    made: dict[str, Any] = {}
-    task = result.design.task
+@result
+class Beside:
+    """What else was asked of a co-design; None where it was not."""
+
+    cylinders: tuple[Count, ...] | None = part(default=None)  #: Several cylinders on one shaft
+    realised: RealisedNumbers | None = part(default=None)  #: Other hardware
+
+
+def beside(result: CoDesignResult, cylinders: int, goal: str, progress: Callable[[], object] = lambda: None) -> Beside:
+    """What 1 to `cylinders` of these cylinders need, and the hardware of least `goal`; None of what is not asked."""
+    rows, other, task = None, None, result.design.task
     if cylinders:
-        made["cylinders"] = [
-            {"cylinders": c.cylinders, "flywheel_inertia_bare": c.bare, "flywheel_inertia_bound": c.hinge}
-            for c in counts(task.points, task.ripple, cylinders, rollers_at_rest(task.hardware))
-        ]
+        rows = tuple(counts(task.points, task.ripple, cylinders, rollers_inertia(result.design)))
         progress()
     if goal:
-        found = realise(result.design, goal)
-        made["realised"] = {
-            "goal": goal, "status": found.status, "before": list(found.before), "after": list(found.after),
-            "p0": [track.p0.tolist() for track in found.design.tracks],
-            "guides": [{name: getattr(track.hardware, name) for name in CHOSEN} for track in found.design.tracks],
-        }  # fmt: skip
+        new = realise(result.design, goal)
+        other = RealisedNumbers(
+            goal=goal,
+            status=new.status,
+            before=new.before,
+            after=new.after,
+            p0=tuple(tuple(track.p0.tolist()) for track in new.design.tracks),
+            guides=tuple(chosen(track.hardware) for track in new.design.tracks),
+        )
         progress()
-    return made
+    return Beside(cylinders=rows, realised=other)
 
 
 def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:
@@ -123,6 +141,7 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
         scenarios=(*scenarios.table(design), *_changes(case, settings, design)),
         spread=spread(design),
         map=_map(case, settings, design, 1.05 * max(*settings.speeds, high)) if one else None,
+        misfire_floor=scenarios.misfire_flywheel(design, _HALF, 0.0) if design.status == "optimal" else None,
     )
 
 
@@ -141,10 +160,16 @@ def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[s
 
 def settings_of(case: Case) -> CoDesignSettings:
     """Section `[codesign]` of a case; without one its own speed and load, and the mass on its rollers."""
+    require(case, "codesign")
     if "codesign" in case.sections:
         return case.need("codesign")
     engine, rollers = machine(case), case.need("rollers")
-    mean = abs(gas_of(engine).pressure.mean_indicated)
+    mean = 0.0 if engine.gas is None else abs(engine.gas.pressure.mean_indicated)
+    if mean == 0:
+        raise BadInput(
+            f"{case.file}: codesign sizes for shares of a full load, and it has no mean indicated pressure to "
+            "stand for it; give [codesign] full_load, a label in Pa, with speeds and full_speed"
+        )
     return CoDesignSettings(
         speeds=(engine.omega,), curve="constant_speed", full_speed=engine.omega, full_load=mean, scavenge="",
         moving_mass=rollers.moving_mass,
@@ -158,21 +183,37 @@ def codesign_task(case: Case) -> CoDesignTask:
 
 def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
     """Points, hardware and limits of a case for other settings than its own."""
-    inside = settings.losses == "inside"
+    inside = _taken(case, settings) == "inside"
     return CoDesignTask(
         points=points(case, settings),
         hardware=hardware(case.need("spring"), case.need("guide"), case.need("rollers"), settings.moving_mass),
-        bounds=bounds(case.need("limits")),
+        bounds=case.need("limits"),
         ripple=settings.ripple,
         springs=int(settings.springs),
         schedule=settings.schedule,
         robust=settings.robust,
         losses=_losses(case) if inside else None,
         free=tuple(name.rpartition(".")[2] for name in settings.free),
+        track_radius=settings.track_radius,
         # with friction a guide of many knots would find its way between the angles
         knots=min(int(settings.knots), _LOSSY[0]) if inside else int(settings.knots),
         angles=max(int(settings.angles), _LOSSY[1]) if inside else int(settings.angles),
     )
+
+
+def _taken(case: Case, settings: CoDesignSettings) -> str:
+    """Where friction and heat are taken: in the programme where the case tells of its losses."""
+    by_case = "inside" if "losses" in case.sections else "beside"
+    return by_case if settings.losses == "by_case" else settings.losses
+
+
+def _ideal(verified: Verified) -> tuple[tuple[LossTorques, ...], tuple[real.Lossy, ...]]:
+    """No losses at each point, and the ripple that is left then."""
+    none = LossTorques(**dict.fromkeys(loss.KINDS, 0.0))
+    columns = (verified.steady_ripple, verified.time_ripple, verified.energy_residual)
+    rows = [[float(v) if np.isfinite(v) else None for v in row] for row in zip(*columns, strict=True)]
+    lossy = tuple(real.Lossy(ripple=a, time_ripple=b, energy_residual=c, fill=1.0) for a, b, c in rows)
+    return (none,) * len(rows), lossy
 
 
 def _losses(case: Case) -> HingeLosses:
@@ -185,7 +226,7 @@ def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
     return tuple(_point(case, settings, place, _acting(case, settings, place.mep)) for place in places)
 
 
-def _point(case: Case, settings: CoDesignSettings, place: family.SpeedAndLoad, acting: dict[str, Any]) -> Point:
+def _point(case: Case, settings: CoDesignSettings, place: family.SpeedAndLoad, acting: dict[str, Record]) -> Point:
     operation = dataclasses.replace(case.need("operation"), speed=place.omega)
     at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
     engine = machine(at)
@@ -202,7 +243,7 @@ def _check_speed(case: Case, known: float, wanted: float) -> None:
         )
 
 
-def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Any]:
+def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Record]:
     """Cycle at a mean indicated pressure [Pa], or torque curve at that share of its full load."""
     if "torque" in case.sections:
         curve: TorqueCurve = case.need("torque")
@@ -229,4 +270,5 @@ def _heavy_enough(design: CoDesign, misfire_speed: float) -> CoDesign:
     if misfire_speed <= 0 or design.status != "optimal":
         return design
     needed = scenarios.misfire_flywheel(design, misfire_speed)
-    return design if needed is None else dataclasses.replace(design, flywheel=needed)
+    # the limits are prices of the smaller flywheel, not of this one
+    return design if needed is None else dataclasses.replace(design, flywheel=needed, active=())

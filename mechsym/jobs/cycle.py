@@ -1,50 +1,206 @@
-"""Case -> cycle: the engine of a case and its figures over the speeds."""
+"""Case -> cycle: figures over the speeds, of one cylinder and of the whole engine with pistons alike or not."""
 
+import dataclasses
+import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
+from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cases.needs import require
 from mechsym.cases.settings import Speeds
-from mechsym.cycle.breathing import engine as breathing_engine
-from mechsym.cycle.breathing.engine import BreathingRun
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.engine import columns, over_design
-from mechsym.cycle.figures import cylinder_columns
+from mechsym.cycle.figures import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
-from mechsym.cycle.gas_of_train import engine_of_train, gas_of_engine_on
-from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.kinds.stirling import StirlingEngine, stirling_columns
-from mechsym.forces.turn import turn
-from mechsym.jobs import own, own_gas, own_turn
-from mechsym.jobs.gas import breathing_with, engine_with, of, one_cylinder
-from mechsym.jobs.own import is_own
-from mechsym.jobs.scavenge import columns as scavenge_columns
-from mechsym.jobs.scavenge import follows, scavenged
-from mechsym.jobs.starts import guesses
-from mechsym.jobs.turn import drive_of, fitted_law
-from mechsym.jobs.unlike import unlike_pistons
-from mechsym.jobs.whole_engine import of_engine, other_piston
-from mechsym.page import ShownFigures
-from mechsym.quantities import RPM
+from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
+from mechsym.cycle.motion import from_top, slopes
+from mechsym.cycle.source import Progress, unseen
+from mechsym.errors import BadInput
+from mechsym.files import Json
+from mechsym.jobs.gas import charged, engine_with, of, one_cylinder, source
+from mechsym.jobs.machine import fitted_law, one_coordinate, torque, turn
+from mechsym.mechanisms.plan import plan_of
+from mechsym.quantities import record
+from mechsym.quantities.units import Array, RadPerSecond
+
+_ADD = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw")
+_NOT_LARGER = "torque_max"
+_ALIKE = 1e-9  # of the stroke: pistons whose travels differ by less move alike
+
+
+@record
+class CylinderCount:
+    """The cylinders of an engine as its cycle counts them."""
+
+    count: int  #: Chambers of a crank train, working faces of a rodless engine
+    share: float  #: What one cylinder's figures are multiplied with for the engine [-]
+    each: str = "cylinder"  #: What is counted: a cylinder, or a piston where two share one
+
+
+def cylinders(case: Case) -> CylinderCount:
+    """The cylinders of a case.
+
+    Raises
+    ------
+    BadInput
+        They fire off their dead centres, move differently, or the pistons of a chamber do not divide them
+    """
+    parameters, plan = case.need("parameters"), plan_of(case.mechanism)
+    roles = plan.parts(parameters)
+    if "faces" in case.sections and roles.chosen:
+        areas = case.need("faces").areas
+        bore = getattr(case.sections.get("chamber"), "bore", None) or case.need("cycle").bore
+        return CylinderCount(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
+    with of(case):
+        plan.require_firing(parameters, 4 * math.pi if four_stroke(case.need("cycle")) else 2 * math.pi)
+    if other := other_piston(case):
+        alone = "'mechsym cycle' without --over, "
+        raise BadInput(
+            f"{case.file}: piston {other} moves otherwise than {roles.heads[0].name}: this is computed for one of them "
+            f"and holds for equal cylinders; use {'' if roles.faces else alone}'mechsym forces' or 'mechsym simulate'"
+        )
+    all_of, sharing = len(roles.heads), _sharing(case)
+    if all_of % sharing and roles.faces:
+        raise BadInput(
+            f"{case.file}: [chamber] pistons = {sharing} does not divide the {all_of} cylinders; give 1 or a divisor"
+        )
+    count = max(1, all_of // sharing)
+    return CylinderCount(count=count, share=float(count), each="piston" if roles.opposed else "cylinder")
+
+
+def _sharing(case: Case) -> int:
+    """Pistons that share a chamber."""
+    return int(getattr(case.sections.get("chamber"), "pistons", 1))
+
+
+def piston_travels(case: Case) -> dict[str, np.ndarray]:
+    """Travel of each piston over a turn, from its own top dead centre on [m]; none where a case chooses its faces."""
+    roles = plan_of(case.mechanism).parts(case.need("parameters"))
+    heads = {head.name: head.travel for head in roles.heads}
+    with of(case):
+        mechanism = one_coordinate(case)
+        moved = {name: from_top(slopes(mechanism, travel, {})) for name, travel in heads.items()}
+    phi = np.linspace(0, 2 * math.pi, 73)[None, :]
+    return {name: np.asarray(travel.call([phi])[0]).ravel() for name, travel in moved.items()}
+
+
+def other_piston(case: Case) -> str:
+    """The first piston that moves otherwise than the first one; empty where all move alike."""
+    if len(plan_of(case.mechanism).parts(case.need("parameters")).heads) < 2:
+        return ""
+    travels = piston_travels(case)
+    first = next(iter(travels.values()))
+    far = (n for n, travel in travels.items() if np.abs(travel - first).max() > _ALIKE * np.ptp(first))
+    return next(far, "")
+
+
+def of_engine(case: Case, found: Json, omega: Sequence[RadPerSecond] | RadPerSecond[Array] | None) -> Json:
+    """Figures of the whole engine from those of one cylinder (`cycle.columns`), which stand beside them.
+
+    omega: crank speeds; None leaves the largest torque of several cylinders open. Returns figures: the same columns for
+    the engine, `cylinders`, and `per_cylinder` with those that differ.
+    """
+    counted = cylinders(case)
+    own = {name: found[name] for name in (*_ADD, _NOT_LARGER) if name in found}
+    if counted.count == 1:
+        # what stands in for one cylinder has not the mass of all that moves
+        stands_in = one_cylinder(case).mechanism != case.mechanism
+        known = "faces" in case.sections or not mechanisms.roles_of(case.mechanism).chosen
+        if stands_in and known and omega is not None and _NOT_LARGER in found:
+            found = {**found, _NOT_LARGER: largest_torque(case, omega)}
+        return {**found, "cylinders": 1, "each": counted.each, "per_cylinder": own}
+    whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
+    whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)
+    return {**found, **whole, "cylinders": counted.count, "each": counted.each, "per_cylinder": own}
+
+
+def largest_torque(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
+    """Largest torque of the whole mechanism on the shaft at each of some speeds [rad/s]: [N*m]."""
+    operation = case.need("operation")
+    found = []
+    for speed in omega:
+        there = dataclasses.replace(operation, speed=float(speed))
+        at = dataclasses.replace(case, sections={**case.sections, "operation": there})
+        found.append(float(torque(at).max()))
+    return np.array(found)
+
+
+_SUMMED = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw", "air_kg_h")
+_BY_VOLUME = ("mep_kpa", "gross_mep_kpa", "brake_mep_kpa", "friction_mep_kpa", "pumping_mep_kpa",
+              "volumetric_efficiency")  # fmt: skip
+_BY_HEAT = ("efficiency", "brake_efficiency")
+_BY_POWER = {"sfc_g_kwh": "power_kw", "brake_sfc_g_kwh": "brake_power_kw", "trapping_efficiency": "air_kg_h",
+             "mechanical_efficiency": "power_kw"}  # fmt: skip
+_RESIDUALS = ("energy_residual", "mass_residual")
+_AT_PEAK = ("p_max_angle_deg", "ca10_deg", "ca50_deg", "ca90_deg")  # of the piston with the largest pressure
+_ONLY = ("speed_rpm", "fractions", "loads")  # of every piston the same, or put together by itself
+
+
+def unlike_pistons(case: Case, omega: RadPerSecond[Array], friction: Friction) -> Json:
+    """Figures of an engine from a file whose pistons do not move alike.
+
+    Returns figures: as `mechsym.jobs.cycle`, with `pistons`: the figures of each by its name in the declaration.
+
+    Raises
+    ------
+    BadInput
+        Pistons that share a chamber, or gas that a turbocharger changes
+    """
+    if _sharing(case) != 1 or charged(case):
+        raise BadInput(
+            f"{case.file}: the pistons move differently: the figures of each hold with a chamber and an inlet of its "
+            "own; set chamber.pistons = 1 and leave out [scavenging], or use 'mechsym simulate'"
+        )
+    travels = piston_travels(case)
+    with of(case):
+        rows = {name: source(case, friction, number).figures(omega) for number, name in enumerate(travels)}
+    swept = np.array([np.ptp(travel) for travel in travels.values()])
+    found = {"speed_rpm": next(iter(rows.values()))["speed_rpm"], **_together(list(rows.values()), swept)}
+    found["torque_max"] = largest_torque(case, omega)
+    alone = {name: {k: v for k, v in row.items() if k not in _ONLY} for name, row in rows.items()}
+    return found | {"loads": {}, "cylinders": len(rows), "per_cylinder": {}, "pistons": alone}
+
+
+def _together(rows: list[Json], swept: np.ndarray) -> Json:
+    """Figures of the engine from those of its pistons and what each sweeps [m]."""
+    stacked = {k: np.array([row[k] for row in rows]) for k in rows[0] if k not in _ONLY}
+    power = stacked["power_kw"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        heat = power / stacked["efficiency"]  # nan without fuel
+    weights = dict.fromkeys(_BY_VOLUME, np.broadcast_to(swept[:, None], power.shape))
+    weights |= dict.fromkeys(_BY_HEAT, heat) | {k: stacked[by] for k, by in _BY_POWER.items() if by in stacked}
+    highest = np.argmax(stacked["p_max_mpa"], axis=0)
+    found: Json = {}
+    for name, values in stacked.items():
+        if name in _SUMMED:
+            found[name] = values.sum(axis=0)
+        elif name in weights:
+            found[name] = _mean(values, weights[name])
+        elif name in _AT_PEAK or name in _RESIDUALS:
+            place = highest if name in _AT_PEAK else np.argmax(np.abs(values), axis=0)
+            found[name] = np.take_along_axis(values, place[None, :], axis=0)[0]
+        else:
+            found[name] = values.max(axis=0)
+    shares = rows[0]["fractions"]
+    found["fractions"] = {k: _mean(np.array([row["fractions"][k] for row in rows]), heat) for k in shares}
+    return found
+
+
+def _mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    return (values * weights).sum(axis=0) / weights.sum(axis=0)
+
 
 _FRICTION_SPEEDS = (0.25, 0.5, 0.75, 1.0)  # of the speed of operation, where a mechanism's friction is looked up
+_BEHIND = ("fractions", "loads", "losses")  # what stands behind the columns
 
 
-class CycleFigures(ShownFigures):
-    """Figures of an engine over the speeds, under the names of `mechsym cycle`."""
-
-
-def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
+def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progress = unseen) -> CycleFigures:
     """Figures of the engine cycle of a case, at its speed of operation or over several.
 
-    Parameters
-    ----------
-    case : Case
-        With `[cycle]` of any kind that follows no measured diagram
-    omega : ndarray, shape (n,), optional
-        Crank speeds [rad/s]
+    case: with `[cycle]` of any kind that follows no measured diagram; progress: called with the number of points done
+    after each block of them.
 
     Returns
     -------
@@ -59,29 +215,35 @@ def cycle(case: Case, omega: np.ndarray | None = None) -> CycleFigures:
     >>> round(float(found["power_kw"][0]), 2), found.view.cards[1].value
     (83.88, '83.88 kW')
     """
+    require(case, "cycle")
     speeds = np.array([case.need("operation").speed]) if omega is None else omega
-    given = kind_of(case.need("cycle")).given
-    if given == "train":
-        return CycleFigures(columns_of_stirling(case, speeds))
-    if other_piston(case):
-        return CycleFigures(unlike_pistons(case, speeds, _friction(case)))
-    if given == "engine":
-        found = columns(over_design(engine(one_cylinder(case)), {"omega": speeds}))
-    elif given == "breathing":
-        found = columns_of_breathing(case, speeds)
+    kind = kind_of(case.need("cycle"))
+    if kind.measured:
+        known = ", ".join(sorted(name for name, row in KINDS.items() if not row.measured))
+        why = f"[cycle] is of no kind with figures over the speed; kinds are {known} and, with --diagram, diagram"
+        raise BadInput(f"{case.file}: {why}")
+    friction = NoFriction() if kind.shared else _friction(case)
+    if kind.shared:
+        found = source(case, friction)
+        with of(case):
+            figures = CycleFigures(_with_extremes(case, speeds, found.figures(speeds, progress)))
+    elif mechanisms.roles_of(case.mechanism).pistons and other_piston(case):
+        return CycleFigures(unlike_pistons(case, speeds, friction))
     else:
-        found = columns_of_cylinder(case, speeds)
-    return CycleFigures(of_engine(case, found, speeds))
+        cylinders(case)  # what is wrong with them is said before the work begins
+        found = source(one_cylinder(case), friction)
+        with of(case):
+            alone = found.figures(speeds, progress)
+        figures = CycleFigures(of_engine(case, alone, speeds))
+    figures.source = found
+    return figures
 
 
 def engine(case: Case) -> ClosedEngine:
     """The engine that a case describes.
 
-    Parameters
-    ----------
-    case : Case
-        As for `engine_with`; `[friction_pressure]` defaults to no friction, its law `mechanism` is fitted to the
-        case's `[friction]`
+    case: as for `engine_with`; `[friction_pressure]` defaults to no friction, its law `mechanism` is fitted to the
+    case's `[friction]`.
 
     Raises
     ------
@@ -100,144 +262,23 @@ def _friction(case: Case) -> Friction:
     return fitted_law(plain, case.need("operation").speed * np.array(_FRICTION_SPEEDS)).law
 
 
-def columns_of_cylinder(case: Case, omega: np.ndarray) -> dict[str, Any]:
-    """Figures of a case whose cycle is no engine's but one cylinder's, over the speeds.
-
-    Parameters
-    ----------
-    case : Case
-        With a cycle of kind `two-stroke-marine` or `two-stroke-zone`
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-    """
-    if follows(case):
-        return _columns_of_scavenged(case, omega)
-    seen = one_cylinder(case)
-    with of(case):
-        return cylinder_columns(case.need("cycle"), seen.mechanism, seen.need("parameters"), omega, guesses(case))
+def _with_extremes(case: Case, omega: np.ndarray, figures: Json) -> Json:
+    """Figures of pistons that share a gas with the largest torque and force on a piston."""
+    rows = [_extremes(case, speed) for speed in map(float, omega)]
+    behind = {name: figures.pop(name) for name in _BEHIND}
+    return figures | {key: np.array([row[key] for row in rows]) for key in rows[0]} | behind
 
 
-def _columns_of_scavenged(case: Case, omega: np.ndarray) -> dict[str, Any]:
-    states, rows = [], []
-    given = replace(case, sections={name: s for name, s in case.sections.items() if name != "scavenging"})
-    for speed in omega:
-        at, state = scavenged(case, float(speed))
-        assert state is not None
-        states.append(state)
-        there = replace(given, sections={**given.sections, "cycle": at.need("cycle")})
-        rows.append(columns_of_cylinder(there, np.array([speed])))
-    plain = {
-        name: np.concatenate([row[name] for row in rows]) for name in rows[0] if name not in ("fractions", "loads")
-    }
-    return plain | scavenge_columns(states, omega) | {"loads": {}}
-
-
-def columns_of_breathing(case: Case, omega: np.ndarray) -> dict[str, Any]:
-    """Figures of an engine whose gas exchange is followed, over the speeds, of one cylinder.
-
-    Parameters
-    ----------
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-    """
-    return breathing_engine.figures(breathing(case, omega))
-
-
-def breathing(case: Case, omega: np.ndarray) -> BreathingRun:
-    """The cycles of an engine whose gas exchange is followed, for its curves.
-
-    Parameters
-    ----------
-    omega : ndarray, shape (n,)
-        Crank speeds [rad/s]
-    """
-    with of(case):
-        return breathing_engine.run(breathing_with(one_cylinder(case), _friction(case)), omega.tolist())
-
-
-def columns_of_stirling(case: Case, omega: np.ndarray) -> dict[str, Any]:
-    """Figures of a Stirling engine over the speeds, of the whole engine.
-
-    Parameters
-    ----------
-    omega : ndarray, shape (n,)
-        Shaft speeds [rad/s]
-
-    Returns
-    -------
-    columns : dict
-        As `engine.columns`, without fuel; works and heats of a turn, temperatures, and under `losses` what is lost [W]
-    """
-    extremes = _own_extremes if is_own(case.mechanism) else _extremes
-    rows = []
-    for speed in omega:
-        engine = _stirling(case, float(speed))
-        rows.append(stirling_columns(engine, float(speed)) | extremes(case, engine, float(speed)))
-    columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0] if key != "losses"}
-    shares = {"heat": 1 - columns["efficiency"], "work": columns["efficiency"]}
-    none = dict.fromkeys(("exhaust", "unburnt"), np.full(len(rows), np.nan))
-    losses = {name: np.array([row["losses"][name] for row in rows]) for name in rows[0]["losses"]}
-    return {"speed_rpm": omega / RPM} | columns | {"fractions": shares | none, "loads": {}, "losses": losses}
-
-
-def _stirling(case: Case, omega: float) -> StirlingEngine:
-    if is_own(case.mechanism):
-        return own_gas.stirling(case, own.one_coordinate(case), omega)
-    with of(case):
-        return engine_of_train(case.need("cycle"), case.need("parameters"), omega, case.sections.get("stirling"))
-
-
-def _extremes(case: Case, engine: StirlingEngine, omega: float) -> dict[str, float]:
-    """Largest torque and force on a piston of a train."""
-    with of(case):
-        found = turn(drive_of(case), gas_of_engine_on(engine, case.need("cycle"), case.need("parameters")), omega)
-    force = max(float(np.abs(push).max()) for push in found.inputs.values())
+def _extremes(case: Case, speed: float) -> dict[str, float]:
+    found = turn(replace(case, sections={**case.sections, "operation": replace(case.need("operation"), speed=speed)}))
+    force = max(float(np.abs(found.inputs[one.face.input]).max()) for one in found.acting)
     return {"torque_max": float(found.torque.max()), "force_max": force}
 
 
-def _own_extremes(case: Case, engine: StirlingEngine, omega: float) -> dict[str, float]:
-    """The same of a mechanism from a file."""
-    operation = replace(case.need("operation"), speed=omega)
-    found = own_turn.turn(replace(case, sections={**case.sections, "operation": operation})).columns
-    forces = (np.abs(found[role["force"]]).max() for role in own.roles(case, "piston"))
-    return {"torque_max": float(-found["driving_torque"].min()), "force_max": float(max(forces))}
-
-
-def stirling_curves(case: Case, omega: float) -> dict[str, np.ndarray]:
-    """One turn of a Stirling engine, curve by curve, from the first dead centre on.
-
-    Parameters
-    ----------
-    omega : float
-        Shaft speed [rad/s]
-
-    Returns
-    -------
-    curves : dict of str to ndarray, shape (n,)
-        `phi_deg`, `p_pa`, `v_e_m3`, `v_c_m3`, `t_e_k`, `t_c_k`, and `flow_e_kg_s`, `flow_c_kg_s` into the spaces
-    """
-    found = _stirling(case, omega).turn
-    order = np.argsort(np.remainder(found.phi, 2 * np.pi), kind="stable")
-    curves = {
-        "phi_deg": np.degrees(np.remainder(found.phi, 2 * np.pi)), "p_pa": found.p, "v_e_m3": found.V_e,
-        "v_c_m3": found.V_c, "t_e_k": found.T_e, "t_c_k": found.T_c, "flow_e_kg_s": found.flow_e * omega,
-        "flow_c_kg_s": found.flow_c * omega,
-    }  # fmt: skip
-    return {name: values[order] for name, values in curves.items()}
-
-
-def speed_range(speeds: Speeds) -> np.ndarray:
+def speed_range(speeds: Speeds) -> RadPerSecond[Array]:
     """The speeds of a performance map.
 
-    Parameters
-    ----------
-    speeds : Speeds
-        Section `[speeds]` of a case
-
-    Returns
-    -------
-    omega : ndarray, shape (n,)
-        lowest, lowest + step, .. up to highest [rad/s]
+    speeds: section `[speeds]` of a case. Returns omega: lowest, lowest + step.. up to highest.
     """
     count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
     return speeds.lowest + speeds.step * np.arange(count)

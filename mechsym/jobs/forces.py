@@ -1,27 +1,61 @@
 """`mechsym forces`: the forces of a case over one cycle at constant speed."""
 
-from dataclasses import replace
+import dataclasses
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+
+import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.facts import facts_of
+from mechsym.cases.needs import require
+from mechsym.cycle.friction import Friction, MechanismFriction
+from mechsym.cycle.kinds import kind_of
+from mechsym.files import Json
 from mechsym.forces import report, result
 from mechsym.forces.comparison import ComparisonSettings, compare
+from mechsym.forces.friction import NoRings
 from mechsym.forces.result import Forces
-from mechsym.forces.rings import NoRings
+from mechsym.forces.summary import ForceNumbers, summary
+from mechsym.forces.turn import Turn
 from mechsym.jobs.gas import of
-from mechsym.jobs.turn import turn
+from mechsym.jobs.machine import fitted_law, turn
+from mechsym.mechanisms import listing
+from mechsym.quantities.results import part, quantity
+from mechsym.quantities.results import result as result_record
+from mechsym.quantities.units import RadPerSecond
+from mechsym.torsion import train
+from mechsym.torsion.train import ShaftLimits, TrainVibration, operating_range
+from mechsym.torsion.train import vibration as vibration_of
+
+
+@result_record
+class FrictionLaw:
+    """The mechanism's friction as a law of the cycle, for `[friction_pressure]`."""
+
+    law: str = part()
+    constant: float = quantity("Pa")  #: Whatever the speed
+    per_peak_pressure: float = quantity("-")  #: Of the largest pressure
+    per_speed: float = quantity("Pa*s/m")  #: Of the mean piston speed
+    per_speed_squared: float = quantity("Pa*s^2/m^2")  #: Of its square
+    misfit: float = quantity("-")  #: Largest difference over the largest value
+
+
+@result_record
+class ForceReport:
+    """What `mechsym forces` tells of a case."""
+
+    numbers: ForceNumbers = part(inline=True)
+    vibration: TrainVibration | None = part()  #: Criticals of a crank train
+    friction_law: FrictionLaw | None = part()  #: Fitted over speeds that are asked for
 
 
 def forces(case: Case, comparison: bool = False) -> Forces:
     """Forces of a case over one cycle at constant speed.
 
-    Parameters
-    ----------
-    case : Case
-        See `turn`; `[friction]`, `[rings]`, `[shaking]` and `[comparison]` are read where they stand
-    comparison : bool
-        Whether the mechanisms are put side by side as well
+    case: see `turn`; `[friction]`, `[rings]`, `[friction_pressure]`, `[shaking]` and `[comparison]` are read where they
+    stand. comparison:
+    whether the mechanisms are put side by side as well.
 
     Examples
     --------
@@ -30,22 +64,65 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     >>> round(float(found.columns["crank_pin_load"].max()) / 1e3, 1)
     485.8
     """
+    require(case, "forces")
     one, given = turn(case), case.sections
     friction, rings = given.get("friction"), given.get("rings", NoRings())
-    found = result.forces(one, friction, rings, given.get("shaking"))
+    found = result.forces(one, friction, rings, given.get("shaking"), given.get("shaft"), _whole(case))
     if not comparison:
         return found
     with of(case):
         rows = compare(one, friction, rings, given.get("comparison", ComparisonSettings()))
-    return replace(found, comparison=rows)
+    return dataclasses.replace(found, comparison=rows)
 
 
-def write(case: Case, found: Forces, numbers: dict[str, Any], folder: Path) -> list[Path]:
+def _whole(case: Case) -> Friction | None:
+    """The law of the friction of the whole engine; none where it is the sum of the joints."""
+    kind = kind_of(case.need("cycle")) if "cycle" in case.sections else None
+    if kind is None or kind.shared or kind.measured:
+        return None
+    law = case.sections.get("friction_pressure")
+    return None if isinstance(law, MechanismFriction) else law
+
+
+def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -> ForceReport:
+    """The forces of a case in numbers.
+
+    law: speeds over which the friction is fitted as a law of the cycle.
+    """
+    numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
+    if shaking is not None:
+        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *train.words(shaking)])
+    return ForceReport(numbers=numbers, vibration=shaking, friction_law=None if law is None else _law(case, law))
+
+
+def _law(case: Case, speeds: Sequence[float]) -> FrictionLaw:
+    found = fitted_law(case, speeds)
+    return FrictionLaw(law="chen_flynn", misfit=found.misfit, **dataclasses.asdict(found.law))
+
+
+def write(case: Case, found: Forces, numbers: Json, folder: Path) -> list[Path]:
     """Write page, tables, summary and pictures.
 
-    Parameters
-    ----------
-    folder : Path
-        Where to write; made when missing
+    folder: where to write; made when missing.
     """
-    return report.write(found, numbers, folder, case.about)
+    return report.write(found, numbers, folder, case.about or listing(case.mechanism)["about"] or case.name)
+
+
+def vibration(case: Case, one: Turn | None = None) -> TrainVibration | None:
+    """Natural frequencies, criticals and steady vibration of a crank train; None for every other mechanism.
+
+    case: with `[operation]`; `[cycle]` excites beside the masses, `[speeds]` is the operating range, `[shaft]` its
+    limits. one: a cycle of it at constant speed, when there is one already.
+    """
+    if not facts_of(case.mechanism, case.sections).vibrates or "operation" not in case.sections:
+        return None
+    one, given, wanted = one or turn(case), case.sections.get("speeds"), case.sections.get("simulation")
+    span = None if given is None else (given.lowest, given.highest)
+    gas = {name: _over(one, push) for name, push in one.inputs.items()}
+    speeds = operating_range(one.omega, getattr(wanted, "speed_start", None), span)
+    limits = case.sections.get("shaft", ShaftLimits())
+    return vibration_of(case.mechanism, case.need("parameters"), gas, one.period, speeds, limits)
+
+
+def _over(one: Turn, push: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda phi: np.interp(phi, one.phi, push, period=one.period)

@@ -1,55 +1,119 @@
-"""Case -> hinge: machine -> torque wanted -> guide -> verdict; how it runs on first use."""
+"""Case -> hinge: machine -> torque wanted -> guide -> verdict and its track; each runs on first use."""
 
 import functools
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+import scipy
+
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.needs import NO_FILE, require
 from mechsym.cases.settings import TrialSettings
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge import steady
-from mechsym.hinge.guide import Guide, refit
+from mechsym.hinge.contact import Contact, at_pieces
+from mechsym.hinge.guide import Guide, path, refit
+from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.result import AtLoad, Design, Origin
 from mechsym.hinge.retune import retune
+from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.setting import setting_of, with_setting
+from mechsym.hinge.steady import sensitivities, with_guide
 from mechsym.hinge.torque import torque
 from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine
-from mechsym.machine.record import Machine
+from mechsym.jobs.problem import guide_of
+from mechsym.machine.record import Machine, kinks_of
+from mechsym.mechanisms import listing
+from mechsym.quantities import record
+from mechsym.quantities.units import Pascal, Pure
+from mechsym.simulate.steady import Steady
+
+ERROR = 1e-4  # of the track, that is tried [m]
 
 
-def hinge(case: Case, diagram: str | None = None, loads: Sequence[float] = ()) -> Design:
+@record
+class Workshop:
+    """A guide with what a workshop has to know of it."""
+
+    name: str
+    about: str
+    machine: Machine
+    guide: Guide
+    rollers: RollerParameters
+    verdict: Verdict
+    contact: Contact
+    kinks: tuple[float, ...]  #: angles of the guide's shaft where the curvature jumps [rad]
+    #: what is off, and the speed ripple of the steady motion low and high; None where there is none [-]
+    tolerances: tuple[tuple[str, float | None, float | None], ...]
+
+
+def workshop(case: Case, diagram: str | None = None) -> Workshop:
+    """The guide of a case for the workshop.
+
+    Raises
+    ------
+    BadInput
+        No guide can be cut, or a section is missing
+    """
+    require(case, "guide", NO_FILE if diagram else "")
+    rollers, limits = case.need("rollers"), case.need("limits")
+    engine, wanted, guide = guide_of(case, diagram)
+    rows = [(f"{s.name} 1 % low, high", _ripple(s.low), _ripple(s.high)) for s in sensitivities(engine, wanted, guide)]
+    inwards, outwards = (_ripple(with_guide(engine, wanted, _shifted(guide, d))) for d in (-ERROR, ERROR))
+    ratio = guide.parameters.shaft_ratio
+    return Workshop(
+        name=case.name, about=case.about, machine=engine, guide=guide, rollers=rollers,
+        verdict=judge(guide, rollers, limits), contact=at_pieces(guide, rollers),
+        kinks=_around(guide, tuple(k * ratio for k in kinks_of(engine))),
+        tolerances=(*rows, (f"track {1e3 * ERROR:g} mm in, out", inwards, outwards)),
+    )  # fmt: skip
+
+
+def _ripple(steady: Steady) -> float | None:
+    return steady.speed_ripple
+
+
+def _shifted(guide: Guide, distance: float) -> Guide:
+    """The track cut too near to the axis or too far from it by a distance [m]."""
+    rho = path(guide)
+    rows = rho.c.copy()
+    rows[-1] += distance
+    return replace(guide, rho=scipy.interpolate.PPoly(rows, rho.x, extrapolate="periodic"))
+
+
+def _around(guide: Guide, angles: tuple[float, ...]) -> tuple[float, ...]:
+    """Angles of one period of the track, repeated over its whole turn [rad]."""
+    period = float(path(guide).x[-1])
+    turns = round(2 * np.pi / period)
+    return tuple(sorted({float(a % period + k * period) for a in angles for k in range(turns)}))
+
+
+def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) -> Design:
     """Design the elastic hinge of an engine; how it runs is computed on first use, see `Design`.
 
-    Parameters
-    ----------
-    case : Case
-        With sections parameters, operation, cycle, spring, guide, rollers, limits
-    diagram : str, optional
-        CSV file of a measured diagram in place of the case's cycle
-    loads : sequence of float
-        Other loads to try the guide at, as shares of the case's mean indicated pressure [-]
-
-    Returns
-    -------
-    design : Design
-        Guide and verdict, also when it cannot be built; runs, flywheels and sensitivities of what could be cut
+    case: with sections parameters, operation, cycle, spring, guide, rollers, limits; diagram: CSV file of a measured
+    diagram in place of the case's cycle; loads: other loads to try the guide at, as shares of the case's mean indicated
+    pressure. Returns design: guide and verdict, also when it cannot be built; runs, flywheels and sensitivities of what
+    could be cut.
 
     Raises
     ------
     BadInput
         A section is missing, a value is impossible, or the cycle has one load only and others are asked for
     """
+    require(case, "hinge", NO_FILE if diagram else "")
     spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
     pressures, engine = _pressures(case, diagram, loads), machine(case, diagram)
     wanted = torque(engine)
     chosen, *instead = offers(wanted, spring, choices, rollers, limits)
     return Design(
         origin=Origin(name=case.name, about=case.about, source=case.source, sections=case.sections),
-        machine=engine, rollers=rollers, hinge=wanted, balance=chosen.balance, guide=chosen.guide,
+        machine=engine, rollers=rollers, hinge=wanted, balance=chosen.taken, guide=chosen.track,
         verdict=chosen.verdict, instead=tuple(instead), flywheel_kept=kept_flywheel(case),
         turns=case.sections.get("trials", TrialSettings()).turns, assumed=case.sections.get("losses", HingeLosses()),
         in_time=case.sections.get("losses"),
@@ -57,13 +121,10 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[float] = ()) -
     )  # fmt: skip
 
 
-def design_load(case: Case) -> float:
+def design_load(case: Case) -> Pascal:
     """The load that a case is designed for.
 
-    Returns
-    -------
-    mean_indicated_pressure : float
-        Of its cycle [Pa]
+    Returns mean_indicated_pressure: of its cycle.
 
     Raises
     ------
@@ -76,23 +137,13 @@ def design_load(case: Case) -> float:
     return float(getattr(cycle, kind_of(cycle).load))
 
 
-def at_loads(case: Case, guide: Guide, loads: Sequence[float]) -> list[AtLoad]:
+def at_loads(case: Case, guide: Guide, loads: Sequence[Pascal]) -> list[AtLoad]:
     """Steady running of a guide at other loads, at the speed of operation.
 
     The guide stays as it was cut. At another load the gas torque has another shape, so the hinge misses it; a spring
     set anew for that load takes part of the rest away.
 
-    Parameters
-    ----------
-    guide : Guide
-        Guide of the case's hinge, status `cut`
-    loads : sequence of float
-        Mean indicated pressures to try [Pa]
-
-    Returns
-    -------
-    rows : list of AtLoad
-        As cut and set anew, one for each load
+    guide: guide of the case's hinge, status `cut`; loads: mean indicated pressures to try.
     """
     return [_at_load(case, guide, load) for load in loads]
 
@@ -110,6 +161,7 @@ def _at_load(case: Case, guide: Guide, load: float) -> AtLoad:
         reset=steady.with_guide(engine, wanted, anew),
         setting=setting,
         ratio=setting / setting_of(guide.spring),
+        unit=guide.spring.setting[1],
     )
 
 
@@ -128,7 +180,7 @@ def _other(case: Case) -> Machine | None:
     same = {
         key: record for key, record in case.sections.items() if key in ("parameters", "flywheel", "load", "scavenging")
     }
-    if other.mechanism != case.mechanism:
+    if listing(other.mechanism)["name"] != listing(case.mechanism)["name"]:
         raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
     sections = {key: record for key, record in other.sections.items() if key != "load"}
-    return machine(replace(other, sections={**sections, **same}))
+    return machine(replace(other, mechanism=case.mechanism, sections={**sections, **same}))

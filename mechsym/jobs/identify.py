@@ -1,72 +1,79 @@
 """Case and trace -> parameters: inertia, stiffness, damping and friction out of measured speeds."""
 
 import dataclasses
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import casadi as ca
 import numpy as np
 
+from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cases.needs import require
+from mechsym.cases.runs import guesses
 from mechsym.errors import BadInput, suggest
+from mechsym.jobs.machine import constants, drive_on
 from mechsym.mechanisms import parameters_class
-from mechsym.mechanisms.record import Mechanism, bind, generated, velocities
+from mechsym.mechanisms.record import Mechanism, bind, velocities
+from mechsym.mechanisms.shaft_inertia import with_inertia
 from mechsym.optimise.fit import TracedMotion
 from mechsym.optimise.identify import Identified
 from mechsym.optimise.identify import identify as solve
 from mechsym.optimise.trace import Trace, read_trace
 from mechsym.simulate.settings import StepTorque
 
-# torques on the first coordinate against its motion: constant, and proportional to its speed
+# forces or torques on the first coordinate against its motion: constant, and proportional to its speed
 FRICTION = {"friction.constant": "N*m", "friction.viscous": "N*m*s/rad"}
-_FORCES = ("F", "G")  # first letters of inputs that are forces; the others are torques
+_SLIDING = {"friction.constant": "N", "friction.viscous": "N*s/m"}
+_LOSSES = ("N*m", "N", "N*m*s/rad", "N*s/rad", "N*s/m")  # units of friction and dampers
+_UNTOLD = {"cycle": "the gas", "torque": "the torque", "load": "the load"}  # sections whose push follows the motion
 
 
 def identify(case: Case, file: str, free: Sequence[str]) -> Identified:
     """Find parameters of a case in a measured run.
 
-    Parameters
-    ----------
-    case : Case
-        With `[parameters]`, which give what is not looked for; `[drive]` acts where the trace has no column for it
-    free : sequence of str
-        Names among the parameters, and those of `FRICTION`
+    case: with `[parameters]`, which give what is not looked for; `[drive]` and constants of `[inputs]` act where the
+    trace has no column for them. free: names among the parameters, and those of `FRICTION`.
 
     Raises
     ------
     BadInput
-        Unknown names, gas whose force was not measured, a trace that cannot be trusted or does not tell
+        Unknown names, a push that was not measured, a trace that cannot be trusted or does not tell
     """
-    module = generated(case.mechanism)
-    inputs = {name: "N" if name.startswith(_FORCES) else "N*m" for name in module.INPUTS}
-    trace = read_trace(file, velocities(module), inputs)
-    if "cycle" in case.sections and not trace.inputs:
-        wanted = " or ".join(f"{name} [{unit}]" for name, unit in inputs.items())
-        raise BadInput(
-            f"{case.file}: [cycle] turns the shaft, and the trace has no column of its force; measure {wanted}, or "
-            "take a case without [cycle]"
-        )
+    require(case, "identify")
+    known = mechanisms.listing(case.mechanism)
+    speeds = {f"{q}d": f"{unit}/s" for q, unit in known["coordinates"].items()}
+    trace = read_trace(file, speeds, known["inputs"])
+    for section in _UNTOLD:
+        if section in case.sections and not trace.inputs:
+            wanted = " or ".join(f"{name} [{unit}]" for name, unit in known["inputs"].items())
+            raise BadInput(
+                f"{case.file}: [{section}] acts, and the trace has no column of {_UNTOLD[section]}; measure {wanted}, "
+                f"or take a case without [{section}]"
+            )
     return solve(_model(case, trace, tuple(free)), trace)
 
 
 def _model(case: Case, trace: Trace, free: tuple[str, ...]) -> TracedMotion:
     known, units = _parameters(case)
-    names = [*known, *FRICTION]
+    turning = tuple(unit == "rad" for unit in mechanisms.listing(case.mechanism)["coordinates"].values())
+    units |= FRICTION if turning[0] else _SLIDING
     for name in free:
-        if name not in names or free.count(name) > 1:
-            raise BadInput(f"--free {name}: name each parameter once; {suggest(name, names)}")
+        if name not in units or free.count(name) > 1:
+            raise BadInput(f"--free {name}: name each parameter once; {suggest(name, list(units))}")
     symbols = {name: ca.SX.sym(name) for name in known if name in free}
     mechanism = bind(case.mechanism, {**known, **symbols})
-    if "constraints" in mechanism.functions:
-        raise BadInput(f"{case.file}: {mechanism.name} has loops that its coordinates close; identify takes mechanisms "
-                       "without them")  # fmt: skip
+    if "flywheel" in case.sections:
+        mechanism = with_inertia(mechanism, case.need("flywheel").inertia)
     start = np.array([known.get(name, 0.0) for name in free])
-    size, low = _sizes(case, trace, free, start)
-    simulation, drive = case.sections.get("simulation"), case.sections.get("drive")
+    angle = getattr(case.sections.get("simulation"), "phi_start", 0.0)
+    pose = {q: angle for q in mechanism.coordinates} | guesses(case)
+    drive = case.sections.get("drive")
     return TracedMotion(
-        rate=_rate(mechanism, symbols, free), velocities=velocities(mechanism), inputs=mechanism.inputs, names=free,
-        units=tuple(FRICTION.get(name) or units[name] for name in free), start=start, size=size, low=low,
-        known=lambda t: _inputs(mechanism, drive, trace, t), angle=getattr(simulation, "phi_start", 0.0),
+        rate=_rate(mechanism, symbols, free), energy=_energy(mechanism, symbols, free),
+        lossy=any(units[name] in _LOSSES for name in free), velocities=velocities(mechanism), turning=turning,
+        inputs=mechanism.inputs, names=free, units=tuple(units[name] for name in free), start=start,
+        size=_sizes(mechanism, symbols, trace, free, start), low=_least(case, free),
+        known=lambda t: _inputs(case, mechanism, trace, t), pose=np.array([pose[q] for q in mechanism.coordinates]),
         breaks=() if drive is None else (drive.time,),
     )  # fmt: skip
 
@@ -81,21 +88,31 @@ def _parameters(case: Case) -> tuple[dict[str, float], dict[str, str]]:
     return {name: float(value) for name, value in values.items()}, units
 
 
-def _sizes(case: Case, trace: Trace, free: tuple[str, ...], start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sizes of what is looked for and its least values; of what starts at 0 by the torque that the trace tells."""
-    mass = bind(case.mechanism, _parameters(case)[0]).functions["dynamics"]
-    here = np.asarray(mass(*[0.3] * mass.n_in())[0])
+def _sizes(
+    mechanism: Mechanism, symbols: dict[str, ca.SX], trace: Trace, free: tuple[str, ...], start: np.ndarray
+) -> np.ndarray:
+    """Sizes of what is looked for; of what starts at 0 by the push that the trace tells."""
+    dynamics = mechanism.functions["dynamics"]
+    values = dict(zip(free, start.tolist(), strict=True))
+    turn = [[values.get(name, angle) for name in dynamics.name_in()] for angle in np.arange(0.3, 2 * np.pi, 0.4)]
+    inertias = (float(np.asarray(dynamics.call(at)[0])[0, 0]) for at in turn)
+    inertia = next((found for found in inertias if np.isfinite(found)), 1.0)
     speed = next(iter(trace.speeds.values()))
-    torque = float(here[0, 0]) * float(np.ptp(speed)) / float(np.ptp(trace.t))
-    size = np.array([abs(s) or (torque if n == "friction.constant" else torque / float(np.abs(speed).max()))
-                     for n, s in zip(free, start, strict=True)])  # fmt: skip
-    fields: dict[str, Any] = {f.name: f.metadata for f in dataclasses.fields(parameters_class(case.mechanism))}
+    push = inertia * float(np.ptp(speed)) / float(np.ptp(trace.t))
+    # of what starts at 0: a push, or a push by the speed
+    usual = [push if name == "friction.constant" else push / float(np.abs(speed).max()) for name in free]
+    return np.where(start != 0, np.abs(start), usual)
+
+
+def _least(case: Case, free: tuple[str, ...]) -> np.ndarray:
+    known = dataclasses.fields(parameters_class(case.mechanism))
+    fields: dict[str, Mapping[str, float | None]] = {f.name: f.metadata for f in known}
 
     def least(name: str) -> float:
         bounds = [v for v in (fields.get(name, {}).get("above"), fields.get(name, {}).get("low")) if v is not None]
         return max(bounds, default=-np.inf)
 
-    return size, np.array([least(name) for name in free])
+    return np.array([least(name) for name in free])
 
 
 def _rate(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]) -> ca.Function:
@@ -109,11 +126,20 @@ def _rate(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]
     return ca.Function("rate", [x, w, theta], [rates])
 
 
-def _inputs(mechanism: Mechanism, drive: StepTorque | None, trace: Trace, t: np.ndarray) -> np.ndarray:
-    found = np.zeros((len(mechanism.inputs), len(t)))
-    for row, name in enumerate(mechanism.inputs):
-        if name in trace.inputs:
-            found[row] = np.interp(t, trace.t, trace.inputs[name])
-        elif drive is not None and name == (drive.input or "M"):
-            found[row] = np.where(t >= drive.time, drive.torque, 0.0)
-    return found
+def _energy(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]) -> ca.Function:
+    n, dynamics = len(mechanism.coordinates), mechanism.functions["dynamics"]
+    x, w, theta = ca.SX.sym("x", 2 * n), ca.SX.sym("w", len(mechanism.inputs)), ca.SX.sym("theta", len(free))
+    values = dict(zip(free, ca.vertsplit(theta), strict=True))
+    mass, _, force = dynamics(*ca.vertsplit(x), *ca.vertsplit(w), *(values[name] for name in symbols))
+    return ca.Function("energy", [x, w, theta], [ca.bilin(mass, x[n:], x[n:]) / 2, ca.dot(x[n:], force)])
+
+
+def _inputs(case: Case, mechanism: Mechanism, trace: Trace, t: np.ndarray) -> np.ndarray:
+    """What acts at times t [s] on each input, shape (m, n): measured, of the drive, constant, or nothing [SI]."""
+    acting = {name: np.full(len(t), value) for name, value in constants(case).items()}
+    if "drive" in case.sections:
+        drive: StepTorque = case.need("drive")
+        on = drive_on(case, mechanism)
+        acting[on.input] = np.where(t >= drive.time, on.value, 0.0)
+    acting |= {name: np.interp(t, trace.t, values) for name, values in trace.inputs.items()}
+    return np.array([acting.get(name, np.zeros(len(t))) for name in mechanism.inputs]).reshape(-1, len(t))

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -18,14 +17,15 @@ from mechsym.forces.indicated import (
     shaft_lines,
     work,
 )
-from mechsym.forces.turn import chain_of
-from mechsym.jobs import own, own_gas
-from mechsym.jobs.gas import gas, of
-from mechsym.jobs.turn import drive_of
+from mechsym.forces.turn import period_of as period_of_gas
+from mechsym.jobs.gas import of
+from mechsym.jobs.machine import acting_on, constants, drive_of
 from mechsym.machine.torque_curve import read_torque
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, record
+from mechsym.quantities.results import Columns, computed, part, result
+from mechsym.quantities.units import NewtonMetre
 
 _SAME = 1e-9  # of angles that are one [rad]
 _SMOOTH = 0.005  # of the largest gas torque: what a smooth curve in coarse steps may look like noise
@@ -42,17 +42,75 @@ class CommonGas:
     period: float  #: [rad]
 
 
-def indicated(case: Case, file: str, noise: float) -> tuple[CrankTorque, IndicatedPressure]:
+@result
+class TorquePressure:
+    """What a measured torque on the shaft tells of the pressure in the cylinder."""
+
+    case: str = part()
+    measured: CrankTorque
+    found: IndicatedPressure
+
+    @property
+    def period(self) -> float:
+        """One turn or two, as far as the angles go [rad]."""
+        return 4 * math.pi if np.ptp(self.found.phi) > 2 * math.pi + _SAME else 2 * math.pi
+
+    @computed("rpm")
+    def speed_rpm(self) -> float:
+        """Speed of the shaft."""
+        return self.measured.omega / RPM
+
+    @computed("N*m")
+    def noise(self) -> float:
+        """Standard deviation of each torque."""
+        return self.measured.noise
+
+    @computed("-")
+    def samples(self) -> int:
+        """Angles of the file."""
+        return len(self.found.phi)
+
+    @computed("-")
+    def told(self) -> int:
+        """Angles at which the torque tells the pressure."""
+        return int(self.found.told.sum())
+
+    @computed("J")
+    def work_j(self) -> float:
+        """Work of the gas over the period."""
+        return work(self.measured, self.found, self.period)[0]
+
+    @computed("J")
+    def work_interval_j(self) -> list[float]:
+        """It holds the work 19 times in 20."""
+        error = work(self.measured, self.found, self.period)[1]
+        return [self.work_j - NORMAL_95 * error, self.work_j + NORMAL_95 * error]
+
+    @computed("deg")
+    def gaps_deg(self) -> list[list[float]]:
+        """Where nothing is told, as the piston hardly moves."""
+        return [[math.degrees(a), math.degrees(b)] for a, b in gaps(self.found)]
+
+    @computed()
+    def pressure(self) -> Columns:
+        """Pressure over the angle with the ends of its 95 % interval, where it is told."""
+        at = self.found.told
+        p, half = self.found.p[at], NORMAL_95 * self.found.error[at]
+        curves = {"phi_deg": np.degrees(self.found.phi[at]), "p_pa": p, "p_low_pa": p - half, "p_high_pa": p + half}
+        return Columns(curves, {"phi_deg": "deg", **dict.fromkeys(("p_pa", "p_low_pa", "p_high_pa"), "Pa")})
+
+    @computed()
+    def doubts(self) -> list[Doubt]:
+        """What of the torque is possible and not usual."""
+        return _doubts(self.measured, self.found)
+
+
+def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
     """Cylinder pressure of a case out of a measured torque on its shaft.
 
-    Parameters
-    ----------
-    case : Case
-        With `[operation]` and `[cycle]`, which gives areas, back pressure and period; its own pressure plays no part
-    file : str
-        CSV as `[torque] file` takes it, of one speed and one load
-    noise : float
-        Standard deviation of each torque in the file [N*m]
+    case: with `[operation]` and `[cycle]`, which gives areas, back pressure and period; its own pressure plays no part.
+    file: CSV as `[torque] file` takes it, of one speed and one load. noise: standard deviation of each torque in the
+    file.
 
     Raises
     ------
@@ -75,9 +133,10 @@ def indicated(case: Case, file: str, noise: float) -> tuple[CrankTorque, Indicat
     measured = CrankTorque(phi=phi, torque=curve(phi), omega=omega, noise=noise, with_inertia=table.with_inertia)
     idle, lever = shaft_lines(acting.mechanism, acting.areas, phi, omega, acting.held)
     try:
-        return measured, pressure_from_torque(measured, idle, lever, acting.p_back)
+        found = pressure_from_torque(measured, idle, lever, acting.p_back)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
+    return TorquePressure(case=case.name, measured=measured, found=found)
 
 
 def common_gas(case: Case) -> CommonGas:
@@ -89,62 +148,24 @@ def common_gas(case: Case) -> CommonGas:
         There is no cycle, or cylinders fire one after the other: the sum of their torques does not tell the shares
     """
     case.need("cycle")
-    if own.is_own(case.mechanism):
-        mechanism = own.one_coordinate(case)
-        acting = own_gas.pistons(case, mechanism)
-        _require_at_once(case, [piston.start for piston in acting], own_gas.period_of(acting))
-        one = acting[0].gas
-        areas = {piston.input: piston.gas.chamber.area for piston in acting}
-        held = own.constants(case)
-    else:
-        drive, found = drive_of(case), gas(case)
-        assert found is not None
-        one, mechanism, held = found, drive.mechanism, {}
-        period = one.pressure.period
-        if one.pistons:
-            areas = {f"F{i + 1}": area for i, area in enumerate(one.pistons)}
-        else:
-            with of(case):
-                _require_at_once(case, chain_of(drive).fires(drive), period)
-                pushed = chain_of(drive).pushes(drive, np.ones_like, one.chamber.area, np.zeros(1), period)
-            areas = {name: float(force[0]) for name, force in pushed.items()}
+    drive = drive_of(case)
+    acts = acting_on(case, drive)
+    if not acts[0].gas.pistons:
+        with of(case):
+            _require_at_once([one.face.fires for one in acts], period_of_gas(acts))
+    areas: dict[str, float] = {}
+    for one in acts:
+        areas[one.face.input] = areas.get(one.face.input, 0.0) + one.area * one.face.sense
     return CommonGas(
-        mechanism=mechanism, areas=areas, held=held, p_back=one.p_back, period=one.pressure.period
+        mechanism=drive.mechanism, areas=areas, held=constants(case), p_back=acts[0].gas.p_back,
+        period=acts[0].gas.pressure.period,
     )  # fmt: skip
 
 
-def _require_at_once(case: Case, fires: Sequence[float], period: float) -> None:
+def _require_at_once(fires: Sequence[float], period: float) -> None:
     if any(abs(math.remainder(angle - fires[0], period)) > _SAME for angle in fires):
         raise BadInput(f"{len(fires)} cylinders fire one after the other; the sum of their torques does not tell the "
                        "pressure of one: measure one cylinder alone, with a case of one cylinder")  # fmt: skip
-
-
-def columns(found: IndicatedPressure) -> dict[str, Any]:
-    """Table of what is told: angle, pressure, ends of its 95 % interval, rows of the gaps left out [deg, Pa]."""
-    p, half, at = found.p[found.told], NORMAL_95 * found.error[found.told], found.told
-    return {"phi_deg": np.degrees(found.phi[at]), "p_pa": p, "p_low_pa": p - half, "p_high_pa": p + half}
-
-
-def period_of(found: IndicatedPressure) -> float:
-    """One turn or two, as far as the angles go [rad]."""
-    return 4 * math.pi if np.ptp(found.phi) > 2 * math.pi + _SAME else 2 * math.pi
-
-
-def summary(case: Case, measured: CrankTorque, found: IndicatedPressure) -> dict[str, Any]:
-    """What the torque tells, in numbers."""
-    done, error = work(measured, found, period_of(found))
-    return {
-        "case": case.name,
-        "speed_rpm": measured.omega / RPM,
-        "noise": measured.noise,
-        "samples": len(found.phi),
-        "told": int(found.told.sum()),
-        "work_j": done,
-        "work_interval_j": [done - NORMAL_95 * error, done + NORMAL_95 * error],
-        "gaps_deg": [[math.degrees(a), math.degrees(b)] for a, b in gaps(found)],
-        "pressure": columns(found),
-        "doubts": _doubts(measured, found),
-    }
 
 
 def _doubts(measured: CrankTorque, found: IndicatedPressure) -> list[Doubt]:

@@ -2,36 +2,146 @@
 
 import dataclasses
 import itertools
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from mechsym.cases import Case, load
+import numpy as np
+
+from mechsym.cases import Case, load, locate
+from mechsym.cases.needs import require
+from mechsym.cycle.columns import UNITS
 from mechsym.cycle.kinds import kind_of
-from mechsym.jobs.cycle import engine
-from mechsym.jobs.optimise_figures import programme
-from mechsym.optimise.problem import Optimise, design_units, figure_units, problem
-from mechsym.optimise.search import search
-from mechsym.optimise.solver import Optimum, pareto, solve
-from mechsym.page import Shown
-from mechsym.quantities import record
+from mechsym.errors import BadInput, suggest
+from mechsym.files import Json
+from mechsym.jobs.cycle import cycle, engine
+from mechsym.optimise.problem import Limit, Optimise, limit_of, problem
+from mechsym.optimise.result import Optimised, ParetoPoint, TriedWords
+from mechsym.optimise.search import FigureProgramme, search
+from mechsym.optimise.solver import Optimum, Task, pareto, solve
+from mechsym.quantities.display import without_unit
+from mechsym.quantities.results import Columns
+
+# SI unit and size of what the columns of `mechsym cycle` are in
+_SI = {
+    "g/(kW*h)": ("kg/J", 1 / 3.6e9),
+    "kg/h": ("kg/s", 1 / 3600),
+    "deg": ("rad", math.pi / 180),
+    "kW": ("W", 1e3),
+    "MPa": ("Pa", 1e6),
+    "kPa": ("Pa", 1e3),
+}
+_NO_FIGURES = ("speed_rpm", "cylinders", "each", "energy_residual", "mass_residual")
 
 
-@record
-class Optimised(Shown):
-    """The best design, and the front against the second aim."""
+def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> FigureProgramme:
+    """The design problem of a case.
 
-    best: Optimum
-    front: tuple[Optimum, ...] = ()  #: Empty where no second aim is named; its first point is the best design
-    #: Words of the best design, and what each combination gives: words, status, objective, variables
-    chosen: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    choices: tuple[dict[str, Any], ...] = ()
-    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: SI units of variables and figures
+    case: with `[cycle]` of any kind that `mechsym cycle` computes. section: variables are dotted names of the case's
+    numbers; of a list the number of the value comes behind it, from 1. asked: mapping of str to dict, limits of the
+    case besides; those on figures that this cycle has not are none.
+
+    Raises
+    ------
+    BadInput
+        A name is none, or a limit leaves no room
+    """
+    variables = tuple(_variable(case, name, spec) for name, spec in section.variables.items())
+    names = [v.name for v in variables]
+    start = np.array([_value(case, name) for name in names])
+    units = _units(case)
+    for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
+        if name not in units:
+            raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(units)}")
+    limits = {name: limit for name, limit in asked.items() if name in units} | section.constraints
+    return FigureProgramme(
+        figures=lambda values: _at(case, dict(zip(names, values.tolist(), strict=True))),
+        start=start,
+        noise=kind_of(case.need("cycle")).noise,
+        units=units,
+        objective=section.objective,
+        sign=1.0 if section.goal == "maximise" else -1.0,
+        variables=variables,
+        constraints=tuple(limit_of("constraints", n, spec, units) for n, spec in limits.items()),
+    )
+
+
+def figures(case: Case) -> dict[str, float]:
+    """Figures of a case at its speed, under their plain names [SI]."""
+    return {name: value for name, (value, _) in _figures(case).items()}
+
+
+def _figures(case: Case) -> dict[str, tuple[float, str]]:
+    """Figures with their SI units; of two columns of one name the first."""
+    found: dict[str, tuple[float, str]] = {}
+    for column, values in cycle(case).items():
+        if isinstance(values, Mapping) or column in _NO_FIGURES or np.ndim(values) != 1:
+            continue
+        unit, size = _SI.get(UNITS[column], (UNITS[column], 1.0))
+        value = float(values[0]) * size
+        if math.isfinite(value):
+            found.setdefault(without_unit(column, UNITS[column]), (value, unit))
+    return found
+
+
+def _units(case: Case) -> dict[str, str]:
+    return {name: unit for name, (_, unit) in _figures(case).items()}
+
+
+def _at(case: Case, values: Mapping[str, float]) -> dict[str, float]:
+    return figures(load(case.path, {**case.overrides, **_settings(case, values)}))
+
+
+def _settings(case: Case, values: Mapping[str, float]) -> dict[str, float | list[float]]:
+    """Overrides of a case; numbers of one list come together."""
+    found: Json = {}
+    for name, value in values.items():
+        key, number = _split(name)
+        if number is None:
+            found[key] = value
+        else:
+            found.setdefault(key, list(_written(case, key)))[number] = value
+    return found
+
+
+def _split(name: str) -> tuple[str, int | None]:
+    """Dotted key of a section's value, and the place of the number in it where one is named."""
+    stem, _, end = name.rpartition(".")
+    return (stem, int(end) - 1) if end.isdigit() and "." in stem else (name, None)
+
+
+def _written(case: Case, key: str) -> Any:
+    section, _, field = key.partition(".")
+    return getattr(case.need(section), field, None)
+
+
+def _value(case: Case, name: str) -> float:
+    key, number = _split(name)
+    value = _written(case, key)
+    if number is not None:
+        if not isinstance(value, tuple) or not 0 <= number < len(value):
+            raise BadInput(f"optimise.variables.{name}: {key} has no value of number {number + 1}; write them as a "
+                           "list, numbers go from 1")  # fmt: skip
+        value = value[number]
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        what = "has several values; add .1, .2 and so on" if isinstance(value, tuple) else "is no number of this case"
+        raise BadInput(f"optimise.variables.{name} {what}")
+    return float(value)
+
+
+def _variable(case: Case, name: str, spec: object) -> Limit:
+    key, _ = _split(name)
+    section, dot, _ = key.partition(".")
+    if not dot or section not in case.sections:
+        raise BadInput(f"optimise.variables.{name} is not known; {suggest(section, list(case.sections))}")
+    unit = locate(case.path, key, case.overrides, "optimise.variables").unit or "-"
+    return limit_of("variables", name, spec, {name: unit})
 
 
 _LIMITS = {"peak_pressure": "p_max", "peak_temperature": "t_max", "knock": "knock"}
 
 
-def _asked(case: Case) -> dict[str, Any]:
+def _asked(case: Case) -> Json:
     """Limits of `[gas_limits]`, as `[optimise.constraints]` would name them."""
     limits = case.sections.get("gas_limits")
     known = {figure: getattr(limits, key, None) for key, figure in _LIMITS.items()}
@@ -41,17 +151,10 @@ def _asked(case: Case) -> dict[str, Any]:
 def optimise(case: Case) -> Optimised:
     """Best design of a case under its limits.
 
-    Parameters
-    ----------
-    case : Case
-        With `[optimise]` and a cycle; of spark ignition it is solved with exact derivatives, of other kinds one design
-        at a time
-
-    Returns
-    -------
-    found : Optimised
-        Status, variables, active limits and multipliers
+    case: with `[optimise]` and a cycle; of spark ignition it is solved with exact derivatives, of other kinds one
+    design at a time. Returns found: status, variables, active limits and multipliers.
     """
+    require(case, "optimise")
     section: Optimise = case.need("optimise")
     if not section.choices:
         return _one(case)
@@ -62,31 +165,34 @@ def optimise(case: Case) -> Optimised:
     sign = 1.0 if section.goal == "maximise" else -1.0
     chosen, best = max(tried, key=lambda pair: (pair[1].best.status == "optimal", sign * pair[1].best.objective))
     rows = tuple(
-        {**words, "status": found.best.status, "objective": found.best.objective, "variables": found.best.variables}
-        for words, found in tried
-    )
+        TriedWords(
+            words=words, status=one.best.status, objective=one.best.objective, variables=one.best.variables,
+            unit=one.best.unit,
+        )
+        for words, one in tried
+    )  # fmt: skip
     return dataclasses.replace(best, chosen=chosen, choices=rows)
 
 
 def _one(case: Case) -> Optimised:
-    if kind_of(case.need("cycle")).given != "engine":
-        return _by_figures(case)
-    machine = engine(case)
     section: Optimise = case.need("optimise")
-    section = dataclasses.replace(section, constraints=_asked(case) | section.constraints)
-    units = figure_units(machine) | design_units(machine)
-    task = problem(machine, case.need("operation").speed, section)
-    if not section.against:
-        return Optimised(best=solve(task), units=units)
-    front = pareto(task, section.against, section.against_goal, int(section.points))
-    return Optimised(best=front[0], front=tuple(front), units=units)
+    if kind_of(case.need("cycle")).closed:
+        limits = dataclasses.replace(section, constraints=_asked(case) | section.constraints)
+        return _solved(problem(engine(case), case.need("operation").speed, limits), section, solve)
+    return _solved(programme(case, section, _asked(case)), section, search)
 
 
-def _by_figures(case: Case) -> Optimised:
-    section: Optimise = case.need("optimise")
-    task = programme(case, section, _asked(case))
-    units = {**task.units, **{v.name: v.unit for v in task.variables}}
+def _solved(task: Task, section: Optimise, one: Callable[[Task], Optimum]) -> Optimised:
     if not section.against:
-        return Optimised(best=search(task), units=units)
-    front = pareto(task, section.against, section.against_goal, int(section.points), search)
-    return Optimised(best=front[0], front=tuple(front), units=units)
+        return Optimised(best=one(task), goal=section.goal, objective_name=section.objective)
+    front = pareto(task, section.against, section.against_goal, int(section.points), one)
+    aims = (section.objective, section.against)
+    points = tuple(
+        ParetoPoint(
+            status=p.status, figures=Columns({n: p.figures[n] for n in aims}, p.figures.units), variables=p.variables
+        )
+        for p in front
+    )
+    return Optimised(
+        best=front[0], goal=section.goal, objective_name=section.objective, front=tuple(front), pareto=points
+    )

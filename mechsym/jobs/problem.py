@@ -1,223 +1,222 @@
-"""Case -> run: sections `[simulation]` and `[drive]`, and for an engine what its hinge design needs.
+"""Case -> run in time: a mechanism of n coordinates, and parts that act on its inputs, each with its work by itself.
+
+    drive   gas of every piston, or [torque]   constants of [inputs]   hinge   load
+      |                  |                              |                |       |
+      '------------------'--------------.  .------------'----------------'-------'
+                                     [ mechanism with its flywheel ]
 
 An engine whose case names no run turns 20 times from its speed of operation; one whose case names no load has a
-propeller that takes its mean torque there.
+propeller that takes its mean torque there. A `[drive]` starts a shaft that twists from rest, with no load but the
+case's own. Gas that follows the motion is no problem of this kind: see `mechsym.jobs.run`.
 """
 
-import dataclasses
 import functools
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cycle.kinds import kind_of
+from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import cut
-from mechsym.hinge.torque import torque
-from mechsym.jobs import train as trains
-from mechsym.jobs.flywheel import shaft
-from mechsym.jobs.machine import machine
-from mechsym.jobs.own import is_own
-from mechsym.jobs.own import problem as own_problem
-from mechsym.jobs.span import TURN_POINTS, count_times, count_turns, simulation_of
-from mechsym.machine.loads import Load, PropellerLoad
-from mechsym.machine.record import Machine
+from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.torque import Hinge, torque
+from mechsym.jobs.gas import at_recorded_speed
+from mechsym.jobs.machine import (
+    acting_on,
+    constants,
+    drive_of,
+    drive_on,
+    load_input,
+    machine,
+    mechanism_of,
+    turn,
+    turned_by,
+    turning,
+)
+from mechsym.machine.loads import Load, PropellerLoad, settle
+from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.traits import is_train, traits_of, with_hinge
-from mechsym.simulate import engine as engines
-from mechsym.simulate.problem import Part, Problem, Steps, Stop
-from mechsym.simulate.settings import Settings, Simulation, StepTorque
+from mechsym.mechanisms.shaft_inertia import at_rest, with_torque
+from mechsym.quantities import record
+from mechsym.simulate.angle import tabulate
+from mechsym.simulate.engine import at_angle, load_value, reduced
+from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
+from mechsym.simulate.settings import Simulation
+from mechsym.simulate.steady import mean_torque
 
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
 
 
-def settings_of(case: Case) -> Settings:
-    """Tolerance and integrator of a case.
+@record
+class Ready:
+    """A run whose parts are still known by what they are made of, so that their numbers can become parameters."""
 
-    Parameters
-    ----------
-    case : Case
-        With section `[simulation]`
-    """
-    wanted = simulation_of(case)
-    return Settings(tolerance=wanted.tolerance, backend=wanted.backend, difference_allowed=wanted.difference_allowed)
+    problem: Problem
+    guide: Guide | None = None  #: Of the part `hinge`
+    load: Load | None = None  #: Settled law of the part `load`, over the speed of the shaft
+
+
+@record
+class Driving:
+    """What turns a shaft over its angle: the gas of every piston, or a torque from a table."""
+
+    parts: tuple[Part, ...] = ()
+    kinks: tuple[Kinks, ...] = ()  #: Where one of them is not smooth
+    torque: float = 0.0  #: Their mean torque on the shaft [N*m]
+
+
+@record
+class _Shaft:
+    """What says how a shaft starts, and what brakes it."""
+
+    coordinate: str  #: Its angle
+    twists: bool  #: Whether other coordinates are free beside it
+    engine: bool  #: Whether gas or a torque from a table turns it, or a hinge keeps it turning
+    driven: bool  #: Whether a `[drive]` does
+
+    @property
+    def running(self) -> bool:
+        """Whether it is an engine at its speed of operation."""
+        return self.engine and not (self.twists and self.driven)
 
 
 def problem_of(case: Case) -> Problem:
     """The run that a case describes.
-
-    Parameters
-    ----------
-    case : Case
-        With either `[simulation]` and `[drive]` (a torque that is switched on) or `[cycle]` (an engine); a crank
-        train may have both. Gas that follows the motion is no problem of this kind: see `mechsym.jobs.loop`
 
     Raises
     ------
     BadInput
         A section is missing or names what the mechanism has not
     """
-    if is_own(case.mechanism) and not _hinged(case):
-        return own_problem(case)
-    wanted, case = simulation_of(case), braked(case)
-    if is_train(case.mechanism):
-        return turned(case, wanted, trains.cylinders(case))[0]
-    if "drive" in case.sections and not is_own(case.mechanism):
-        return _driven(case, wanted)
-    engine = engine_of(case)
-    speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
-    if wanted.turns is None or speed <= 0:
-        raise BadInput(f"{case.file}: an engine needs simulation.turns and a start speed above 0 rad/s; give both")
-    count_turns(case, wanted.turns)
-    problem = engines.problem(engine, speed, wanted.turns, wanted.phi_start)
-    if wanted.t_end is None:
-        return problem
-    return dataclasses.replace(problem, t_end=min(wanted.t_end, problem.t_end))  # whichever comes first
+    return ready(case).problem
 
 
-def braked(case: Case) -> Case:
-    """The case of an engine with its load: a propeller that takes the mean torque, where it names none."""
-    if "cycle" not in case.sections or "drive" in case.sections:
-        return case
-    return dataclasses.replace(case, sections={"load": PropellerLoad(), **case.sections})
-
-
-def _hinged(case: Case) -> bool:
-    """Whether a hinge is designed for the run."""
-    acts = "cycle" in case.sections or is_own(case.mechanism)
-    return acts and {"spring", "guide"} <= set(case.sections) and simulation_of(case).hinge == "designed"
-
-
-def engine_of(case: Case) -> Machine:
-    """The engine of a case with its hinge, as far as the case has one.
-
-    Parameters
-    ----------
-    case : Case
-        With `[cycle]` and `[operation]`; the hinge needs `[spring]` and `[guide]`
-
-    Returns
-    -------
-    engine : Machine
-        The hinge's torque comes from guide and spring
-
-    Raises
-    ------
-    BadInput
-        The guide that the case asks for cannot be cut
-    """
-    breathes = "cycle" in case.sections and kind_of(case.sections["cycle"]).given == "breathing"
-    if not is_own(case.mechanism) and (case.mechanism not in with_hinge() or breathes):
-        return shaft(case, 0.0)
-    engine = machine(case)
-    wanted = torque(engine)
-    simulation = simulation_of(case)
-    if simulation.hinge == "none" or not {"spring", "guide"} <= set(case.sections):
-        return fitted(engine, wanted)
-    choices = case.need("guide")
-    guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)
-    if guide.rho is None:
-        raise BadInput(f"{case.file}: no guide can be cut ({guide.reason}); set simulation.hinge=none to run without")
-    return fitted(engine, wanted, guide)
-
-
-def window_of(case: Case, problem: Problem) -> float | None:
-    """The stretch at the end over which speeds are summed up.
-
-    Parameters
-    ----------
-    case : Case
-        With section `[simulation]`
-
-    Returns
-    -------
-    window : float or None
-        None for the last turn [s]
-    """
-    wanted = simulation_of(case)
-    if wanted.window is None and problem.turns is None:
-        return problem.t_end - problem.t_start
-    return wanted.window
-
-
-def _drive(case: Case, usual: str) -> Part:
-    drive: StepTorque = case.need("drive")
-    steps = Steps(times=(drive.time,), values=(0.0, drive.torque))
-    if drive.time <= 0:
-        steps = Steps(values=(drive.torque,))
-    return Part(name="drive", input=drive.input or usual, value=steps)
-
-
-def _driven(case: Case, wanted: Simulation) -> Problem:
-    mechanism = mechanisms.build(case.mechanism, case.need("parameters"))
-    if wanted.t_end is None:
-        raise BadInput(f"{case.file}: a driven run needs simulation.t_end, for example '100 s'")
-    n = len(mechanism.coordinates)
-    return Problem(
-        mechanism=mechanism,
-        parts=(_drive(case, "M"),),
-        q0=(wanted.phi_start,) * n,
-        u0=(wanted.speed_start or 0.0,) * n,
-        t_end=wanted.t_end,
-        turns=wanted.turns,
-        output=_wanted_times(case, wanted.t_end, wanted),
-    )
-
-
-def turned(case: Case, wanted: Simulation, gas: trains.Cylinders) -> tuple[Problem, Load | None]:
-    """The run of a crank train under the gas of its cylinders and a drive, and the settled law of its load."""
-    driven = "drive" in case.sections
-    if not (gas.parts or driven):
-        raise BadInput(f"{case.file}: nothing turns the shaft; give [drive] with a torque or [cycle] with the gas")
-    usual = case.need("operation").speed if gas.parts and not driven else 0.0
-    speed = usual if wanted.speed_start is None else wanted.speed_start
-    mechanism = _elastic(case)
-    mean = gas.torque + (case.need("drive").torque if driven else 0.0)
-    t_end, output = _end(case, wanted, speed)
-    law = trains.load(case, mean, speed)
-    held = () if law is None else (Part(name="load", input="M", role="load", value=engines.load_value(law, -1)),)
+def ready(case: Case) -> Ready:
+    """The run of a case, with the parts that it is made of."""
+    case = at_recorded_speed(case)
+    wanted, mechanism = simulation_of(case), mechanism_of(case)
+    driving = driving_of(case)
+    drive = drive_on(case, mechanism) if "drive" in case.sections else None
+    shaft = _shaft(case, mechanism, bool(driving.parts) or is_hinged(case), drive is not None)
+    speed = _speed(case, wanted, shaft)
+    law = _law(case, driving.torque + (drive.driving if drive else 0.0), speed, shaft)
+    parts = [_switched(case, drive.input, drive.value)] if drive else []
+    parts += [*driving.parts, *_constant(case, {part.input for part in (*parts, *driving.parts)})]
+    guide = None
+    if is_hinged(case) and not shaft.twists:
+        engine, hinge, guide = guide_of(case)
+        hinged = fitted(replace(engine, load=_unsettled(case, shaft) or engine.load), hinge, guide)
+        law = hinged.load if law is not None else None
+        parts.append(_at(hinged, "hinge"))
+    if law is not None:
+        index = mechanism.coordinates.index(shaft.coordinate)
+        parts.append(Part(name="load", input=load_input(case), role="load", value=load_value(law, index)))
+    # places for the torque of a hinge, and of a drive at the free end of a shaft that twists
+    places = {"M_h", *(rotor.drive for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.drive)}
+    for name in sorted(places & {part.input for part in parts}):
+        mechanism = with_torque(mechanism, name)
+    q0, u0 = _start(case, mechanism, wanted, speed)
+    t_end, output = _end(case, wanted, u0[0])
+    stalls = shaft.engine or shaft.twists and speed > 0 and bool(load_input(case))
     problem = Problem(
-        mechanism=mechanism,
-        parts=(*((_drive(case, "M_drive"),) if driven else ()), *gas.parts, *held),
-        q0=(wanted.phi_start,) * len(mechanism.coordinates),
-        u0=(speed,) * len(mechanism.coordinates),
-        t_end=t_end,
-        turns=wanted.turns,
-        kinks=gas.kinks,
-        # a crank may swing back within a turn; the flywheel does only when the shaft stops
-        stops=(Stop(name="stall", of="phi_fd", direction="falling"),) if speed > 0 else (),
+        mechanism=mechanism, parts=tuple(parts), q0=q0, u0=u0, t_end=t_end, turns=wanted.turns, kinks=driving.kinks,
+        # a crank on a shaft that twists may swing back within a turn; its flywheel does only when the shaft stops
+        stops=(Stop(name="stall", of=f"{shaft.coordinate}d", direction="falling"),) if stalls else (),
         output=output,
-    )
-    return problem, law
+    )  # fmt: skip
+    return Ready(problem=problem, guide=guide, load=law)
 
 
-def _elastic(case: Case) -> Mechanism:
-    known = traits_of(case.mechanism)
-    assert known is not None and known.assembled is not None
-    return known.assembled.build_driven(case.need("parameters"))
+def _shaft(case: Case, mechanism: Mechanism, engine: bool, driven: bool) -> _Shaft:
+    declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
+    free = [q for q in mechanism.coordinates if q not in mechanism.dependents]
+    angle = next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0])
+    return _Shaft(coordinate=angle, twists=len(free) > 1, engine=engine, driven=driven)
 
 
-def _wanted_times(case: Case, t_end: float, wanted: Simulation) -> tuple[float, ...]:
-    count_times(case, t_end, wanted.step)
-    return _times(t_end, wanted.step, wanted.window)
+def _speed(case: Case, wanted: Simulation, shaft: _Shaft) -> float:
+    if wanted.speed_start is not None:
+        return wanted.speed_start
+    return case.need("operation").speed if shaft.running else 0.0
+
+
+def _unsettled(case: Case, shaft: _Shaft) -> Load | None:
+    """The law of the load as the case gives it: without one an engine drives a propeller."""
+    return case.sections.get("load", PropellerLoad() if shaft.running else None)
+
+
+def _law(case: Case, mean: float, speed: float, shaft: _Shaft) -> Load | None:
+    """The law of the load with its blanks filled in from the mean torque [N*m]; None where nothing takes it."""
+    law = _unsettled(case, shaft) if load_input(case) else None
+    if law is None:
+        return None
+    blank = isinstance(law, PropellerLoad) and law.speed is None
+    if shaft.twists and speed <= 0 and not isinstance(law, PropellerLoad):
+        raise BadInput(
+            f"{case.file}: a load with a torque at rest would pull the shaft backwards; give simulation.speed_start "
+            "above 0 rad/s or [load] law = 'propeller'"
+        )
+    known = blank or "operation" in case.sections
+    return settle(law, mean, case.need("operation").speed if known else math.nan)
+
+
+def _switched(case: Case, name: str, value: float) -> Part:
+    time = case.need("drive").time
+    steps = Steps(times=(time,), values=(0.0, value)) if time > 0 else Steps(values=(value,))
+    return Part(name="drive", input=name, value=steps)
+
+
+def _constant(case: Case, taken: set[str]) -> list[Part]:
+    """Constants of `[inputs]`, on what nothing else acts on."""
+    given = {name: value for name, value in constants(case).items() if value and name not in taken}
+    return [Part(name=f"input_{name}", input=name, value=Steps(values=(value,))) for name, value in given.items()]
+
+
+def _at(machine: Machine, name: str) -> Part:
+    force = next(force for force in acting(machine) if force.name == name)
+    return Part(name=force.name, input=force.input, role=force.role, value=at_angle(machine, force))
+
+
+def _start(
+    case: Case, mechanism: Mechanism, wanted: Simulation, speed: float
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Coordinates and velocities at the start [rad or m, by time]."""
+    held, places = mechanism.dependents, mechanism.coordinates
+    values = {q: held.get(q, wanted.phi_start) for q in places} | guesses(case)
+    rates = {f"{q}d": 0.0 if q in held else speed for q in places} | guesses(case)
+    _require_closed(case, mechanism, values)
+    return tuple(values[q] for q in places), tuple(rates[f"{q}d"] for q in places)
+
+
+def _require_closed(case: Case, mechanism: Mechanism, start: Mapping[str, float]) -> None:
+    dynamics = mechanism.functions["dynamics"]
+    values = [start.get(n, 0.0) for n in dynamics.name_in()]
+    if not np.isfinite(np.asarray(dynamics.call(values)[0])).all():
+        at = ", ".join(f"{q} = {start[q]:g}" for q in mechanism.coordinates)
+        raise BadInput(
+            f"{case.file}: the loop is open at the start ({at}): links too short there; give [start] another pose"
+        )
 
 
 def _end(case: Case, wanted: Simulation, speed: float) -> tuple[float, float | tuple[float, ...]]:
     """Last time and wanted times: of a run to t_end, or of turns from a speed."""
-    if wanted.t_end is not None:
-        return wanted.t_end, _wanted_times(case, wanted.t_end, wanted)
+    if wanted.t_end is not None and (wanted.turns is None or wanted.output_step is not None or speed <= 0):
+        count_times(case, wanted.t_end, wanted.step)
+        return wanted.t_end, _times(wanted.t_end, wanted.step, wanted.window)
     if speed <= 0:
         raise BadInput(f"{case.file}: turns need a start speed above 0 rad/s; give simulation.speed_start or t_end")
-    turn_time = 2 * math.pi / speed
-    # a shaft that takes ten times as long has stopped for every purpose
     assert wanted.turns is not None  # the section has one of the two
+    turn_time = 2 * math.pi / speed
     count_turns(case, wanted.turns)
-    return 10 * wanted.turns * turn_time, turn_time / TURN_POINTS
+    # a shaft that takes ten times as long has stopped for every purpose
+    longest = 10 * wanted.turns * turn_time
+    return longest if wanted.t_end is None else min(wanted.t_end, longest), turn_time / TURN_POINTS
 
 
 @functools.lru_cache(maxsize=8)
@@ -230,3 +229,85 @@ def _times(t_end: float, step: float, window: float | None) -> tuple[float, ...]
     # an even time and its neighbour of the finer set may differ by rounding only
     keep = coarse[coarse < fine[0] - 1e-9 * t_end]
     return tuple(np.concatenate([keep, fine[fine > 0]]).tolist())
+
+
+def window_of(case: Case, problem: Problem) -> float | None:
+    """The stretch at the end over which speeds are summed up, None for the last turn [s]."""
+    wanted = simulation_of(case)
+    if wanted.window is None and problem.turns is None:
+        return problem.t_end - problem.t_start
+    return wanted.window
+
+
+def is_hinged(case: Case) -> bool:
+    """Whether a hinge is designed for the run."""
+    return {"spring", "guide"} <= set(case.sections) and simulation_of(case).hinge == "designed"
+
+
+def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide]:
+    """Engine, wanted torque and guide of a case with `[spring]` and `[guide]`.
+
+    Raises
+    ------
+    BadInput
+        The guide that the case asks for cannot be cut
+    """
+    engine, choices = machine(case, diagram), case.need("guide")
+    wanted = torque(engine)
+    guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)
+    if guide.rho is None:
+        raise BadInput(
+            f"{case.file}: no guide can be cut ({guide.reason}); change [spring] or [guide], or set "
+            "simulation.hinge = 'none' to run without"
+        )
+    return engine, wanted, guide
+
+
+def driving_of(case: Case) -> Driving:
+    """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`.
+
+    Raises
+    ------
+    BadInput
+        Pistons on two throws of a shaft that share one gas, or a torque on a shaft that twists
+    """
+    if not {"cycle", "torque"} & set(case.sections):
+        return Driving()
+    whole = mechanism_of(case)
+    if len(whole.coordinates) - len(whole.dependents) > 1:
+        return _on_throws(case, whole)
+    plain = turned_by(case, turning(case))
+    (q,) = plain.mechanism.coordinates
+    still = replace(plain, mechanism=at_rest(plain.mechanism))
+    angles = kinks_of(plain)
+    return Driving(
+        parts=tuple(_at(plain, force.name) for force in acting(plain)),
+        kinks=(Kinks(coordinate=q, angles=angles, period=period_of(plain)),) if angles else (),
+        torque=mean_torque(tabulate(reduced(still))),
+    )
+
+
+def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
+    """The gas on a shaft that twists, over the angle of each cylinder's own throw, twist included.
+
+    M_drive --> [throw 1]--[throw 2]-- ... --[throw N]--[flywheel] <-- M (load law of the flywheel's speed)
+                   ^ F1       ^ F2              ^ FN
+    """
+    if "torque" in case.sections:
+        raise BadInput(f"{case.file}: [torque] turns a stiff shaft; give [drive] or [cycle]")
+    acts = acting_on(case, drive_of(case))
+    throws = {one.face.throw for one in acts}
+    if len(throws) > 1 and any(one.gas.pistons for one in acts):
+        raise BadInput(
+            f"{case.file}: throw = {[one.face.throw + 1 for one in acts]}: the twist between throws would change the "
+            "volume of a gas that both cylinders share; put them on one throw"
+        )
+    parts, bends = [], {mechanism.coordinates[throw]: set[float]() for throw in sorted(throws)}
+    for number, one in enumerate(acts, 1):
+        name, period = mechanism.coordinates[one.face.throw], one.gas.pressure.period
+        angles = tuple(sorted((k + one.face.fires) % period for k in one.gas.pressure.kinks))
+        bends[name].update(angles)
+        value = Periodic(coordinate=name, value=one.force, period=period, kinks=angles)
+        parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
+    kinks = (Kinks(coordinate=q, angles=tuple(sorted(found)), period=period) for q, found in bends.items() if found)
+    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(turn(case).torque)))

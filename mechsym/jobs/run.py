@@ -1,119 +1,182 @@
-"""Case -> run in time: problem -> integration and audit -> speeds, twist of the shaft, start-ups explained."""
+"""Case -> run in time: problem -> integration and audit -> speeds, twist of the shaft, start-ups explained; and
+the cycle in motion, whose gas follows the speed.
+"""
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
+from dataclasses import asdict, replace
+from typing import Annotated
 
+from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cases.facts import facts_of
+from mechsym.cases.needs import require
+from mechsym.cases.outcomes import of_run
+from mechsym.cases.runs import count_loop, guesses, settings_of, simulation_of
+from mechsym.cycle.chamber import piston_area
+from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import piston_motion, travel_of
 from mechsym.errors import BadInput
-from mechsym.jobs.judged import of_run
-from mechsym.jobs.loop import in_loop, run_in_loop
-from mechsym.jobs.problem import problem_of, settings_of, window_of
-from mechsym.jobs.settling import settled
-from mechsym.jobs.span import simulation_of
-from mechsym.jobs.startup import startup, startup_map
-from mechsym.jobs.train import remarks
-from mechsym.jobs.vibration import vibration
-from mechsym.mechanisms.traits import is_train
-from mechsym.page import Shown
-from mechsym.plausible import Doubt
-from mechsym.quantities import record
-from mechsym.simulate import Result, simulate
+from mechsym.forces.turn import gas_faces
+from mechsym.jobs.cycle import engine
+from mechsym.jobs.flywheel import shaft
+from mechsym.jobs.forces import vibration
+from mechsym.jobs.gas import at_recorded_speed, firing, gas, one_cylinder
+from mechsym.jobs.machine import load_input, mechanism_of, turning
+from mechsym.jobs.problem import problem_of, window_of
+from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.roles import ShaftRole
+from mechsym.mechanisms.shaft import elastic as shaft_of
+from mechsym.simulate import Result, Settings, simulate, simulate_many
+from mechsym.simulate.angle import tabulate
+from mechsym.simulate.engine import reduced
 from mechsym.simulate.loop.events import CYCLE
+from mechsym.simulate.loop.run import simulate_loop
+from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
-from mechsym.simulate.settings import Settings
-from mechsym.simulate.summary import summary
-from mechsym.torsion.findings import findings
-from mechsym.torsion.settling import Settling, sentences
-from mechsym.torsion.startup import AVERAGE, StartUp
-from mechsym.torsion.train import TrainVibration, doubts, twist_words, words
-from mechsym.torsion.twist import ShaftSection, natural_frequencies, sections
+from mechsym.simulate.result import RunNumbers, final_state, summary
+from mechsym.simulate.steady import steady_state
+from mechsym.torsion.finished import EngineSpeed, FinishedRun
+from mechsym.torsion.startup import AVERAGE, StartUp, StartUpClaim, findings, start_up
+from mechsym.torsion.startup import numbers as start_numbers
+from mechsym.torsion.train import doubts, twist_words, words
+from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
 
 
-@record
-class EngineSpeed:
-    """What an engine's speed is looked at by."""
-
-    coordinate: str  #: Its shaft
-    words: str  #: Its name for people, empty where there is one shaft only
-    period: float  #: A turn, or two of a four-stroke engine [rad]
-    wanted: float  #: Speed of operation [rad/s]
+def in_loop(case: Case) -> bool:
+    """Whether the gas of a case follows its motion, so that both are integrated together."""
+    cycle = case.sections.get("cycle")
+    return cycle is not None and "drive" not in case.sections and kind_of(cycle).closed
 
 
-@record
-class FinishedRun(Shown):
-    """A finished run and what is said of it."""
+def run_in_loop(case: Case, settings: Settings) -> Result:
+    """The run in time of a case whose gas follows the motion.
 
-    settings: Settings
-    result: Result
-    summary: Mapping[str, Any]  #: The numbers that `mechsym simulate` reports
-    natural_frequencies: tuple[float, ...]  #: Of an elastic shaft [rad/s]
-    twist: tuple[ShaftSection, ...]
-    start_ups: tuple[StartUp, ...]  #: That of the run first, then one for each further damper
-    vibration: TrainVibration | None  #: Criticals of a crank train
-    settling: Settling | None  #: Where an engine settles after a start against a load
-    engine: EngineSpeed | None  #: Of an engine
-    findings: tuple[str, ...]
-    doubts: tuple[Doubt, ...] = ()  #: Of gas and window, that no number of the summary tells
-
-    @property
-    def speed(self) -> Mapping[str, float]:
-        """Mean, least and greatest speed at the end, of the engine's shaft or of the first coordinate [rad/s]."""
-        speeds = self.summary["speeds"]
-        return speeds[self.engine.coordinate if self.engine else next(iter(speeds))]
+    case: as for `loop`; without `[simulation]` it turns 20 times from the speed of operation.
+    """
+    wanted = simulation_of(case)
+    speed = case.need("operation").speed if wanted.speed_start is None else wanted.speed_start
+    if speed <= 0:
+        raise BadInput(f"{case.file}: an engine needs simulation.speed_start above 0 rad/s; leave it away or raise it")
+    t_end = math.inf if wanted.t_end is None else wanted.t_end
+    turns = math.inf if wanted.turns is None else wanted.turns
+    count_loop(case, turns, t_end, speed)
+    return simulate_loop(loop(case), speed, turns, settings, wanted.phi_start, t_end)
 
 
-def run(case: Case, dampings: tuple[float, ...] = (), check: str = "tolerance") -> FinishedRun:
-    """Simulate a case over time, with an energy audit and a check of the tolerance.
+def loop(case: Case) -> Loop:
+    """The loop that a case describes.
 
     Parameters
     ----------
     case : Case
-        With `[simulation]` and `[drive]`, or `[cycle]`
-    dampings : tuple of float
-        Further values of c1 for a start-up [N*m*s/rad]
-    check : str
-        `tolerance` runs again at a hundredth of the tolerance; `none` leaves that out
+        With a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one mechanism
+        is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque
 
-    Returns
-    -------
-    run : FinishedRun
-        Columns, audit, speeds, twist and findings
+    Raises
+    ------
+    BadInput
+        No spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre
     """
+    machine, omega = engine(one_cylinder(case)), case.need("operation").speed
+    if machine.blowdown is not None:
+        raise BadInput(f"{case.file}: gas and motion integrated together know no [blowdown]; leave it out")
+    mechanism = mechanism_of(case)
+    mechanism = turning(case) if mechanism.dependents else mechanism
+    cylinders, taken = _cylinders(case, mechanism), load_input(case)
+    if not taken:
+        raise BadInput(f"{case.file}: nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)")
+    load = case.sections.get("load", PropellerLoad())
+    # the figures of a chamber count all its pistons, each of which drives a mechanism of its own
+    own_area = piston_area(machine.chamber.bore)
+    faces = sum(1.0 if c.area is None else c.area / own_area for c in cylinders)
+    torque = float(performance(machine, {"omega": omega}).torque_avg[0]) * faces / machine.chamber.pistons
+    return Loop(
+        engine=machine,
+        mechanism=mechanism,
+        cylinders=cylinders,
+        load=_smooth(case, settle(load, torque, omega)),
+        load_input=taken,
+        load_coordinate=mechanism.coordinates[-1],
+    )
+
+
+def _smooth(case: Case, load: Load) -> ConstantLoad | PropellerLoad:
+    if isinstance(load, TableLoad):
+        raise BadInput(f"{case.file}: the cycle in the loop takes a constant or a propeller load, no table")
+    return load
+
+
+def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
+    """Each piston of the declaration with a motion of its own; else the faces, or the throws, of a case."""
+    q, values = mechanism.coordinates, asdict(case.need("parameters"))
+    found = []
+    for number, role in enumerate(mechanisms.roles_of(case.mechanism).pistons):
+        fires = firing(case, role, travel_of(mechanism, role.travel)) % (4 * math.pi)
+        motion = piston_motion(case.mechanism, values, guesses(case), number) if number else None
+        found.append(LoopCylinder(input=role.force, coordinate=q[0], firing=fires, motion=motion))
+    if found:
+        return tuple(found)
+    plan = plan_of(case.mechanism)
+    roles = plan.parts(case.need("parameters"))
+    faces = case.need("faces") if roles.chosen else None
+    plan.require_firing(case.need("parameters"), 4 * math.pi)
+    return tuple(
+        LoopCylinder(input=f.input, coordinate=q[f.throw], firing=f.fires % (4 * math.pi), area=f.area, sense=f.sense)
+        for f in gas_faces(roles, values, faces)
+    )
+
+
+def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), check: str = "tolerance") -> FinishedRun:
+    """Simulate a case over time, with an energy audit and a check of the tolerance.
+
+    case: with `[simulation]` and `[drive]`, or `[cycle]`. dampings: further values of c1 for a start-up. check:
+    `tolerance` runs again at a hundredth of the tolerance; `none` leaves that out. Returns run: columns, audit, speeds,
+    twist and findings.
+    """
+    require(case, "simulate")
+    case = at_recorded_speed(case)
     settings = replace(settings_of(case), check=check)
-    result, told, period = run_of(case, settings)
-    engine = _engine(case, told, period)
+    result, numbers, period = run_of(case, settings)
+    engine = _engine(case, numbers, period)
     starts, settles = _start_ups(case, result, dampings), settled(case, result)
-    twist = sections(case.need("parameters"), result, result.t[-1] - told["window"])
+    elastic = shaft_of(case.mechanism, case.need("parameters"))
+    twist = () if elastic is None else sections(elastic, result, result.t[-1] - numbers.window)
     train = vibration(case)
     return FinishedRun(
-        settings=settings,
+        case=case.name,
+        backend=settings.backend,
+        tolerance=settings.tolerance,
         result=result,
-        summary=told,
-        natural_frequencies=natural_frequencies(case.need("parameters")),
+        summary=numbers,
+        final_state=final_state(result, numbers.speeds),
+        natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")),
         twist=twist,
+        start_up=tuple(start_numbers(s) for s in starts),
         start_ups=starts,
         vibration=train,
         settling=settles,
         engine=engine,
-        doubts=of_run(case, float(result.t[-1] - result.t[0]), told.get("speed_max", 0.0))
+        doubts=of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
         + (doubts(train, twist) if train else ()),
         findings=(
-            *remarks(case), *((*words(train), *twist_words(train, twist)) if train else ()),
+            *_unbraked(case), *((*words(train), *twist_words(train, twist)) if train else ()),
             *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
             *(_stopped(result, engine) if engine else ()),
         ),
     )  # fmt: skip
 
 
-def _engine(case: Case, told: dict[str, Any], period: float) -> EngineSpeed | None:
+def _engine(case: Case, numbers: RunNumbers, period: float) -> EngineSpeed | None:
     if "cycle" not in case.sections or "operation" not in case.sections:
         return None
-    train = is_train(case.mechanism)
-    shaft = list(told["speeds"])[-1 if train else 0]
-    wanted = case.need("operation").speed
-    return EngineSpeed(coordinate=shaft, words="flywheel" if train else "", period=period, wanted=wanted)
+    rotors = [rotor for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.angle in numbers.speeds]
+    taken = next((rotor for rotor in rotors if rotor.load), None)
+    shaft = taken.angle if taken else next(iter(numbers.speeds))
+    words = taken.name if taken and facts_of(case.mechanism, case.sections).twists else ""
+    return EngineSpeed(coordinate=shaft, words=words, period=period, wanted=case.need("operation").speed)
 
 
 def _stopped(result: Result, engine: EngineSpeed) -> tuple[str, ...]:
@@ -127,7 +190,7 @@ def _stopped(result: Result, engine: EngineSpeed) -> tuple[str, ...]:
     )
 
 
-def run_of(case: Case, settings: Settings) -> tuple[Result, dict[str, Any], float]:
+def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
     """The run of a case, its numbers, and its period [rad]; gas that follows the motion is integrated with it."""
     if in_loop(case):
         result = run_in_loop(case, settings)
@@ -136,6 +199,14 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, dict[str, Any], floa
     problem = problem_of(case)
     result, period = simulate(problem, settings), period_of(problem)
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
+
+
+def _unbraked(case: Case) -> tuple[str, ...]:
+    """What a reader should know of a shaft that twists and that nothing brakes, though it takes a load."""
+    facts = facts_of(case.mechanism, case.sections)
+    if not facts.twists or not load_input(case) or facts.has("load") or facts.has("cycle"):
+        return ()
+    return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)
 
 
 def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:
@@ -147,3 +218,62 @@ def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple
     if result.status == "failed" or result.t[-1] - result.t[0] <= AVERAGE:
         return ()
     return (startup(case, result), *startup_map(case, dampings))
+
+
+_PERIODS = 20.0  # a shorter run tells nothing of where it settles
+
+
+def settled(case: Case, result: Result) -> Settling | None:
+    """Where the engine of a case settles; None for a run that is no start of an engine against a load.
+
+    A start has `simulation.speed_start`, a cycle, and a load that grows with speed.
+    """
+    wanted = case.sections.get("simulation")
+    facts = facts_of(case.mechanism, case.sections)
+    if not (facts.twists and facts.has("cycle", "load")) or wanted is None or wanted.speed_start is None:
+        return None
+    if isinstance(case.need("load"), ConstantLoad):
+        return None
+    angle = next(rotor.angle for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.load)
+    rigid, turned = shaft(case, 0.0), float(result.columns[angle][-1] - result.columns[angle][0])
+    if result.end not in ("turns", "t_end") or turned < _PERIODS * rigid.period:
+        return None
+    steady = steady_state(tabulate(reduced(rigid)), rigid.omega)
+    natural = natural_frequencies(case.mechanism, case.need("parameters"))
+    return settling(result, angle, rigid.period, natural, steady.speed_mean)
+
+
+def startup(case: Case, result: Result | None = None) -> StartUp:
+    """Run a start-up case, or take its finished run, and explain it.
+
+    case: of a shaft with two discs, with `[drive]` and `[simulation]`; result: its run, when there is one already.
+    Returns found: critical speeds, which of them held the shaft, twist and torque.
+    """
+    _two_discs(case)
+    if result is None:
+        result = simulate(problem_of(case), settings_of(case))
+    claim = case.sections.get("startup", StartUpClaim())
+    return start_up(case.mechanism, case.need("parameters"), case.need("drive"), claim, result)
+
+
+def _two_discs(case: Case) -> ShaftRole:
+    """The shaft whose start-up is explained."""
+    for role in mechanisms.roles_of(case.mechanism).shafts:
+        if len(role.discs) == 2:
+            return role
+    raise BadInput(
+        f"{case.file}: [startup] explains a shaft with two discs, declared with m.shaft(..), and {case.mechanism} has "
+        "none; leave the section out"
+    )
+
+
+def startup_map(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...]) -> tuple[StartUp, ...]:
+    """The same start-up with several dampers, run side by side.
+
+    dampings: of the shaft. Returns found: one for each damper, in their order.
+    """
+    (letter,) = _two_discs(case).damping
+    damped = [replace(case.need("parameters"), **{str(letter): damping}) for damping in dampings]
+    cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]
+    results = simulate_many([problem_of(c) for c in cases], settings_of(case))
+    return tuple(startup(c, r) for c, r in zip(cases, results, strict=True))

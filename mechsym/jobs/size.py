@@ -1,53 +1,40 @@
 """Sizing: case -> cycle over the speeds -> forces of the mechanism -> parts and checks -> rows."""
 
 import dataclasses
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
-from mechsym import cases
+from mechsym import cases, mechanisms
 from mechsym.cases import Case
+from mechsym.cases.needs import require
 from mechsym.cycle.closed.model import ClosedEngine
+from mechsym.cycle.compare import crossovers
 from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.jobs import own_turn
-from mechsym.jobs.compare import crossovers
+from mechsym.forces.loads import loads as loads_of
+from mechsym.forces.result import columns
 from mechsym.jobs.cycle import engine, speed_range
-from mechsym.jobs.own import is_own
-from mechsym.jobs.turn import turn
-from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.traits import rules_of, with_trait
-from mechsym.page import Shown
+from mechsym.jobs.machine import turn
+from mechsym.mechanisms import listing
+from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import RPM, record
-from mechsym.sizing.checks import Check, unsafe
+from mechsym.quantities.units import Array, RadPerSecond
+from mechsym.sizing.checks import unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
 from mechsym.sizing.crosshead import checks as crosshead_checks
 from mechsym.sizing.hypocycloid import masses
-from mechsym.sizing.hypocycloid.checks import check_all
+from mechsym.sizing.hypocycloid.checks import check_all, engine_rows, mass_rows, nearest_rows, part_rows
 from mechsym.sizing.hypocycloid.design import size_hypocycloid
-from mechsym.sizing.hypocycloid.forces import hypocycloid_forces
-from mechsym.sizing.hypocycloid.parts import Parts, Stock
-from mechsym.sizing.hypocycloid.rows import engine_rows, mass_rows, nearest_rows, part_rows
+from mechsym.sizing.hypocycloid.engine import Parts, Stock
+from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
 from mechsym.sizing.pressures import Pressures, pressures_over
-from mechsym.sizing.rows import check_rows, fact, size_rows
-from mechsym.sizing.rules import bearing_data, materials
-from mechsym.sizing.slider_crank.design import size_slider_crank
-from mechsym.sizing.slider_crank.forces import slider_crank_forces
+from mechsym.sizing.result import Sizing
+from mechsym.sizing.rows import SizeRow, check_rows, fact, size_rows
+from mechsym.sizing.rules import bearings, materials
+from mechsym.sizing.slider_crank import size_slider_crank, slider_crank_forces
 from mechsym.sizing.wants import Wants
-
-
-@record
-class Sizing(Shown):
-    """What sizing an engine gave."""
-
-    rows: list[dict[str, Any]]
-    failing: list[Check]
-    converged: bool
-    rounds: int
-    parts: Any
-    forces: Any
-    stock: Stock | None  #: None where no stock part belongs to it
 
 
 @record
@@ -68,38 +55,40 @@ def size(case: Case) -> Sizing:
     BadInput
         The mechanism is not one that can be sized
     """
-    if is_own(case.mechanism):
-        return _own_loads(case)
-    if _given_drive(case) and kind_of(case.need("cycle")).given != "engine":
+    require(case, "size")
+    by_spark = "cycle" in case.sections and kind_of(case.need("cycle")).closed
+    if _given_drive(case) and not by_spark:
         return _crosshead(case)  # no rule sizes such an engine: the sizes that it has are checked
     rules = {"planet": _hypocycloid, "slider crank": _slider_crank}
-    if rules_of(case.mechanism) not in rules:
-        raise _unsized(case)
-    return rules[rules_of(case.mechanism)](task(case))
+    sized = rules.get(mechanisms.roles_of(case.mechanism).rules) if by_spark else None
+    return _joints(case) if sized is None else sized(task(case))
 
 
 def _given_drive(case: Case) -> bool:
-    return rules_of(case.mechanism) == "slider crank" and "part_crosshead" in case.sections
+    return mechanisms.roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" in case.sections
 
 
-def _unsized(case: Case) -> BadInput:
-    sized = " and ".join(with_trait(lambda known: known.rules))
-    return BadInput(f"{case.file}: mechanism {case.mechanism!r} cannot be sized; {sized} can")
+_SIZES: dict[str, Callable[[np.ndarray], float]] = {
+    "largest": lambda v: np.abs(v).max(),
+    "root mean square": lambda v: np.sqrt(np.mean(v**2)),
+}
 
 
-_SIZES = {"largest": lambda v: np.abs(v).max(), "root mean square": lambda v: np.sqrt(np.mean(v**2))}
-
-
-def _own_loads(case: Case) -> Sizing:
-    """Loads of every joint of a mechanism from a file: what parts are chosen by; it has no rules for its parts."""
-    found, told = own_turn.turn(case).columns, listing(case.mechanism)
-    about = {**told["reactions"], "driving_torque": "turns the shaft at the speed of operation"}
+def _joints(case: Case) -> Sizing:
+    """Loads of every joint of a mechanism that no rule sizes: what its parts are chosen by."""
+    found, told = turn(case), listing(case.mechanism)
+    units = columns(found, loads_of(found)).units
+    loads = {**found.reactions, "driving_torque": found.driving}
+    about = dict(told.get("reactions", {}))
+    if found.drive.roles.closings or not about:
+        about = dict.fromkeys(found.reactions, "") | about
+    about["driving_torque"] = "turns the shaft at the speed of operation"
     rows = [
-        fact(name, f"load, {what}", float(size_of(found[name])), told["outputs"].get(name, "N*m"),
+        fact(name, f"load, {what}", float(size_of(loads[name])), units[name],
              "reaction over one cycle", source="equations of motion", note=about[name])
-        for name in about if name in found for what, size_of in _SIZES.items()
+        for name in about if name in loads for what, size_of in _SIZES.items()
     ]  # fmt: skip
-    return Sizing(rows=rows, failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
+    return Sizing(told=rows, failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
 
 
 def check_printed(case: Case) -> Sizing:
@@ -112,53 +101,53 @@ def check_printed(case: Case) -> Sizing:
     """
     if _given_drive(case):
         return _crosshead(case)
-    if not rules_of(case.mechanism):
-        raise _unsized(case)
     one = task(case)
-    if rules_of(case.mechanism) == "slider crank":
+    if mechanisms.roles_of(case.mechanism).rules != "planet":
         raise BadInput(f"{case.file}: the case prints no parts; leave out --as-printed")
     reference = printed_parts(one.case)
     # the printed engine takes its torque off at the output shaft set only
     wants = dataclasses.replace(one.wants, take_off="one_end")
     moving = masses.moving_printed(reference, one.stock)
-    forces = hypocycloid_forces(gas_of(one), one.case.need("parameters"))(moving)
+    drive = planet_of(one.case)
+    forces = hypocycloid_forces(gas_of(one), drive)(moving)
     checks = check_all(reference.parts, forces, wants, one.stock)
     mass = masses.total_mass_printed(reference, one.stock)
     rows = part_rows(reference.parts, "as printed") + check_rows(checks)
     rows += engine_rows(reference.parts, forces, moving, mass, _power(one, forces.omega.max()), one.wants, one.stock,
-                        one.case.need("parameters").m3)  # fmt: skip
-    return Sizing(rows=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
+                        drive.moving)  # fmt: skip
+    return Sizing(told=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
                   parts=reference.parts, forces=forces, stock=one.stock)  # fmt: skip
 
 
 def _hypocycloid(one: Task) -> Sizing:
     reference, wants, stock = printed_parts(one.case), one.wants, one.stock
-    parameters = one.case.need("parameters")
-    forces_of = hypocycloid_forces(gas_of(one), parameters)
+    drive = planet_of(one.case)
+    forces_of = hypocycloid_forces(gas_of(one), drive)
     found = size_hypocycloid(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
     mass, power = masses.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
     rows = part_rows(found.parts, "sized") + check_rows(found.checks)
     rows += mass_rows(found.parts, reference, wants, stock)
-    rows += engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, parameters.m3)
+    rows += engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, drive.moving)
     rows += _crossing_rows(one)
     failing = unsafe(found.checks)
     if failing:
         rows += nearest_rows(found.parts, found.forces, wants, stock, lambda omega: _power(one, omega))
-    return Sizing(rows=rows, failing=failing, converged=found.converged, rounds=found.rounds, parts=found.parts,
+    return Sizing(told=rows, failing=failing, converged=found.converged, rounds=found.rounds, parts=found.parts,
                   forces=found.forces, stock=stock)  # fmt: skip
 
 
 def _slider_crank(one: Task) -> Sizing:
-    parameters = one.case.need("parameters")
-    start = parameters.m3 + parameters.m4 + parameters.m5
-    found = size_slider_crank(slider_crank_forces(gas_of(one), parameters), start, one.wants, one.stock)
+    parameters, roles = one.case.need("parameters"), mechanisms.roles_of(one.case.mechanism)
+    start = float(amount(roles.rods[0].moving, dataclasses.asdict(parameters)))
+    forces_of = slider_crank_forces(gas_of(one), mechanisms.build(one.case.mechanism, parameters), roles)
+    found = size_slider_crank(forces_of, start, one.wants, one.stock)
     rows = [
         row for key in ("piston", "cylinder", "crank") for row in size_rows(key, getattr(found.parts, key), "sized")
     ]
     rows += check_rows(found.checks)
     rows.append(fact("engine", "moving mass of one piston", found.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
-    return Sizing(rows=rows + _crossing_rows(one), failing=unsafe(found.checks), converged=found.converged,
+    return Sizing(told=rows + _crossing_rows(one), failing=unsafe(found.checks), converged=found.converged,
                   rounds=found.rounds, parts=found.parts, forces=found.forces, stock=one.stock)  # fmt: skip
 
 
@@ -173,7 +162,7 @@ def task(case: Case) -> Task:
     wants = case.sections.get("sizing", Wants())
     settings = dict(_setting(text, case.file) for text in wants.settings)
     stock = Stock(materials=materials.load(wants.materials_file or None),
-                  bearings=bearing_data.catalogue(wants.bearings_file or None))  # fmt: skip
+                  bearings=bearings.catalogue(wants.bearings_file or None))  # fmt: skip
     set_up = cases.underlaid(case, settings) if settings else case
     return Task(case=set_up, machine=engine(set_up), wants=wants, stock=stock)
 
@@ -185,13 +174,10 @@ def _setting(text: str, file: str) -> tuple[str, str]:
     return key.strip(), value.strip()
 
 
-def speeds(one: Task) -> np.ndarray:
+def speeds(one: Task) -> RadPerSecond[Array]:
     """Crank speeds at which the parts are sized and checked.
 
-    Returns
-    -------
-    omega : ndarray, shape (k,)
-        The range of `[speeds]` in steps of `sizing.speed_step`, the highest included [rad/s]
+    Returns omega: the range of `[speeds]` in steps of `sizing.speed_step`, the highest included, shape (k,).
     """
     given = one.case.need("speeds")
     coarse = dataclasses.replace(given, step=max(given.step, one.wants.speed_step))
@@ -214,14 +200,20 @@ def printed_parts(case: Case) -> masses.PrintedMasses:
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
     return masses.PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
-                                e=case.need("parameters").e)  # fmt: skip
+                                e=planet_of(case).e)  # fmt: skip
+
+
+def planet_of(case: Case) -> PlanetDrive:
+    """The mechanism of a case with the letters by which an engine with a planet is sized."""
+    roles = mechanisms.roles_of(case.mechanism)
+    return PlanetDrive(name=case.mechanism, parameters=case.need("parameters"), roles=roles)
 
 
 def _power(one: Task, omega: float) -> float:
     return float(over_speeds(one.machine, np.array([omega])).power[0])
 
 
-def _crossing_rows(one: Task) -> list[dict[str, Any]]:
+def _crossing_rows(one: Task) -> list[SizeRow]:
     """Where the mean torque crosses that of the rival."""
     if not one.wants.rival:
         return []
@@ -241,21 +233,28 @@ def _crosshead(case: Case) -> Sizing:
         fact(name, "pressure times sliding speed", value, "Pa*m/s", "Archard", note="mean over a turn")
         for name, value in wear(part, loads).items()
     ]
-    return Sizing(rows=rows, failing=unsafe(found), converged=True, rounds=1, parts=part, forces=loads, stock=None)
+    return Sizing(told=rows, failing=unsafe(found), converged=True, rounds=1, parts=part, forces=loads, stock=None)
 
 
 def crosshead_loads(case: Case) -> CrossheadLoads:
     """Loads of a crosshead drive over one cycle of its case."""
-    found, masses_of = turn(case), case.need("parameters")
-    inertia = (masses_of.m4 + masses_of.m5) * found.kinematics["d2x_dphi2"] * found.omega**2
+    found = turn(case)
+    roles, q = found.drive.roles, found.drive.mechanism.coordinates[0]
+    rod, x = roles.rods[0], roles.pistons[0].travel
+    beyond = float(amount(rod.moving if rod.beyond is None else rod.beyond, found.drive.mechanism.parameters))
+    inertia = beyond * found.kinematics[f"d2{x}_d{q}2"] * found.omega**2
 
     def whole(values: np.ndarray) -> np.ndarray:
         return np.append(values, values[0])
 
-    r, k = found.reactions, found.kinematics
+    def borne(place: str) -> np.ndarray:
+        role = next(bearing for bearing in roles.bearings if bearing.at == place)
+        return whole(np.hypot(*(found.reactions[name] for name in role.reactions)))
+
+    k, side = found.kinematics, next(guide.reaction for guide in roles.guides if guide.reaction)
     return CrossheadLoads(
         phi=np.append(found.phi, found.phi[0] + found.period), omega=found.omega,
-        rod=whole(found.inputs["F"] - inertia), pin=whole(np.hypot(r["R_x_B"], r["R_y_B"])),
-        crank_pin=whole(np.hypot(r["R_x_A"], r["R_y_A"])), side=whole(r["R_y_G"]), dx_dphi=whole(k["dx_dphi"]),
-        dpsi_dphi=whole(k["dpsi_dphi"]),
+        rod=whole(found.inputs[roles.pistons[0].force] - inertia), pin=borne("piston_pins"),
+        crank_pin=borne("crank_pins"), side=whole(found.reactions[side]), dx_dphi=whole(k[f"d{x}_d{q}"]),
+        dpsi_dphi=whole(k[f"d{rod.swing}_d{q}"]),
     )  # fmt: skip

@@ -6,13 +6,14 @@ of an engine undetermined; one that grows with speed brings it back.
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 import scipy
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import NewtonMetre, RadPerSecond, Scalar
 
 
 @record
@@ -52,30 +53,18 @@ class TableLoad:
 
 
 @lru_cache(maxsize=16)
-def _curve(speeds: tuple[float, ...], torques: tuple[float, ...]) -> Any:
+def _curve(speeds: tuple[float, ...], torques: tuple[float, ...]) -> "scipy.interpolate.PchipInterpolator":
     return scipy.interpolate.PchipInterpolator(speeds, torques)
 
 
 Load = ConstantLoad | PropellerLoad | TableLoad
 
 
-def settle(load: Load, torque: float, speed: float) -> Load:
+def settle(load: Load, torque: NewtonMetre, speed: RadPerSecond) -> Load:
     """The law with its blanks filled in from the engine's own operation.
 
-    Parameters
-    ----------
-    load : record of this module
-        A law, perhaps without torque or speed
-    torque : float
-        Mean torque of the engine cycle [N*m]
-    speed : float
-        Speed of operation [rad/s]
-
-    Returns
-    -------
-    load : record of this module
-        The same law with numbers everywhere; where the machine takes work, a steady torque that drives it in place of
-        a propeller
+    load: a law, perhaps without torque or speed; torque: mean torque of the engine cycle. Returns load: the same law
+    with numbers everywhere; where the machine takes work, a steady torque that drives it in place of a propeller.
     """
     match load:
         case ConstantLoad(torque=None):
@@ -91,52 +80,34 @@ def settle(load: Load, torque: float, speed: float) -> Load:
     return load
 
 
-def load_torque(load: Load, omega: Any) -> Any:
+def load_torque(load: Load, omega: RadPerSecond[Scalar]) -> NewtonMetre[Scalar]:
     r"""Load torque at a shaft speed.
 
     .. math:: M_r = M, \qquad M_r = M \frac{\omega |\omega|}{\omega_0^2}, \qquad M_r = \text{table}(\omega)
 
-    Parameters
-    ----------
-    omega : float, ndarray or casadi.SX
-        Shaft speed; symbols are taken by the constant and the propeller law [rad/s]
-
-    Returns
-    -------
-    torque : same kind as omega
-        Torque against forward motion [N*m]
+    omega: shaft speed; symbols are taken by the constant and the propeller law. Returns torque: torque against forward
+    motion.
     """
     match load:
         case ConstantLoad():
-            return _constant(load) + 0 * omega
+            if load.torque is None:
+                raise BadInput("constant load without torque; give it, or settle it with the engine's own")
+            return load.torque + 0 * omega
         case PropellerLoad():
             return propeller_torque(omega, *_reference(load))
         case TableLoad():
             return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
 
 
-def _constant(load: ConstantLoad) -> float:
-    if load.torque is None:
-        raise BadInput("constant load without torque; give it, or settle it with the engine's own")
-    return load.torque
-
-
-def propeller_torque(omega: Any, torque: Any, speed: Any) -> Any:
+def propeller_torque(
+    omega: RadPerSecond[Scalar], torque: NewtonMetre[Scalar], speed: RadPerSecond[Scalar]
+) -> NewtonMetre[Scalar]:
     r"""Torque of a propeller, for numbers and symbols alike.
 
     .. math:: M_r = M \frac{\omega |\omega|}{\omega_0^2}
 
-    Parameters
-    ----------
-    omega, speed : float, ndarray or casadi.SX
-        Shaft speed, and the speed of reference [rad/s]
-    torque : float or casadi.SX
-        Torque at the speed of reference [N*m]
-
-    Returns
-    -------
-    torque : same kind as omega
-        Against forward motion [N*m]
+    omega, speed: shaft speed, and the speed of reference; torque: torque at the speed of reference. Returns torque:
+    against forward motion.
 
     Examples
     --------
@@ -152,20 +123,12 @@ def _reference(load: PropellerLoad) -> tuple[float, float]:
     return load.torque, load.speed
 
 
-def load_slope(load: Load, omega: Any) -> Any:
+def load_slope(load: Load, omega: RadPerSecond[Scalar]) -> Annotated[Scalar, "N*m*s/rad"]:
     r"""Slope of the load torque over speed.
 
     .. math:: \mathrm{d}M_r / \mathrm{d}\omega
 
-    Parameters
-    ----------
-    omega : float or ndarray
-        Shaft speed [rad/s]
-
-    Returns
-    -------
-    slope : same kind as omega
-        0 for a constant load and beyond the ends of a table [N*m*s/rad]
+    Returns slope: 0 for a constant load and beyond the ends of a table.
     """
     match load:
         case ConstantLoad():

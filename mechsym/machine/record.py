@@ -2,19 +2,23 @@
 
 gas ---F---> [ mechanism ] <---M_r--- load
                   ^
-                  '---- forces over the angle: a hinge, a drive
+                  '---- forces over the angle: gas of further pistons, a drive, a hinge
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 
+import casadi as ca
 import numpy as np
 
 from mechsym.cycle.gas import Gas
 from mechsym.errors import BadInput
 from mechsym.machine.loads import ConstantLoad, Load
+from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.record import Mechanism
 from mechsym.page import Shown
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Radian
 
 _TURN = 2 * np.pi
 
@@ -36,9 +40,9 @@ class AngleForce:
 class Machine(Shown):
     """A mechanism with one coordinate, what drives it and what it drives."""
 
-    mechanism: Mechanism  #: No dampers; a flywheel belongs into its parameters
-    gas: Gas | None = None
-    gas_input: str = "F"  #: Input that takes the gas force
+    mechanism: Mechanism  #: No dampers; a flywheel belongs into it
+    gas: Gas | None = None  #: Of its only piston, or of the first of several
+    gas_input: str = "F"  #: Input that takes the gas force; empty where `forces` has the gas, piston by piston
     forces: tuple[AngleForce, ...] = ()  #: What acts besides the gas
     load: Load = ConstantLoad()
     load_input: str = "M_r"  #: Input that takes the load torque, positive against the motion
@@ -50,8 +54,7 @@ class Machine(Shown):
         mechanism = self.mechanism
         if len(mechanism.coordinates) != 1:
             raise BadInput(f"{mechanism.name} has {len(mechanism.coordinates)} coordinates; an engine has one")
-        used = [self.load_input, *(f.input for f in self.forces), *([self.gas_input] if self.gas else [])]
-        for name in used:
+        for name in (self.load_input, *(f.input for f in acting(self))):
             if name not in mechanism.inputs:
                 known = ", ".join(mechanism.inputs)
                 raise BadInput(f"{mechanism.name} has no input {name!r}; its inputs are {known}")
@@ -66,30 +69,52 @@ def gas_of(machine: Machine) -> Gas:
 
 def acting(machine: Machine) -> tuple[AngleForce, ...]:
     """All forces over the angle, the gas first."""
-    if machine.gas is None:
+    if machine.gas is None or not machine.gas_input:
         return machine.forces
     gas = AngleForce(name="gas", input=machine.gas_input, role="drive", value=machine.gas.force)
     return (gas, *machine.forces)
 
 
-def period_of(machine: Machine) -> float:
+def only_gas(machine: Machine) -> Gas | None:
+    """The gas where nothing else drives: one piston, whose compression line about angle 0 is known."""
+    alone = machine.gas_input and all(force.role != "drive" for force in machine.forces)
+    return machine.gas if alone else None
+
+
+@lru_cache(maxsize=64)
+def lever(mechanism: Mechanism, name: str) -> Callable[[np.ndarray], np.ndarray]:
+    r"""What an input gives the shaft by the principle of virtual work: a torque 1 [-], a force its x' [m/rad].
+
+    .. math:: \partial Q / \partial F = \mathrm{d}x / \mathrm{d}\varphi
+    """
+    dynamics, (q,) = mechanism.functions["dynamics"], mechanism.coordinates
+    letters = {n: ca.SX.sym(n) for n in dynamics.name_in()}
+    slope = ca.jacobian(dynamics(**letters)["generalized_force"], letters[name])
+    others = ca.vertcat(*(symbol for n, symbol in letters.items() if n != q))
+    slope = ca.substitute(slope, others, ca.DM.zeros(others.shape))
+    function = ca.Function("lever", [letters[q]], [slope], [q], ["lever"])
+    return lambda phi: along(function, {q: phi})["lever"]
+
+
+def shaft_torque(machine: Machine, role: str, phi: np.ndarray) -> np.ndarray:
+    """Torque on the shaft of the forces with a role, in the sense of rotation, over crank angles [rad]: [N*m]."""
+    of_role = (force for force in acting(machine) if force.role == role)
+    shares = (force.value(phi) * lever(machine.mechanism, force.input)(phi) for force in of_role)
+    return np.asarray(sum(shares, np.zeros(np.shape(phi))))
+
+
+def period_of(machine: Machine) -> Radian:
     """Period of all that acts.
 
-    Returns
-    -------
-    period : float
-        That of the gas, which the other forces share; without gas their own [rad]
+    Returns period: that of the gas on the only piston, which the other forces share; else their own.
     """
-    return machine.period if machine.gas is None else machine.gas.pressure.period
+    return machine.gas.pressure.period if machine.gas is not None and machine.gas_input else machine.period
 
 
-def kinks_of(machine: Machine) -> tuple[float, ...]:
+def kinks_of(machine: Machine) -> tuple[Radian, ...]:
     """Angles at which what acts is not smooth.
 
-    Returns
-    -------
-    kinks : tuple of float
-        In [0, period) [rad]
+    Returns kinks: in [0, period).
     """
-    own = () if machine.gas is None else machine.gas.pressure.kinks
+    own = machine.gas.pressure.kinks if machine.gas is not None and machine.gas_input else ()
     return tuple(sorted({*own, *machine.kinks}))

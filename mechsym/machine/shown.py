@@ -9,6 +9,7 @@ from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, load_t
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.page import Card, Picture, View, shows
 from mechsym.quantities.display import quantity_text
+from mechsym.quantities.results import Columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,7 +23,10 @@ def machine_view(machine: Machine) -> View:
     cards = [Card(name="mechanism", value=machine.mechanism.name, about=", ".join(machine.mechanism.coordinates))]
     if machine.omega:
         cards.append(Card(name="speed", value=quantity_text(machine.omega, "rad/s", 4)))
-    cards.append(Card(name="load", value=_LOADS[type(machine.load)], about=_taken(machine)))
+    takes = "takes what the gas gives at the speed of operation"  # where it is not known before a run
+    if machine.omega and getattr(machine.load, "torque", 0.0) is not None:
+        takes = f"{quantity_text(float(load_torque(machine.load, machine.omega)), 'N*m', 4)} at that speed"
+    cards.append(Card(name="load", value=_LOADS[type(machine.load)], about=takes))
     if machine.gas is not None:
         cards += machine.gas.view.cards
     drawn = machine.gas.view.pictures if machine.gas is not None else ()
@@ -32,19 +36,12 @@ def machine_view(machine: Machine) -> View:
     return View(title="Machine", cards=tuple(cards), pictures=drawn, columns=lambda: _columns(machine))
 
 
-def _taken(machine: Machine) -> str:
-    """What the load takes at the speed of operation, where that is known before a run."""
-    if not machine.omega or getattr(machine.load, "torque", 0.0) is None:
-        return "takes what the gas gives at the speed of operation"
-    return f"{quantity_text(float(load_torque(machine.load, machine.omega)), 'N*m', 4)} at that speed"
-
-
-def _columns(machine: Machine) -> dict[str, np.ndarray]:
+def _columns(machine: Machine) -> Columns:
     phi = np.unique(np.append(np.linspace(0, period_of(machine), 1441), kinks_of(machine)))
     units = _units(machine)
-    return {"phi": phi} | {
-        f"{force.name} [{units[force.input]}]": np.asarray(force.value(phi)) for force in acting(machine)
-    }
+    forces = {force.name: np.asarray(force.value(phi)) for force in acting(machine)}
+    own = {force.name: units.get(force.input, "N*m") for force in acting(machine)}
+    return Columns({"phi": phi, **forces}, {"phi": "rad", **own})
 
 
 def _units(machine: Machine) -> dict[str, str]:
@@ -61,7 +58,7 @@ def _drawn(machine: Machine) -> "Figure":
         angle = over_angle(axis, period_of(machine))
         phi = np.linspace(0, period_of(machine), 1441)
         values = np.asarray(force.value(phi))
-        factor, unit = axis_unit(units[force.input], values)
+        factor, unit = axis_unit(units.get(force.input, "N*m"), values)
         axis.plot(phi * angle, values * factor, color=BLUE)
         axis.set_ylabel(f"{force.name} [{unit}]")
         axis.set_xlabel(axis.get_xlabel() if axis is axes[-1] else "")

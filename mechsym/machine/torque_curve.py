@@ -16,8 +16,6 @@ import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import scipy
@@ -25,6 +23,7 @@ import scipy
 from mechsym.cycle.measured.file import numbers_of, split_table, text_of
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import parse, quantity, record
+from mechsym.quantities.units import Pure, RadPerSecond
 
 Function = Callable[[np.ndarray], np.ndarray]
 
@@ -63,16 +62,16 @@ def read_torque(path: str) -> TorqueTable:
     BadInput
         It cannot be read, lacks a column, or leaves a gap
     """
-    return _read(path, Path(path).stat().st_mtime_ns if Path(path).is_file() else 0)
+    return _parsed(path, text_of(path))
 
 
 @lru_cache(maxsize=8)
-def _read(path: str, _changed: int) -> TorqueTable:
-    _, (line, names), rows = split_table(path, text_of(path))
+def _parsed(path: str, text: str) -> TorqueTable:
+    _, (line, names), rows = split_table(path, text)
     heads = _heads(path, line, names)
-    found = numbers_of(path, rows, names, tuple(range(len(names))))
+    values = numbers_of(path, rows, names, tuple(range(len(names))))
     factors = [1.0 if unit == "-" else parse(f"1 {unit}", _HEADS[head]) for head, unit in heads.items()]
-    columns = dict(zip(heads, (found * factors).T, strict=True))
+    columns = dict(zip(heads, (values * factors).T, strict=True))
     torque = columns.get("torque", columns.get("torque_with_inertia"))
     assert torque is not None
     none = np.zeros(len(rows))
@@ -87,11 +86,14 @@ def _read(path: str, _changed: int) -> TorqueTable:
         s, q = missing[0]
         raise BadInput(f"{path}: no rows for speed = {s:g} rad/s with load = {q:g}; give every load at every speed")
     return TorqueTable(
-        file=path, period=period, with_inertia="torque_with_inertia" in heads, loads=loads,
+        file=path,
+        period=period,
+        with_inertia="torque_with_inertia" in heads,
+        loads=loads,
         speeds=speeds if "speed" in heads else (),
         curves={p: _spline(path, columns["phi"][r], torque[r], period) for p, r in one.items()},
         angles={p: columns["phi"][r] for p, r in one.items()},
-    )  # fmt: skip
+    )
 
 
 def _heads(path: str, line: int, names: list[str]) -> dict[str, str]:
@@ -130,28 +132,16 @@ def _spline(path: str, phi: np.ndarray, torque: np.ndarray, period: float) -> Fu
         if abs(torque[-1] - torque[0]) > 1e-6 * float(np.abs(torque).max()):
             raise BadInput(f"{path}: the torque does not repeat: {torque[0]:g} N*m, a period later {torque[-1]:g} N*m")
         phi, torque = phi[:-1], torque[:-1]
-    found = scipy.interpolate.CubicSpline(
-        np.append(phi, phi[0] + period), np.append(torque, torque[0]), bc_type="periodic"
-    )
-    return lambda at: np.asarray(found(phi[0] + np.remainder(np.asarray(at, dtype=float) - phi[0], period)))
+    knots = np.append(phi, phi[0] + period)
+    spline = scipy.interpolate.CubicSpline(knots, np.append(torque, torque[0]), bc_type="periodic")
+    return lambda at: np.asarray(spline(phi[0] + np.remainder(np.asarray(at, dtype=float) - phi[0], period)))
 
 
-def torque_at(table: TorqueTable, omega: float, load: float, dinertia: Function) -> Function:
+def torque_at(table: TorqueTable, omega: RadPerSecond, load: Pure, dinertia: Function) -> Function:
     """The torque without inertia at a speed and a load.
 
-    Parameters
-    ----------
-    omega : float
-        Shaft speed [rad/s]
-    load : float
-        In the file's measure [-]
-    dinertia : callable
-        Angle [rad] to the slope of the mechanism's inertia [kg*m^2/rad]
-
-    Returns
-    -------
-    torque : callable
-        Angle [rad] to torque, positive driving [N*m]
+    load: in the file's measure; dinertia: angle [rad] to the slope of the mechanism's inertia [kg*m^2/rad]. Returns
+    torque: angle [rad] to torque, positive driving [N*m].
 
     Raises
     ------
@@ -171,17 +161,16 @@ def torque_at(table: TorqueTable, omega: float, load: float, dinertia: Function)
     return torque
 
 
-def _shares(table: TorqueTable, what: str, unit: str, known: tuple[float, ...], wanted: float) -> dict[float, Any]:
+def _shares(table: TorqueTable, what: str, unit: str, known: tuple[float, ...], wanted: float) -> dict[float, float]:
     """The one or two known values about the wanted one, each with its share."""
     size = max(abs(known[0]), abs(known[-1]))
     if len(known) == 1 and what == "speed" and not table.with_inertia:
         return {known[0]: 1.0}
     if not known[0] - 1e-9 * size <= wanted <= known[-1] + 1e-9 * size:
+        behind = f" {unit}" if unit else ""
         allowed = f"{known[0]:g}" if len(known) == 1 else f"{known[0]:g} to {known[-1]:g}"
-        raise BadInput(
-            f"{table.file}: {what} = {wanted:g} {unit}".rstrip() + f" is outside the file's {allowed} {unit}".rstrip()
-            + f"; add rows at that {what}, or change it"
-        )  # fmt: skip
+        why = f"{what} = {wanted:g}{behind} is outside the file's {allowed}{behind}"
+        raise BadInput(f"{table.file}: {why}; add rows at that {what}, or change it")
     if len(known) == 1:
         return {known[0]: 1.0}
     k = min(max(int(np.searchsorted(known, wanted)), 1), len(known) - 1)

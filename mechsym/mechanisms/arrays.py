@@ -1,28 +1,21 @@
 """Functions of a mechanism at many points: numpy's where there are many, CasADi's interpreter for a few."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities.units import Scalar
 
 _MANY = 100  # points from which on numpy is quicker than CasADi, which takes ten microseconds for each
 
 
-def along(function: ca.Function, letters: Mapping[str, Any]) -> dict[str, np.ndarray]:
+def along(function: ca.Function, letters: Mapping[str, Scalar]) -> dict[str, np.ndarray]:
     """A function of scalars at many points.
 
-    Parameters
-    ----------
-    letters : mapping of str to float or ndarray, shape (n,)
-        By input name; what is not named is 0 [SI]
-
-    Returns
-    -------
-    values : dict of str to ndarray, shape (n,) or (k, n) or (k, k, n)
-        By output name [SI]
+    letters: mapping of str to float or ndarray, shape (n,), by input name; what is not named is 0 [SI]. Returns values:
+    by output name [SI].
     """
     names = function.name_in()
     if unknown := sorted(set(letters) - set(names)):

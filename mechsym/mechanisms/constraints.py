@@ -37,18 +37,12 @@ class Solution:
 
 
 def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
-    """Coordinates and velocities that satisfy the constraints; those that are given are kept.
-
-    Returns
-    -------
-    values : dict of str to float
-        The same with all coordinates and velocities
-    """
+    """Coordinates and velocities that satisfy the constraints; those that are given are kept."""
     q, u = mechanism.coordinates, velocities(mechanism)
     guesses = mechanism.dependents
     position = np.array([float(values.get(n, guesses.get(n, 0.0))) for n in q])
     free = [i for i, n in enumerate(q) if n not in values and (not guesses or n in guesses)]
-    if not _closed(mechanism, position, free) and guesses:
+    if not _closed(mechanism, position, free) and guesses and free:
         # the guesses are meant for where the others start
         kept = {n: float(values.get(n, 0.0)) for i, n in enumerate(q) if i not in free}
         found = loops.followed(mechanism, kept, guesses)
@@ -58,7 +52,9 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
     if not np.abs(gap).max() <= _TOLERANCE * max(1.0, np.abs(position).max()):
         given = ", ".join(n for n in q if n in values) or "none"
         gapped = f" (gap {np.abs(gap).max():.3g})" if np.isfinite(gap).all() else ""
-        raise BadInput(f"{mechanism.name}: the loop does not close with {given} given{gapped}; give another pose")
+        follow = ", ".join(n for n in q if n in values and n in guesses)
+        way_out = f"give another pose, or leave {follow} to follow" if follow else "give another pose"
+        raise BadInput(f"{mechanism.name}: the loop does not close with {given} given{gapped}; {way_out}")
     rates = _rates(mechanism, jacobian, [values.get(n) for n in u])
     return dict(values) | dict(zip(q, position, strict=True)) | dict(zip(u, rates, strict=True))
 
@@ -95,15 +91,8 @@ def _constraints(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np
 def solve(mechanism: Mechanism, values: Mapping[str, float]) -> Solution:
     """Accelerations and multipliers at a state that satisfies the constraints.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        All coordinates and velocities (see `close`); inputs that are not named are 0
-
-    Returns
-    -------
-    solution : Solution
-        With the rank of the constraints
+    values: all coordinates and velocities (see `close`); inputs that are not named are 0. Returns solution: with the
+    rank of the constraints.
     """
     q, u = mechanism.coordinates, velocities(mechanism)
     dynamics = mechanism.functions["dynamics"]
@@ -141,37 +130,13 @@ def _solution(mechanism: Mechanism, acceleration: np.ndarray, shortest: np.ndarr
     )
 
 
-def determined(solution: Solution, combination: Mapping[str, float]) -> float | None:
-    """Value of a combination of multipliers, if the rank determines it.
-
-    Parameters
-    ----------
-    combination : mapping of str to float
-        Coefficient of each constraint that takes part
-
-    Returns
-    -------
-    value : float or None
-        None where the rigid mechanism leaves it open; unit of the combination [N] or [N*m]
-    """
-    weights = np.array([float(combination.get(n, 0.0)) for n in solution.names])
-    open_part = np.abs(weights @ solution.free).max() if solution.free.size else 0.0
-    return None if open_part > _TOLERANCE * np.abs(weights).max() else float(weights @ solution.particular)
-
-
 def motion(
     mechanism: Mechanism, values: Mapping[str, float]
 ) -> tuple[dict[str, float], np.ndarray, dict[str, float | None]]:
     """Closed state, accelerations and named joint forces in one step.
 
-    Returns
-    -------
-    values : dict of str to float
-        The same with all coordinates and velocities
-    acceleration : ndarray, shape (n,)
-        Accelerations of the coordinates [m/s^2] or [rad/s^2]
-    outputs : dict of str to float or None
-        `force_<constraint>` by name (None: not determined), `constraint_rank`, `constraint_count`
+    Returns values: the same with all coordinates and velocities. acceleration: accelerations of the coordinates [m/s^2]
+    or [rad/s^2]. outputs: `force_<constraint>` by name (None: not determined), `constraint_rank`, `constraint_count`.
     """
     closed = close(mechanism, values)
     solution = solve(mechanism, closed)

@@ -5,39 +5,73 @@ towards the head, y across, the shaft at the origin. Whoever shows them, matplot
 colours; the roles say what belongs together.
 """
 
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
-from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of
-from mechsym.mechanisms.own import packaged
-from mechsym.mechanisms.traits import traits_of
+from mechsym.files import Json
+from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, sketched
+from mechsym.mechanisms.own import is_file, packaged
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import Mechanism, listing
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Metre, Radian
 
-__all__ = ["Circle", "Line", "Point", "Shapes", "extent", "extent_of", "shapes"]
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
+
+__all__ = ["Circle", "Line", "Point", "Shapes", "declared", "drawn", "extent_of", "shapes"]
 
 
-def shapes(mechanism: str, parameters: Any, angle: float, bore: float | None = None) -> Shapes:
+def shapes(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None = None) -> Shapes:
     """A mechanism at a crank angle.
 
-    Parameters
-    ----------
-    angle : float
-        Crank angle of every coordinate that is one [rad]
-    bore : float, optional
-        Diameter of the cylinders; else they are drawn in proportion to the stroke [m]
+    angle: crank angle of every coordinate that is one. bore: diameter of the cylinders; else they are drawn in
+    proportion to the stroke.
     """
-    known = traits_of(mechanism)
-    if known is None or known.drawing is None:
-        drawn = (n for n in packaged() if (t := traits_of(n)) is not None and t.drawing is not None)
+    found = (
+        tuple(plan_of(mechanism).shapes(parameters, angle, bore))
+        if is_file(mechanism) or mechanism in packaged()
+        else ()
+    )
+    if not found:
+        drawn = (name for name in packaged() if listing(plan_of(name).theory).get("sketch"))
         raise BadInput(f"mechanism {mechanism!r} has no drawing; there are {', '.join(drawn)}")
-    return tuple(known.drawing(parameters, angle, bore))
+    return found
 
 
-def extent(mechanism: str, parameters: Any) -> tuple[float, float, float, float]:
-    """Box that holds the mechanism at every angle.
+def drawn(
+    mechanism: str, parameters: Record, functions: Mechanism, bore: Metre | None = None
+) -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] to shapes: of a mechanism that is drawn by formulas, or by the links of its declaration.
 
-    Returns
-    -------
-    x_min, x_max, y_min, y_max : float
-        Edges [m]
+    bore: diameter of the cylinders.
     """
-    return extent_of(lambda angle: shapes(mechanism, parameters, angle))
+    if any(True for _ in plan_of(mechanism).shapes(parameters, 0.0, bore)):
+        return lambda angle: shapes(mechanism, parameters, angle, bore)
+    return declared(functions, listing(mechanism))
+
+
+def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] of a mechanism with one coordinate to the shapes of its declaration; None where it has none."""
+    if said.get("sketch"):
+        return lambda angle: sketched(said, mechanism.parameters, angle, None)
+    if "drawing" not in mechanism.functions or len(mechanism.coordinates) != 1:
+        return None
+    function = mechanism.functions["drawing"]
+
+    def shapes(angle: float) -> Shapes:
+        places = dict(zip(function.name_out(), map(float, function.call([angle])), strict=True))
+        return tuple(_shape(shape, places) for shape in said["shapes"])
+
+    return shapes
+
+
+def _shape(said: Json, found: Mapping[str, float]) -> Line | Circle:
+    points: list[Point] = [(found[x], found[y]) for x, y in said["points"]]
+    if said["kind"] == "circle":
+        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]])
+    if said["kind"] == "box":
+        (x, y), a, b = points[0], found[said["width"]] / 2, found[said["height"]] / 2
+        points = [(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]
+    return Line(role=said["role"], points=tuple(points))

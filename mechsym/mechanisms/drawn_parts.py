@@ -1,11 +1,18 @@
 """Lines and circles with a role, and the parts that drawings of mechanisms share."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechsym.files import Json
+from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import record
+from mechsym.quantities.units import Metre, Radian
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
 
 Point = tuple[float, float]
 
@@ -97,3 +104,29 @@ def turned(
             yield Line(role=shape.role, points=tuple(place(point) for point in shape.points))
         else:
             yield Circle(role=shape.role, centre=place(shape.centre), radius=shape.radius)
+
+
+def sketched(said: "Listing", parameters: Mapping[str, float], angle: Radian, bore: Metre | None) -> Shapes:
+    """The sketch of a declaration, from its listing; nothing where it has none."""
+    letters = {**parameters, **dict.fromkeys(said["coordinates"], angle)}
+    return tuple(shape for row in said.get("sketch", ()) for shape in _row(row, letters, bore))
+
+
+def _row(row: Json, letters: Mapping[str, float], bore: float | None) -> Iterable[Line | Circle]:
+    points = tuple((float(amount(x, letters)), float(amount(y, letters))) for x, y in row["points"])
+    sizes = {name: float(amount(text, letters)) for name, text in row["sizes"].items()}
+    turn = float(amount(row["turned"], letters))
+    made = _KINDS[row["kind"]](row["role"], points, sizes, bore)
+    return turned(made, turn) if turn else made
+
+
+_KINDS: Mapping[str, Callable[..., Iterable[Line | Circle]]] = {
+    "line": lambda role, points, sizes, bore: (Line(role=role, points=points),),
+    "circle": lambda role, points, sizes, bore: (Circle(role=role, centre=points[0], radius=sizes["radius"]),),
+    "box": lambda role, points, sizes, bore: (box(role, points[0], (sizes["width"], sizes["height"])),),
+    "piston": lambda role, points, sizes, bore: piston(points[0], sizes["stroke"], bore),
+    "cylinder": lambda role, points, sizes, bore: cylinder(points[0][1], points[0][0], sizes["stroke"], bore),
+    "slider_crank": lambda role, points, sizes, bore: slider_crank(
+        sizes["r"], sizes["l"], sizes["offset"], sizes["angle"], bore
+    ),
+}

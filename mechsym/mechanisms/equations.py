@@ -2,8 +2,8 @@
 
 import re
 
+from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.traits import traits_of
 from mechsym.quantities import record
 
 _WORD = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}")
@@ -34,19 +34,14 @@ class MechanismEquations:
 def equations(name: str) -> MechanismEquations:
     """Equations of a mechanism: kinematics, motion, energies.
 
-    Parameters
-    ----------
-    name : str
-        Name of a mechanism, or a file with one
+    name: name of a mechanism, or a file with one.
 
     Examples
     --------
     >>> equations("crosshead").rows[0]["latex"]
     'l = l_{1} + l_{2}'
     """
-    known = traits_of(name)
-    derived = known.assembled.part if known is not None and known.assembled is not None else name
-    found = listing(derived)["equations"]
+    found = listing(plan_of(name).theory)["equations"]
     rows = tuple({"title": row["title"], "latex": _upright(row["latex"])} for row in found)
     return MechanismEquations(name=name, rows=rows)
 

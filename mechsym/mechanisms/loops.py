@@ -17,6 +17,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
+from mechsym.quantities.units import Metre, Radian
 
 _STEPS = 3  # of Newton's method from a guess
 _CLOSED = 1e-12  # relative to the size of the coordinates
@@ -33,12 +34,7 @@ def split(mechanism: Mechanism, dependents: Sequence[str]) -> tuple[list[int], l
 def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int = _STEPS) -> ca.SX:
     """Coordinates with the dependent ones closed by Newton's method from where they are.
 
-    Parameters
-    ----------
-    q : casadi.SX, shape (n, 1)
-        Coordinates near a closed pose [rad] or [m]
-    dependents : sequence of str
-        As many as there are constraints
+    q: coordinates near a closed pose [rad] or [m], shape (n, 1); dependents: as many as there are constraints.
     """
     _, held = split(mechanism, dependents)
     for _ in range(steps):
@@ -52,12 +48,8 @@ def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int
 def motion(mechanism: Mechanism, q: ca.SX, u: ca.SX, dependents: Sequence[str]) -> tuple[ca.SX, ca.SX]:
     r"""T and c of :math:`u = T u_i`, :math:`\ddot q = T \ddot q_i + c` at a closed pose.
 
-    Parameters
-    ----------
-    q : casadi.SX, shape (n, 1)
-        Coordinates, closed [rad] or [m]
-    u : casadi.SX, shape (k, 1)
-        Velocities of the independent coordinates [rad/s] or [m/s]
+    q: coordinates, closed [rad] or [m], shape (n, 1); u: velocities of the independent coordinates [rad/s] or [m/s],
+    shape (k, 1).
     """
     free, held = split(mechanism, dependents)
     n = len(mechanism.coordinates)
@@ -71,18 +63,11 @@ def motion(mechanism: Mechanism, q: ca.SX, u: ca.SX, dependents: Sequence[str]) 
     return T, c
 
 
-def close(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str, float]) -> np.ndarray | None:
+def close(mechanism: Mechanism, given: Mapping[str, Radian], guesses: Mapping[str, Metre]) -> np.ndarray | None:
     """Coordinates that close the loop with some given, from guesses; None where it does not close.
 
-    Parameters
-    ----------
-    given, guesses : mapping of str to float
-        Coordinates that are kept, and near which the others are looked for [rad] or [m]
-
-    Returns
-    -------
-    q : ndarray, shape (n,)
-        Coordinates [rad] or [m]
+    given, guesses: coordinates that are kept, and near which the others are looked for or. Returns q: coordinates [rad]
+    or [m].
     """
     names = mechanism.coordinates
     q = np.array([float(given.get(n, guesses.get(n, 0.0))) for n in names])
@@ -101,18 +86,11 @@ def close(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str
     return q if np.abs(gap).max() <= 1e-10 * max(1.0, np.abs(q).max()) else None
 
 
-def followed(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[str, float]) -> np.ndarray | None:
+def followed(mechanism: Mechanism, given: Mapping[str, Radian], guesses: Mapping[str, Metre]) -> np.ndarray | None:
     """Coordinates that close the loop with some given, followed from where these are 0; None where it opens on the way.
 
-    Parameters
-    ----------
-    given, guesses : mapping of str to float
-        Coordinates that are kept, and near which the others are looked for at the start [rad] or [m]
-
-    Returns
-    -------
-    q : ndarray, shape (n,)
-        Coordinates [rad] or [m]
+    given, guesses: coordinates that are kept, and near which the others are looked for at the start or. Returns q:
+    coordinates [rad] or [m].
     """
     steps = max(1, round(max(abs(v) for v in given.values()) / _STRIDE)) if given else 1
     near: Mapping[str, float] = guesses
@@ -128,12 +106,8 @@ def followed(mechanism: Mechanism, given: Mapping[str, float], guesses: Mapping[
 def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple[np.ndarray, int]:
     """Coordinates over the turns of the first coordinate, the rest following it from the guesses.
 
-    Returns
-    -------
-    q : ndarray, shape (n, k + 1)
-        Coordinates at even angles from 0 to where they repeat, both ends included [rad] or [m]
-    turns : int
-        After so many turns everything is as it was at the start [-]
+    Returns q: coordinates at even angles from 0 to where they repeat, both ends included [rad] or [m], shape (n, k +
+    1); turns: after so many turns everything is as it was at the start.
 
     Raises
     ------
@@ -156,12 +130,12 @@ def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple
         found.append(q)
         steps = [q, found[-2] if len(found) > 1 else q]
         guesses = dict(zip(rest, (2 * steps[0] - steps[1])[1:], strict=True))
-        if k and k % points == 0 and _same(mechanism, q, found[0]):
+        if k and k % points == 0 and _same(q, found[0]):
             return np.array(found).T, k // points
     raise BadInput(f"{mechanism.name} does not repeat within {most} turns of {driver}")
 
 
-def _same(mechanism: Mechanism, q: np.ndarray, start: np.ndarray) -> bool:
+def _same(q: np.ndarray, start: np.ndarray) -> bool:
     turned = (q - start)[1:] / (2 * np.pi)
     return bool(np.abs(turned - np.round(turned)).max() < 1e-9)
 
@@ -188,12 +162,8 @@ def _guess(mechanism: Mechanism, phi: ca.SX) -> tuple[ca.SX, int]:
 def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     """The mechanism with its first coordinate alone, the others closed at every angle.
 
-    Returns
-    -------
-    mechanism : Mechanism
-        One coordinate; kinematic outputs also the dependent coordinates, with derivatives, and the inertia
-    turns : int
-        After so many turns everything is as it was at the start [-]
+    Returns mechanism: one coordinate; kinematic outputs also the dependent coordinates, with derivatives, and the
+    inertia. turns: after so many turns everything is as it was at the start.
 
     Raises
     ------
@@ -248,8 +218,11 @@ def _kinematics(mechanism: Mechanism, q: ca.SX, phi: ca.SX, pose: ca.SX) -> ca.F
     partial = {f"d{s}_d{v}" for s in found for v in mechanism.coordinates}
     base = {s: v for s, v in found.items() if not s.startswith("d") or not (s in partial or "_d" in s)}
     outputs = dict(zip(rest, ca.vertsplit(q)[1:], strict=True)) | base
-    mass = _call(mechanism, "dynamics", dict.fromkeys(("u", "a"), ca.SX(q.numel(), 1)) | {
-        "q": q, "inputs": ca.SX(len(mechanism.inputs), 1)})[0]  # fmt: skip
+    mass = _call(
+        mechanism,
+        "dynamics",
+        dict.fromkeys(("u", "a"), ca.SX(q.numel(), 1)) | {"q": q, "inputs": ca.SX(len(mechanism.inputs), 1)},
+    )[0]
     inertia = ca.mtimes(T.T, ca.mtimes(mass, T))
     results: dict[str, ca.SX] = {}
     for name, value in outputs.items():

@@ -13,10 +13,7 @@ def with_multipliers(
 ) -> ca.Function:
     """Reactions whose multipliers are worked out from the dependent rows, with the driving force of each other row.
 
-    Returns
-    -------
-    reactions : casadi.Function
-        Same inputs without the multipliers; outputs also `driving_<coordinate>` [N*m] or [N]
+    Returns reactions: same inputs without the multipliers; outputs also `driving_<coordinate>` [N*m] or [N].
     """
     raw, dynamics = functions["reactions"], functions["dynamics"]
     names = [n for n in raw.name_in() if n not in multipliers]

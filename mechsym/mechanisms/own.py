@@ -1,29 +1,37 @@
 """Mechanisms of the user's own: `./scotch.py`, `./scotch.py:NAME`, or a name that an installed package brings.
 
-The code of a file is derived once and kept in the user's cache by the content of the file, of its neighbours that it
-imports and of the derivation core; sympy is needed only then. The record of parameters is made from the declaration.
+The code of a file is derived once and kept in the user's cache by the content of the file, of all that it imports from
+beside it (see `mechsym.inputs.sources`) and of the derivation core; sympy is needed only then. The record of parameters
+is made from the declaration.
 A package brings mechanisms by the entry point group `mechsym.mechanisms`: name = "package.module", a module with a
 declaration. Such a file runs as code of the user's own.
 """
 
-import ast
+import contextlib
 import dataclasses
-import difflib
 import functools
 import hashlib
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, TypedDict
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_text
-from mechsym.native import cache
+from mechsym.files import write_bytes, write_text
+from mechsym.inputs import sources
+from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import check, quantity, record
+from mechsym.quantities.records import Field, Record
+from mechsym.trust import refuse_foreign
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
 
 _GROUP = "mechsym.mechanisms"
+_CODE = re.compile(r"[^_].*\.py")
 
 
 @record
@@ -34,9 +42,16 @@ class Own:
     path: Path  #: File that declares it
     which: str  #: Which of its mechanisms; empty where there is one
     code: str  #: Text of the generated module
-    listing: Mapping[str, Any]  #: See `mechsym.derive.listing`
+    listing: "Listing"  #: See `mechsym.derive.listing`
     module: ModuleType
-    parameters: Any  #: Class of its record of parameters
+    parameters: type[Record]  #: Class of its record of parameters
+
+
+class Derived(TypedDict):
+    """What is kept of a declaration."""
+
+    code: str
+    listing: "Listing"
 
 
 def is_file(name: str) -> bool:
@@ -47,13 +62,11 @@ def is_file(name: str) -> bool:
 @functools.cache
 def packaged() -> tuple[str, ...]:
     """Names of the mechanisms that the package has, generated or assembled."""
-    generated = {p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _code(p.name)}
+    generated = {
+        p.name.removesuffix(".py") for p in resources.files("mechsym.generated").iterdir() if _CODE.fullmatch(p.name)
+    }
     assembled = {p.parent.name for p in Path(__file__).parent.glob("*/__init__.py")}
     return tuple(sorted(generated | assembled))
-
-
-def _code(name: str) -> bool:
-    return name.endswith(".py") and not name.startswith("_")
 
 
 @functools.lru_cache(maxsize=1)
@@ -90,6 +103,11 @@ def _parts(name: str) -> tuple[Path, str, str]:
     return Path(name), "", ""
 
 
+def quantity_of(name: str, output: str) -> str:
+    """An output of a mechanism as it is typed after --against."""
+    return f"{name}{':' if is_file(name) else '.'}{output}"
+
+
 def file_of(name: str) -> tuple[Path, str]:
     """File of a mechanism, and which of its mechanisms is meant, empty where there is one."""
     path, _, which = _parts(name)
@@ -112,9 +130,14 @@ def load(name: str) -> Own:
     return _load(path.resolve(), which, _key(path.resolve(), which))
 
 
+def content(name: str) -> str:
+    """Digest of the sources of a mechanism, for what goes by its name; empty where the package has it."""
+    path, which = file_of(name)
+    return _key(path.resolve(), which) if is_file(name) and path.is_file() else ""
+
+
 def _key(path: Path, which: str) -> str:
-    texts = [p.read_bytes() for p in [path, *_neighbours(path)]]
-    return hashlib.sha256(b"\0".join([which.encode(), _core(), *texts])).hexdigest()[:24]
+    return hashlib.sha256(b"\0".join([which.encode(), _core(), *sources(path).values()])).hexdigest()[:24]
 
 
 @functools.lru_cache(maxsize=1)
@@ -122,25 +145,16 @@ def _core() -> bytes:
     return b"\0".join(p.read_bytes() for p in sorted((Path(__file__).parents[1] / "derive").glob("*.py")))
 
 
-def _neighbours(path: Path) -> list[Path]:
-    """Files beside a file that it imports."""
-    try:
-        tree = ast.parse(path.read_bytes())
-    except (SyntaxError, ValueError):
-        return []  # refused with its line when it runs
-    names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
-    names |= {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.module}
-    return sorted(p for n in names if (p := path.parent / f"{n.partition('.')[0]}.py").is_file() and p != path)
-
-
 @functools.lru_cache(maxsize=32)
 def _load(path: Path, which: str, key: str) -> Own:
+    from mechsym.native import cache  # who runs no file of his own does not load it
+
     folder = cache.writable()
     stored = _stored(folder, key)
     if stored is None:
         stored = _derived(path, which, key)
-        text = json.dumps(stored, ensure_ascii=False)
-        write_text(folder / f"derived-{key}-{_digest(text)}.json", text)
+        data = json.dumps(stored, ensure_ascii=False).encode()
+        write_bytes(folder / f"derived-{key}-{_digest(data)}.json", data)
     listing = stored["listing"]
     return Own(
         name=listing["name"],
@@ -156,6 +170,8 @@ def _load(path: Path, which: str, key: str) -> Own:
 def write(mechanism: Own, folder: Path | None) -> list[Path]:
     """Write code and listing to a folder; without one they are in the cache, which is named."""
     if folder is None:
+        from mechsym.native import cache
+
         return sorted(cache.writable().glob(f"derived-{_key(mechanism.path, mechanism.which)}-*.json"))
     listing = json.dumps(dict(mechanism.listing), indent=1, ensure_ascii=False) + "\n"
     files = {f"{mechanism.name}.py": mechanism.code, f"{mechanism.name}.json": listing}
@@ -164,6 +180,8 @@ def write(mechanism: Own, folder: Path | None) -> list[Path]:
 
 def differences(name: str, folder: Path | None) -> dict[str, str]:
     """Files in a folder, or in the cache, that differ from what the declaration gives, with the difference."""
+    import difflib
+
     path, _, which = _parts(name)
     stored = load(name)
     fresh = _derived(path.resolve(), which, _key(path.resolve(), which))["code"]
@@ -175,20 +193,28 @@ def differences(name: str, folder: Path | None) -> dict[str, str]:
     return {str(file or f"cache of {name}"): "\n".join(lines)}
 
 
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:24]
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:24]
 
 
-def _stored(folder: Path, key: str) -> dict[str, Any] | None:
+def _stored(folder: Path, key: str) -> "Derived | None":
     for file in folder.glob(f"derived-{key}-*.json"):
-        text = file.read_text(encoding="utf-8")
-        if file.stem.endswith(_digest(text)):
-            return json.loads(text)
-        file.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # another process has removed it, or the disk does not give it
+            data = file.read_bytes()
+            if file.stem.endswith(_digest(data)):
+                return json.loads(data)
+            file.unlink(missing_ok=True)
     return None
 
 
-def _derived(path: Path, which: str, key: str) -> dict[str, Any]:
+def permit(path: Path) -> None:
+    """Refuse a file that may not be run, see `mechsym.trust`; what an installed package brings, may."""
+    if path not in {_parts(name)[0].resolve() for name in brought()}:
+        refuse_foreign(path)
+
+
+def _derived(path: Path, which: str, key: str) -> "Derived":
+    permit(path)
     try:
         from mechsym.derive import files
     except ModuleNotFoundError as error:
@@ -206,20 +232,46 @@ def _module(path: Path, code: str) -> ModuleType:
 
 
 @functools.lru_cache(maxsize=32)
-def _class(text: str) -> Any:
+def _class(text: str) -> type[Record]:
     """The record of a mechanism's parameters, made from the letters, units and ranges of its declaration."""
     listing = json.loads(text)
     ranges = listing.get("ranges", {})
     fields = {letter: quantity(unit, **ranges.get(letter, {})) for letter, unit in listing["parameters"].items()}
-    return letters_class(f"{listing['name'].title().replace('_', '')}Parameters", fields)
+    stem = listing["name"].title().replace("_", "")
+    return letters_class(f"{stem}Parameters", fields, listing.get("requires", ()))
 
 
-def record_of(listing: Mapping[str, Any]) -> Any:
+def record_of(listing: "Listing") -> type[Record]:
     """The record of a mechanism's parameters, by what is stored of its declaration."""
     return _class(json.dumps(dict(listing)))
 
 
-def letters_class(name: str, fields: Mapping[str, Any]) -> Any:
+def letters_class(name: str, fields: Mapping[str, Field], requires: Sequence[Mapping[str, str]] = ()) -> type[Record]:
     """A record of numbers by letter, checked when it is made."""
     rows = [(letter, float, field) for letter, field in fields.items()]
-    return dataclasses.make_dataclass(name, rows, frozen=True, kw_only=True, namespace={"__post_init__": check})
+
+    def checked(numbers: Record) -> None:
+        check(numbers)
+        require(type(numbers), vars(numbers))
+
+    known = {"__post_init__": checked, "requires": tuple(requires)}
+    return dataclasses.make_dataclass(name, rows, frozen=True, kw_only=True, namespace=known)
+
+
+def require(record: type[Record], letters: Mapping[str, float]) -> None:
+    """Refuse numbers that a declaration refuses: those for which an expression is not above another.
+
+    record: class of the mechanism's numbers.
+    """
+    for required in vars(record)["requires"]:
+        _require(required, letters)
+
+
+def _require(required: Mapping[str, str], letters: Mapping[str, float]) -> None:
+    value, least = (amount(required[side], letters) for side in ("value", "above"))
+    if not value > least:
+        size, bound = (re.sub(r"Abs\((\w+)\)", r"|\1|", required[side]) for side in ("value", "above"))
+        than = f"{least:g} {required['unit']}" if bound == "0" else f"{bound} = {least:g} {required['unit']}"
+        raise BadInput(
+            f"{required['what']}: {size} = {value:g} {required['unit']}, needs more than {than}; {required['way']}"
+        )

@@ -2,29 +2,21 @@
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
 from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
 from mechsym.page import page
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Metre, Radian
 from mechsym.style import INK, axis_unit
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-def paint(axes: Any, mechanism: str, parameters: Any, angle: float) -> None:
-    """Paint a mechanism to scale.
-
-    Parameters
-    ----------
-    angle : float
-        Crank angle [rad]
-    """
-    _paint(axes, lambda at: shapes(mechanism, parameters, at), angle)
-
-
-def _paint(axes: Any, drawn: Callable[[float], Shapes], angle: float) -> None:
+def _paint(axes: "Axes", drawn: Callable[[float], Shapes], angle: float) -> None:
     from matplotlib import patches
 
     for shape in ordered(drawn(angle)):
@@ -41,15 +33,10 @@ def _paint(axes: Any, drawn: Callable[[float], Shapes], angle: float) -> None:
     axes.set_axis_off()
 
 
-def figure(mechanism: str, parameters: Any, angle: float, bore: float | None = None) -> "Figure":
+def figure(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None = None) -> "Figure":
     """One drawing with a scale.
 
-    Parameters
-    ----------
-    angle : float
-        Crank angle [rad]
-    bore : float, optional
-        Diameter of the cylinders [m]
+    bore: diameter of the cylinders.
     """
     return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle)
 
@@ -77,7 +64,7 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
     return picture
 
 
-def animation(mechanism: str, parameters: Any, title: str, bore: float | None = None) -> str:
+def animation(mechanism: str, parameters: Record, title: str, bore: float | None = None) -> str:
     """A page in which the mechanism turns; it needs nothing from outside; with a bore [m] to scale."""
     return animation_of(lambda at: shapes(mechanism, parameters, at, bore), title)
 

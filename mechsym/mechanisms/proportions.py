@@ -2,9 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import field
-from typing import Any
+from typing import TYPE_CHECKING
 
+from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import quantity, record
+
+if TYPE_CHECKING:
+    from mechsym.mechanisms.roles import FaceRole, PartRoles, PistonRole
 
 
 @record
@@ -38,6 +42,38 @@ class Proportions:
     span: float | None = None
 
 
-def slider_crank(r: float, l: float, moving: tuple[Reciprocating, ...] = (), **more: Any) -> Proportions:  # noqa: E741
-    """Those of a crank and a rod, by their lengths [m]; more are other fields."""
-    return Proportions(stroke=2 * r, rod_ratio=l / r if r else None, moving=moving, **more)
+def declared(roles: "PartRoles", units: Mapping[str, str], letters: Mapping[str, float]) -> Proportions | None:
+    """Those that a declaration says: by its strokes, rods and inertias; None where it names no stroke.
+
+    units, letters: of its parameters, by letter.
+    """
+
+    def size(text: str | float) -> float:
+        return float(amount(text, letters))
+
+    heads: tuple[PistonRole | FaceRole, ...] = (*roles.pistons, *roles.faces)
+    strokes = [size(head.stroke) for head in heads if head.stroke is not None] or [
+        2 * size(rod.throw) for rod in roles.rods
+    ]
+    if not strokes:
+        return None
+    ratios = [size(rod.length) / size(rod.throw) for rod in roles.rods if size(rod.throw)]
+    moving = {
+        " + ".join(map(str, head.masses)): head.name.rstrip("+-") if roles.chosen else ""
+        for head in heads
+        if head.masses
+    }
+    moving = moving or {str(rod.moving): "" for rod in roles.rods}
+    shafts = [r.inertia for r in roles.rotors if r.inertia] + [d for shaft in roles.shafts for d in shaft.discs]
+    members = [(rod.inertia, rod.mass, rod.length) for rod in roles.rods if rod.inertia in letters]
+    members += [(member.inertia, member.mass, member.length) for member in roles.members]
+    return Proportions(
+        stroke=max(strokes),
+        rod_ratio=ratios[0] if ratios else None,
+        pistons=max(len(roles.pistons), 1),
+        moving=tuple(Reciprocating(letters=text, mass=size(text), axis=axis) for text, axis in moving.items()),
+        mass=sum(letters[letter] for letter, unit in units.items() if unit == "kg"),
+        shafts={str(text): size(text) for text in shafts},
+        parts={str(text): (size(text), size(mass) * size(length) ** 2) for text, mass, length in members},
+        unbalances={letter: letters[letter] for letter, unit in units.items() if unit == "kg*m"},
+    )

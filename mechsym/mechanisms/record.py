@@ -12,16 +12,20 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING
 
 import casadi as ca
 import numpy as np
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.multipliers import with_multipliers
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Radian, Scalar
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
 
 
 @record
@@ -39,6 +43,14 @@ class Mechanism:
     dependents: Mapping[str, float] = dataclasses.field(
         default_factory=dict
     )  #: Held by constraints, with their guesses
+
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Of coordinates that are no angles [rad]
+
+    @property
+    def state_units(self) -> tuple[str, ...]:
+        """Units of the coordinates, then of the velocities."""
+        found = tuple(self.units.get(q, "rad") for q in self.coordinates)
+        return (*found, *(f"{unit}/s" for unit in found))
 
     # a mechanism is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__
@@ -69,10 +81,10 @@ class LazyFunctions(Mapping[str, ca.Function]):
 class BoundFunctions(LazyFunctions):
     """The functions of a generated module for given parameters."""
 
-    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Any]) -> None:
+    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Scalar]) -> None:
         build = functools.partial(casadi_function, module)
         super().__init__({n: functools.partial(build, n, letters[n], values) for n in module.FUNCTIONS})
-        self.module, self.values_bound = module, values
+        self.module = module
 
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
@@ -92,50 +104,52 @@ def _coordinates(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
 def generated(name: str) -> ModuleType:
     """The generated module of a mechanism.
 
-    Returns
-    -------
-    module : module
-        Tables of names and plain functions for floats or CasADi symbols
+    Returns module: tables of names and plain functions for floats or CasADi symbols.
     """
     if own.is_file(name):
         return own.load(name).module
+    if not (resources.files("mechsym.generated") / f"{name}.py").is_file():
+        if name in own.packaged():
+            raise BadInput(f"{name} is put together from its data; export a case of it, for example alpha-stirling")
+        raise BadInput(f"{name!r} is no mechanism; {suggest(name, own.packaged())}")
     return import_module(f"mechsym.generated.{name}")
 
 
-def listing(name: str) -> dict[str, Any]:
+def listing(name: str) -> "Listing":
     """Letters, units, source and equations of a mechanism, as stored by the derivation."""
     if own.is_file(name):
-        return dict(own.load(name).listing)
-    return json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text(encoding="utf-8"))
+        return own.load(name).listing.copy()
+    return _stored(name).copy()
 
 
-def bind(name: str, parameters: Mapping[str, Any]) -> Mechanism:
+@functools.lru_cache(maxsize=16)
+def _stored(name: str) -> "Listing":
+    stored = resources.files("mechsym.generated") / "equations" / f"{name}.json"
+    if not stored.is_file():
+        raise BadInput(f"mechanism {name!r} is not known; {suggest(name, own.packaged())}")
+    return json.loads(stored.read_text(encoding="utf-8"))
+
+
+def bind(name: str, parameters: Mapping[str, Scalar]) -> Mechanism:
     """Build the named CasADi functions of a generated module for given parameters.
 
-    Parameters
-    ----------
-    parameters : mapping of str to float or casadi.SX
-        A value for every parameter; symbols make functions that can be differentiated by them
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Functions with scalar inputs; a row vector (1, n) maps over its columns
+    parameters: mapping of str to float or casadi.SX, a value for every parameter; symbols make functions that can be
+    differentiated by them. Returns mechanism: functions with scalar inputs; a row vector (1, n) maps over its columns.
     """
     module = generated(name)
     values = tuple((p, parameters[p]) for p in module.PARAMETERS if p in parameters)
     if len(values) == len(module.PARAMETERS) and all(isinstance(v, float) for _, v in values):
         return _bound(module, name, values, repr(values))
-    return dataclasses.replace(bind_module(module, parameters), name=name)
+    return dataclasses.replace(bind_module(module, parameters), name=name, units=listing(name)["coordinates"])
 
 
 # points of a sweep, and trials of one engine, ask for the same mechanism again; the text tells 0 from -0
 @functools.lru_cache(maxsize=64)
 def _bound(module: ModuleType, name: str, values: tuple[tuple[str, float], ...], text: str) -> Mechanism:
-    return dataclasses.replace(bind_module(module, dict(values)), name=name)
+    return dataclasses.replace(bind_module(module, dict(values)), name=name, units=listing(name)["coordinates"])
 
 
-def bind_module(module: ModuleType, parameters: Mapping[str, Any]) -> Mechanism:
+def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechanism:
     """The named CasADi functions of a generated module for given parameters, see `bind`."""
     name = module.NAME
     missing = [p for p in module.PARAMETERS if p not in parameters]
@@ -163,23 +177,12 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Any]) -> Mechanism:
 
 
 def casadi_function(
-    module: ModuleType, function: str, letters: Sequence[str], parameters: Mapping[str, Any]
+    module: ModuleType, function: str, letters: Sequence[str], parameters: Mapping[str, Scalar]
 ) -> ca.Function:
     """One generated function as a casadi.Function with named inputs and outputs.
 
-    Parameters
-    ----------
-    function : str
-        Name of one of its functions
-    letters : sequence of str
-        Names of the inputs, in order
-    parameters : mapping of str to value
-        Values or symbols for the other arguments
-
-    Returns
-    -------
-    function : casadi.Function
-        Scalar outputs; for `dynamics` the matrix and the two vectors
+    letters: names of the inputs, in order; parameters: mapping of str to value, values or symbols for the other
+    arguments. Returns function: scalar outputs; for `dynamics` the matrix and the two vectors.
     """
     symbols = {name: ca.SX.sym(name) for name in letters}
     arguments, outputs = module.FUNCTIONS[function]
@@ -214,10 +217,7 @@ def _constraint_matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict
 def acceleration_function(mechanism: Mechanism) -> ca.Function:
     r"""Accelerations :math:`\ddot q = M^{-1}(Q - h)` of a mechanism without constraints.
 
-    Returns
-    -------
-    function : casadi.Function
-        Same inputs as `dynamics`; one output `acceleration`, shape (n, 1)
+    Returns function: same inputs as `dynamics`; one output `acceleration`, shape (n, 1).
     """
     dynamics = mechanism.functions["dynamics"]
     inputs = [ca.SX.sym(dynamics.name_in(i)) for i in range(dynamics.n_in())]
@@ -227,20 +227,12 @@ def acceleration_function(mechanism: Mechanism) -> ca.Function:
     return ca.Function("acceleration", inputs, [solved], dynamics.name_in(), ["acceleration"])
 
 
-def evaluate(mechanism: Mechanism, group: str, **letters: Any) -> dict[str, np.ndarray]:
+def evaluate(mechanism: Mechanism, group: str, **letters: Scalar) -> dict[str, np.ndarray]:
     """A group of functions of a mechanism along arrays of its letters.
 
-    Parameters
-    ----------
-    group : str
-        `kinematics`, `dynamics`, `energy`, `reactions`, `momentum`: one that the mechanism has
-    **letters : float or ndarray, shape (n,)
-        Coordinates, velocities, accelerations and inputs, SI; what is not named is 0 [SI]
-
-    Returns
-    -------
-    values : dict of str to ndarray, shape (n,)
-        By output name; vectors and matrices of several coordinates have their own axes before that of the points [SI]
+    group: `kinematics`, `dynamics`, `energy`, `reactions`, `momentum`: one that the mechanism has. **letters:
+    coordinates, velocities, accelerations and inputs, SI; what is not named is 0 [SI]. Returns values: by output name;
+    vectors and matrices of several coordinates have their own axes before that of the points [SI].
 
     Raises
     ------
@@ -259,13 +251,7 @@ def evaluate(mechanism: Mechanism, group: str, **letters: Any) -> dict[str, np.n
     return along(mechanism.functions[group], letters)
 
 
-def curves(mechanism: Mechanism, phi: np.ndarray) -> dict[str, np.ndarray]:
-    """Kinematic outputs of a one-coordinate mechanism along an array of angles.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    """
+def curves(mechanism: Mechanism, phi: Radian[Array]) -> dict[str, np.ndarray]:
+    """Kinematic outputs of a one-coordinate mechanism along an array of angles."""
     (q,) = mechanism.coordinates
     return evaluate(mechanism, "kinematics", **{q: phi})

@@ -1,17 +1,28 @@
 """Matrices of a torsionally elastic shaft, for torsional analysis: inertia, stiffness, damping."""
 
-from typing import Any
+from dataclasses import asdict
 
 import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
 from mechsym.errors import BadInput
+from mechsym.mechanisms.amounts import amount
+from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.traits import ElasticShaft, name_of, traits_of
 from mechsym.quantities import record
+from mechsym.quantities.records import Record
 
 _POINTS = 720
+
+
+@record
+class ElasticShaft:
+    """A shaft that twists, from its free end to the flywheel."""
+
+    discs: tuple[float, ...]  #: Inertia of each alone [kg*m^2]
+    k: tuple[float, ...]  #: Stiffness of each section [N*m/rad]
+    c: tuple[float, ...]  #: Damping of each section [N*m*s/rad]
 
 
 @record
@@ -25,55 +36,35 @@ class ShaftMatrices:
     damping: np.ndarray  #: shape (n, n): Damping [N*m*s/rad]
 
 
-def is_elastic(parameters: Any) -> bool:
-    """Whether parameters are those of a shaft that twists."""
-    known = traits_of(name_of(type(parameters)))
-    return known is not None and known.shaft is not None
+def elastic(name: str, parameters: Record) -> ElasticShaft | None:
+    """The shaft of a mechanism with numbers; None where it does not twist."""
+    for role in plan_of(name).parts(parameters).shafts:
+        letters = asdict(parameters)
+        sizes = ((float(amount(size, letters)) for size in row) for row in (role.discs, role.stiffness, role.damping))
+        discs, k, c = map(tuple, sizes)
+        return ElasticShaft(discs=discs, k=k, c=c)
+    return None
 
 
-def matrices(parameters: Any) -> ShaftMatrices:
-    """Matrices of an elastic shaft, of the record of its mechanism."""
-    name = name_of(type(parameters))
-    (k, c), mechanism = springs(parameters), mechanisms.build(name, parameters)
+def matrices(name: str, parameters: Record) -> ShaftMatrices:
+    """Matrices of the shaft of a mechanism that has one which twists."""
+    mechanism, shaft = mechanisms.build(name, parameters), elastic(name, parameters)
+    if shaft is None:
+        raise BadInput(f"{name} has no elastic shaft; declare it with m.shaft(..)")
     return ShaftMatrices(
         coordinates=mechanism.coordinates,
-        inertia=np.diag(_elastic(parameters).discs(parameters)),
+        inertia=np.diag(shaft.discs),
         inertia_mean=_mean_mass(mechanism),
-        stiffness=chain(k),
-        damping=chain(c),
+        stiffness=chain(shaft.k),
+        damping=chain(shaft.c),
     )
-
-
-def springs(parameters: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Stiffness and damping of each section of the shaft, from the free end to the flywheel.
-
-    Returns
-    -------
-    k, c : tuple of float
-        One a section [N*m/rad, N*m*s/rad]
-    """
-    return _elastic(parameters).springs(parameters)
-
-
-def _elastic(parameters: Any) -> ElasticShaft:
-    known = traits_of(name_of(type(parameters)))
-    if known is None or known.shaft is None:
-        raise BadInput(f"{type(parameters).__name__} has no elastic shaft")
-    return known.shaft
 
 
 def chain(values: tuple[float, ...]) -> np.ndarray:
     """Matrix of springs (or dampers) between neighbours of a free chain.
 
-    Parameters
-    ----------
-    values : tuple of float
-        Stiffness or damping from each disc to the next [N*m/rad] or [N*m*s/rad]
-
-    Returns
-    -------
-    matrix : ndarray, shape (n + 1, n + 1)
-        Symmetric, rows sum to zero [N*m/rad] or [N*m*s/rad]
+    values: stiffness or damping from each disc to the next [N*m/rad] or [N*m*s/rad]. Returns matrix: symmetric, rows
+    sum to zero [N*m/rad] or [N*m*s/rad], shape (n + 1, n + 1).
     """
     differences = np.diff(np.eye(len(values) + 1), axis=0)
     return differences.T @ np.diag(values) @ differences

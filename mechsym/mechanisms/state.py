@@ -1,7 +1,7 @@
 """Everything that is known of a mechanism at one state, with or without constraints."""
 
+import types
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -9,21 +9,36 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
+from mechsym.quantities.results import Columns, part, quantity, result
 
 
-def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
+@result
+class MechanismState:
+    """What is known of a mechanism at one state; lists go along its coordinates."""
+
+    mass_matrix: list[list[float]] = quantity("@inertia")  #: Generalised inertia
+    bias: list[float] = quantity("@push")  #: Forces of inertia at no acceleration
+    generalized_force: list[float] = quantity("@push")  #: Of inputs, gravity, springs and dampers
+    acceleration: list[float] = quantity("@rate")  #: Of the coordinates
+    kinetic_energy: float | None = quantity("J")  #: None of a model given only by its equations
+    potential_energy: float | None = quantity("J")  #: Of gravity and springs
+    outputs: Columns = part()  #: Travels, their slopes, reactions, as the declaration names them
+    inertia: str
+    push: str
+    rate: str
+
+
+_UNITS = {"rad": ("kg*m^2", "N*m", "rad/s^2"), "m": ("kg", "N", "m/s^2")}
+_MIXED = ("of its coordinates",) * 3
+
+
+def state(
+    mechanism: Mechanism, values: Mapping[str, float], units: Mapping[str, str] = types.MappingProxyType({})
+) -> MechanismState:
     """Everything that is known of a mechanism at one state.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Coordinates, velocities and inputs; what is not named is 0, or what the constraints make it
-
-    Returns
-    -------
-    state : dict
-        Keys mass_matrix, bias, generalized_force, acceleration, kinetic_energy, potential_energy, outputs; the
-        energies are None for a model given only by its equations
+    values: coordinates, velocities and inputs; what is not named is 0, or what the constraints make it. units: of
+    outputs, where they are to be told.
     """
     q, u = mechanism.coordinates, velocities(mechanism)
     values, qdd, joint_forces = _motion(mechanism, values)
@@ -41,8 +56,13 @@ def state(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, Any]:
     energies: dict[str, float | None] = {"kinetic_energy": None, "potential_energy": None}
     if "energy" in mechanism.functions:
         energies |= _named(mechanism.functions["energy"], numbers([*q, *u]))
-    vectors = {"mass_matrix": mass.tolist(), "bias": bias.ravel().tolist(), "generalized_force": force.ravel().tolist()}
-    return vectors | {"acceleration": qdd.tolist()} | energies | {"outputs": outputs}
+    kinds = {mechanism.units.get(name, "rad") for name in q}
+    inertia, push, rate = _UNITS.get(kinds.pop(), _MIXED) if len(kinds) == 1 else _MIXED
+    return MechanismState(
+        mass_matrix=mass.tolist(), bias=bias.ravel().tolist(), generalized_force=force.ravel().tolist(),
+        acceleration=qdd.tolist(), outputs=Columns(outputs, {**dict.fromkeys(outputs, ""), **units}), **energies,
+        inertia=inertia, push=push, rate=rate,
+    )  # fmt: skip
 
 
 def _motion(

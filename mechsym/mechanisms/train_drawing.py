@@ -11,15 +11,15 @@ Cylinders of a bank stand at their places along the shaft; where the case gives 
 import functools
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
 from mechsym.mechanisms.crank_train.parameters import each, local_shift
 from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, box, extent_of, slider_crank, turned, width_of
+from mechsym.quantities.units import Scalar
 
 
-def crank_train(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+def crank_train(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | Circle]:
     """Shapes at a shaft angle [rad]; a bore [m], or None for one in proportion."""
     end = tuple(_at_the_end(p, angle, bore))
     if not _one_shaft(p):
@@ -34,11 +34,11 @@ def crank_train(p: Any, angle: float, bore: float | None) -> Iterable[Line | Cir
             start += places[-1] + 1.2 * places[0]
 
 
-def _one_shaft(p: Any) -> bool:
+def _one_shaft(p: Scalar) -> bool:
     return len(set(zip(each(p, "axis_x"), each(p, "axis_y"), strict=True))) == 1
 
 
-def _banks(p: Any) -> list[list[int]]:
+def _banks(p: Scalar) -> list[list[int]]:
     """Cylinders that would hide each other at the end, in the order along the shaft."""
     found: dict[tuple[float, float], list[int]] = {}
     for i in sorted(range(len(p.throw)), key=lambda i: (p.throw[i], each(p, "z_rod")[i])):
@@ -46,7 +46,7 @@ def _banks(p: Any) -> list[list[int]]:
     return list(found.values())
 
 
-def _at_the_end(p: Any, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+def _at_the_end(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | Circle]:
     """Every crank, but one piston a bank; of two shafts every piston."""
     shown = {bank[0] for bank in _banks(p)} if _one_shaft(p) else set(range(len(p.throw)))
     for i, k in enumerate(p.throw):
@@ -59,14 +59,14 @@ def _at_the_end(p: Any, angle: float, bore: float | None) -> Iterable[Line | Cir
 
 
 @functools.lru_cache(maxsize=64)
-def _right_of_end(p: Any, bore: float | None) -> float:
+def _right_of_end(p: Scalar, bore: float | None) -> float:
     def end(angle: float) -> Shapes:
         return tuple(turned(_at_the_end(p, angle, bore), math.pi / 2))
 
     return extent_of(end)[1]
 
 
-def _places(p: Any, bank: Sequence[int], bore: float | None) -> list[float]:
+def _places(p: Scalar, bank: Sequence[int], bore: float | None) -> list[float]:
     """Where the cylinders of a bank stand along the shaft, from a margin on [m]."""
     width = max(width_of(bore, 2 * each(p, "r")[i]) for i in bank)
     z = [each(p, "z")[p.throw[i] - 1] + each(p, "z_rod")[i] for i in bank]
@@ -76,7 +76,7 @@ def _places(p: Any, bank: Sequence[int], bore: float | None) -> list[float]:
 
 
 def _along(
-    p: Any, bank: Sequence[int], places: Sequence[float], angle: float, bore: float | None
+    p: Scalar, bank: Sequence[int], places: Sequence[float], angle: float, bore: float | None
 ) -> Iterable[Line | Circle]:
     """One bank in its own plane: x along the shaft, y along the cylinders."""
     pitch = places[1] - places[0]

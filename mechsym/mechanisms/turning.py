@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Any
 
 import numpy as np
 
+from mechsym.files import Json
 from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, extent_of
+from mechsym.quantities.units import Pure
 from mechsym.style import BLUE, DARK, GREEN, INK, PAPER, QUIET, RED, VIOLET
 from mechsym.style.palette import GAS, PISTON, ROLLER, WHEEL
 
@@ -33,13 +34,10 @@ def ordered(found: Iterable[Line | Circle]) -> list[Line | Circle]:
     return sorted(found, key=lambda shape: list(STYLES).index(shape.role))
 
 
-def scene(drawn: Callable[[float], Shapes], name: str, turns: float = 1.0, frames: int = FRAMES) -> dict[str, Any]:
+def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames: int = FRAMES) -> Json:
     """A drawing over the crank angle as a page moves it, with a name for what it shows.
 
-    Parameters
-    ----------
-    turns : float
-        Of the crank, after which it begins again [-]
+    turns: of the crank, after which it begins again.
     """
     left, right, low, high = extent_of(drawn)
     pad = 0.04 * max(right - left, high - low)

@@ -1,9 +1,9 @@
 """Machine code for generated functions: evaluation, integration and marching in emitted C, with a way without it.
 
 tape.py       a CasADi function as plain instructions        kernels.py   equal parts rolled into loops
-emit.py       C text                                         cache.py     compiled files, checked before use
+rewrite.py    cheaper forms of it                            emit.py      C text
 evaluate.py   scalar and batch calls                         fallback.py  the same without a compiler
-arc.py        motion along the arc length of each angle      series.py    angle and slope over it
+cache.py      compiled files, checked before use             arc.py       motion along the arc length of each angle
 adams.py      steps that look back, in lanes                 c/adams.h    their control
 integrate.py  runs in time: DOP853 in lanes, collocation     fold.py      equal Runge-Kutta steps at many designs
 march.py      a recurrence over stages in many lanes         external.py  functions with derivatives for CasADi

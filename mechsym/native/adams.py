@@ -14,10 +14,9 @@ import casadi
 import numpy as np
 
 from mechsym.native import emit
-from mechsym.native.arc import Form, form
+from mechsym.native.arc import Arcs, Form, arcs, form
 from mechsym.native.integrators import dop853
-from mechsym.native.kernels import Kernel, constant_table
-from mechsym.native.series import Arcs, arcs
+from mechsym.native.kernels import constant_table
 from mechsym.native.source import Program, header, program
 from mechsym.quantities import record
 
@@ -51,51 +50,45 @@ class LookingBack:
 def ready(rates: casadi.Function, held: np.ndarray, states: Collection[int], mode: str) -> LookingBack | None:
     """What runs need to look back, where they can; `states` are those that surfaces are of.
 
-    Parameters
-    ----------
-    held : ndarray, shape (runs, segments, p)
-        Held values [SI]
+    held: held values [SI], shape (runs, segments, p).
     """
     parts = _parts(rates.serialize(), mode)
     if parts is None or len(parts.works.tape.inputs) > _MOST:
         return None
     if not set(states) <= {*parts.form.angles, *parts.form.speeds}:
         return None
-    found = arcs(parts.form, np.ascontiguousarray(held).tobytes(), held.shape)
-    return None if found is None else LookingBack(parts=parts, arcs=found)
+    series = arcs(parts.form, np.ascontiguousarray(held).tobytes(), held.shape)
+    return None if series is None else LookingBack(parts=parts, arcs=series)
 
 
 @functools.lru_cache(maxsize=256)
 def _parts(stored: str, mode: str) -> FormPrograms | None:
-    found = form(stored)
-    if found is None:
+    of = form(stored)
+    if of is None:
         return None
-    return FormPrograms(form=found, forces=program(found.forces, mode), works=program(found.works, mode))
+    return FormPrograms(form=of, forces=program(of.forces, mode), works=program(of.works, mode))
 
 
-def constants(of: Program, made: LookingBack) -> list[np.ndarray]:
+def constants(of: Program, back: LookingBack) -> list[np.ndarray]:
     """The constants of each run: of the rates, of the programs of the form, of the series.
 
-    Returns
-    -------
-    tables : list of ndarray
-        One for each run [SI]
+    Returns tables: one for each run [SI].
     """
-    same = [constant_table(p.kernels) for p in (of, made.parts.forces, made.parts.works)]
-    found = made.arcs
-    runs = found.scale.shape[1]
-    rows = [np.concatenate([s.reshape(-1, runs), c[None]]) for s, c in zip(found.series, found.scale, strict=True)]
+    same = [constant_table(p.kernels) for p in (of, back.parts.forces, back.parts.works)]
+    series, scale = back.arcs.series, back.arcs.scale
+    runs = scale.shape[1]
+    rows = [np.concatenate([s.reshape(-1, runs), c[None]]) for s, c in zip(series, scale, strict=True)]
     return [np.concatenate([*same, *(r[:, i] for r in rows)]) for i in range(runs)]
 
 
-def text(rates: Program, lanes: int, made: LookingBack) -> str:
+def text(rates: Program, lanes: int, back: LookingBack) -> str:
     """A file that exports `ms_adams`, see `c/run.h` for its argument."""
-    return _text(rates, lanes, made.parts, (made.arcs.terms, made.arcs.even, made.arcs.turns))
+    return _text(rates, lanes, back.parts, (back.arcs.terms, back.arcs.even, back.arcs.turns))
 
 
 @functools.lru_cache(maxsize=64)
 def _text(rates: Program, lanes: int, parts: FormPrograms, terms: tuple[int, bool, bool]) -> str:
-    of, before = parts.form, [_size(p.kernels) for p in (rates, parts.forces, parts.works)]
+    of, before = parts.form, [len(constant_table(p.kernels)) for p in (rates, parts.forces, parts.works)]
     sizes = {
         "MS_A": len(of.angles), "MS_RO": len(of.read), "MS_UO": len(of.unread), "MS_TURNS": int(terms[2]),
         "MS_SERIES": sum(before), "MS_FORCES_AT": before[0], "MS_WORKS_AT": sum(before[:2]),
@@ -117,11 +110,6 @@ def _text(rates: Program, lanes: int, parts: FormPrograms, terms: tuple[int, boo
     )
 
 
-def _size(found: tuple[Kernel, ...]) -> int:
-    """Constants of a program in the table, which is never empty."""
-    return max(sum(len(row) for kernel in found for row in kernel.constants), 1)
-
-
 def _rows(program: Program, lanes: int) -> str:
     name = program.tape.name
     if not program.tape.outputs:
@@ -141,9 +129,13 @@ def _bent(of: Form, terms: int, even: bool) -> str:
         texts = [_polynomial(place + j * terms, terms) for j in range(6)]
         # an even inertia has cosines in G, sines in q - x and dG/dx
         slope, angle, change = (
-            texts[2 * j + (j > 0)] if even and j == 0 else f"s * ({texts[2 * j + 1]})" if even
-            else f"({texts[2 * j]}) + s * ({texts[2 * j + 1]})" for j in range(3)
-        )  # fmt: skip
+            texts[2 * j + (j > 0)]
+            if even and j == 0
+            else f"s * ({texts[2 * j + 1]})"
+            if even
+            else f"({texts[2 * j]}) + s * ({texts[2 * j + 1]})"
+            for j in range(3)
+        )
         unbend.append(
             f"MS_EACH\n    {{\n        double s, c;\n        ms_sincos(arc[{i}][l], &s, &c);\n"
             f"        const double z = c * c;\n        slope[{i}][l] = {slope};\n        bend[{i}][l] = {change};\n"
@@ -180,14 +172,14 @@ def _polynomial(place: int, terms: int) -> str:
 
 def lagrange(nodes: list[int]) -> list[_Row]:
     """Polynomials that are 1 at one node and 0 at the others, lowest power first."""
-    found = []
+    polynomials = []
     for j, own in enumerate(nodes):
         row, below = [1], 1
         for other in nodes[:j] + nodes[j + 1 :]:
             row = [a - other * b for a, b in zip([0, *row], [*row, 0], strict=True)]
             below *= own - other
-        found.append([Fraction(a, below) for a in row])
-    return found
+        polynomials.append([Fraction(a, below) for a in row])
+    return polynomials
 
 
 def integrals(rows: list[_Row]) -> tuple[list[_Row], list[_Row]]:
@@ -203,7 +195,7 @@ def numbers() -> str:
     behind = [-j for j in range(BACK)]
     around = [1 - j for j in range(BACK + 1)]
     polynomials = lagrange(behind)
-    once, twice = ([float(sum(row)) for row in found] for found in integrals(polynomials))
+    once, twice = ([float(sum(row)) for row in rows] for rows in integrals(polynomials))
     ahead = [float(sum(row)) for row in polynomials]
     inside_once, inside_twice = integrals(lagrange(around))
     longer = int(-(-(BACK - 1) * GROWTH // 1)) + 1
@@ -212,25 +204,18 @@ def numbers() -> str:
     macros = {"MS_ONCE": once, "MS_TWICE": twice, "MS_AHEAD": ahead}
     tables = {"ms_inside_once": inside_once, "ms_inside_twice": inside_twice, "ms_shrunk": shrink, "ms_grown": grow}
     lines = [f"enum {{ MS_BACK = {BACK}, MS_LONGER = {longer}, MS_STRIDES = {STRIDES} }};"]
-    lines += [f"#define {name} {_weighted(row)}" for name, row in macros.items()]
+    for name, row in macros.items():  # the newest rate is what a step waits for: it comes last
+        lines.append(f"#define {name} " + " + ".join(f"{row[j]!r} * MS_PAST({j})" for j in reversed(range(len(row)))))
     lines += [
         f"#define MS_NEW_ONCE {float(sum(inside_once[0]))!r}",
         f"#define MS_NEW_TWICE {float(sum(inside_twice[0]))!r}",
     ]
     lines += [f"#define MS_STRICT {STRICT!r}", f"#define MS_GROWTH {float(GROWTH)!r}"]
-    lines += [_table(name, rows) for name, rows in tables.items()]
+    for name, rows in tables.items():
+        text = ", ".join("{" + ", ".join(repr(float(a)) for a in row) + "}" for row in rows)
+        lines.append(f"static const double {name}[{len(rows)}][{len(rows[0])}] = {{{text}}};")
     return "\n".join(lines)
 
 
 def _at(row: _Row, x: Fraction) -> Fraction:
     return sum((a * x**i for i, a in enumerate(row)), Fraction(0))
-
-
-def _weighted(row: list[float]) -> str:
-    # the newest rate is what a step waits for: it comes last
-    return " + ".join(f"{row[j]!r} * MS_PAST({j})" for j in reversed(range(len(row))))
-
-
-def _table(name: str, rows: list[_Row]) -> str:
-    text = ", ".join("{" + ", ".join(repr(float(a)) for a in row) + "}" for row in rows)
-    return f"static const double {name}[{len(rows)}][{len(rows[0])}] = {{{text}}};"

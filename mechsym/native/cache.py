@@ -1,4 +1,4 @@
-"""Shared objects kept in the user's cache directory.
+"""Shared objects kept in the user's cache directory, and loaded: through ctypes, or as a Python module.
 
 A file is named <key>-<checksum>, in a folder named by the first two letters of the key, so that nobody reads thousands
 of names to find one: the key is the hash of everything that decides its contents (source, options, compiler, processor,
@@ -8,40 +8,32 @@ second replaces the file by an equally good one. A file whose bytes do not match
 Beyond 256 MB the files used longest ago are removed.
 """
 
+import atexit
 import contextlib
+import ctypes
+import functools
 import hashlib
+import importlib.machinery
+import importlib.util
 import os
 import shutil
-import sys
 import sysconfig
 import tempfile
 from pathlib import Path
+from types import ModuleType
 
-from mechsym.native import compiler
+from mechsym.files import user_cache
+from mechsym.native import cache, compiler
+from mechsym.quantities import record
+from mechsym.transaction import hidden, sweep_up
 
 _LENGTH = 24
 _MOST = 256 * 2**20  # bytes; a compiled function takes some tens of thousands
 
 
 def directory() -> Path:
-    """The cache directory; it need not exist.
-
-    Returns
-    -------
-    path : Path
-        XDG_CACHE_HOME/mechsym/native, or what the platform has instead
-    """
-    home = Path.home()
-    match sys.platform:
-        case "win32":
-            base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
-        case "darwin":
-            base = home / "Library" / "Caches"
-        case _:
-            base = home / ".cache"
-    named = os.environ.get("XDG_CACHE_HOME", "")
-    # the standard says to ignore a relative path
-    return (Path(named) if os.path.isabs(named) else base) / "mechsym" / "native"
+    """The cache directory; it need not exist."""
+    return user_cache() / "native"
 
 
 def key(source: str, options: tuple[str, ...], stamp: str) -> str:
@@ -53,45 +45,48 @@ def key(source: str, options: tuple[str, ...], stamp: str) -> str:
 def shared_object(source: str, mode: str) -> Path:
     """The shared object of a source, compiled when the cache has no sound one.
 
-    Returns
-    -------
-    path : Path
-        File whose contents have been checked
+    Returns path: file whose contents have been checked.
     """
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
     folder = writable() / name[:2]
     for path in sorted(folder.glob(f"{name}-*.so")):
-        if path.name == _named(name, path):
-            os.utime(path)  # used today, see `_prune`
-            return path
-        path.unlink(missing_ok=True)
-    return _build(source, program, options, name, folder)
-
-
-def _build(source: str, program: compiler.Compiler, options: tuple[str, ...], name: str, folder: Path) -> Path:
-    folder.mkdir(exist_ok=True, mode=0o700)
-    with tempfile.TemporaryDirectory(dir=folder, prefix="build-") as made:
-        text, binary = Path(made) / f"{name}.c", Path(made) / f"{name}.so"
+        with contextlib.suppress(OSError):  # another process has removed it, or the disk does not give it
+            if path.name == _named(name, path):
+                os.utime(path)  # used today, see `_prune`
+                return path
+            path.unlink(missing_ok=True)
+    own = hidden(folder / "build")
+    text, binary = own / f"{name}.c", own / f"{name}.so"
+    try:
+        folder.mkdir(exist_ok=True, mode=0o700)
+        own.mkdir(mode=0o700)
         text.write_text(source, encoding="utf-8")
         compiler.compile_file(program, text, binary, options)
         target = folder / _named(name, binary)
         os.replace(text, folder / text.name)
         os.replace(binary, target)
+    except OSError as error:  # the disk
+        raise compiler.NoCompiler(f"nothing compiled can be kept in {folder}: {error}") from None
+    finally:
+        shutil.rmtree(own, ignore_errors=True)
     _prune(folder.parent, target)
     return target
 
 
-def _prune(folder: Path, kept: Path) -> None:
-    """Remove what was used longest ago when the cache has grown too large."""
-    found = []
+def _prune(folder: Path, newest: Path) -> None:
+    """Remove what killed processes left, and what was used longest ago when the cache has grown too large."""
+    for letters in folder.glob("??"):
+        sweep_up(letters)
+    files = []
     for path in _entries(folder):
         with contextlib.suppress(OSError):  # another process may have removed it
             status = path.stat()
-            found += [(status.st_mtime, status.st_size, path)] if path.is_file() and path != kept else []
-    size = sum(s for _, s, _ in found)
-    for _, length, path in sorted(found) if size > _MOST else ():
-        path.unlink(missing_ok=True)
+            files += [(status.st_mtime, status.st_size, path)] if path.is_file() and path != newest else []
+    size = sum(s for _, s, _ in files)
+    for _, length, path in sorted(files) if size > _MOST else ():
+        with contextlib.suppress(OSError):
+            path.unlink(missing_ok=True)
         size -= length
         if size <= _MOST // 2:
             break
@@ -107,32 +102,22 @@ def writable() -> Path:
     try:
         if not folder.is_dir():  # asking is cheaper than making what is there
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if os.access(folder, os.W_OK | os.X_OK) and _ours(folder):
+        status = folder.stat()
+        # what others may write into is not a place to load code from
+        ours = not hasattr(os, "getuid") or status.st_uid == os.getuid() and not status.st_mode & 0o022
+        if os.access(folder, os.W_OK | os.X_OK) and ours:
             return folder
     except OSError:
         pass
-    return Path(_private())
+    return _private()
 
 
-def _ours(folder: Path) -> bool:
-    # what others may write into is not a place to load code from
-    if not hasattr(os, "getuid"):
-        return True
-    status = folder.stat()
-    return status.st_uid == os.getuid() and not status.st_mode & 0o022
-
-
-_PRIVATE: list[str] = []
-
-
-def _private() -> str:
-    # without a home that can be written to, the files live as long as the process
-    if not _PRIVATE:
-        import atexit
-
-        _PRIVATE.append(tempfile.mkdtemp(prefix="mechsym-"))
-        atexit.register(shutil.rmtree, _PRIVATE[0], ignore_errors=True)
-    return _PRIVATE[0]
+@functools.cache
+def _private() -> Path:
+    """Without a home that can be written to, the files live as long as the process."""
+    folder = tempfile.mkdtemp(prefix="mechsym-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
 
 
 def _entries(folder: Path) -> list[Path]:
@@ -150,3 +135,87 @@ def clear() -> int:
     if directory().is_dir():
         shutil.rmtree(directory(), ignore_errors=True)
     return len(files)
+
+
+def load(source: str, mode: str) -> ctypes.CDLL:
+    """Compile a source when needed and load it; compiler and cache may be others than the last time, or none.
+
+    Returns library: its `_name` is the path of the file.
+
+    Raises
+    ------
+    NoCompiler
+        What the compiler made cannot be loaded, and is not kept
+    """
+    return _loaded(source, mode, compiler.find(), directory())
+
+
+@functools.lru_cache(maxsize=256)
+def _loaded(source: str, mode: str, program: compiler.Compiler, _home: Path) -> ctypes.CDLL:
+    path = shared_object(source, mode)
+    try:
+        return ctypes.CDLL(str(path))
+    except OSError as error:
+        path.unlink(missing_ok=True)
+        why = str(error).removeprefix(f"{path}: ")
+        raise compiler.NoCompiler(
+            f"{program.command[0]} made what cannot be loaded ({why}); name another in CC"
+        ) from None
+
+
+@functools.lru_cache(maxsize=256)
+def module(path: str) -> ModuleType | None:
+    """The same file as a Python extension module.
+
+    path: path of a loaded shared object. Returns module: None when it was compiled without Python's headers.
+    """
+    loader = importlib.machinery.ExtensionFileLoader("mechsym_native", path)
+    spec = importlib.util.spec_from_file_location("mechsym_native", path, loader=loader)
+    assert spec is not None
+    try:
+        extension = importlib.util.module_from_spec(spec)
+    except ImportError:
+        return None
+    loader.exec_module(extension)
+    return extension
+
+
+@record
+class Info:
+    """State of the native route."""
+
+    route: str  #: `C`, or `numpy` without a compiler
+    reason: str  #: Why it is not C, else empty
+    #: Path of the compiler and what it says of itself
+    compiler: str | None
+    version: str | None
+    flags: dict[str, tuple[str, ...]]
+    processor: str  #: Processor that code is compiled for
+    #: Folder of Python.h; without it scalar calls go through ctypes and cost about a microsecond
+    python_header: str | None
+    cache: str
+    #: Files in it and their size [byte]
+    files: int
+    size: int
+
+
+def info() -> Info:
+    """Look for a compiler and at the cache."""
+    program, reason = None, ""
+    try:
+        program = compiler.find()
+    except compiler.NoCompiler as error:
+        reason = str(error)
+    files = cache.contents()
+    return Info(
+        route="C" if program else "numpy",
+        reason=reason,
+        compiler=" ".join(program.command) if program else None,
+        version=compiler.version(program) if program else None,
+        flags={mode: compiler.flags(mode) for mode in compiler.MODES},
+        processor=compiler.processor(),
+        python_header=compiler.python_header(),
+        cache=str(cache.directory()),
+        files=len(files),
+        size=sum(p.stat().st_size for p in files),
+    )

@@ -1,15 +1,19 @@
 """Which C compiler there is, how it is called, and for which processor."""
 
+import contextlib
 import functools
 import hashlib
 import os
 import platform
 import shlex
 import shutil
+import signal
 import subprocess
 import sysconfig
+from collections.abc import Sequence
 from pathlib import Path
 
+from mechsym import budget
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -18,9 +22,13 @@ MODES = {
     "strict": ("-ffp-contract=off",),
     "fast": ("-ffp-contract=fast",),
 }
+_PER_BYTE, _SPACE = 5e-5, 1e3  # of C: time [s] and memory [B] of a compiler at most, as seen of splines
 _COMMON = ("-std=gnu11", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-fno-math-errno", "-fno-trapping-math",
            # the few points after the last full vector are not worth a second vector loop to compile
            "--param", "vect-epilogues-nomask=0")  # fmt: skip
+
+
+PATIENCE = 300.0  # the largest sources take some ten seconds [s]
 
 
 class NoCompiler(Exception):
@@ -44,12 +52,12 @@ def find() -> Compiler:
 def _find(named: str, path: str) -> Compiler:
     tried = [shlex.split(named)] if named.strip() else [["gcc"], ["clang"], ["cc"]]
     for command in tried:
-        found = shutil.which(command[0], path=path)
-        if found:
-            real = Path(found).resolve()
+        program = shutil.which(command[0], path=path)
+        if program:
+            real = Path(program).resolve()
             status = real.stat()
             stamp = f"{real} {status.st_size} {status.st_mtime_ns}"
-            return Compiler(command=(found, *command[1:]), stamp=stamp)
+            return Compiler(command=(program, *command[1:]), stamp=stamp)
     names = ", ".join(c[0] for c in tried)
     raise NoCompiler(f"no C compiler found (tried {names}); install gcc or clang, or name one in the variable CC")
 
@@ -70,10 +78,7 @@ def flags(mode: str) -> tuple[str, ...]:
 def python_header() -> str | None:
     """Folder of Python.h.
 
-    Returns
-    -------
-    folder : str or None
-        None where Python's headers are not installed; scalar calls then go through ctypes
+    Returns folder: None where Python's headers are not installed; scalar calls then go through ctypes.
     """
     folder = sysconfig.get_paths()["include"]
     return folder if (Path(folder) / "Python.h").is_file() else None
@@ -83,10 +88,7 @@ def python_header() -> str | None:
 def processor() -> str:
     """Name and a short hash of the abilities of the processor; code compiled for one may not run on another.
 
-    Returns
-    -------
-    text : str
-        For example `Intel(R) Xeon(R) Processor 1a2b3c4d`
+    Returns text: for example `Intel(R) Xeon(R) Processor 1a2b3c4d`.
     """
     name, abilities = platform.processor() or platform.machine(), platform.version()
     try:
@@ -112,21 +114,58 @@ def version(compiler: Compiler) -> str:
 def compile_file(compiler: Compiler, source: Path, target: Path, options: tuple[str, ...]) -> None:
     """Compile one C file into a shared object.
 
-    Parameters
-    ----------
-    source, target : Path
-        C file to read, shared object to write
+    source, target: C file to read, shared object to write.
 
     Raises
     ------
     NoCompiler
         The compiler failed; the message has its first line of complaint
     """
-    command = [*compiler.command, *options, str(source), "-o", str(target), "-lm"]
+    call([*compiler.command, *options, str(source), "-o", str(target), "-lm"], source.name, target)
+
+
+def forecast(size: int, count: int = 1) -> None:
+    """Refuse to compile what takes longer than its budget; `size` in bytes of C, for `count` platforms."""
+    way_out = "keep fewer points of the diagram, or fewer cylinders"
+    budget.require(f"compiling {size / 1e6:.2g} MB of C", count * _PER_BYTE * size, _SPACE * size, way_out)
+
+
+def call(command: Sequence[str], what: str, target: Path, folder: Path | None = None) -> None:
+    """Let a compiler make `target` of `what`, in a folder; it ends in time, and with all processes that it started.
+
+    Raises
+    ------
+    NoCompiler
+        It cannot be run, does not end, fails, or makes nothing
+    """
+    name, other = " ".join(command[:4]) if "-m" in command[:2] else command[0], "name another compiler in CC"
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        process = subprocess.Popen(
+            command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
+            process_group=0 if os.name == "posix" else None,
+        )  # fmt: skip
     except OSError as error:
-        raise NoCompiler(f"{compiler.command[0]} cannot be run: {error}; name another compiler in CC") from None
-    if done.returncode:
-        said = [line for line in done.stderr.splitlines() if "error" in line] or done.stderr.splitlines() or ["no word"]
-        raise NoCompiler(f"{compiler.command[0]} failed on {source.name}: {said[0].strip()}")
+        raise NoCompiler(f"{name} cannot be run: {error}; {other}") from error
+    try:
+        _, said = process.communicate(timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        raise NoCompiler(f"{name} did not end in {PATIENCE:g} s; {other}") from None
+    finally:
+        _end(process)
+    if process.returncode:
+        lines = [line for line in said.splitlines() if "error" in line] or said.splitlines() or ["no word"]
+        raise NoCompiler(f"{name} failed on {what}: {lines[0].strip()}")
+    if not target.is_file():
+        raise NoCompiler(f"{name} says that it is done, and made nothing; {other}")
+
+
+def _end(process: "subprocess.Popen[str]") -> None:
+    """End a process that runs still, and those that it started."""
+    if process.poll() is None:
+        with contextlib.suppress(ProcessLookupError):
+            if os.name == "posix":
+                os.killpg(process.pid, signal.SIGKILL)
+            process.kill()
+        process.wait()
+    if process.stderr:
+        process.stderr.close()

@@ -8,6 +8,7 @@ import math
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Tape
+from mechsym.quantities.units import Pure
 
 # exponents that become products; beyond them the generic power is as exact and not slower
 _PRODUCTS = {2.0: "{0} * {0}", 3.0: "{0} * {0} * {0}", 4.0: "({0} * {0}) * ({0} * {0})"}
@@ -53,22 +54,16 @@ NUMPY = {
 def unknown(tape: Tape, dialect: dict[str, str]) -> list[str]:
     """Operators of a program that a dialect cannot write.
 
-    Returns
-    -------
-    operators : list of str
-        Sorted; empty when all can be written
+    Returns operators: sorted; empty when all can be written.
     """
     known = {*dialect, "input", "constant", "sin", "cos"}
     return sorted({op for op, _ in tape.nodes} - known)
 
 
-def expression(dialect: dict[str, str], op: str, args: list[str], exponent: float | None = None) -> str:
+def expression(dialect: dict[str, str], op: str, args: list[str], exponent: Pure | None = None) -> str:
     """One operation as text.
 
-    Parameters
-    ----------
-    exponent : float, optional
-        Value of a constant exponent, which may become products [-]
+    exponent: value of a constant exponent, which may become products.
     """
     if op == "pow" and exponent in _PRODUCTS:
         return _PRODUCTS[exponent].format(args[0])
@@ -82,15 +77,7 @@ def expression(dialect: dict[str, str], op: str, args: list[str], exponent: floa
 def literal(value: float) -> str | None:
     """Text of a constant that every dialect writes in place, or None when it belongs into the table of constants.
 
-    Parameters
-    ----------
-    value : float
-        The constant [SI]
-
-    Returns
-    -------
-    text : str or None
-        Small integers and halves have a text
+    value: the constant [SI]. Returns text: small integers and halves have a text.
     """
     small = math.isfinite(value) and abs(value) <= 16 and value * 2 == int(value * 2)
     return f"{value!r}" if small and value >= 0 else f"({value!r})" if small else None

@@ -2,7 +2,8 @@
 
 Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993,
 section II.5, and the program dop853.f that goes with it. Stages count from 1; stage 13 is the derivative at the end of
-the step, stages 14 to 16 are made only for dense output. `tests/native/test_dop853.py` checks the order conditions.
+the step, stages 14 to 16 are made only for dense output. `tests/native/test_integrate.py` checks the conditions of
+order.
 """
 
 NODES = (

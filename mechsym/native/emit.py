@@ -10,6 +10,7 @@ Inside it a compiler moves the reading into branches, which then cannot become v
 """
 
 from collections.abc import Callable, Container
+from typing import Any
 
 from mechsym.native import dialects
 from mechsym.native.kernels import Kernel
@@ -51,7 +52,7 @@ def body(kernel: Kernel, name: str) -> str:
     return _function(f"MS_INLINE void {name}({', '.join(arguments)})", lines)
 
 
-def _value(kernel: Kernel, names: list[str], op: str, args: tuple) -> tuple[str, bool]:
+def _value(kernel: Kernel, names: list[str], op: str, args: tuple[Any, ...]) -> tuple[str, bool]:
     # text of a node, and whether it needs a variable of its own
     match op:
         case "input":
@@ -70,15 +71,8 @@ def _value(kernel: Kernel, names: list[str], op: str, args: tuple) -> tuple[str,
 def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
     """A function over a fixed number of lanes.
 
-    Parameters
-    ----------
-    lanes : int
-        Number of lanes; 1 gives the function at one point
-
-    Returns
-    -------
-    text : str
-        C function `<name>_rows<lanes>(k, x, y)` with x[input * lanes + lane]
+    lanes: number of lanes; 1 gives the function at one point. Returns text: C function `<name>_rows<lanes>(k, x, y)`
+    with x[input * lanes + lane].
     """
     head = f"MS_INLINE void {name}_rows{lanes}(const double *restrict k, const double *restrict x, double *restrict y)"
     lines = [f"enum {{ m = {lanes} }};"]
@@ -89,10 +83,7 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
 def block(kernels: tuple[Kernel, ...], name: str) -> str:
     """A function over m points in columns, with the same constants at all of them.
 
-    Returns
-    -------
-    text : str
-        C function `<name>_block(m, k, x, y)`
+    Returns text: C function `<name>_block(m, k, x, y)`.
     """
     head = f"static void {name}_block(const long m, const double *restrict k, const double **x, double **y)"
     return _function(head, _loops(kernels, name, (lambda i: f"x[{i}]", lambda i: f"y[{i}]")))
@@ -101,18 +92,9 @@ def block(kernels: tuple[Kernel, ...], name: str) -> str:
 def stage(kernel: Kernel, name: str, sizes: tuple[int, int, int]) -> str:
     """One step of a march in m lanes: state and lane values in columns, stage values common to all lanes.
 
-    Parameters
-    ----------
-    kernel : Kernel
-        The whole step as one kernel with one instance
-    sizes : tuple of int
-        Numbers of states, of stage values and of lane values, the inputs in this order
-
-    Returns
-    -------
-    text : str
-        C function `<name>_stage(m, k, state, stage, lane, lanes, record)`; states lie `MS_W` apart and are replaced,
-        lane values and records `lanes`
+    kernel: the whole step as one kernel with one instance; sizes: numbers of states, of stage values and of lane
+    values, the inputs in this order. Returns text: C function `<name>_stage(m, k, state, stage, lane, lanes, record)`;
+    states lie `MS_W` apart and are replaced, lane values and records `lanes`.
     """
     states, stages, _ = sizes
     head = (

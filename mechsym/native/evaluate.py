@@ -9,14 +9,13 @@ Both routes take the same arguments and agree with the interpreted function to 1
 
 import ctypes
 import logging
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping
 
 import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import fallback, library, source
+from mechsym.native import cache, fallback, source
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.kernels import constant_table
 from mechsym.quantities import record
@@ -32,7 +31,9 @@ class Compiled:
     #: Scalar inputs and outputs in order; the elements of a vector y are `y[0]`, `y[1]`, a matrix goes by columns
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-    scalar: Callable[..., Any]  #: Floats -> float, or tuple of floats where there are several outputs
+    scalar: Callable[
+        ..., float | tuple[float, ...]
+    ]  #: Floats -> float, or tuple of floats where there are several outputs
     #: Arrays of shape (n,) or numbers -> ndarray of shape (outputs, n); `out=` takes an array to write into
     batch: Callable[..., np.ndarray]
     route: str
@@ -42,12 +43,8 @@ class Compiled:
 def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
     """One CasADi function as fast functions.
 
-    Parameters
-    ----------
-    function : casadi.Function
-        SX function, or an MX function that can be expanded
-    mode : str
-        `strict` (IEEE arithmetic as written) or `fast` (contracted products, reciprocals)
+    function: SX function, or an MX function that can be expanded; mode: `strict` (IEEE arithmetic as written) or `fast`
+    (contracted products, reciprocals).
 
     Examples
     --------
@@ -61,54 +58,59 @@ def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
 def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -> dict[str, Compiled]:
     """Several CasADi functions compiled into one file.
 
-    Parameters
-    ----------
-    functions : mapping of str to casadi.Function
-        For example the functions of a mechanism; their names differ
+    functions: for example the functions of a mechanism; their names differ.
     """
     programs = [source.program(f, mode) for f in functions.values()]
-    try:
-        _check(programs)
-        loaded = library.load(source.evaluation(programs), mode)
-    except NoCompiler as error:
-        _LOG.warning("numpy instead of C: %s", error)
-        made = [
-            fallback.record(Compiled, f, p.tape, str(error)) for f, p in zip(functions.values(), programs, strict=True)
-        ]
-    else:
-        made = [_record(loaded, number, p) for number, p in enumerate(programs)]
-    return dict(zip(functions, made, strict=True))
-
-
-def _check(programs: Sequence[source.Program]) -> None:
     names = [p.tape.name for p in programs]
     if len(set(names)) < len(names):
         raise BadInput(f"functions share a name ({', '.join(names)}); give each its own")
+    try:
+        loaded = cache.load(source.evaluation(programs), mode)
+    except NoCompiler as error:
+        _LOG.warning("numpy instead of C: %s", error)
+        pairs = zip(functions.values(), programs, strict=True)
+        both = [_without_compiler(f, p, str(error)) for f, p in pairs]
+    else:
+        both = [_in_c(loaded, number, p) for number, p in enumerate(programs)]
+    return dict(zip(functions, both, strict=True))
 
 
-def _record(loaded: ctypes.CDLL, number: int, program: source.Program) -> Compiled:
-    tape, constants = program.tape, constant_table(program.kernels)
-    found = library.module(loaded._name)
-    scalar = found.bind(number, constants.tobytes()) if found else _point(loaded, program, constants)
-    plain = _batch(loaded, program, constants)
+def _without_compiler(function: casadi.Function, program: source.Program, reason: str) -> Compiled:
+    tape = program.tape
     return Compiled(
         name=tape.name,
         inputs=tape.inputs,
         outputs=tape.outputs,
-        scalar=scalar,
-        # columns are looked at in C where all are plain; the rest, and every complaint, is the other's
-        batch=found.bind(number, (constants.tobytes(), np.empty, np.dtype(float), plain)) if found else plain,
-        route="C",
-        reason="",
+        scalar=fallback.point(function, tape),
+        batch=fallback.batch(function, tape),
+        route="numpy",
+        reason=reason,
     )
 
 
-def _point(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) -> Callable[..., Any]:
+def _in_c(loaded: ctypes.CDLL, number: int, program: source.Program) -> Compiled:
+    tape, constants = program.tape, constant_table(program.kernels)
+    batch = _batch(loaded, program, constants)
+    extension = cache.module(loaded._name)
+    if extension:
+        scalar = extension.bind(number, constants.tobytes())
+        # columns are looked at in C where all are plain; the rest, and every complaint, is the other's
+        batch = extension.bind(number, (constants.tobytes(), np.empty, np.dtype(float), batch))
+    else:
+        scalar = _point(loaded, program, constants)
+    return Compiled(
+        name=tape.name, inputs=tape.inputs, outputs=tape.outputs, scalar=scalar, batch=batch, route="C", reason=""
+    )
+
+
+def _point(
+    loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray
+) -> Callable[..., float | tuple[float, ...]]:
     nx, ny = len(program.tape.inputs), len(program.tape.outputs)
     call, inputs, outputs = loaded[f"{program.tape.name}_point"], ctypes.c_double * nx, ctypes.c_double * ny
     call.restype, call.argtypes = None, [ctypes.c_void_p] * 3
 
-    def scalar(*values: float) -> Any:
+    def scalar(*values: float) -> float | tuple[float, ...]:
         if len(values) != nx:
             raise TypeError(f"{program.tape.name} takes {nx} numbers, not {len(values)}")
         result = outputs()
@@ -129,7 +131,7 @@ def _batch(loaded: ctypes.CDLL, program: source.Program, constants: np.ndarray) 
     call.restype, call.argtypes = ctypes.c_int, [ctypes.c_long, *[ctypes.c_void_p] * 4]
     table = constants.ctypes.data
 
-    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
+    def batch(*values: object, out: np.ndarray | None = None) -> np.ndarray:
         columns = fallback.columns(name, nx, values)
         n = max((c.size for c in columns), default=1)
         result = fallback.target(name, (ny, n), out)

@@ -11,9 +11,8 @@ import casadi
 
 from mechsym.native import cache, emit
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.kernels import constant_table, kernels
+from mechsym.native.kernels import constant_table, kernels, split
 from mechsym.native.source import header, preamble, prepared
-from mechsym.native.stages import split
 from mechsym.native.tape import Tape
 
 _LOG = logging.getLogger("mechsym.native")
@@ -22,15 +21,8 @@ _LOG = logging.getLogger("mechsym.native")
 def external(function: casadi.Function, mode: str = "fast") -> casadi.Function:
     """The same function compiled, with derivatives up to the second.
 
-    Parameters
-    ----------
-    function : casadi.Function
-        SX function; parameters that change between solves should be inputs, as constants are compiled in
-
-    Returns
-    -------
-    function : casadi.Function
-        Same name, inputs and outputs; the given function itself when there is no compiler
+    function: SX function; parameters that change between solves should be inputs, as constants are compiled in. Returns
+    function: same name, inputs and outputs; the given function itself when there is no compiler.
     """
     reverse = function.reverse(1)
     try:
@@ -42,13 +34,16 @@ def external(function: casadi.Function, mode: str = "fast") -> casadi.Function:
 
 def externals(functions: Sequence[casadi.Function], mode: str = "fast") -> list[casadi.Function]:
     """Functions compiled into one file, each without derivatives of its own unless they are among the others."""
-    path = cache.shared_object("\n".join([preamble(), *(_one(f, mode) for f in functions)]), mode)
-    return [casadi.external(f.name(), str(path)) for f in functions]
+    loaded = cache.load("\n".join([preamble(), *(_one(f, mode) for f in functions)]), mode)
+    return [casadi.external(f.name(), loaded._name) for f in functions]
 
 
 def _one(function: casadi.Function, mode: str) -> str:
     expanded = function if function.is_a("SXFunction") else function.expand()
-    tape = prepared(_stored(expanded), mode)
+    # the function of stored elements only, inputs and outputs as columns
+    symbols = [casadi.SX.sym(expanded.name_in(i), expanded.sparsity_in(i)) for i in range(expanded.n_in())]
+    outputs = [o.nz[:] for o in expanded.call(symbols)]
+    tape = prepared(casadi.Function(expanded.name(), [s.nz[:] for s in symbols], outputs, {"allow_free": False}), mode)
     name = tape.name
     return "\n".join(
         [
@@ -60,13 +55,6 @@ def _one(function: casadi.Function, mode: str) -> str:
             *(f"#undef MS_{macro}" for macro in ("NAME", "NX", "NY", "INPUTS", "OUTPUTS")),
         ]
     )
-
-
-def _stored(function: casadi.Function) -> casadi.Function:
-    """The function of stored elements only, inputs and outputs as columns."""
-    symbols = [casadi.SX.sym(function.name_in(i), function.sparsity_in(i)) for i in range(function.n_in())]
-    outputs = [o.nz[:] for o in function.call(symbols)]
-    return casadi.Function(function.name(), [s.nz[:] for s in symbols], outputs, {"allow_free": False})
 
 
 def _point(tape: Tape) -> str:
@@ -88,10 +76,10 @@ static void {name}_at(const double *x, double *y)
 
 
 def _stage(tape: Tape) -> str:
-    name, found = tape.name, kernels(tape)
-    numbers = ", ".join(repr(v) for v in constant_table(found).tolist())
+    name, parts = tape.name, kernels(tape)
+    numbers = ", ".join(repr(v) for v in constant_table(parts).tolist())
     constants = f"static const double {name}_constants[] = {{{numbers}}};"
-    return "\n".join([constants, emit.bodies(found, name), emit.rows(found, name, 1)])
+    return "\n".join([constants, emit.bodies(parts, name), emit.rows(parts, name, 1)])
 
 
 def _tables(function: casadi.Function) -> str:

@@ -4,7 +4,7 @@ import functools
 import threading
 from collections.abc import Callable
 from itertools import accumulate
-from typing import Any, TypeVar
+from typing import Any
 
 import casadi
 import numpy as np
@@ -12,49 +12,32 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.native.dialects import NUMPY, expression, unknown
 from mechsym.native.tape import Tape, read
+from mechsym.quantities.units import Scalar
 
 _CHUNK = 2048
 _LONGEST = 4000  # instructions; CasADi is sooner done with a longer program than numpy's text of it is compiled
-T = TypeVar("T")
 
 
-def columns(name: str, count: int, values: tuple[Any, ...]) -> list[np.ndarray]:
-    """Arguments of a batch as contiguous arrays of one length or of length 1.
+def columns(name: str, count: int, values: tuple[object, ...]) -> list[np.ndarray]:
+    """Arguments of a batch as contiguous arrays of one length or of length 1 [SI].
 
-    Parameters
-    ----------
-    name : str
-        Name of the function, for messages
-    count : int
-        Number of arguments that it takes
-    values : tuple
-        Arrays of shape (n,) and numbers
+    name: name of the function, for messages; count: number of arguments that it takes; values: arrays of shape (n,) and
+    numbers.
     """
     if len(values) != count:
         raise BadInput(f"{name} takes {count} arrays or numbers, not {len(values)}")
-    found = [np.ascontiguousarray(v, dtype=float).reshape(-1) for v in values]
-    sizes = sorted({c.size for c in found} - {1})
+    arrays = [np.ascontiguousarray(v, dtype=float).reshape(-1) for v in values]
+    sizes = sorted({a.size for a in arrays} - {1})
     if len(sizes) > 1:
         raise BadInput(f"{name}: arrays have lengths {', '.join(map(str, sizes))}; they must be equal or 1")
-    return found
+    return arrays
 
 
 def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndarray:
     """Where a batch is written to.
 
-    Parameters
-    ----------
-    name : str
-        Name of the function, for messages
-    shape : tuple of int
-        Number of outputs and number of points, as (m, n)
-    out : ndarray or None
-        The caller's own array [SI]
-
-    Returns
-    -------
-    target : ndarray, shape `shape`
-        New unless the caller has one [SI]
+    name: name of the function, for messages; shape: number of outputs and number of points, as (m, n); out: the
+    caller's own array [SI]. Returns target: new unless the caller has one [SI].
     """
     if out is None:
         return np.empty(shape)
@@ -65,26 +48,10 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
     return out
 
 
-def record(kind: Callable[..., T], function: casadi.Function, tape: Tape, reason: str) -> T:
-    """The two forms of a function without a compiler."""
-    return kind(
-        name=tape.name,
-        inputs=tape.inputs,
-        outputs=tape.outputs,
-        scalar=_scalar(function, tape),
-        batch=_batch(function, tape),
-        route="numpy",
-        reason=reason,
-    )
-
-
 def numpy_text(tape: Tape) -> str:
     """The program as a Python function of arrays.
 
-    Returns
-    -------
-    text : str
-        Defines `function(x, y)`: lists of columns to read and to write
+    Returns text: defines `function(x, y)`: lists of columns to read and to write.
     """
     names: list[str] = []
     lines = []
@@ -101,13 +68,10 @@ def numpy_text(tape: Tape) -> str:
     return "\n".join(["def function(x, y):", *("    " + line for line in lines or ["pass"])])
 
 
-def numpy_function(tape: Tape) -> Callable[[Any, Any], None]:
+def numpy_function(tape: Tape) -> Callable[[Scalar, Scalar], None]:
     """The program as a Python function of arrays.
 
-    Returns
-    -------
-    function : callable
-        (x, y): lists of columns to read and to write
+    Returns function: callable, (x, y): lists of columns to read and to write.
     """
     if unknown(tape, NUMPY):
         raise BadInput(f"{tape.name}: numpy has no {', '.join(unknown(tape, NUMPY))}; install a C compiler")
@@ -116,19 +80,23 @@ def numpy_function(tape: Tape) -> Callable[[Any, Any], None]:
     return scope["function"]
 
 
-def _batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
-    if unknown(tape, NUMPY):
-        return _mapped(function, tape)
-    run = numpy_function(tape)
+def batch(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
+    """As `Compiled.batch`: numpy text over chunks, or CasADi point by point where numpy has no such operator."""
+    run = None if unknown(tape, NUMPY) else numpy_function(tape)
 
-    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
-        found = columns(tape.name, len(tape.inputs), values)
-        n = max((c.size for c in found), default=1)
+    def batch(*values: object, out: np.ndarray | None = None) -> np.ndarray:
+        inputs = columns(tape.name, len(tape.inputs), values)
+        n = max((c.size for c in inputs), default=1)
         result = target(tape.name, (len(tape.outputs), n), out)
+        if run is None:
+            single = point(function, tape)
+            rows = np.array([np.broadcast_to(c, n) for c in inputs]).T
+            result[:] = np.array([np.atleast_1d(single(*row)) for row in rows]).T
+            return result
         with np.errstate(all="ignore"):
             for start in range(0, n, _CHUNK):
                 piece = slice(start, start + _CHUNK)
-                run([c[piece] if c.size > 1 else c for c in found], result[:, piece])
+                run([c[piece] if c.size > 1 else c for c in inputs], result[:, piece])
         return result
 
     return batch
@@ -154,31 +122,22 @@ def arrays(function: casadi.Function) -> Callable[..., np.ndarray] | None:
     if not function.is_a("SXFunction") or function.n_instructions() > _LONGEST:
         return None
     tape = read(function)
-    return None if unknown(tape, NUMPY) else _batch(function, tape)
+    return None if unknown(tape, NUMPY) else batch(function, tape)
 
 
-def _mapped(function: casadi.Function, tape: Tape) -> Callable[..., np.ndarray]:
-    def batch(*values: Any, out: np.ndarray | None = None) -> np.ndarray:
-        found = columns(tape.name, len(tape.inputs), values)
-        n = max((c.size for c in found), default=1)
-        table = np.array([np.broadcast_to(c, n) for c in found])
-        result = target(tape.name, (len(tape.outputs), n), out)
-        point = _scalar(function, tape)
-        result[:] = np.array([np.atleast_1d(point(*row)) for row in table.T]).T
-        return result
-
-    return batch
-
-
-def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
+def point(function: casadi.Function, tape: Tape) -> Callable[..., float | tuple[float, ...]]:
+    """As `Compiled.scalar`, by CasADi."""
     # one buffer for each thread: it is written to and must outlive the call
     local = threading.local()
     sizes = [function.numel_in(i) for i in range(function.n_in())]
     results = [function.numel_out(i) for i in range(function.n_out())]
 
     def prepare() -> tuple[Any, ...]:
+        # a buffer holds stored elements only; here every element is stored
+        symbols = [casadi.SX.sym(function.name_in(i), *function.size_in(i)) for i in range(function.n_in())]
+        dense = [casadi.densify(o) for o in function.call(symbols)]
         buffer: Any
-        buffer, call = _full(function).buffer()
+        buffer, call = casadi.Function(function.name(), symbols, dense).buffer()
         x, y = np.zeros(max(sum(sizes), 1)), np.zeros(len(tape.outputs))
         for i, end in enumerate(accumulate(sizes)):
             buffer.set_arg(i, x[end - sizes[i] : end].data)
@@ -186,7 +145,7 @@ def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
             buffer.set_res(i, y[end - results[i] : end].data)
         return buffer, call, x, y
 
-    def scalar(*values: float) -> Any:
+    def scalar(*values: float) -> float | tuple[float, ...]:
         if len(values) != len(tape.inputs):
             raise TypeError(f"{tape.name} takes {len(tape.inputs)} numbers, not {len(values)}")
         if not hasattr(local, "held"):
@@ -200,10 +159,3 @@ def _scalar(function: casadi.Function, tape: Tape) -> Callable[..., Any]:
         return float(y[0]) if y.size == 1 else tuple(y.tolist())
 
     return scalar
-
-
-def _full(function: casadi.Function) -> casadi.Function:
-    # a buffer holds stored elements only; here every element is stored
-    symbols = [casadi.SX.sym(function.name_in(i), *function.size_in(i)) for i in range(function.n_in())]
-    outputs = [casadi.densify(o) for o in function.call(symbols)]
-    return casadi.Function(function.name(), symbols, outputs)

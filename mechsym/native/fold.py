@@ -7,7 +7,7 @@ from collections.abc import Callable
 import casadi
 import numpy as np
 
-from mechsym.native import fallback, integrators, library
+from mechsym.native import cache, fallback, integrators
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.kernels import constant_table
 from mechsym.native.source import Program, header, program
@@ -33,26 +33,23 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
 
     .. math:: \frac{\mathrm{d}y}{\mathrm{d}s} = f(s, y, z)
 
-    Returns
-    -------
-    fold : callable
-        y at 0 (states, n), z (values, n), number of steps -> y at the ends of all steps (steps, states, n)
+    Returns fold: y at 0 (states, n), z (values, n), number of steps -> y at the ends of all steps (steps, states, n).
 
     Raises
     ------
     BadInput
         The inputs are not s, y, z
     """
-    found = program(rate, mode)
-    integrators.sizes(found)
+    rates = program(rate, mode)
+    integrators.sizes(rates)
     try:
-        return _compiled(found, method, mode)
+        return _compiled(rates, method, mode)
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
-        return _interpreted(found, method)
+        return _interpreted(rates, method)
 
 
-def text(found: Program, method: Method) -> str:
+def text(rates: Program, method: Method) -> str:
     """A file that exports `ms_fold`, see `c/fold.h`."""
     stages = " ".join(
         f"F({j}, {sum(row.values())!r}, {integrators.weighted(row) or '0.0'})" for j, row in enumerate(method.rows)
@@ -62,12 +59,12 @@ def text(found: Program, method: Method) -> str:
         f"#define MS_FOLD_STAGES(F) {stages}",
         f"#define MS_FOLD_WEIGHTS {integrators.weighted(method.weights)}",
     ]
-    return "\n".join([integrators.system(found, _LANES), *numbers, header("fold.h")])
+    return "\n".join([integrators.system(rates, _LANES), *numbers, header("fold.h")])
 
 
-def _compiled(found: Program, method: Method, mode: str) -> Fold:
-    loaded = library.load(text(found, method), mode)
-    constants = np.repeat(constant_table(found.kernels)[:, None], _LANES, axis=1)
+def _compiled(rates: Program, method: Method, mode: str) -> Fold:
+    loaded = cache.load(text(rates, method), mode)
+    constants = np.repeat(constant_table(rates.kernels)[:, None], _LANES, axis=1)
 
     def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
         start, held = (np.ascontiguousarray(a, dtype=float) for a in (start, held))
@@ -79,8 +76,8 @@ def _compiled(found: Program, method: Method, mode: str) -> Fold:
     return fold
 
 
-def _interpreted(found: Program, method: Method) -> Fold:
-    run = fallback.numpy_function(found.tape)
+def _interpreted(rates: Program, method: Method) -> Fold:
+    run = fallback.numpy_function(rates.tape)
 
     def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
         history, y, h = np.empty((steps, *start.shape)), np.array(start, dtype=float), 1 / steps

@@ -4,20 +4,90 @@ import ctypes
 import dataclasses
 import functools
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import adams, integrators, library
+from mechsym.native import adams, cache, integrators
 from mechsym.native.kernels import constant_table
-from mechsym.native.layout import structure
-from mechsym.native.runs import Outcome, Runs
+from mechsym.native.runs import Level, Outcome, Runs, Table
 from mechsym.native.source import Program, program
 from mechsym.native.tape import ANALYTIC
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pure
+
+_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "max_steps")
+_DOUBLES = ("rtol", "atol", "first_step")
+_ARRAYS = (
+    "constants", "until", "held", "grid", "kink_angles", "kink_periods", "kink_states", "kinked_states",
+    "table", "surface", "t", "y", "samples", "last_step",
+    "steps", "rejected", "sampled", "met", "status",
+)  # fmt: skip
+
+
+class _Table(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_long) for name in ("slot", "state", "pieces", "terms")),
+        *((name, ctypes.c_void_p) for name in ("breaks", "coefficients")),
+    ]
+
+
+class _Surface(ctypes.Structure):
+    _fields_ = [("state", ctypes.c_long), ("direction", ctypes.c_long), ("level", ctypes.c_void_p)]
+
+
+class _Run(ctypes.Structure):
+    # the same fields in the same order as ms_run in c/run.h
+    _fields_ = [
+        *((name, ctypes.c_long) for name in _LONGS),
+        *((name, ctypes.c_double) for name in _DOUBLES),
+        *((name, ctypes.c_void_p) for name in _ARRAYS),
+    ]
+
+
+def structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: Pure[Array]) -> tuple[_Run, list[object]]:
+    """The argument of the C function, and what must stay alive as long as it is used.
+
+    chosen: run of each lane, shape (lanes,).
+    """
+    alive: list[object] = [arrays]
+    tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
+    surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
+    alive += [tables, surfaces]
+    structure = _Run(
+        segments=len(arrays["until"]), times=arrays["grid"].shape[1], tables=len(runs.tables),
+        surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kinked=len(arrays["kinked_states"]),
+        max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
+        table=ctypes.addressof(tables), surface=ctypes.addressof(surfaces),
+        **{name: a.ctypes.data for name, a in arrays.items()},
+    )  # fmt: skip
+    return structure, alive
+
+
+def _table(table: Table, run: int, alive: list[object]) -> _Table:
+    breaks, coefficients = table.polynomials[run if len(table.polynomials) > 1 else 0]
+    breaks = np.ascontiguousarray(breaks, dtype=float)
+    # one polynomial after another, as the C code reads them
+    rows = np.ascontiguousarray(coefficients.T, dtype=float)
+    alive += [breaks, rows]
+    return _Table(
+        slot=table.held,
+        state=table.state,
+        pieces=len(breaks) - 1,
+        terms=rows.shape[1],
+        breaks=breaks.ctypes.data,
+        coefficients=rows.ctypes.data,
+    )
+
+
+def _surface(surface: Level, chosen: np.ndarray, alive: list[object]) -> _Surface:
+    level = np.array(np.take(np.atleast_1d(surface.level), chosen, mode="clip"), dtype=float)
+    alive.append(level)
+    return _Surface(state=surface.state, direction=surface.direction, level=level.ctypes.data)
+
 
 # runs in one block of an ensemble: one vector register of doubles, or two, which wait less for each other
 LANES = (1, 8, 16)
@@ -49,6 +119,8 @@ class _Batch:
 def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     """Integrate runs in C.
 
+    Returns outcome: one row for each run; a failure is a status.
+
     Parameters
     ----------
     method : str
@@ -59,11 +131,6 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
         in each lane, along the arc lengths of its angles; `auto` takes it for long smooth ensembles with few wanted
         times
 
-    Returns
-    -------
-    outcome : Outcome
-        One row for each run; a failure is a status
-
     Raises
     ------
     mechsym.native.compiler.NoCompiler
@@ -71,9 +138,8 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
     """
     batch = _spread(runs, mode)
     if method == "auto":
-        method = _chosen(batch, mode)
-        found = _integrated(batch, method, mode)
-        return _integrated(batch, "dop853", mode) if np.isin(found.status, _UNSOLVED).any() else found
+        outcome = _integrated(batch, _chosen(batch, mode), mode)
+        return _integrated(batch, "dop853", mode) if np.isin(outcome.status, _UNSOLVED).any() else outcome
     return _integrated(batch, method, mode)
 
 
@@ -81,9 +147,20 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     count = len(batch.start)
     lanes, together = _shape(batch, method, count)
     texts, batch = _texts(batch, method, lanes, mode)
-    loaded = {text: library.load(text, mode) for text in dict.fromkeys(texts)}
-    blocks = _blocks(texts if len(texts) > 1 else texts * count, together)
-    result = _empty(count, batch.start.shape[1], batch.times.shape[1])
+    loaded = {text: cache.load(text, mode) for text in dict.fromkeys(texts)}
+    families: dict[str, list[int]] = {}
+    for index, text in enumerate(texts if len(texts) > 1 else texts * count):
+        families.setdefault(text, []).append(index)
+    blocks = []
+    for text, members in families.items():
+        blocks += [(text, members[i : i + together]) for i in range(0, len(members), together)]
+    result: dict[str, np.ndarray] = {
+        name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "met", "status")
+    }
+    n, times = batch.start.shape[1], batch.times.shape[1]
+    result |= {"t": np.zeros(count), "y": np.zeros((count, n)), "last_step": np.zeros(count)}
+    # each state of a run lies in one piece, as it is looked at
+    result["samples"] = np.empty((count, n, times)).swapaxes(1, 2)
 
     def work(block: tuple[str, list[int]]) -> None:
         _run_block(loaded[block[0]][f"ms_{method}"], batch, block[1], lanes, result)
@@ -101,13 +178,13 @@ def _texts(batch: _Batch, method: str, lanes: int, mode: str) -> tuple[list[str]
     if method != "adams":
         followed = tuple(sorted({t.state for t in batch.runs.tables})) if method == "dop853" else ()
         return [_text(p, method, lanes, *([followed] if followed else [])) for p in batch.programs], batch
-    made, rates = _looking_back(batch, mode), batch.programs[0]
-    if made is None:
+    back, rates = _looking_back(batch, mode), batch.programs[0]
+    if back is None:
         raise BadInput(
             "method 'adams' takes runs of one smooth function, in which an inertia depends on its own angle only and "
             "surfaces are of angles and speeds; use dop853"
         )
-    return [adams.text(rates, lanes, made)], dataclasses.replace(batch, constants=adams.constants(rates, made))
+    return [adams.text(rates, lanes, back)], dataclasses.replace(batch, constants=adams.constants(rates, back))
 
 
 def _looking_back(batch: _Batch, mode: str) -> adams.LookingBack | None:
@@ -115,7 +192,7 @@ def _looking_back(batch: _Batch, mode: str) -> adams.LookingBack | None:
     runs = batch.runs
     if runs.tables or runs.kinks or len(batch.programs) > 1:
         return None
-    functions: Any = runs.rhs
+    functions = runs.rhs
     rates = functions if isinstance(functions, casadi.Function) else functions[0]
     return adams.ready(rates, batch.held, {s.state for s in runs.surfaces}, mode)
 
@@ -129,8 +206,8 @@ def _chosen(batch: _Batch, mode: str) -> str:
         return "collocation"
     if not smooth or mode != "fast":
         return "dop853"
-    made = _looking_back(batch, mode)
-    return "adams" if made and len(made.parts.form.angles) <= _MOST_ANGLES and not made.parts.form.read else "dop853"
+    back = _looking_back(batch, mode)
+    return "adams" if back and len(back.parts.form.angles) <= _MOST_ANGLES and not back.parts.form.read else "dop853"
 
 
 def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
@@ -144,19 +221,14 @@ def _shape(batch: _Batch, method: str, count: int) -> tuple[int, int]:
                 raise BadInput("method 'collocation' knows no kinks and tables; use dop853")
             return integrators.STAGES, 1
         case "gauss":
-            _check_gauss(batch)
+            if runs.surfaces or runs.kinks:
+                raise BadInput("method 'gauss' knows no surfaces and kinks; use dop853")
+            if not runs.first_step > 0:
+                raise BadInput("method 'gauss' needs first_step, its constant step in s")
+            if not (batch.until == batch.until[0]).all():
+                raise BadInput("method 'gauss' takes one list of segment ends for all runs; use dop853")
             return lanes, lanes
     raise BadInput(f"method = {method!r} is not an option; options are auto, dop853, collocation, adams, gauss")
-
-
-def _check_gauss(batch: _Batch) -> None:
-    runs = batch.runs
-    if runs.surfaces or runs.kinks:
-        raise BadInput("method 'gauss' knows no surfaces and kinks; use dop853")
-    if not runs.first_step > 0:
-        raise BadInput("method 'gauss' needs first_step, its constant step in s")
-    if not (batch.until == batch.until[0]).all():
-        raise BadInput("method 'gauss' takes one list of segment ends for all runs; use dop853")
 
 
 def _spread(runs: Runs, mode: str) -> _Batch:
@@ -165,30 +237,29 @@ def _spread(runs: Runs, mode: str) -> _Batch:
             f"rtol = {runs.rtol:g}, atol = {runs.atol:g}: atol must be above 0, because states pass through 0"
         )
     single = isinstance(runs.rhs, casadi.Function)
-    functions: list[Any] = [runs.rhs] if single else list(runs.rhs)  # type: ignore[arg-type]
+    functions = [runs.rhs] if isinstance(runs.rhs, casadi.Function) else list(runs.rhs)
     programs = [program(f, mode) for f in functions]
     n, p = integrators.sizes(programs[0])
-    arrays: dict[str, tuple[Any, int]] = {
-        "start": (runs.start, 1),
-        "until": (runs.until, 1),
-        "held": (runs.held, 2),
-        "times": (runs.times, 1),
-    }
-    arrays["kinks"] = (_side_by_side([k.angles for k in runs.kinks]), 1)
-    found = {name: np.asarray(value, float) for name, (value, _) in arrays.items()}
-    counts = {len(found[name]) for name, (_, alone) in arrays.items() if found[name].ndim > alone}
+    # angles (k,) or (runs, k) of several kinks side by side
+    angles = [np.asarray(k.angles, float) for k in runs.kinks]
+    rows = np.broadcast_shapes(*(a.shape[:-1] for a in angles))
+    kinks = np.concatenate([np.zeros((*rows, 0)), *(np.broadcast_to(a, (*rows, a.shape[-1])) for a in angles)], -1)
+    whole = {"start": runs.start, "until": runs.until, "held": runs.held, "times": runs.times, "kinks": kinks}
+    arrays = {name: np.asarray(value, float) for name, value in whole.items()}
+    alone = {name: 2 if name == "held" else 1 for name in arrays}  # dimensions of what is for one run
+    counts = {len(a) for name, a in arrays.items() if a.ndim > alone[name]}
     counts |= set() if single else {len(functions)}
     if len(counts) > 1:
         raise BadInput(f"start, until, held, times and rhs are for {sorted(counts)} runs; they must agree")
-    count, segments = counts.pop() if counts else 1, found["until"].shape[-1]
+    count, segments = counts.pop() if counts else 1, arrays["until"].shape[-1]
     if not p:
-        found["held"] = np.zeros((segments, 0))
-    if found["start"].shape[-1] != n or found["held"].shape[-2:] != (segments, p):
+        arrays["held"] = np.zeros((segments, 0))
+    if arrays["start"].shape[-1] != n or arrays["held"].shape[-2:] != (segments, p):
         raise BadInput(
             f"{programs[0].tape.name} has {n} states and {p} held values in {segments} segments; start has shape "
-            f"{found['start'].shape}, held {found['held'].shape}"
+            f"{arrays['start'].shape}, held {arrays['held'].shape}"
         )
-    spread = {name: np.broadcast_to(a, (count, *a.shape[-arrays[name][1] :])) for name, a in found.items()}
+    spread = {name: np.broadcast_to(a, (count, *a.shape[-alone[name] :])) for name, a in arrays.items()}
     constants = [constant_table(q.kernels) for q in programs]
     return _Batch(runs=runs, programs=programs, constants=constants, **spread)
 
@@ -198,27 +269,9 @@ def _text(of: Program, method: str, lanes: int, *followed: tuple[int, ...]) -> s
     return getattr(integrators, method)(of, lanes, *followed)
 
 
-def _side_by_side(angles: list[np.ndarray]) -> np.ndarray:
-    """Angles (k,) or (runs, k) of several states as one array (k,) or (runs, k)."""
-    rows = np.broadcast_shapes(*(np.shape(a)[:-1] for a in angles))
-    return np.concatenate([np.zeros((*rows, 0)), *(np.broadcast_to(a, (*rows, np.shape(a)[-1])) for a in angles)], -1)
-
-
-def _blocks(texts: list[str], lanes: int) -> list[tuple[str, list[int]]]:
-    families: dict[str, list[int]] = {}
-    for index, text in enumerate(texts):
-        families.setdefault(text, []).append(index)
-    return [(text, members[i : i + lanes]) for text, members in families.items() for i in range(0, len(members), lanes)]
-
-
-def _empty(count: int, n: int, times: int) -> dict[str, np.ndarray]:
-    whole = {name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "met", "status")}
-    # each state of a run lies in one piece, as it is looked at
-    samples = np.empty((count, n, times)).swapaxes(1, 2)
-    return {**whole, "t": np.zeros(count), "y": np.zeros((count, n)), "samples": samples, "last_step": np.zeros(count)}
-
-
-def _run_block(advance: Any, batch: _Batch, members: list[int], lanes: int, result: dict[str, np.ndarray]) -> None:
+def _run_block(
+    advance: Callable[[object], int], batch: _Batch, members: list[int], lanes: int, result: dict[str, np.ndarray]
+) -> None:
     # an incomplete block is filled up with copies of its last run
     chosen = np.array(members + [members[-1]] * (lanes - len(members)))
     arrays = _arrays(batch, chosen)

@@ -9,6 +9,7 @@ from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
 from mechsym.native import emit
 from mechsym.native.source import Program, header, preamble
+from mechsym.quantities.units import Array, Pure
 
 # of the collocation method: one vector register of doubles
 STAGES = 8
@@ -17,10 +18,7 @@ STAGES = 8
 def sizes(program: Program) -> tuple[int, int]:
     """Numbers of states and of held values of a right-hand side.
 
-    Parameters
-    ----------
-    program : Program
-        Inputs t, y and p in this order, one output of the shape of y
+    program: inputs t, y and p in this order, one output of the shape of y.
     """
     n = len(program.tape.outputs)
     if len(program.tape.inputs) < 1 + n:
@@ -34,21 +32,15 @@ def sizes(program: Program) -> tuple[int, int]:
 def dop853(program: Program, lanes: int, followed: tuple[int, ...] = ()) -> str:
     """A file that exports `ms_dop853`, see `c/run.h` for its argument.
 
-    Parameters
-    ----------
-    followed : tuple of int
-        States that tables are read at
+    followed: states that tables are read at.
     """
-    parts = [system(program, lanes), _read_states(program, followed), dop853_numbers()]
-    return "\n".join([*parts, header("dop853.h"), header("advance.h")])
-
-
-def _read_states(program: Program, followed: tuple[int, ...]) -> str:
-    """Loop up to the last state that the rates read: works and losses, which nothing reads, stand behind it."""
     n, _ = sizes(program)
     used = {args[0] for op, args in program.tape.nodes if op == "input"} | {1 + i for i in followed}
+    # up to the last state that the rates read: works and losses, which nothing reads, stand behind it
     last = max((i for i in used if i <= n), default=0)
-    return f"#define MS_READ_STATES for (int i = 0; i < {last}; i++) MS_EACH"
+    read_states = f"#define MS_READ_STATES for (int i = 0; i < {last}; i++) MS_EACH"
+    parts = [system(program, lanes), read_states, dop853_numbers(), header("dop853.h"), header("advance.h")]
+    return "\n".join(parts)
 
 
 def system(program: Program, lanes: int) -> str:
@@ -66,18 +58,10 @@ def system(program: Program, lanes: int) -> str:
     )
 
 
-def weighted(weights: dict[int, float]) -> str:
+def weighted(weights: dict[int, Pure]) -> str:
     """A weighted sum of the rates of stages.
 
-    Parameters
-    ----------
-    weights : dict of int to float
-        Weights by stage [-]
-
-    Returns
-    -------
-    text : str
-        C expression; stage j is MS_Q(j)
+    weights: weights by stage. Returns text: C expression; stage j is MS_Q(j).
     """
     return " + ".join(f"{value!r} * MS_Q({stage})" for stage, value in weights.items())
 
@@ -103,23 +87,18 @@ def dop853_numbers() -> str:
 def gauss(program: Program, lanes: int, stages: int = 4) -> str:
     """A file that exports `ms_gauss`, see `c/run.h` for its argument.
 
-    Parameters
-    ----------
-    stages : int
-        Order is twice the number of stages
+    stages: order is twice the number of stages.
     """
     return "\n".join([system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
 
 
-def gauss_tableau(stages: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def gauss_tableau(stages: int) -> tuple[Pure[Array], Pure[Array], Pure[Array], Pure[Array]]:
     r"""Numbers of the Gauss-Legendre method.
 
     .. math:: a_{ij} = \int_0^{c_i} \ell_j(x)\,dx, \qquad b_j = \int_0^1 \ell_j(x)\,dx, \qquad e_{ij} = \ell_j(1 + c_i)
 
-    Returns
-    -------
-    a, b, c, ahead : ndarray
-        Coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a step's polynomial [-]
+    Returns a, b, c, ahead: coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a
+    step's polynomial.
 
     Notes
     -----
@@ -150,10 +129,7 @@ def _array(name: str, values: np.ndarray) -> str:
 def collocation(program: Program, lanes: int = STAGES) -> str:
     """A file that exports `ms_collocation`, see `c/run.h` for its argument.
 
-    Parameters
-    ----------
-    lanes : int
-        Stages of the one run, always `STAGES`
+    lanes: stages of the one run, always `STAGES`.
     """
     parts = [system(program, lanes), _collocation_numbers(lanes), _structure(program)]
     return "\n".join([*parts, header("collocation.h"), header("collocation_run.h")])
@@ -170,15 +146,12 @@ def _collocation_numbers(stages: int) -> str:
     return "\n".join([f"enum {{ MS_S = {stages} }};", *(_array(name, values) for name, values in named.items())])
 
 
-def legendre_coefficients(stages: int) -> np.ndarray:
+def legendre_coefficients(stages: int) -> Pure[Array]:
     r"""Matrix from values at Gauss points to coefficients of Legendre polynomials.
 
     .. math:: c_n = \tfrac{2 n + 1}{2} \sum_j w_j P_n(x_j) f_j
 
-    Returns
-    -------
-    matrix : ndarray, shape (s, s)
-        Row n gives the coefficient of P_n [-]
+    Returns matrix: row n gives the coefficient of P_n, shape (s, s).
     """
     roots, weights = legendre.leggauss(stages)
     values = legendre.legvander(roots, stages - 1).T
@@ -196,6 +169,8 @@ def _structure(program: Program) -> str:
     others = [i for i in range(n) if i not in speeds and 1 + i in used]
     lists = {"ms_angle": list(speeds), "ms_speed": list(speeds.values()), "ms_other": others}
     # C has no empty arrays
-    sizes = (f"ms_angles = {len(speeds)}, ms_others = {len(others)}",
-             f"MS_ANGLES = {len(speeds) or 1}, MS_OTHERS = {len(others) or 1}")  # fmt: skip
+    sizes = (
+        f"ms_angles = {len(speeds)}, ms_others = {len(others)}",
+        f"MS_ANGLES = {len(speeds) or 1}, MS_OTHERS = {len(others) or 1}",
+    )
     return "\n".join([f"enum {{ {', '.join(sizes)} }};", *(_array(k, np.array(v or [0])) for k, v in lists.items())])

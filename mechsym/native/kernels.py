@@ -6,12 +6,19 @@ which inputs and which constants stand at the leaves. Groups of one form become 
 that the text, and with it the time to compile it, does not grow with N.
 
 Constants are data, not text: two sets of parameters share the compiled file.
+
+In a collocation the derivative by the state at a node is a sum of what its two neighbours contribute. Taken as a whole
+such a program is one chain that cannot be rolled. `split` makes two stages of it: everything that depends on the costly
+values of one group only is computed first, group by group; what mixes groups, cheap sums in practice, comes second and
+reads the values of the first stage as inputs.
 """
+
+import dataclasses
 
 import numpy as np
 
 from mechsym.native.dialects import literal
-from mechsym.native.tape import CHEAP, Tape
+from mechsym.native.tape import CHEAP, Node, Tape, prune
 from mechsym.quantities import record
 
 # a loop is worth its index tables only when it saves this many operations and assignments
@@ -25,7 +32,7 @@ class Kernel:
     """One body of straight-line code and the places it is applied to."""
 
     #: As in `Tape`, but `("input", (i,))` and `("constant", (j,))` count leaves of the instance
-    nodes: tuple[tuple[str, tuple], ...]
+    nodes: tuple[Node, ...]
     results: tuple[int, ...]  #: Node of each result of an instance
     #: For each instance the program's inputs and outputs that it reads and writes
     inputs: tuple[tuple[int, ...], ...]
@@ -35,7 +42,7 @@ class Kernel:
 
 @record
 class _Part:
-    nodes: tuple[tuple[str, tuple], ...]
+    nodes: tuple[Node, ...]
     results: tuple[int, ...]
     inputs: tuple[int, ...]
     outputs: tuple[int, ...]
@@ -45,22 +52,24 @@ class _Part:
 def kernels(tape: Tape) -> tuple[Kernel, ...]:
     """The program as kernels.
 
-    Returns
-    -------
-    kernels : tuple of Kernel
-        One with one instance where nothing repeats; every output is written by exactly one instance
+    Returns kernels: one with one instance where nothing repeats; every output is written by exactly one instance.
     """
-    families: dict[tuple, list[_Part]] = {}
+    families: dict[tuple[tuple[Node, ...], tuple[int, ...]], list[_Part]] = {}
     for group in _groups(tape):
         part = _part(tape, group)
         families.setdefault((part.nodes, part.results), []).append(part)
-    rolled = [parts for parts in families.values() if _size(parts[0]) * (len(parts) - 1) >= _WORTH]
-    single = sorted(o for parts in families.values() if parts not in rolled for p in parts for o in p.outputs)
-    loops = [_kernel(parts) for parts in rolled]
-    rest = [_kernel([_part(tape, single)])] if single else []
-    found = tuple(loops + rest)
-    total = sum(_operations(p) * len(p.inputs) for p in found)
-    return found if total <= _DEARER * _operations(tape) else (whole(tape),)
+    rolled: list[Kernel] = []
+    single: list[int] = []
+    for parts in families.values():
+        size = _operations(parts[0]) + len(parts[0].outputs)
+        if size * (len(parts) - 1) >= _WORTH:
+            rolled.append(_kernel(parts))
+        else:
+            single += [o for p in parts for o in p.outputs]
+    if single:
+        rolled.append(_kernel([_part(tape, sorted(single))]))
+    total = sum(_operations(p) * len(p.inputs) for p in rolled)
+    return tuple(rolled) if total <= _DEARER * _operations(tape) else (whole(tape),)
 
 
 def whole(tape: Tape) -> Kernel:
@@ -70,10 +79,6 @@ def whole(tape: Tape) -> Kernel:
 
 def _operations(part: _Part | Kernel | Tape) -> int:
     return sum(op not in ("input", "constant", "literal") for op, _ in part.nodes)
-
-
-def _size(part: _Part) -> int:
-    return _operations(part) + len(part.outputs)
 
 
 def _groups(tape: Tape) -> list[list[int]]:
@@ -103,7 +108,7 @@ def _groups(tape: Tape) -> list[list[int]]:
 
 
 def _part(tape: Tape, outputs: list[int]) -> _Part:
-    nodes: list[tuple[str, tuple]] = []
+    nodes: list[Node] = []
     place: dict[int, int] = {}
     inputs: list[int] = []
     constants: list[float] = []
@@ -161,13 +166,105 @@ def _kernel(parts: list[_Part]) -> Kernel:
     )
 
 
-def constant_table(found: tuple[Kernel, ...]) -> np.ndarray:
+def constant_table(kernels: tuple[Kernel, ...]) -> np.ndarray:
     """The constants of all kernels in the order in which the C code reads them.
+
+    Returns table: instance after instance, kernel after kernel; never empty [SI].
+    """
+    values = [v for kernel in kernels for row in kernel.constants for v in row]
+    return np.array(values or [0.0])
+
+
+def split(tape: Tape) -> tuple[Tape, Tape] | None:
+    """The two stages of a program.
 
     Returns
     -------
-    table : ndarray, shape (n,)
-        Instance after instance, kernel after kernel; never empty [SI]
+    stages : tuple of Tape, or None
+        The first gives intermediate values; the second takes the program's inputs followed by these. None where
+        nothing mixes
     """
-    values = [v for kernel in found for row in kernel.constants for v in row]
-    return np.array(values or [0.0])
+    labels = _labels(tape)
+    mixed = [len(groups) > 1 for groups in labels]
+    if not any(mixed):
+        return None
+    values = {r for r in tape.results if not mixed[r] and labels[r]}
+    for i, (op, args) in enumerate(tape.nodes):
+        if mixed[i] and op not in ("input", "constant"):
+            values |= {a for a in args if labels[a] and not mixed[a]}
+    return cut(tape, sorted(values))
+
+
+def cut(tape: Tape, values: list[int]) -> tuple[Tape, Tape]:
+    """A program that gives the values of some nodes, and the rest, which takes them behind its inputs."""
+    nodes, results = prune(list(tape.nodes), values)
+    outputs = tuple(f"v{i}" for i in range(len(values)))
+    first = dataclasses.replace(
+        tape, name=f"{tape.name}_first", outputs=outputs, nodes=tuple(nodes), results=tuple(results)
+    )
+    place = {node: len(tape.inputs) + k for k, node in enumerate(values)}
+    rest: list[Node] = []
+    number: dict[int, int] = {}
+    for i, (op, args) in enumerate(tape.nodes):
+        if i in place:
+            op, args = "input", (place[i],)
+        elif op not in ("input", "constant"):
+            if any(a not in number for a in args):
+                continue  # inside the first stage
+            args = tuple(number[a] for a in args)
+        number[i] = len(rest)
+        rest.append((op, args))
+    rest, results = prune(rest, [number[r] for r in tape.results])
+    second = dataclasses.replace(
+        tape,
+        name=f"{tape.name}_second",
+        inputs=(*tape.inputs, *first.outputs),
+        nodes=tuple(rest),
+        results=tuple(results),
+    )
+    return first, second
+
+
+def _labels(tape: Tape) -> list[set[int]]:
+    """Groups of costly values that each node depends on; a costly node makes one group of all it depends on."""
+    parent: dict[int, int] = {}
+
+    def root(i: int) -> int:
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    labels: list[set[int]] = []
+    for i, (op, args) in enumerate(tape.nodes):
+        below = set() if op in ("input", "constant") else {root(c) for a in args for c in labels[a]}
+        if op not in CHEAP and op not in ("input", "constant"):
+            parent[i] = i
+            for c in below:
+                parent[c] = i
+            below = {i}
+        labels.append(below)
+    return [{root(c) for c in found} for found in labels]
+
+
+def _second(tape: Tape, values: list[int]) -> Tape:
+    place = {node: len(tape.inputs) + k for k, node in enumerate(values)}
+    nodes: list[Node] = []
+    number: dict[int, int] = {}
+    for i, (op, args) in enumerate(tape.nodes):
+        if i in place:
+            op, args = "input", (place[i],)
+        elif op not in ("input", "constant"):
+            if any(a not in number for a in args):
+                continue  # inside the first stage
+            args = tuple(number[a] for a in args)
+        number[i] = len(nodes)
+        nodes.append((op, args))
+    nodes, results = prune(nodes, [number[r] for r in tape.results])
+    return dataclasses.replace(
+        tape,
+        name=f"{tape.name}_second",
+        inputs=(*tape.inputs, *(f"v{k}" for k in range(len(values)))),
+        nodes=tuple(nodes),
+        results=tuple(results),
+    )

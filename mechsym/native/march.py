@@ -8,12 +8,11 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import emit, fallback, library
+from mechsym.native import cache, emit, fallback
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.dialects import NUMPY
-from mechsym.native.kernels import constant_table, whole
+from mechsym.native.kernels import constant_table, cut, whole
 from mechsym.native.source import header, preamble, program
-from mechsym.native.stages import cut
 from mechsym.native.tape import CHEAP, Tape
 
 _LOG = logging.getLogger("mechsym.native")
@@ -30,10 +29,7 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
 
     .. math:: x_{k+1} = f(x_k, s_k, z), \qquad r_k = g(x_k, s_k, z)
 
-    Parameters
-    ----------
-    step : casadi.Function
-        (state, stage, lane) -> state, or state and record
+    step: (state, stage, lane) -> state, or state and record.
 
     Returns
     -------
@@ -47,8 +43,13 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
     BadInput
         The function is no step
     """
-    sizes, found = _sizes(step), program(step, mode)
-    once, turn = separated(found.tape, sizes)
+    if step.n_in() != 3 or step.n_out() not in (1, 2) or step.numel_out(0) != step.numel_in(0):
+        raise BadInput(
+            f"{step.name()} is no step: it must take (state, stage, lane) and return (state) or (state, record)"
+        )
+    sizes = step.numel_in(0), step.numel_in(1), step.numel_in(2)
+    tape = program(step, mode).tape
+    once, turn = separated(tape, sizes)
     try:
         advance = _compiled(turn, sizes, mode)
     except NoCompiler as error:
@@ -64,7 +65,7 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
                 f"{step.name()} takes {sizes[0]} states, {sizes[1]} stage values and {sizes[2]} lane values; start has "
                 f"shape {state.shape}, stages {stages.shape}, lanes {lanes.shape}"
             )
-        record = np.empty((len(stages), len(found.tape.outputs) - sizes[0], state.shape[1]))
+        record = np.empty((len(stages), len(tape.outputs) - sizes[0], state.shape[1]))
         known = np.empty((len(once.outputs), state.shape[1]))
         with np.errstate(all="ignore"):
             before([None] * (sizes[0] + sizes[1]) + [*lanes], known)
@@ -77,26 +78,23 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
 def separated(tape: Tape, sizes: tuple[int, int, int]) -> tuple[Tape, Tape]:
     """What a lane's own values decide, to be computed once, and the step, which takes it as further lane values.
 
-    Parameters
-    ----------
-    sizes : tuple of int
-        Numbers of states, stage values, lane values
+    sizes: numbers of states, stage values, lane values.
     """
     # whether a node is the lane's own, and whether it is worth a place in memory
     own: list[bool] = []
     dear: list[bool] = []
-    kept = set(tape.results)
+    read = set(tape.results)  # by the step
     for op, args in tape.nodes:
         leaf = op in ("input", "constant")
         mine = args[0] >= sizes[0] + sizes[1] if op == "input" else op == "constant" or all(own[a] for a in args)
         own.append(mine and (leaf or op in NUMPY))
         dear.append(not leaf and (op not in CHEAP or any(dear[a] for a in args)))
-        kept.update(() if leaf or own[-1] else args)
-    return cut(tape, sorted(i for i in kept if own[i] and dear[i]))
+        read.update(() if leaf or own[-1] else args)
+    return cut(tape, sorted(i for i in read if own[i] and dear[i]))
 
 
 def _compiled(turn: Tape, sizes: tuple[int, int, int], mode: str) -> Callable[..., None]:
-    loaded, constants = library.load(text(turn, sizes), mode), constant_table((whole(turn),))
+    loaded, constants = cache.load(text(turn, sizes), mode), constant_table((whole(turn),))
 
     def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
         places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, stages, lanes, state, record)]
@@ -111,8 +109,8 @@ def _interpreted(turn: Tape) -> Callable[..., None]:
     def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
         following = np.empty_like(state)
         with np.errstate(all="ignore"):
-            for values, kept in zip(stages, record, strict=True):
-                run([*state, *values, *lanes], [*following, *kept])
+            for values, row in zip(stages, record, strict=True):
+                run([*state, *values, *lanes], [*following, *row])
                 state[:] = following
 
     return advance
@@ -121,10 +119,7 @@ def _interpreted(turn: Tape) -> Callable[..., None]:
 def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
     """A file that exports `ms_march` for the step of `separated`.
 
-    Parameters
-    ----------
-    sizes : tuple of int
-        Numbers of states, stage values, lane values
+    sizes: numbers of states, stage values, lane values.
     """
     name, kernel = turn.name, whole(turn)
     states, stages, _ = sizes
@@ -141,11 +136,3 @@ def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
             header("march.h"),
         ]
     )
-
-
-def _sizes(step: casadi.Function) -> tuple[int, int, int]:
-    if step.n_in() != 3 or step.n_out() not in (1, 2) or step.numel_out(0) != step.numel_in(0):
-        raise BadInput(
-            f"{step.name()} is no step: it must take (state, stage, lane) and return (state) or (state, record)"
-        )
-    return step.numel_in(0), step.numel_in(1), step.numel_in(2)

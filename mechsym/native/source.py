@@ -8,9 +8,8 @@ from importlib import resources
 import casadi
 
 from mechsym.native import emit
-from mechsym.native.factor import factored
 from mechsym.native.kernels import Kernel, kernels
-from mechsym.native.rewrite import cheaper, marked
+from mechsym.native.rewrite import cheaper, factored, marked
 from mechsym.native.tape import Tape, read
 from mechsym.quantities import record
 
@@ -35,12 +34,8 @@ class Program:
 def program(function: casadi.Function, mode: str = "fast") -> Program:
     """Read a CasADi function and roll its equal parts.
 
-    Parameters
-    ----------
-    function : casadi.Function
-        Function of scalars or small vectors
-    mode : str
-        `fast` shares reciprocals and factors, `strict` leaves every operation as it is
+    function: function of scalars or small vectors; mode: `fast` shares reciprocals and factors, `strict` leaves every
+    operation as it is.
     """
     return stored_program(_Stored(text=function.serialize(), function=function), mode)
 
@@ -63,10 +58,7 @@ def stored_program(stored: _Stored, mode: str) -> Program:
 def prepared(function: casadi.Function, mode: str) -> Tape:
     """The tape of a function in the form that a mode compiles.
 
-    Parameters
-    ----------
-    function : casadi.Function
-        Function of scalars or small vectors
+    function: function of scalars or small vectors.
     """
     tape = read(function)
     return factored(cheaper(tape)) if mode == "fast" else marked(tape)

@@ -1,7 +1,7 @@
 """Design of an engine by optimisation.
 
 problem   what may change and what must hold, as numbers      solver   solved with IPOPT, its limits explained
-trace     a measured run      identify   parameters out of it      collocation   a run as one sparse system
+trace     a measured run      identify   parameters out of it, with intervals      fit   the closest motion
 """
 
 from mechsym.optimise.problem import Limit, Optimise, Programme, problem

@@ -3,29 +3,86 @@ r"""The motion of a machine that comes closest to a trace, by Levenberg and Marq
 .. math:: \min_{\theta, x_0} \sum_i (\omega_i - u(t_i; \theta, x_0))^2, \qquad
           (A^T A + \mu\,\mathrm{diag}(A^T A))\,\delta = A^T r, \quad A = \frac{\partial u}{\partial(\theta, x_0)}
 
-Every motion that is compared solves the equations (`collocation`): after each step the states are put right for the
-new parameters and start. The first steps alone go through states that do not, from the measured speeds.
+Every motion that is compared solves the equations: after each step the states are put right for the new parameters and
+start. The first steps alone go through states that do not, from the measured speeds. The motion itself is the unknowns
+of one sparse system, by direct collocation with the emitted equations:
+
+.. math:: \sum_{j=0}^{d} C_{jk}\,x_{ij} = h_i\,f(x_{ik}, w_{ik}, \theta), \qquad
+          x_{i+1,0} = \sum_j D_j\,x_{ij}
+
+On each interval the state is a polynomial of degree d through its start and d Legendre points, which solves the
+equations at those points; order 2 d at the ends of the intervals.
 """
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
 
-from mechsym.optimise.collocation import Intervals
+from mechsym.optimise.solvers import linear
 from mechsym.optimise.trace import Trace
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Radian, Second
 
+DEGREE = 5
 RANK = 1e-7  # singular value by the largest, below which a direction is not determined
 _APPROACH, _SETTLING, _STEPS = 20, 3, 60  # first steps, those before the parameters may move, and steps that follow
 _STRIDE, _NEAR = 0.5, 1e-3  # largest change of a parameter in a first step, and that of the last one, by its size
 _CORRECTIONS, _SOLVED = 12, 1e-9  # of states after a step, and their size at the end by the largest speed
 _GAIN = 1e-5  # what a last step would take off the sum of squares, by the variance: three thousandths of an error
 _DAMPING, _STIFFEST = 1e-4, 1e8
+_SHORTER = 0.5 ** np.arange(10)  # parts of a first step that are tried
+
+
+class Intervals(NamedTuple):
+    """Intervals, and the linear maps from the states to what is asked of them."""
+
+    edges: np.ndarray  # shape (N + 1,) [s]
+    nodes: np.ndarray  # times of the collocation points, shape (N d,) [s]
+    slopes: sp.csc_matrix  # states (N (d + 1),) to h times their rates at the nodes
+    inner: sp.csc_matrix  # states to those at the nodes
+    gaps: sp.csc_matrix  # states to what an interval's end misses its follower's start by, (N - 1,)
+    samples: sp.csc_matrix  # states to those at the samples
+    lengths: np.ndarray  # of the interval of each node, shape (N d,) [s]
+
+
+def grid(t: Second[Array], breaks: tuple[Second, ...], longest: Second) -> Intervals:
+    """Intervals over samples.
+
+    breaks: times at which the equations change; longest: length of an interval at most.
+    """
+    inside = sorted({float(t[0]), float(t[-1]), *(b for b in breaks if t[0] < b < t[-1])})
+    parts = [
+        np.linspace(a, b, max(2, int(np.ceil((b - a) / longest)) + 1)) for a, b in zip(inside, inside[1:], strict=False)
+    ]
+    edges = np.unique(np.concatenate(parts))
+    count, h = len(edges) - 1, np.diff(edges)
+    tau = np.append(0.0, ca.collocation_points(DEGREE, "legendre"))
+    c, d, _ = (np.asarray(m) for m in ca.collocation_coeff(tau[1:].tolist()))
+    each, inner = sp.identity(count), np.vstack([np.zeros(DEGREE), np.eye(DEGREE)])
+    start = np.eye(DEGREE + 1)[:, :1]
+    ends = sp.kron(each, d.reshape(-1, 1), "csc")
+    starts = sp.kron(each, start, "csc")
+    interval = np.clip(np.searchsorted(edges, t, side="right") - 1, 0, count - 1)
+    place = (t - edges[interval]) / h[interval]
+    # Lagrange's polynomials; scipy's interpolator orders its nodes at random, and with them the rounding
+    own = np.eye(len(tau), dtype=bool)
+    basis = np.where(own, 1.0, (place[:, None] - tau)[:, None, :]).prod(axis=2)
+    basis /= np.where(own, 1.0, tau[:, None] - tau).prod(axis=1)
+    rows = (interval[:, None] * len(tau) + np.arange(len(tau))).ravel()
+    columns = np.repeat(np.arange(len(t)), len(tau))
+    return Intervals(
+        edges=edges,
+        nodes=(edges[:-1, None] + h[:, None] * tau[1:]).ravel(),
+        slopes=sp.kron(each, c, "csc"),
+        inner=sp.kron(each, inner, "csc"),
+        gaps=sp.csc_matrix(ends[:, :-1] - starts[:, 1:]),
+        samples=sp.csc_matrix((basis.ravel(), (rows, columns)), shape=(count * len(tau), len(t))),
+        lengths=np.repeat(h, DEGREE),
+    )
 
 
 @record
@@ -35,6 +92,7 @@ class TracedMotion:
     #: (coordinates and velocities (2 n,), inputs (m,), parameters (k,)) -> their rates
     rate: ca.Function
     velocities: tuple[str, ...]
+    turning: tuple[bool, ...]  #: Whether a coordinate is an angle, and no length
     inputs: tuple[str, ...]
     names: tuple[str, ...]  #: Parameters that are looked for
     units: tuple[str, ...]  #: Their SI units
@@ -42,8 +100,15 @@ class TracedMotion:
     size: np.ndarray  #: shape (k,): Their sizes [SI]
     low: np.ndarray  #: shape (k,): Least values [SI]
     known: Callable[[np.ndarray], np.ndarray]  #: Times (n,) [s] to inputs (m, n) [SI]
+    #: (states, inputs, parameters) -> kinetic energy [J] and power of all known forces [W]
+    energy: ca.Function
+    lossy: bool  #: Whether friction or damping is looked for
+    pose: np.ndarray  #: shape (n,): Coordinates at the first sample, where the search starts [rad] or [m]
     breaks: tuple[float, ...] = ()  #: Times at which they jump [s]
-    angle: float = 0.0  #: Of all coordinates at the first sample [rad]
+
+    def turned(self, angle: float) -> np.ndarray:
+        """The pose at the first sample with all angles further on [rad] or [m], shape (n,)."""
+        return self.pose + angle * np.array(self.turning)
 
 
 class ClosestMotion(NamedTuple):
@@ -81,8 +146,9 @@ class TraceTask:
         rate = model.rate(x, w, z)
         self._rates = ca.Function("rates", [x, w, z], [rate, ca.jacobian(rate, x), ca.jacobian(rate, z)])
         self._known = model.known(points.nodes)
-        self._slopes, self._inner, self._gaps = (sp.csr_matrix(sp.kron(m.T, each))
-                                                 for m in (points.slopes, points.inner, points.gaps))  # fmt: skip
+        self._slopes, self._inner, self._gaps = (
+            sp.csr_matrix(sp.kron(m.T, each)) for m in (points.slopes, points.inner, points.gaps)
+        )
         self._rows = [n // 2 + model.velocities.index(name) for name in trace.speeds]
         self.measured = np.array(list(trace.speeds.values()))
         self.scale = max(float(np.abs(self.measured).max()), 1e-9)
@@ -91,15 +157,17 @@ class TraceTask:
         """Measured speeds less those of the states, shape (speeds, samples) [rad/s]."""
         return np.asarray(self.measured - states[self._rows] @ self.points.samples)
 
-    def linear(self, states: np.ndarray, theta: np.ndarray) -> _Linear:
-        """The equations about states (2 n, points) and parameters (k,) [SI]."""
+    def linear(self, states: np.ndarray, theta: np.ndarray) -> _Linear | None:
+        """The equations about states (2 n, points) and parameters (k,) [SI]; None where a loop is open."""
         n, k, count = states.shape[0], len(theta), len(self.points.nodes)
-        found = self._rates(states @ self.points.inner, self._known, np.tile(theta[:, None], (1, count)))
-        rates, by_state, by_theta = (np.asarray(v) for v in found)
+        values = self._rates(states @ self.points.inner, self._known, np.tile(theta[:, None], (1, count)))
+        rates, by_state, by_theta = (np.asarray(v) for v in values)
+        if not all(np.isfinite(v).all() for v in (states, rates, by_state, by_theta)):
+            return None
         h = self.points.lengths
-        misses = np.concatenate([
-            (states @ self.points.slopes - rates * h).ravel("F"), (states @ self.points.gaps).ravel("F")
-        ])  # fmt: skip
+        misses = np.concatenate(
+            [(states @ self.points.slopes - rates * h).ravel("F"), (states @ self.points.gaps).ravel("F")]
+        )
         by_state = by_state.reshape(n, count, n).transpose(1, 0, 2) * h[:, None, None]
         blocks = sp.bsr_matrix((by_state, np.arange(count), np.arange(count + 1)))
         whole = sp.csc_matrix(sp.vstack([self._slopes - blocks @ self._inner, self._gaps]))
@@ -108,81 +176,104 @@ class TraceTask:
         free[: count * n, :k] = (-by_theta * h[:, None, None] * self.model.size).reshape(-1, k)
         free[:, k:] = whole[:, :n].toarray()
         # the first state is free; all the others follow from it and from the parameters
-        solved = -splu(sp.csc_matrix(whole[:, n:])).solve(np.column_stack([misses, free]))
-        every = np.vstack([np.zeros((n, k + n + 1)), solved])
+        solved = linear(whole[:, n:], np.column_stack([misses, free]))
+        if solved is None:
+            return None
+        every = np.vstack([np.zeros((n, k + n + 1)), -solved])
         every[:n, k + 1 :] = np.eye(n)
         seen = np.vstack([np.asarray(self.points.samples.T @ every[row::n]) for row in self._rows])
         return _Linear(every[:, 0], every[:, 1:], seen[:, 0], seen[:, 1:])
 
     def guess(self, angle: float) -> np.ndarray:
-        """States at all points: measured speeds, the others like the first, and their integrals from an angle [rad]."""
-        h, trace = np.diff(self.points.edges), self.trace
-        times = np.sort(np.append(self.points.nodes, self.points.edges[:-1]))
-        assert len(times) == len(h) * (len(self.points.nodes) // len(h) + 1)
-        first, names = next(iter(trace.speeds.values())), self.model.velocities
-        speeds = np.array([np.interp(times, trace.t, trace.speeds.get(name, first)) for name in names])
-        along = np.concatenate([[0.0], np.cumsum(np.diff(times) * (speeds[0, 1:] + speeds[0, :-1]) / 2)])
-        return np.vstack([np.tile(angle + along, (len(names), 1)), speeds])
+        """States at all points: measured speeds, others of a kind like the first, their way from a pose [rad]."""
+        h, points = np.diff(self.points.edges), self.points
+        times = np.sort(np.append(points.nodes, points.edges[:-1]))
+        assert len(times) == len(h) * (len(points.nodes) // len(h) + 1)
+        return followed(self.model, self.trace, times, angle)
 
 
-def approach(task: TraceTask, angle: float) -> tuple[np.ndarray, np.ndarray]:
+def followed(model: TracedMotion, trace: Trace, times: np.ndarray, angle: float) -> np.ndarray:
+    """States at times: measured speeds, others of a kind like the first, their way from a pose turned on [SI].
+
+    Returns states: coordinates and velocities, shape (2 n, times).
+    """
+    kinds = dict(zip(model.velocities, model.turning, strict=True))
+    first = {kinds[name]: values for name, values in reversed(list(trace.speeds.items()))}
+    nothing = np.zeros_like(trace.t)
+    like = [trace.speeds.get(name, first.get(kind, nothing)) for name, kind in kinds.items()]
+    speeds = np.array([np.interp(times, trace.t, values) for values in like])
+    ways = np.cumsum(np.diff(times) * (speeds[:, 1:] + speeds[:, :-1]) / 2, axis=1)
+    return np.vstack([model.turned(angle)[:, None] + np.pad(ways, ((0, 0), (1, 0))), speeds])
+
+
+def approach(task: TraceTask, angle: Radian) -> tuple[np.ndarray, np.ndarray] | None:
     """States and parameters near a motion: Gauss and Newton's steps whose equations hold only at the end.
 
-    Parameters
-    ----------
-    angle : float
-        Of all coordinates at the first sample [rad]
+    angle: how far beyond the pose of the model the first sample lies. Returns states, theta: [SI]; None where a loop is
+    open on the way that the measured speeds tell.
     """
     model = task.model
     states, theta, k = task.guess(angle), model.start.copy(), len(model.start)
+    here = task.linear(states, theta)
+    if here is None:
+        return None
     for turn in range(_APPROACH):
-        here = task.linear(states, theta)
         slopes = here.slopes.copy()
         if turn < _SETTLING:  # a motion that goes with the values at the start, before they are let loose
             slopes[:, :k] = 0.0
-        width = np.linalg.norm(slopes, axis=0)
-        width[width == 0] = 1.0
-        step = np.linalg.lstsq(slopes / width, task.rest(states).ravel() - here.shift, rcond=RANK)[0] / width
+        columns, width = unit_columns(slopes)
+        step = np.linalg.lstsq(columns, task.rest(states).ravel() - here.shift, rcond=RANK)[0] / width
         # what starts at nothing has no size to go by
         longest = float(np.abs(step[:k][model.start != 0]).max(initial=0.0))
         limit = min(1.0, _STRIDE / max(longest, 1e-300))
-        change = (here.move + here.follow @ step) * limit
-        if not np.isfinite(change).all():
+        change = (here.move + here.follow @ step).reshape(states.shape, order="F")
+        for part in limit * _SHORTER:  # a loop may be open a whole step ahead
+            moved = states + part * change, np.maximum(theta + part * step[:k] * model.size, model.low)
+            there = task.linear(*moved)
+            if there is not None:
+                break
+        else:
             break
-        states = states + change.reshape(states.shape, order="F")
-        theta = np.maximum(theta + limit * step[:k] * model.size, model.low)
-        if turn > _SETTLING and limit == 1.0 and np.abs(step[:k]).max() < _NEAR:
+        (states, theta), here = moved, there
+        if turn > _SETTLING and part == 1.0 and np.abs(step[:k]).max() < _NEAR:
             break
     return states, theta
 
 
-def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion:
-    """The motion that comes closest to the trace, from one nearby.
+def unit_columns(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Columns divided by their lengths, and these; 1 in place of 0 [unit of the columns]."""
+    width = np.linalg.norm(columns, axis=0)
+    width[width == 0] = 1.0
+    return columns / width, width
 
-    Parameters
-    ----------
-    states : ndarray, shape (2 n, points)
-        Coordinates and velocities [rad, rad/s]
-    theta : ndarray, shape (k,)
-        Parameters, the one of number `held` stays [SI]
+
+def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion | None:
+    """The motion that comes closest to the trace, from one nearby; None where there is no motion nearby.
+
+    states: coordinates and velocities [rad, rad/s], shape (2 n, points); theta: parameters, the one of number `held`
+    stays [SI], shape (k,).
     """
     here, damping = _motion(task, states, theta), _DAMPING
     if here is None:
-        return ClosestMotion(
-            states, theta, task.rest(states), np.zeros((0, 0)), np.zeros((0, 0)), "no motion follows the trace"
-        )
+        return None
     for _ in range(_STEPS):
-        free = _free(task.model, here, held)
-        columns = here.slopes[:, free]
-        width = np.linalg.norm(columns, axis=0)
-        width[width == 0] = 1.0
-        gain, full = _gain(columns / width, here.rest.ravel())
+        # numbers of the values that may move: not the held one, none that its least value holds
+        k = len(task.model.start)
+        downhill = here.slopes.T @ here.rest.ravel()
+        stays = [i for i in range(k) if i == held or (here.theta[i] <= task.model.low[i] and downhill[i] <= 0)]
+        free = np.setdiff1d(np.arange(here.slopes.shape[1]), stays)
+        columns, width = unit_columns(here.slopes[:, free])
+        # what Gauss and Newton's step would take off the sum of squares, and that step
+        left, singular, right = np.linalg.svd(columns, full_matrices=False)
+        keep = singular > RANK * singular[0]
+        along = left.T[keep] @ here.rest.ravel()
+        gain, full = float(along @ along), right[keep].T @ (along / singular[keep])
         if (
             gain <= _GAIN * here.left / (here.rest.size - len(free))
             or float(np.abs(full).max(initial=0.0)) < 1e-13 * task.scale
         ):
             return here._replace(status="converged")
-        trial = _step(task, here, free, width, damping)
+        trial = _step(task, here, free, damping)
         if trial is not None and trial.left < here.left:
             here, damping = trial, damping / 10
         elif damping > _STIFFEST:
@@ -192,27 +283,10 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
     return here._replace(status=f"no steady values after {_STEPS} steps")
 
 
-def _gain(columns: np.ndarray, rest: np.ndarray) -> tuple[float, np.ndarray]:
-    """What Gauss and Newton's step would take off the sum of squares, and that step."""
-    left, singular, right = np.linalg.svd(columns, full_matrices=False)
-    keep = singular > RANK * singular[0]
-    along = left.T[keep] @ rest
-    return float(along @ along), right[keep].T @ (along / singular[keep])
-
-
-def _free(model: TracedMotion, here: ClosestMotion, held: int | None) -> np.ndarray:
-    """Numbers of the values that may move: not the held one, none that its least value holds."""
-    k = len(model.start)
-    downhill = here.slopes.T @ here.rest.ravel()
-    stays = [i for i in range(k) if i == held or (here.theta[i] <= model.low[i] and downhill[i] <= 0)]
-    return np.setdiff1d(np.arange(here.slopes.shape[1]), stays)
-
-
-def _step(
-    task: TraceTask, here: ClosestMotion, free: np.ndarray, width: np.ndarray, damping: float
-) -> ClosestMotion | None:
+def _step(task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float) -> ClosestMotion | None:
     model, k = task.model, len(task.model.start)
-    rows = np.vstack([here.slopes[:, free] / width, math.sqrt(damping) * np.eye(len(free))])
+    columns, width = unit_columns(here.slopes[:, free])
+    rows = np.vstack([columns, math.sqrt(damping) * np.eye(len(free))])
     target = np.append(here.rest.ravel(), np.zeros(len(free)))
     step = np.zeros(here.slopes.shape[1])
     step[free] = np.linalg.lstsq(rows, target, rcond=None)[0] / width
@@ -225,9 +299,8 @@ def _step(
 def _motion(task: TraceTask, states: np.ndarray, theta: np.ndarray) -> ClosestMotion | None:
     """The motion from the first of the states; None where Newton's steps do not find it."""
     for _ in range(_CORRECTIONS):
-        with np.errstate(all="ignore"):
-            here: Any = task.linear(states, theta) if np.isfinite(states).all() else None
-        if here is None or not np.isfinite(here.follow).all():
+        here = task.linear(states, theta)
+        if here is None:
             return None
         if float(np.abs(here.move).max()) < _SOLVED * task.scale:
             return ClosestMotion(states, theta, task.rest(states), here.slopes, here.follow)

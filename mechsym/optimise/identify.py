@@ -4,46 +4,155 @@ r"""Parameters of a machine out of measured speeds, with intervals that hold the
           \qquad \mathrm{cov}(\theta) = s^2 (S^T S)^{-1},\quad S = \frac{d u(t_i)}{d(\theta, x_0)}
 
 The equations hold exactly (`collocation`), the noise sits on the speeds alone. s comes from what the fit leaves over.
-The standard errors are those of a straight model; the intervals are not (`profile`).
+The standard errors are those of a straight model; the intervals are not, they go by profiles: how far a parameter may
+go while all the others do their best to follow.
+
+.. math:: S(\theta_i) = \min_{\theta_{j \ne i}, x_0} \sum_i r_i^2 \le S_{\min}\,(1 + t^2/\nu)
+
+Where the model is linear in its parameters this is the usual +- t standard errors. Where it is not, it still is how
+far the trace lets go; an end that is never reached is open.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Annotated
 
 import casadi as ca
 import numpy as np
 from scipy.special import stdtrit
 
+from mechsym import budget
 from mechsym.errors import BadInput
-from mechsym.optimise.collocation import grid
-from mechsym.optimise.fit import RANK, ClosestMotion, TracedMotion, TraceTask, approach, closest
-from mechsym.optimise.profile import profile
-from mechsym.optimise.residuals import Estimate, doubts, durbin_watson, rounding
+from mechsym.optimise.fit import (
+    DEGREE,
+    RANK,
+    ClosestMotion,
+    TracedMotion,
+    TraceTask,
+    approach,
+    closest,
+    grid,
+    unit_columns,
+)
+from mechsym.optimise.preview import require_plausible
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
-from mechsym.quantities import record
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import Array, RadPerSecond, Second
+
+_DURBIN = 3.0  # standard errors by which the statistic of white noise may miss 2
+_EXACT = 1e-6  # of the speed, below which what is left over is rounding
+_OUTLIER = 6.0  # standard deviations
+_LOOSE, _T95 = 0.5, 2.0  # standard error by the value, beyond which a parameter is hardly known; interval by it
+
+
+@result
+class Estimate:
+    """One parameter."""
+
+    name: str
+    value: float = quantity("@unit")  #: Where the fit is closest
+    error: float = quantity("@unit")  #: Standard error
+    low: float = quantity("@unit")  #: Least of the 95 % interval, infinite where the trace sets no end
+    high: float = quantity("@unit")  #: Largest of the 95 % interval, infinite where the trace sets no end
+    unit: str = part()
+
+
+def durbin_watson(rest: np.ndarray) -> float:
+    """Statistic of Durbin and Watson of residuals [rad/s], 2 where they are white noise."""
+    return float(np.sum(np.diff(rest, axis=1) ** 2) / max(np.sum(rest**2), 1e-300))
+
+
+def white_noise(rest: RadPerSecond[Array], trace: Trace) -> bool:
+    """Whether what is left over may be white noise; its Durbin-Watson statistic is 2 with the error 2/sqrt(n).
+
+    rest: measured less fitted speeds, shape (speeds, samples).
+    """
+    band = _DURBIN * 2 / math.sqrt(rest.size)
+    return rounding(rest, trace) or abs(durbin_watson(rest) - 2) < band
+
+
+def rounding(rest: np.ndarray, trace: Trace) -> bool:
+    """Whether what is left over is rounding and no noise; `rest` as in `white_noise` [rad/s]."""
+    return float(np.std(rest)) < _EXACT * max(float(np.abs(v).max()) for v in trace.speeds.values())
+
+
+def doubts(
+    rest: RadPerSecond[Array], trace: Trace, estimates: tuple[Estimate, ...], least: np.ndarray, ways: int
+) -> tuple[Doubt, ...]:
+    """What of a fit looks wrong: residuals that are no noise, outliers, parameters hardly known or impossible.
+
+    rest: measured less fitted speeds, shape (speeds, samples); least: least values of the parameters [SI], shape (k,);
+    ways: how many motions explain the trace, each with its own place of the dead centre.
+    """
+    white, worst = durbin_watson(rest), float(np.abs(rest).max()) / max(float(np.std(rest)), 1e-300)
+    band, raised = _DURBIN * 2 / math.sqrt(rest.size), []
+    if not white_noise(rest, trace):
+        why = "what is left over is no noise: the model misses something, and the intervals are too narrow"
+        usual = f"{2 - band:.2f} to {2 + band:.2f}"
+        raised.append(Doubt(code="residuals", quantity="durbin_watson", value=white, usual=usual, why=why))
+    if worst > _OUTLIER and not rounding(rest, trace):
+        why = "samples lie far off; look for bad readings, they pull the parameters"
+        raised.append(Doubt(code="outlier", quantity="residual / noise", value=worst, usual="at most 6", why=why))
+    if ways > 1:
+        why = "the trace does not tell where the dead centre lies: the intervals hold the values of each place"
+        raised.append(Doubt(code="ambiguous", quantity="motions", value=float(ways), usual="1", why=why))
+    one_by_one = (_of_estimate(e, low) for e, low in zip(estimates, least.tolist(), strict=True))
+    return (*raised, *(doubt for doubt in one_by_one if doubt is not None))
+
+
+def _of_estimate(e: Estimate, least: float) -> Doubt | None:
+    if e.value <= least + 1e-6 * e.error:
+        why = f"{e.name} ends at its least value: the model asks for an impossible one"
+        return Doubt(code="bound", quantity=e.name, value=e.value, usual=f"above {least:g}", why=why)
+    if not math.isfinite(e.high - e.low) or e.low <= least:
+        side = "above" if math.isinf(e.high) else "below"
+        return Doubt(code="open", quantity=e.name, value=e.value, usual="an interval with two ends",
+                     why=f"the trace sets {e.name} no end {side}: free fewer, or measure longer")  # fmt: skip
+    if e.high - e.low > 2 * _LOOSE * _T95 * abs(e.value):
+        return Doubt(
+            code="loose",
+            quantity=e.name,
+            value=(e.high - e.low) / max(abs(e.value), 1e-300),
+            usual="an interval below twice the value",
+            why=f"{e.name} is hardly determined by this trace",
+        )
+    if e.name.startswith("friction") and e.high < 0:
+        why = f"{e.name} would drive the shaft: a torque is missing among what is known"
+        return Doubt(code="drives", quantity=e.name, value=e.value, usual="above 0", why=why)
+    return None
+
 
 _LONGEST = 0.5  # of an interval: radians of the fastest motion
 _STARTS = 4  # angles that are tried
+# time for each number of the linear system from each start [s], and how many times it is held: measured, 1e3 to 1e5
+# intervals of one and two coordinates
+_PER_NUMBER, _COPIES = 1e-5, 20
 _SAME, _BESIDE = 0.1, 0.2  # standard errors and radians of the first angle within which two fits are one
 
 
-@record
+@result
 class Identified:
     """What a trace tells."""
 
-    status: str  #: `found` or `not converged`
-    reason: str
-    estimates: tuple[Estimate, ...]
-    correlation: np.ndarray  #: shape (k, k), in the order of the estimates [-]
-    noise: float  #: Standard deviation of what the fit leaves over [rad/s]
-    durbin_watson: float  #: 2 where the rest is white noise [-]
-    samples: int
-    intervals: int
+    status: str = part()  #: `found` or `not converged`
+    reason: str = part()
+    parameters: Mapping[str, Estimate] = part()
+    correlation: np.ndarray = quantity("-")  #: Of two parameters, shape (k, k)
+    noise: float = quantity("@unit")  #: Standard deviation of what the fit leaves over
+    durbin_watson: float = quantity("-")  #: 2 where the rest is white noise
+    samples: int = quantity("-")  #: Measured speeds
+    intervals: int = quantity("-")  #: Of the collocation
+    doubts: tuple[Doubt, ...] = part()
+    unit: str  # of the measured speeds
     t: np.ndarray  #: shape (n,) [s]
-    measured: Mapping[str, np.ndarray]  #: Velocities, each of shape (n,) [rad/s]
-    fitted: Mapping[str, np.ndarray]  #: The same of the model [rad/s]
-    doubts: tuple[Doubt, ...]
+    measured: Mapping[str, np.ndarray]  #: velocities, each of shape (n,) [unit]
+    fitted: Mapping[str, np.ndarray]  #: The same of the model [unit]
+
+    @property
+    def estimates(self) -> tuple[Estimate, ...]:
+        """The parameters, in the order in which they were asked for."""
+        return tuple(self.parameters.values())
 
 
 def identify(model: TracedMotion, trace: Trace) -> Identified:
@@ -57,28 +166,69 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     count, unknown = sum(map(len, trace.speeds.values())), len(model.names) + 2 * len(model.velocities)
     if count < 10 * unknown:
         raise BadInput(f"{trace.file}: {count} samples for {unknown} unknowns; give ten times as many, or free fewer")
-    task = TraceTask(model, trace, grid(trace.t, model.breaks, _longest(model, trace)))
+    _require_seen(model, trace)
     # speeds do not tell where the dead centre lies: a search from each quarter
-    starts = [model.angle + k * 2 * math.pi / _STARTS for k in range(_STARTS)]
-    fits = sorted((closest(task, *approach(task, angle)) for angle in starts), key=lambda fit: fit.left)
+    angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if any(model.turning) else 1)]
+    longest = _longest(model, trace, angles)
+    require_plausible(model, trace, angles, longest)
+    _require_short(model, trace, longest, len(angles))
+    task = TraceTask(model, trace, grid(trace.t, model.breaks, longest))
+    near = [place for angle in angles if (place := approach(task, angle)) is not None]
+    fits = sorted((fit for place in near if (fit := closest(task, *place)) is not None), key=lambda fit: fit.left)
+    if not fits:
+        why = "no motion follows the trace" if near else "a loop is open on the way that the trace tells"
+        way_out = "give simulation.phi_start or [start] the pose of its first sample"
+        raise BadInput(
+            f"{trace.file}: {why} from {_pose(model)} or a quarter turn on; {way_out}, and see whether [drive], units "
+            "and the values of the case fit it"
+        )
     return _result(task, fits)
 
 
-def _longest(model: TracedMotion, trace: Trace) -> float:
+def _pose(model: TracedMotion) -> str:
+    names = (name.removesuffix("d") for name in model.velocities)
+    return ", ".join(f"{name} = {value:.4g}" for name, value in zip(names, model.pose, strict=True))
+
+
+def _require_seen(model: TracedMotion, trace: Trace) -> None:
+    """Refuse parameters that are in no equation of motion."""
+    x, w, z = (ca.SX.sym(name, *shape) for name, shape in zip("xwz", map(model.rate.size_in, range(3)), strict=True))
+    by_column = ca.jacobian(model.rate(x, w, z), z).sparsity().get_col()
+    unseen = [name for i, name in enumerate(model.names) if i not in by_column]
+    if unseen:
+        why = f"no motion shows {', '.join(unseen)}: the equations of motion do not hold it"
+        raise BadInput(f"{trace.file}: {why}; leave it out of --free")
+
+
+def _require_short(model: TracedMotion, trace: Trace, longest: Second, starts: int) -> None:
+    """Refuse a fit that takes longer or more memory than its budget."""
+    intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
+    columns = len(model.names) + states + 1
+    numbers = intervals * (DEGREE + 1) * states * columns
+    seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
+    what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
+    budget.require(what, seconds, size, "give a shorter stretch of the trace")
+
+
+def _longest(model: TracedMotion, trace: Trace, angles: list[float]) -> float:
     """Length of an interval that follows the fastest motion: turning, or swinging of an elastic shaft [s]."""
     n = len(model.velocities)
     x = ca.SX.sym("x", 2 * n)
-    slope = ca.jacobian(model.rate(x, model.known(trace.t[:1])[:, 0], model.start), x)
-    rates = np.linalg.eigvals(np.asarray(ca.Function("slope", [x], [slope])(ca.DM([model.angle] * n + [0.0] * n))))
-    turning = 2 * max(float(np.abs(v).max()) for v in trace.speeds.values())
-    return _LONGEST / max(float(np.abs(rates).max()), turning, 1e-9)
+    slope = ca.Function("slope", [x], [ca.jacobian(model.rate(x, model.known(trace.t[:1])[:, 0], model.start), x)])
+    slopes = (np.asarray(slope(np.append(model.turned(angle), np.zeros(n)))) for angle in angles)
+    closed = next((matrix for matrix in slopes if np.isfinite(matrix).all()), None)
+    if closed is None:
+        why = f"a loop is open at {_pose(model)}, where the search starts, and at each quarter turn on"
+        raise BadInput(f"{trace.file}: {why}; give simulation.phi_start or [start] a pose in which it closes")
+    angular = [name for name, turns in zip(model.velocities, model.turning, strict=True) if turns]
+    turning = 2 * max((float(np.abs(v).max()) for name, v in trace.speeds.items() if name in angular), default=0.0)
+    return _LONGEST / max(float(np.abs(np.linalg.eigvals(closed)).max()), turning, 1e-9)
 
 
 def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.ndarray:
     """Inverse of the information of the parameters, by their sizes; refused where one of them is not determined."""
-    columns = np.linalg.norm(slopes, axis=0)
-    columns[columns == 0] = 1.0
-    _, singular, directions = np.linalg.svd(slopes / columns, full_matrices=False)
+    columns, width = unit_columns(slopes)
+    _, singular, directions = np.linalg.svd(columns, full_matrices=False)
     weak = singular < RANK * singular[0]
     k = len(model.names)
     lost = np.abs(directions[weak][:, :k]).max(axis=0) if weak.any() else np.zeros(k)
@@ -89,13 +239,11 @@ def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.nda
             "measure a torque or another speed too"
         )
     inverse = directions[~weak].T / singular[~weak]
-    return (inverse @ inverse.T / np.outer(columns, columns))[:k, :k]
+    return (inverse @ inverse.T / np.outer(width, width))[:k, :k]
 
 
 def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
     model, trace, best = task.model, task.trace, fits[0]
-    if best.status.startswith("no motion"):
-        raise BadInput(f"{trace.file}: {best.status}: see whether [drive], units and the values of the case fit it")
     dof = best.rest.size - best.slopes.shape[1]
     noise = math.sqrt(best.left / dof)
     covariance = noise**2 * _covariance(model, trace, best.slopes) * np.outer(model.size, model.size)
@@ -111,8 +259,10 @@ def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
     )
     measured = {name: np.asarray(v) for name, v in trace.speeds.items()}
     return Identified(
-        status="found" if best.status == "converged" else "not converged", reason=best.status, estimates=estimates,
-        correlation=covariance / np.outer(errors, errors), noise=noise, durbin_watson=durbin_watson(best.rest),
+        status="found" if best.status == "converged" else "not converged", reason=best.status,
+        parameters={one.name: one for one in estimates},
+        correlation=covariance / np.outer(errors, errors), noise=noise,
+        unit=trace.unit, durbin_watson=durbin_watson(best.rest),
         samples=best.rest.size, intervals=len(task.points.edges) - 1, t=trace.t, measured=measured,
         fitted={name: measured[name] - rest for name, rest in zip(measured, best.rest, strict=True)},
         doubts=doubts(best.rest, trace, estimates, model.low, len(alike)),
@@ -121,14 +271,72 @@ def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
 
 def _alike(fits: list[ClosestMotion], reach: float, errors: np.ndarray) -> list[ClosestMotion]:
     """The best fit and those that the trace does not tell from it, each once."""
-    found = fits[:1]
+    alike = fits[:1]
     for fit in fits[1:]:
         near = fit.status == "converged" and fit.left - fits[0].left < reach**2
-        if near and not any(_one(fit, other, errors) for other in found):
-            found.append(fit)
-    return found
+        if near and not any(_one(fit, other, errors) for other in alike):
+            alike.append(fit)
+    return alike
 
 
 def _one(a: ClosestMotion, b: ClosestMotion, errors: np.ndarray) -> bool:
     turned = abs(math.remainder(float(a.states[0, 0] - b.states[0, 0]), 2 * math.pi))
     return turned < _BESIDE or bool((np.abs(a.theta - b.theta) < _SAME * errors).all())
+
+
+_TRIALS, _CLOSE, _LEAP = 10, 0.02, 3.0  # trials at an end, how close they come, largest leap by the last distance
+
+
+def profile(
+    task: TraceTask, fits: Sequence[ClosestMotion], number: int, far: float, reach: Annotated[float, "rad^2/s^2"]
+) -> tuple[float, float]:
+    """Ends of the interval of the parameter of a number.
+
+    fits: the best motion first, then others that the trace does not tell from it; far: where the ends would be if the
+    model were straight, from the best value [SI]; reach: what the sum of squares may grow by. Returns low, high: over
+    all fits; infinite where the trace sets no end, the least value where the model has none below [SI].
+    """
+    least = fits[0].left
+    low = min(fit.theta[number] - _distance(task, fit, number, -far, least, reach) for fit in fits)
+    return float(low), float(max(fit.theta[number] + _distance(task, fit, number, far, least, reach) for fit in fits))
+
+
+def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, least: float, reach: float) -> float:
+    """How far the parameter may go to one side, by the secant's rule: the root of the growth is nearly straight."""
+    wide = math.sqrt(reach)
+    room = math.inf if far > 0 else float(fit.theta[number] - task.model.low[number])
+    # a second motion starts from what it misses already
+    inner, outer, here = (0.0, math.sqrt(max(fit.left - least, 0.0))), (math.inf, math.inf), fit
+    distance = min(abs(far), room)
+    for _ in range(_TRIALS):
+        there = _held(task, here, number, float(fit.theta[number]) + math.copysign(distance, far))
+        growth = math.inf if there is None else math.sqrt(max(there.left - least, 0.0))
+        if abs(growth - wide) < _CLOSE * wide or (growth < wide and distance >= room):
+            return distance
+        if there is not None and growth < wide:
+            ahead = (wide - growth) * (distance - inner[0]) / max(growth - inner[1], 1e-300)
+            inner, here = (distance, growth), there
+            distance = min(distance + min(1.1 * ahead, _LEAP * distance), room)
+        else:
+            outer = (distance, growth)
+        if math.isfinite(outer[0]):
+            share = (wide - inner[1]) / (outer[1] - inner[1]) if math.isfinite(outer[1]) else 0.5
+            distance = inner[0] + min(max(share, 0.1), 0.9) * (outer[0] - inner[0])
+    return outer[0]
+
+
+def _held(task: TraceTask, here: ClosestMotion, number: int, value: float) -> ClosestMotion | None:
+    """The closest motion with one parameter held, from one nearby."""
+    model, theta = task.model, here.theta.copy()
+    move = (value - theta[number]) / model.size[number]
+    others = np.delete(np.arange(here.slopes.shape[1]), number)
+    columns, width = unit_columns(here.slopes[:, others])
+    step = np.zeros(here.slopes.shape[1])
+    step[number] = move
+    target = here.rest.ravel() - here.slopes[:, number] * move
+    step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
+    theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
+    step[: len(theta)] = (theta - here.theta) / model.size
+    states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
+    motion = closest(task, states, theta, number)
+    return motion if motion is not None and motion.status == "converged" else None

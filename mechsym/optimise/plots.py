@@ -10,7 +10,7 @@ from mechsym.style import BLUE, INK, QUIET, RED, axis_unit, legend, panels, writ
 def trace_picture(path: Path, found: Identified) -> Path:
     """Speeds measured and fitted, and their difference, over time."""
     figure, axes = panels(9, 3.6, 1, 2, "Measured speeds and the model through them, and what is left over")
-    factor, unit = axis_unit("rad/s", *found.measured.values())
+    factor, unit = axis_unit(found.unit, *found.measured.values())
     for (name, measured), color in zip(found.measured.items(), (BLUE, RED, INK), strict=False):
         axes[0].plot(found.t, measured * factor, ".", ms=2, color=color, alpha=0.4, label=f"{name} measured")
         axes[0].plot(found.t, found.fitted[name] * factor, color=color, lw=0.8, label=f"{name} fitted")
@@ -20,9 +20,7 @@ def trace_picture(path: Path, found: Identified) -> Path:
         axes[1].clear()
         axes[1].set_xlim(axes[0].get_xlim())
         axes[1].set_yticks([])
-        axes[1].text(
-            0.5, 0.5, "0 (below 1e-9 of the largest speed)", transform=axes[1].transAxes, ha="center", color=QUIET
-        )
+        axes[1].text(0.5, 0.5, "0 to round-off", transform=axes[1].transAxes, ha="center", color=QUIET)
     axes[0].set(xlabel="time [s]", ylabel=f"speed [{unit}]")
     axes[1].set(xlabel="time [s]", ylabel=f"measured less fitted [{unit}]")
     for axis in axes:

@@ -7,6 +7,7 @@ its cycle at one speed (`efficiency`, `p_max`, `tooth_force`, ..).
 """
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from mechsym.cycle.closed.differentiable import PEAK_UNITS, SCALAR_UNITS
 from mechsym.cycle.closed.model import ClosedEngine, design_names
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, parse, quantity, record
+from mechsym.quantities.units import RadPerSecond
 
 
 @record
@@ -40,11 +42,15 @@ class Optimise:
                 raise BadInput(f"{name} = {getattr(self, name)!r} is no table; write [optimise.{name}] in a case file")
         for name, words in self.choices.items():
             if not isinstance(words, (list, tuple)) or not words or len(set(map(str, words))) < len(words):
-                raise BadInput(f'choices."{name}" = {words!r} is no list of different words; write for example '
-                               '"cycle.gas" = ["air", "helium"]')  # fmt: skip
+                raise BadInput(
+                    f'choices."{name}" = {words!r} is no list of different words; write for example '
+                    '"cycle.gas" = ["air", "helium"]'
+                )
         if not self.variables:
-            raise BadInput("variables is empty; name at least one, for example "
-                           '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }')  # fmt: skip
+            raise BadInput(
+                "variables is empty; name at least one, for example "
+                '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }'
+            )
 
 
 @record
@@ -60,48 +66,42 @@ class Limit:
 
 
 @record
-class Programme:
-    """A design problem with numbers."""
+class DesignTask:
+    """What a search seeks, and what must hold."""
 
-    engine: ClosedEngine
-    omega: float  #: Crank speed [rad/s]
     objective: str  #: Figure to make large or small
     sign: float  #: 1 to maximise, -1 to minimise [-]
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: SI units of the figures
     #: What may change, and what must hold
     variables: tuple[Limit, ...]
     constraints: tuple[Limit, ...]
 
-    @property
-    def units(self) -> dict[str, str]:
-        """SI units of the figures."""
-        return figure_units(self.engine)
+
+@record
+class Programme(DesignTask):
+    """A design problem with numbers."""
+
+    engine: ClosedEngine
+    omega: float  #: Crank speed [rad/s]
 
 
-def problem(engine: ClosedEngine, omega: float, section: Optimise) -> Programme:
-    """Check a section against the engine and turn its texts into numbers.
-
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    """
+def problem(engine: ClosedEngine, omega: RadPerSecond, section: Optimise) -> Programme:
+    """Check a section against the engine and turn its texts into numbers."""
     units = design_units(engine)
     figures = figure_units(engine)
     for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
         if name not in figures:
             raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
     for name, spec in section.constraints.items():
-        if (
-            name in figures
-            and name not in SCALAR_UNITS
-            and np.isfinite(limit_of("constraints", name, spec, figures).low)
-        ):
+        peak = name in figures and name not in SCALAR_UNITS
+        if peak and np.isfinite(limit_of("constraints", name, spec, figures).low):
             raise BadInput(
                 f"optimise.constraints.{name}: a peak over the cycle can only be bounded from above; give high alone"
             )
     return Programme(
         engine=engine,
         omega=omega,
+        units=figures,
         objective=section.objective,
         sign=1.0 if section.goal == "maximise" else -1.0,
         variables=tuple(limit_of("variables", name, spec, units) for name, spec in section.variables.items()),
@@ -129,7 +129,7 @@ def design_units(engine: ClosedEngine) -> dict[str, str]:
     return {name: units.get(name, "rad/s") for name in design_names(engine)}
 
 
-def limit_of(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
+def limit_of(table: str, name: str, spec: object, units: dict[str, str]) -> Limit:
     """Bounds of a variable or figure out of what a case says; `table` is `variables` or `constraints`."""
     key = f"optimise.{table}.{name}"
     if name not in units:
@@ -137,8 +137,8 @@ def limit_of(table: str, name: str, spec: Any, units: dict[str, str]) -> Limit:
     allowed = {"low", "high"} if table == "variables" else {"low", "high", "equal"}
     if not isinstance(spec, dict) or not spec or set(spec) - allowed:
         raise BadInput(f"{key} = {spec!r} is no limit; write {{ {', '.join(f'{a} = ..' for a in sorted(allowed))} }}")
-    found = {side: parse(value, units[name], f"{key}.{side}") for side, value in spec.items()}
-    low, high = (found.get("equal", found.get(side, end)) for side, end in (("low", -np.inf), ("high", np.inf)))
+    sides = {side: parse(value, units[name], f"{key}.{side}") for side, value in spec.items()}
+    low, high = (sides.get("equal", sides.get(side, end)) for side, end in (("low", -np.inf), ("high", np.inf)))
     if not low <= high or (table == "variables" and not (np.isfinite([low, high]).all() and low < high)):
         raise BadInput(f"{key} = {spec!r} leaves no room; low must be below high, and a variable needs both")
     return Limit(name=name, unit=units[name], low=low, high=high)

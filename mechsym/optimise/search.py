@@ -8,17 +8,19 @@ figures that jump as a timing passes from one step to the next. A design counts 
 holds and no limit pulls the wrong way; it is the best one nearby.
 """
 
-import dataclasses
 import math
+import time
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
 
+from mechsym import budget
 from mechsym.errors import BadInput
-from mechsym.optimise.problem import Limit
-from mechsym.optimise.solver import Optimum, active_limit
+from mechsym.files import Json
+from mechsym.optimise.fit import unit_columns
+from mechsym.optimise.problem import DesignTask, Limit
+from mechsym.optimise.solver import Optimum, optimum_of
 from mechsym.quantities import record
 
 _STEP = 1e-3  # of a variable's range, for differences
@@ -28,17 +30,11 @@ _MET, _BALANCED = 1e-6, 2e-3  # a limit, and the first-order conditions by the o
 
 
 @record
-class FigureProgramme:
+class FigureProgramme(DesignTask):
     """A design problem whose figures are computed one design at a time."""
 
     figures: Callable[[np.ndarray], Mapping[str, float]]  #: Variables (k,) [SI] to figures [SI]; may refuse a design
     start: np.ndarray  #: shape (k,) [SI]
-    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: SI units of the figures
-    objective: str  #: Figure to make large or small
-    sign: float  #: 1 to maximise, -1 to minimise [-]
-    #: What may change, and what must hold
-    variables: tuple[Limit, ...]
-    constraints: tuple[Limit, ...]
     noise: float = 0.0  #: By which a figure of a cycle in fixed steps may be off, by its size [-]
 
     @property
@@ -65,7 +61,7 @@ class _Figures:
 
     def slopes(self, z: np.ndarray, names: list[str]) -> np.ndarray:
         """Differences of figures, shape (figures, variables), of second order at the ends of a range too."""
-        found, width = np.empty((len(names), len(z))), self.task.step
+        slopes, width = np.empty((len(names), len(z))), self.task.step
         for k in range(len(z)):
             step = np.zeros(len(z))
             step[k] = width
@@ -76,39 +72,43 @@ class _Figures:
                 points = (z, z + step, z + 2 * step)  # type: ignore[assignment]
                 weights = tuple(w * np.sign(step[k]) for w in (-1.5, 2.0, -0.5))
             values = [self(point) for point in points]
-            found[:, k] = [sum(w * v[n] for w, v in zip(weights, values, strict=True)) / width for n in names]
-        return found
+            slopes[:, k] = [sum(w * v[n] for w, v in zip(weights, values, strict=True)) / width for n in names]
+        return slopes
 
 
 def search(task: FigureProgramme) -> Optimum:
     """Solve a design problem by its figures.
 
-    Returns
-    -------
-    optimum : Optimum
-        With status and reason; where there is no feasible design, the last one that was tried
+    Returns optimum: with status and reason; where there is no feasible design, the last one that was tried.
     """
     figures = _Figures(task)
     z = np.clip((task.start - figures.low) / (figures.high - figures.low), _MARGIN, 1 - _MARGIN)
+    began = time.process_time()
     size = abs(figures(z)[task.objective]) or 1.0
+    points = _STEPS * (2 * len(z) + 1)  # as many figures as a search takes at most
+    seconds = (time.process_time() - began) * points
+    budget.require(f"a search over {len(z)} variables, {points} points", seconds, 0.0, "free fewer variables")
     try:
-        found = minimize(
-            lambda u: -task.sign * figures(u)[task.objective] / size, z, method="SLSQP", bounds=[(0, 1)] * len(z),
+        result = minimize(
+            lambda u: -task.sign * figures(u)[task.objective] / size,
+            z,
+            method="SLSQP",
+            bounds=[(0, 1)] * len(z),
             jac=lambda u: -task.sign * figures.slopes(u, [task.objective])[0] / size,
             constraints=[row for limit in task.constraints for row in _rows(limit, figures)],
             options={"maxiter": _STEPS, "ftol": max(_STILL, task.noise / 4)},
-        )  # fmt: skip
+        )
     except BadInput as error:
         return _optimum(task, figures, z, f"a design on the way is refused: {error}", 0)
-    end = np.clip(found.x, 0, 1)
-    return _optimum(task, figures, end, "" if found.success else str(found.message), int(found.nit))
+    end = np.clip(result.x, 0, 1)
+    return _optimum(task, figures, end, "" if result.success else str(result.message), int(result.nit))
 
 
 def _scale(limit: Limit) -> float:
     return max((abs(b) for b in (limit.low, limit.high) if math.isfinite(b) and b), default=1.0)
 
 
-def _rows(limit: Limit, figures: _Figures) -> list[dict[str, Any]]:
+def _rows(limit: Limit, figures: _Figures) -> list[Json]:
     """A limit in the words of the solver, divided by its size."""
     scale, equal = _scale(limit), limit.low == limit.high
     sides = [(limit.low, 1.0), (limit.high, -1.0)][: 1 if equal else 2]
@@ -137,14 +137,10 @@ def _optimum(task: FigureProgramme, figures: _Figures, z: np.ndarray, trouble: s
         status, reason = "infeasible", f"no design nearby keeps all limits; the worst is missed by {missed:.2g} of it"
     elif trouble or left > max(_BALANCED, math.sqrt(task.noise)):
         status, reason = "not converged", trouble or f"first-order conditions are missed by {left:.1e}"
-    everything = {**variables, **values}
-    limits = [*((v, v.high - v.low) for v in task.variables), *((c, _scale(c)) for c in met)]
-    rows = [active_limit(task.objective, v, everything[v.name], scale, costs) for v, scale in limits if v.name in costs]
-    return Optimum(
-        status=status, reason=reason, variables=variables, objective=values[task.objective], figures=dict(values),
-        multipliers={limit.name: costs.get(limit.name, 0.0) for limit in (*task.variables, *task.constraints)},
-        active=tuple(row for row in rows if row), iterations=steps,
-    )  # fmt: skip
+    limits = [(v, variables[v.name], v.high - v.low) for v in task.variables]
+    limits += [(c, values[c.name], _scale(c)) for c in met if c.name in costs]
+    every = {limit.name: costs.get(limit.name, 0.0) for limit in (*task.variables, *task.constraints)}
+    return optimum_of(task, status, reason, variables, values, limits, every, steps)
 
 
 def _missed(limit: Limit, value: float) -> float:
@@ -161,14 +157,12 @@ def _multipliers(
     names = [v.name for v in task.variables]
     unit = np.eye(len(names))[[names.index(v.name) for v in ends]] * spans  # of the variables at their ends
     columns = np.vstack([unit.reshape(-1, len(names)), slopes[1:]]).T
-    width = np.linalg.norm(columns, axis=0)
-    width[width == 0] = 1.0
-    found = np.linalg.lstsq(columns / width, slopes[0], rcond=1e-9)[0] / width if columns.size else np.zeros(0)
+    units, width = unit_columns(columns)
+    factors = np.linalg.lstsq(units, slopes[0], rcond=1e-9)[0] / width if columns.size else np.zeros(0)
     size = max(abs(figures(z)[task.objective]), float(np.abs(slopes[0]).max()), 1e-300)
-    left = float(np.abs(slopes[0] - columns @ found).max()) / size
-    costs = dict.fromkeys(names, 0.0) | dict(
-        zip([limit.name for limit in (*ends, *met)], found.tolist(), strict=True)
-    )  # fmt: skip
+    left = float(np.abs(slopes[0] - columns @ factors).max()) / size
+    active = [limit.name for limit in (*ends, *met)]
+    costs = dict.fromkeys(names, 0.0) | dict(zip(active, factors.tolist(), strict=True))
     wrong = [_wrong(task, figures, z, limit, costs[limit.name]) / size for limit in (*ends, *met)]
     return costs, max([left, *wrong])
 
@@ -178,9 +172,10 @@ def _wrong(task: FigureProgramme, figures: _Figures, z: np.ndarray, limit: Limit
     if limit.low == limit.high:
         return 0.0
     names = [v.name for v in task.variables]
-    at_high = z[names.index(limit.name)] > 0.5 if limit.name in names else (
-        abs(figures(z)[limit.name] - limit.high) <= abs(figures(z)[limit.name] - limit.low)
-    )  # fmt: skip
+    if limit.name in names:
+        at_high, scale = z[names.index(limit.name)] > 0.5, limit.high - limit.low
+    else:
+        value, scale = figures(z)[limit.name], _scale(limit)
+        at_high = abs(value - limit.high) <= abs(value - limit.low)
     better = task.sign * cost * (1.0 if at_high else -1.0)
-    scale = limit.high - limit.low if limit.name in names else _scale(limit)
     return max(0.0, -better * scale)

@@ -7,18 +7,18 @@ a limit, turned back into SI, is what it costs: the change of the objective by t
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import casadi as ca
 import numpy as np
 
 from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.model import ClosedEngine, at_design
-from mechsym.optimise.problem import Limit, Programme
-from mechsym.quantities import record
+from mechsym.optimise.problem import DesignTask, Limit, Programme
+from mechsym.optimise.solvers import Solved, ipopt
 from mechsym.quantities.display import quantity_text
+from mechsym.quantities.results import Columns, part, quantity, result
 
-_STATUS = {"Solve_Succeeded": "optimal", "Infeasible_Problem_Detected": "infeasible"}
 _ACTIVE = 1e-6  # a limit counts as met this closely, in units of its own size or range
 _OPTIONS: dict[str, Any] = {
     "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 300},
@@ -27,20 +27,36 @@ _OPTIONS: dict[str, Any] = {
 _MARGIN = 0.01  # the start keeps off the bounds of the variables
 
 
-@record
+@result
+class ActiveLimit:
+    """A limit that stops a design from being better."""
+
+    name: str = part()
+    side: str = part()  #: `low`, `high` or `equal`
+    limit: float = quantity("@unit")  #: Where it is
+    unit: str = part()
+    multiplier: float = quantity("@per")  #: Change of the objective by that of the limit
+    meaning: str = part()
+    per: str  # unit of the multiplier
+
+
+@result
 class Optimum:
     """What the solver found."""
 
-    #: `optimal`, `infeasible` or `not converged`, and the solver's own words
-    status: str
-    reason: str
-    variables: Mapping[str, float]
-    objective: float  #: [SI]
-    figures: Mapping[str, float]  #: All figures at the design; of peaks the largest value at the ends of the steps
-    #: dJ/d(limit) of each variable's and each figure's bound, 0 where it is not active, SI
-    multipliers: Mapping[str, float]
-    active: tuple[dict[str, Any], ...]  #: Active limits: name, side, limit, unit, multiplier, meaning
-    iterations: int
+    status: str = part()  #: `optimal`, `infeasible` or `not converged`
+    reason: str = part()  #: The solver's own words, and what they mean
+    variables: Columns = part()  #: The design
+    objective: float = quantity("@unit")  #: Figure that is as large or small as can be
+    figures: Columns = part()  #: All figures at the design; of peaks the largest value at the ends of the steps
+    #: Change of the objective by that of a bound of each variable and figure, 0 where it is not active
+    multipliers: Columns = part()
+    active: tuple[ActiveLimit, ...] = part()
+    iterations: int = quantity("-")  #: Of the solver
+    unit: str  # of the objective
+
+
+Task = TypeVar("Task", bound=DesignTask)
 
 
 class _Block(NamedTuple):
@@ -48,58 +64,48 @@ class _Block(NamedTuple):
 
     limit: Limit
     scale: float
-    expression: Any
+    expression: ca.MX
 
 
 def solve(task: Programme) -> Optimum:
     """Solve a design problem.
 
-    Returns
-    -------
-    optimum : Optimum
-        With status and reason; where there is no feasible design, the last one that was tried
+    Returns optimum: with status and reason; where there is no feasible design, the last one that was tried.
     """
     low, high = _bounds(task.variables)
     figures = _function(task)
     z = ca.MX.sym("z", low.size)
     values = dict(zip(figures.name_out(), figures.call([low + z * (high - low)]), strict=True))
     blocks = [_block(limit, values[limit.name]) for limit in task.constraints]
-    size = _size(task, figures)
+    size = abs(_largest(figures, _nominal(task))[task.objective]) or 1.0
     free, goal, rows = z, -task.sign * values[task.objective] / size, [b.expression for b in blocks]
     if task.objective not in SCALAR_UNITS:
         goal = ca.MX.sym("peak")
         free, rows = ca.vertcat(z, goal), [*rows, values[task.objective] / size - goal]
     programme = {"x": free, "f": goal, "g": ca.vertcat(*rows)}
     solver = ca.nlpsol("design", "ipopt", programme, _OPTIONS)
-    found = solver(x0=_start(task, free.numel()), **_programme_bounds(blocks, rows, low.size, free.numel()))
-    return _optimum(task, figures, solver.stats(), found, blocks, size)
+    bounds = _programme_bounds(blocks, rows, low.size, free.numel())
+    return _optimum(task, figures, ipopt(solver, {"x0": _start(task, free.numel()), **bounds}), blocks, size)
 
 
 def pareto(
-    task: Any, against: str, goal: str, points: int, one: Callable[[Any], Optimum] | None = None
+    task: DesignTask, against: str, goal: str, points: int, one: Callable[[Any], Optimum] | None = None
 ) -> list[Optimum]:
     """Best values of the objective for given values of a second figure.
 
-    Parameters
-    ----------
-    task : Programme or FigureProgramme
-        What is solved by `one`, which is `solve` where it is left out
-
-    Returns
-    -------
-    front : list of Optimum
-        From the optimum of the objective alone to that of the second figure alone; figures tell both values
+    one: what solves the task, `solve` where it is left out. Returns front: from the optimum of the objective alone to
+    that of the second figure alone; figures tell both values.
     """
+    best: Callable[[Any], Optimum] = one or solve
     sign = 1.0 if goal == "maximise" else -1.0
-    one = one or solve
-    ends = [one(task), one(dataclasses.replace(task, objective=against, sign=sign))]
+    ends = [best(task), best(dataclasses.replace(task, objective=against, sign=sign))]
     if any(end.status != "optimal" for end in ends):
         return ends
     front = [ends[0]]
     for value in np.linspace(ends[0].figures[against], ends[1].figures[against], points)[1:]:
         low, high = (float(value), np.inf) if sign > 0 else (-np.inf, float(value))
         limit = Limit(name=against, unit=task.units[against], low=low, high=high)
-        front.append(one(dataclasses.replace(task, constraints=(*task.constraints, limit))))
+        front.append(best(dataclasses.replace(task, constraints=(*task.constraints, limit))))
     return front
 
 
@@ -116,7 +122,7 @@ def _function(task: Programme) -> ca.Function:
     return ca.Function("figures", [z], whole.call([ca.vertcat(task.omega, z)]), ["design"], whole.name_out())
 
 
-def _block(limit: Limit, expression: Any) -> _Block:
+def _block(limit: Limit, expression: ca.MX) -> _Block:
     finite = [abs(b) for b in (limit.low, limit.high) if np.isfinite(b) and b != 0]
     scale = max(finite, default=1.0)
     return _Block(limit, scale, expression / scale)
@@ -138,16 +144,14 @@ def _value(engine: ClosedEngine, name: str) -> float:
     return here.motion.parameters[key] if section == "parameters" else getattr(getattr(here, section), key)
 
 
-def _size(task: Programme, figures: ca.Function) -> float:
-    return abs(_largest(figures, _nominal(task))[task.objective]) or 1.0
-
-
-def _largest(figures: ca.Function, design: Any) -> dict[str, float]:
+def _largest(figures: ca.Function, design: np.ndarray) -> dict[str, float]:
     values = figures.call([design])
     return {name: float(ca.mmax(v)) for name, v in zip(figures.name_out(), values, strict=True)}
 
 
-def _programme_bounds(blocks: Sequence[_Block], rows: Sequence[Any], variables: int, count: int) -> dict[str, Any]:
+def _programme_bounds(
+    blocks: Sequence[_Block], rows: Sequence[ca.MX], variables: int, count: int
+) -> dict[str, ca.DM | list[float]]:
     peak = count - variables  # 1 when a peak is minimised: one more unknown, one more group of rows
     ends = [(b.limit.low / b.scale, b.limit.high / b.scale) for b in blocks] + [(-np.inf, 0.0)] * peak
     low, high = ([ca.repmat(e[k], r.numel(), 1) for e, r in zip(ends, rows, strict=True)] for k in (0, 1))
@@ -157,49 +161,58 @@ def _programme_bounds(blocks: Sequence[_Block], rows: Sequence[Any], variables: 
     }  # fmt: skip
 
 
-def _optimum(
-    task: Programme, figures: ca.Function, stats: Any, found: Any, blocks: Sequence[_Block], size: float
-) -> Optimum:
-    low, high = _bounds(task.variables)
-    share = np.asarray(found["x"]).ravel()[: low.size]
+def _optimum(task: Programme, figures: ca.Function, solved: Solved, blocks: Sequence[_Block], size: float) -> Optimum:
+    (low, high), solution = _bounds(task.variables), solved.values
+    share = np.asarray(solution["x"]).ravel()[: low.size]
     design = np.clip(low + share * (high - low), low, high)  # IPOPT relaxes bounds by 1e-8
     values = _largest(figures, design)
     # IPOPT minimises -sign J/size, or the peak itself; its multipliers are -d(minimum)/d(bound)
     factor = size * (task.sign if task.objective in SCALAR_UNITS else -1.0)
-    lam_x = factor * np.asarray(found["lam_x"]).ravel()[: low.size] / (high - low)
-    lam_g, costs, at = factor * np.asarray(found["lam_g"]).ravel(), {}, 0
+    lam_x = factor * np.asarray(solution["lam_x"]).ravel()[: low.size] / (high - low)
+    lam_g, costs, at = factor * np.asarray(solution["lam_g"]).ravel(), {}, 0
     for block in blocks:
         n = block.expression.numel()
         costs[block.limit.name] = float(lam_g[at : at + n].sum() / block.scale)
         at += n
-    status = stats["return_status"]
     multipliers = {v.name: float(m) for v, m in zip(task.variables, lam_x, strict=True)} | costs
     variables = {v.name: float(d) for v, d in zip(task.variables, design, strict=True)}
-    named = task.objective
-    active = [active_limit(named, v, variables[v.name], v.high - v.low, multipliers) for v in task.variables]
-    active += [active_limit(named, b.limit, values[b.limit.name], b.scale, multipliers) for b in blocks]
-    met = [row for row in active if row]
+    limits = [(v, variables[v.name], v.high - v.low) for v in task.variables]
+    limits += [(b.limit, values[b.limit.name], b.scale) for b in blocks]
+    return optimum_of(task, solved.status, solved.reason, variables, values, limits, multipliers, solved.iterations)
+
+
+def optimum_of(
+    task: DesignTask, status: str, reason: str, variables: Mapping[str, float], figures: Mapping[str, float],
+    limits: Sequence[tuple[Limit, float, float]], multipliers: Mapping[str, float], iterations: int,
+) -> Optimum:  # fmt: skip
+    """The end of a search.
+
+    variables, figures: the design and what it gives [SI]; limits: each limit with the value there and its range or size
+    [unit of the limit]; multipliers: change of the objective by that of each limit [SI].
+    """
+    units, known = {v.name: v.unit for v in task.variables}, {**dict.fromkeys(figures, "-"), **task.units}
+    unit = known[task.objective]
+    per = {n: _per(unit, u) for n, u in {**known, **units}.items()}
+    rows = (_active(task.objective, per, *limit, multipliers) for limit in limits)
+    active = tuple(row for row in rows if row is not None)
+    met = {row.name for row in active}
     return Optimum(
-        status=_STATUS.get(status, "not converged"), reason=status, variables=variables,
-        objective=values[task.objective], figures=values, active=tuple(met), iterations=int(stats["iter_count"]),
-        multipliers={n: m if n in {row["name"] for row in met} else 0.0 for n, m in multipliers.items()},
+        status=status, reason=reason, variables=Columns(variables, units), objective=figures[task.objective],
+        figures=Columns(figures, known),
+        multipliers=Columns({n: m if n in met else 0.0 for n, m in multipliers.items()}, per),
+        active=active, iterations=iterations, unit=unit,
     )  # fmt: skip
 
 
-def active_limit(
-    objective: str, limit: Limit, value: float, scale: float, costs: Mapping[str, float]
-) -> dict[str, Any]:
-    """What an active limit costs, in words too; empty where it is not met.
+def _per(unit: str, other: str) -> str:
+    """Unit of a change of one by that of another."""
+    return unit if other == "-" else f"{'1' if unit == '-' else unit}/({other})"
 
-    Parameters
-    ----------
-    value : float
-        Of the variable or figure [unit of the limit]
-    scale : float
-        Its range or size [unit of the limit]
-    costs : mapping of str to float
-        Change of the objective by that of each limit [SI]
-    """
+
+def _active(
+    objective: str, per: Mapping[str, str], limit: Limit, value: float, scale: float, costs: Mapping[str, float]
+) -> ActiveLimit | None:
+    """What an active limit costs, in words too; None where it is not met."""
     for side, bound in (("low", limit.low), ("high", limit.high)):
         if abs(value - bound) < _ACTIVE * scale:
             cost, step = costs[limit.name], abs(bound) / 100 or scale / 100
@@ -207,6 +220,8 @@ def active_limit(
                 f"{quantity_text(step, limit.unit, 4)} more there (1 %) would change {objective} by {cost * step:+.4g}"
             )
             name = "equal" if limit.low == limit.high else side
-            row = {"name": limit.name, "side": name, "limit": bound, "unit": limit.unit}
-            return row | {"multiplier": cost, "meaning": meaning}
-    return {}
+            return ActiveLimit(
+                name=limit.name, side=name, limit=bound, unit=limit.unit, multiplier=cost, meaning=meaning,
+                per=per[limit.name],
+            )  # fmt: skip
+    return None

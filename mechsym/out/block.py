@@ -10,7 +10,6 @@ x holds coordinates and velocities. A curve is a piecewise polynomial, so its de
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import casadi as ca
 import scipy
@@ -46,19 +45,30 @@ class Curve:
 
 
 @record
+class LawPoint:
+    """What a law is a function of."""
+
+    t: ca.SX  #: Time [s]
+    q: list[ca.SX]
+    u: list[ca.SX]
+    letters: Mapping[str, ca.SX]  #: Its parameters by name
+    curves: list[tuple[ca.SX, ca.SX]]  #: Value and slope of each of its curves
+    s: list[ca.SX]  #: Which of its switches have jumped
+
+
+@record
 class Law:
     """How a part of a problem depends on tunable parameters, where the part itself has only numbers.
 
-    `value` takes (t, q, u, letters, curves): symbols, parameters by name, and (value, slope) of each curve; `outputs`
-    takes the same and gives what else is of interest, by name, with units in `units`.
+    `outputs` gives what else is of interest, by name, with units in `units`.
     """
 
     part: str
     parameters: tuple[Port, ...] = ()
     curves: tuple[Curve, ...] = ()
     switches: tuple[str, ...] = ()  #: parameters that hold the times of its switches
-    value: Callable[..., Any]
-    outputs: Callable[..., Mapping[str, Any]] | None = None
+    value: Callable[[LawPoint], ca.SX]
+    outputs: Callable[[LawPoint], Mapping[str, ca.SX]] | None = None
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
 
@@ -90,7 +100,9 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     chosen = [given.get(part.name) or law_of(problem, part) for part in problem.parts]
     mechanism, own = _tunable(problem.mechanism)
     ports = (*own, *(port for law in chosen for port in law.parameters))
-    _refuse_twins([p.name for p in ports])
+    names = [p.name for p in ports]
+    if twins := sorted({n for n in names if names.count(n) > 1}):
+        raise BadInput(f"two parameters have the name {', '.join(twins)}; rename a part")
     symbols = _symbols(problem, ports, chosen)
     rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols)
     units = _units(problem.mechanism) | {u: v for law in chosen for u, v in law.units.items()}
@@ -99,21 +111,20 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     q, u = problem.mechanism.coordinates, velocities(problem.mechanism)
     starts = zip((*q, *u), (*problem.q0, *problem.u0), strict=True)
     return Block(
-        name=name, about=about,
+        name=name,
+        about=about,
         states=tuple(Port(name=n, unit=units[n], start=float(start)) for n, start in starts),
-        inputs=tuple(_input(n, units[n]) for n in problem.mechanism.inputs),
+        inputs=tuple(Port(name=n, unit=units[n], about=f"added to what acts on {n}") for n in problem.mechanism.inputs),
         parameters=ports,
         outputs=tuple(Port(name=n, unit=units.get(n, "")) for n in outputs),
         curves=tuple(c for law in chosen for c in law.curves),
         switches=tuple(s for law in chosen for s in law.switches),
-        kinks=problem.kinks, stops=problem.stops, t_end=problem.t_end,
+        kinks=problem.kinks,
+        stops=problem.stops,
+        t_end=problem.t_end,
         rates=ca.Function("rates", arguments, [ca.densify(rates)]),
         observed=ca.Function("observed", arguments, [ca.densify(ca.vertcat(*outputs.values()))]),
-    )  # fmt: skip
-
-
-def _input(name: str, unit: str) -> Port:
-    return Port(name=name, unit=unit, about=f"added to what acts on {name}")
+    )
 
 
 def law_of(problem: Problem, part: Part) -> Law:
@@ -121,25 +132,24 @@ def law_of(problem: Problem, part: Part) -> Law:
     value = part.value
     match value:
         case FormulaForce():
-            return Law(part=part.name, value=lambda t, q, u, letters, curves, s: value.function(t, q, u))
+            return Law(part=part.name, value=lambda at: value.function(at.t, at.q, at.u))
         case Periodic():
-            return curve_law(part.name, _curve_of(problem, value, part.name))
+            state = problem.mechanism.coordinates.index(value.coordinate)
+            return curve_law(part.name, Curve(name=part.name, state=state, poly=fitted(value)))
         case Steps():
             return _steps_law(problem, part, value)
     raise BadInput(f"part {part.name} is a plain function, which cannot be exported; give it as a formula or a table")
-
-
-def _curve_of(problem: Problem, value: Periodic, name: str) -> Curve:
-    return Curve(name=name, state=problem.mechanism.coordinates.index(value.coordinate), poly=fitted(value))
 
 
 def curve_law(part: str, curve: Curve) -> Law:
     """A part that is a curve, with a factor on it as its parameter."""
     scale = Port(name=f"{part}_scale", unit="-", start=1.0, about=f"factor on {part}")
     return Law(
-        part=part, parameters=(scale,), curves=(curve,),
-        value=lambda t, q, u, letters, curves, s: letters[scale.name] * curves[0][0],
-    )  # fmt: skip
+        part=part,
+        parameters=(scale,),
+        curves=(curve,),
+        value=lambda at: at.letters[scale.name] * at.curves[0][0],
+    )
 
 
 def _steps_law(problem: Problem, part: Part, value: Steps) -> Law:
@@ -155,9 +165,9 @@ def _steps_law(problem: Problem, part: Part, value: Steps) -> Law:
         for i, v in enumerate(value.times, 1)
     ]
 
-    def total(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> Any:
-        values = [letters[level.name] for level in levels]
-        return values[0] + sum((s[i] * (values[i + 1] - values[i]) for i in range(len(times))), ca.SX(0))
+    def total(at: LawPoint) -> ca.SX:
+        values = [at.letters[level.name] for level in levels]
+        return values[0] + sum((at.s[i] * (values[i + 1] - values[i]) for i in range(len(times))), ca.SX(0))
 
     return Law(part=part.name, parameters=(*levels, *times), switches=tuple(p.name for p in times), value=total)
 
@@ -187,7 +197,7 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
     return units | {n: f"{units[c]}/s^2" for n, c in zip(accelerations(mechanism), q, strict=True)}
 
 
-def _symbols(problem: Problem, ports: Sequence[Port], laws: Sequence[Law]) -> dict[str, Any]:
+def _symbols(problem: Problem, ports: Sequence[Port], laws: Sequence[Law]) -> dict[str, ca.SX]:
     curves, switches = sum(len(law.curves) for law in laws), sum(len(law.switches) for law in laws)
     n = len(problem.mechanism.coordinates)
     sizes = {"x": 2 * n, "u": len(problem.mechanism.inputs), "p": len(ports), "w": 2 * curves, "s": switches}
@@ -195,24 +205,24 @@ def _symbols(problem: Problem, ports: Sequence[Port], laws: Sequence[Law]) -> di
 
 
 def _expressions(
-    problem: Problem, mechanism: Mechanism, own: int, laws: Sequence[Law], symbols: Mapping[str, Any]
-) -> tuple[Any, dict[str, Any]]:
+    problem: Problem, mechanism: Mechanism, own: int, laws: Sequence[Law], symbols: Mapping[str, ca.SX]
+) -> tuple[ca.SX, dict[str, ca.SX]]:
     n = len(mechanism.coordinates)
     x, p = ca.vertsplit(symbols["x"]), ca.vertsplit(symbols["p"])
     q, u = x[:n], x[n:]
     totals = dict(zip(mechanism.inputs, ca.vertsplit(symbols["u"]), strict=True))
-    outputs: dict[str, Any] = {}
+    outputs: dict[str, ca.SX] = {}
     letters = p[:own]
-    further: dict[str, Any] = {}
+    further: dict[str, ca.SX] = {}
     w, s, done = ca.vertsplit(symbols["w"]), ca.vertsplit(symbols["s"]), own
     for part, law in zip(problem.parts, laws, strict=True):
         named = {port.name: p[done + i] for i, port in enumerate(law.parameters)}
         curves = [(w[2 * i], w[2 * i + 1]) for i in range(len(law.curves))]
-        arguments = (symbols["t"], q, u, named, curves, s)
-        value = law.value(*arguments)
+        at = LawPoint(t=symbols["t"], q=q, u=u, letters=named, curves=curves, s=s)
+        value = law.value(at)
         totals[part.input] = totals[part.input] + value
         outputs[f"{part.name}_on_{part.input}"] = value
-        further |= law.outputs(*arguments) if law.outputs else {}
+        further |= law.outputs(at) if law.outputs else {}
         done, w, s = done + len(law.parameters), w[2 * len(law.curves) :], s[len(law.switches) :]
     forces = list(totals.values())
     qdd = acceleration_function(mechanism)(*q, *u, *forces, *letters)
@@ -225,13 +235,7 @@ def _expressions(
     return ca.vertcat(*u, qdd), outputs
 
 
-def _observed(mechanism: Mechanism, group: str, arguments: Sequence[Any]) -> dict[str, Any]:
+def _observed(mechanism: Mechanism, group: str, arguments: Sequence[ca.SX]) -> dict[str, ca.SX]:
     function = mechanism.functions[group]
     values = function.call(list(arguments[: function.n_in()]))
     return dict(zip(function.name_out(), values, strict=True))
-
-
-def _refuse_twins(names: Sequence[str]) -> None:
-    twins = sorted({n for n in names if list(names).count(n) > 1})
-    if twins:
-        raise BadInput(f"two parameters have the name {', '.join(twins)}; rename a part")

@@ -1,18 +1,17 @@
 """Parts of an engine with their numbers as tunable parameters: the hinge with its spring, and the load."""
 
 import dataclasses
-from typing import Any
 
+import casadi as ca
 import scipy
 
-from mechsym.hinge.guide import Guide, Spring, path, warmth
-from mechsym.hinge.springs import AirGauge, Coil, absolute_pressure, coil_force, gauge_pressure
-from mechsym.hinge.thermal import AirThermal, thermal_pressure
-from mechsym.jobs.export import Ready
+from mechsym.hinge.guide import Guide, path, warmth
+from mechsym.hinge.springs.face import Spring, lettered
+from mechsym.jobs.problem import Ready
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, propeller_torque
-from mechsym.out.block import Block, Curve, Law, Port, block
+from mechsym.out.block import Block, Curve, Law, LawPoint, Port, block
+from mechsym.quantities.records import Field
 
-_GAS = ("A", "H", "p0", "pa")  # numbers of a gas that exchanges heat which may be tuned; its temperature is a curve
 _ABOUT = {"rho0": "distance of the roller centres with the spring at its free height"}
 
 
@@ -32,49 +31,35 @@ def hinge_law(part: str, guide: Guide, spring: Spring, state: int = 0) -> Law:
 
     .. math:: M_h = \text{shaft ratio}\; c\, F(c(\rho_0 - \rho))\, \rho'(\theta)
     """
-    fields = [f for f in dataclasses.fields(spring) if not isinstance(spring, AirThermal) or f.name in _GAS]
+    fields = [f for f in dataclasses.fields(spring) if f.name in spring.tunable]
     ports = [_port(f, float(getattr(spring, f.name))) for f in fields]
     ports.append(Port(name="rho0", unit="m", start=guide.parameters.rho0, about=_ABOUT["rho0"]))
     ratio, c = guide.parameters.shaft_ratio, guide.rollers
     drawn = [Curve(name="rho", state=state, ratio=ratio, poly=path(guide))]
-    if isinstance(spring, AirThermal):  # its temperature is that of steady running at the speed of the design
-        drawn.append(Curve(name="warmth", state=state, ratio=ratio, poly=warmth(guide, spring)))
+    if spring.state:  # its temperature is that of steady running at the speed of the design
+        drawn.append(Curve(name="warmth", state=state, ratio=ratio, poly=warmth(guide)))
 
-    def motion(letters: Any, curves: Any) -> tuple[Any, Any, Any, Any]:
-        rho, slope = curves[0]
-        return rho, slope, c * (letters["rho0"] - rho), curves[-1][0]
+    def motion(at: LawPoint) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+        rho, slope = at.curves[0]
+        return rho, slope, c * (at.letters["rho0"] - rho), at.curves[-1][0]
 
-    def value(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> Any:
-        _, slope, z, warm = motion(letters, curves)
-        return ratio * c * _force(spring, z, letters, warm) * slope
+    def value(at: LawPoint) -> ca.SX:
+        _, slope, z, warm = motion(at)
+        return ratio * c * lettered(spring, at.letters).force(z, warm) * slope
 
-    def outputs(t: Any, q: Any, u: Any, letters: Any, curves: Any, s: Any) -> dict[str, Any]:
-        rho, _, z, warm = motion(letters, curves)
-        pressure = {} if isinstance(spring, Coil) else {"spring_pressure": _pressure(spring, z, letters, warm)}
-        return {"rho": rho, "spring_closing": z, "spring_force": _force(spring, z, letters, warm), **pressure}
+    def outputs(at: LawPoint) -> dict[str, ca.SX]:
+        rho, _, z, warm = motion(at)
+        symbols = lettered(spring, at.letters)
+        outward = {"rho": rho, "spring_closing": z, "spring_force": symbols.force(z, warm)}
+        return outward | ({"spring_pressure": symbols.pressure(z, warm)} if spring.gas else {})
 
     units = {"rho": "m", "spring_closing": "m", "spring_force": "N", "spring_pressure": "Pa"}
     return Law(part=part, parameters=tuple(ports), curves=tuple(drawn), value=value, outputs=outputs, units=units)
 
 
-def _port(field: dataclasses.Field[Any], value: float) -> Port:
+def _port(field: Field, value: float) -> Port:
     about = field.metadata.get("about", "")
     return Port(name=field.name, unit=field.metadata["unit"], start=value, about=f"spring: {about}")
-
-
-def _pressure(spring: Spring, z: Any, letters: Any, warm: Any) -> Any:
-    H, p0 = letters["H"], letters["p0"]
-    if isinstance(spring, AirThermal):
-        return thermal_pressure(z, H, p0, letters["pa"], warm)
-    if isinstance(spring, AirGauge):
-        return gauge_pressure(z, H, p0, letters["n"])
-    return absolute_pressure(z, H, p0, letters["n"], letters["pa"])
-
-
-def _force(spring: Spring, z: Any, letters: Any, warm: Any) -> Any:
-    if isinstance(spring, Coil):
-        return coil_force(z, letters["k"], letters["F0"])
-    return letters["A"] * _pressure(spring, z, letters, warm)
 
 
 def load_law(part: str, load: Load, speed: int) -> Law:
@@ -83,26 +68,20 @@ def load_law(part: str, load: Load, speed: int) -> Law:
     match load:
         case ConstantLoad(torque=float(number)):
             port = Port(name="load_torque", unit="N*m", start=number, about=torque)
-            return Law(part=part, parameters=(port,), value=lambda t, q, u, p, w, s: p["load_torque"])
+            return Law(part=part, parameters=(port,), value=lambda at: at.letters["load_torque"])
         case PropellerLoad(torque=float(number), speed=float(reference)):
             ports = (
                 Port(name="load_torque", unit="N*m", start=number, about=f"{torque} at its speed of reference"),
                 Port(name="load_speed", unit="rad/s", start=reference, about="speed of reference of the load"),
             )
-            return Law(
-                part=part, parameters=ports,
-                value=lambda t, q, u, p, w, s: propeller_torque(_speed(q, u, speed), p["load_torque"], p["load_speed"]),
-            )  # fmt: skip
+
+            def propeller(at: LawPoint) -> ca.SX:
+                return propeller_torque((*at.q, *at.u)[speed], at.letters["load_torque"], at.letters["load_speed"])
+
+            return Law(part=part, parameters=ports, value=propeller)
         case TableLoad():
-            curve = Curve(name=part, state=speed, poly=_table(load), periodic=False)
-            return Law(part=part, curves=(curve,), value=lambda t, q, u, p, w, s: w[0][0])
+            fitted = scipy.interpolate.PchipInterpolator(load.speeds, load.torques)
+            poly = scipy.interpolate.PPoly(fitted.c, fitted.x)
+            curve = Curve(name=part, state=speed, poly=poly, periodic=False)
+            return Law(part=part, curves=(curve,), value=lambda at: at.curves[0][0])
     raise ValueError(f"load {load!r} is not settled")
-
-
-def _speed(q: Any, u: Any, index: int) -> Any:
-    return (*q, *u)[index]
-
-
-def _table(load: TableLoad) -> "scipy.interpolate.PPoly":
-    curve = scipy.interpolate.PchipInterpolator(load.speeds, load.torques)
-    return scipy.interpolate.PPoly(curve.c, curve.x)

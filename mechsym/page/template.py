@@ -2,15 +2,18 @@
 
 import functools
 import re
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.style import significant
 
+if TYPE_CHECKING:
+    import jinja2
+
 _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
 
 
-def page(name: str, **values: Any) -> str:
+def page(name: str, **values: object) -> str:
     """A page that opens offline, from a file of `mechsym/templates`; a value that it lacks is an error.
 
     Examples
@@ -22,13 +25,15 @@ def page(name: str, **values: Any) -> str:
 
 
 @functools.lru_cache(maxsize=1)
-def _environment() -> Any:
+def _environment() -> "jinja2.Environment":
     import jinja2
 
     made = jinja2.Environment(
-        loader=jinja2.PackageLoader("mechsym", "templates"), undefined=jinja2.StrictUndefined, autoescape=True,
+        loader=jinja2.PackageLoader("mechsym", "templates"),
+        undefined=jinja2.StrictUndefined,
+        autoescape=True,
         trim_blocks=True,
-    )  # fmt: skip
+    )
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "pretty": pretty,
         "quantity": lambda value, unit, digits=5: pretty(quantity_text(value, unit, digits)),
@@ -43,7 +48,7 @@ def _percent(share: float | None, digits: int = 3) -> str:
     return "0 %" if abs(share) < 1e-9 else f"{figure(100 * share, digits)} %"
 
 
-def pretty(text: Any) -> str:
+def pretty(text: object) -> str:
     """Units as a book sets them: `kN*m` as kN m, `kg*m^2` as kg m².
 
     Examples

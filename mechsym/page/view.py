@@ -4,16 +4,26 @@ A room says in its `shown.py` what of its results is worth seeing (`@shows(Desig
 there when it is asked, so that physics needs no picture to be computed.
 """
 
+import dataclasses
 import functools
 import importlib
-from collections.abc import Callable, Mapping
-from typing import Any
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from mechsym.errors import BadInput, suggest
+from mechsym.page.finding import Finding
 from mechsym.page.table import ResultTable
 from mechsym.page.template import page
 from mechsym.quantities import record
+from mechsym.quantities.display import in_si, per_cent, quantity_text
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import on_card
+from mechsym.quantities.units import Scalar
 from mechsym.style import svg
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _VIEWS: dict[type, Callable[[Any], "View"]] = {}
 _SHORT = 400  # characters of a repr
@@ -29,13 +39,40 @@ class Card:
     mark: str = ""  #: `yes` and `no` are coloured
 
 
+def card(kind: type, name: str, value: Scalar | None, about: str = "", of: str = "") -> Card:
+    """The card of a number of a result: word, unit and digits are those of its field, a share is told in per cent.
+
+    value: number of the field `name` of the class `kind`, None where it is not known [its unit]; of: which of several.
+
+    Examples
+    --------
+    >>> from mechsym.quantities.results import quantity, result
+    >>> @result
+    ... class Wheel:
+    ...     power_kw: float = quantity("kW", card="power")
+    >>> card(Wheel, "power_kw", 0.25).value
+    '250 W'
+    """
+    told = on_card(kind, name)
+    number, unit = in_si(math.nan if value is None else float(value), told["unit"])
+    shown = per_cent(number, told["digits"]) if unit == "-" else quantity_text(number, unit, told["digits"])
+    return Card(name=f"{told['card']} {of}".rstrip(), value=shown, about=about)
+
+
+def cards(result: Record) -> tuple[Card, ...]:
+    """The cards of a result: of each field that has a word for one and a number, in their order."""
+    kind = type(result)
+    numbers = {f.name: getattr(result, f.name) for f in dataclasses.fields(kind) if "card" in f.metadata}
+    return tuple(card(kind, name, value) for name, value in numbers.items() if value is not None)
+
+
 @record
 class Picture:
     """A figure that is drawn when it is looked at."""
 
     name: str
     see: str  #: What to look for, one sentence
-    draw: Callable[[], Any]  #: Gives a matplotlib Figure
+    draw: Callable[[], "Figure"]
 
 
 @record
@@ -46,6 +83,7 @@ class View:
     cards: tuple[Card, ...]
     pictures: tuple[Picture, ...] = ()
     columns: Callable[[], Mapping[str, Any]] = dict  #: Equally long, by name
+    findings: Callable[[], Iterable[Finding]] = tuple  #: What has to be known before its numbers
 
 
 def shows(kind: type) -> Callable[[Callable[[Any], View]], Callable[[Any], View]]:
@@ -69,20 +107,17 @@ class Shown:
             importlib.import_module(f"{kind.__module__.rpartition('.')[0]}.shown")
         return _VIEWS[kind](self)
 
-    def plot(self, name: str = "") -> Any:
+    def plot(self, name: str = "") -> "Figure":
         """One of its figures, the first without a name.
 
-        Returns
-        -------
-        figure : matplotlib.figure.Figure
-            A notebook shows it; `figure.savefig("name.svg")` keeps it
+        Returns figure: matplotlib.figure.Figure, a notebook shows it; `figure.savefig("name.svg")` keeps it.
         """
         pictures = {picture.name: picture for picture in self.view.pictures}
         if not pictures:
             raise BadInput(f"{type(self).__name__} has no picture")
         if name and name not in pictures:
             raise BadInput(f"no picture {name!r}; {suggest(name, list(pictures))}")
-        figure = pictures[name or next(iter(pictures))].draw()
+        figure: Any = pictures[name or next(iter(pictures))].draw()
         # a notebook knows figures of pyplot only
         figure._repr_svg_ = functools.partial(svg, figure)  # on its own paper
         return figure
@@ -104,6 +139,6 @@ class ShownFigures(dict[str, Any], Shown):
         return text if len(text) <= _SHORT else f"{text[: _SHORT - 5]} ...)"
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     text = f"array{value.shape}" if hasattr(value, "shape") else repr(value)
     return text if len(text) < 60 else f"{type(value).__name__} of {len(value)}" if hasattr(value, "__len__") else "…"

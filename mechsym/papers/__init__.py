@@ -1,25 +1,23 @@
 """The papers: every formula as printed, and every published number and figure beside what the models give.
 
 sources.py   the papers by name; a paper is a folder here, and nothing else lists it
-entries.py   what a paper prints, from its data
 record.py    the recorded verdicts and values; a finding is a result, only a changed one is a failure
 rows.py      a row of a reproduction: published, computed, verdict, note
-page.py      CSV, HTML and pictures of a run
+page.py      CSV, HTML and pictures of a run, the angle axis of its figures
 
 A paper's folder:
 
 __init__.py  SOURCE: stem, name, title, tolerance of its record
 printed.toml its formulas and claims in the order of the text, for the auditor
 claims.py    what decides a claim, and what a misprint costs
-computed.py  what the models give for it
-rows.py      rows(): published numbers beside the computed ones
+rows.py      rows(): published numbers beside the computed ones; what the models give, or in computed.py beside it
 figures.py   figures(): its figures by name, drawn from the computation
 """
 
-from mechsym.papers.rows import KEYS, VERDICTS, by_digits, row
+from mechsym.papers.rows import KEYS, VERDICTS, Row, by_digits, claim, row
 from mechsym.papers.sources import Source, sources
 
-__all__ = ["KEYS", "VERDICTS", "Source", "by_digits", "row", "sources"]
+__all__ = ["KEYS", "VERDICTS", "Row", "Source", "by_digits", "claim", "row", "sources"]
 
 
 def __dir__() -> list[str]:

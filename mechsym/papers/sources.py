@@ -1,16 +1,56 @@
-"""The papers: each is a folder here, found by its name. What a folder holds is in the table of `mechsym.papers`."""
+"""The papers: each is a folder here, found by its name; what it prints is read from its `printed.toml`.
+
+One [[entry]] is a formula, a definition or a claim of the text:
+
+equation = "2"                        # its number, or where it stands: "text", "table 4.9"
+claim = "reduced moment of inertia"   # what it claims to be, in words
+statement = "..."                     # as printed, in the author's letters
+quantity = "crosshead.inertia"        # a formula: what is derived
+letters = { R = "r" }                 # of the author; or the name of a table in [letters], or a list of both
+hold = { phidd = 0.0 }                # what is taken for granted; the same with [hold]
+turn, effect = "claims.loads"         # functions of the paper's folder
+verdict = "definition"                # instead of a quantity: it is not there to be proved
+decide = "claims.about_twice"         # instead of a statement: what decides a claim made in words
+note = "..."                          # what else there is to say
+"""
 
 import pkgutil
+import tomllib
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from importlib import resources
+from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
-from mechsym.papers.entries import entries
-from mechsym.papers.rows import number
+from mechsym.files import Json
 from mechsym.quantities import load, record
 
 if TYPE_CHECKING:
-    from mechsym.audit.entries import Entry
+    from matplotlib.figure import Figure
+
+    from mechsym.audit.hosts.sources import Entry
+
+
+_FUNCTIONS, _TABLES = ("turn", "effect", "decide"), ("letters", "hold")
+
+
+def entries(folder: str) -> "tuple[Entry, ...]":
+    """The entries of a paper in the order of the text."""
+    from mechsym.audit.hosts.sources import Listed, Printed, TextClaim
+
+    text = (resources.files(f"mechsym.papers.{folder}") / "printed.toml").read_text(encoding="utf-8")
+    content = tomllib.loads(text)
+    entries: list[Entry] = []
+    for said in content["entry"]:
+        fields = dict(said)
+        for key in (k for k in _FUNCTIONS if k in said):
+            fields[key] = load(f"mechsym.papers.{folder}.{said[key].replace('.', ':')}")
+        for key in (k for k in _TABLES if k in said):
+            parts = said[key] if isinstance(said[key], list) else [said[key]]
+            tables = [content[key][part] if isinstance(part, str) else part for part in parts]
+            fields[key] = {k: v for table in tables for k, v in table.items()}
+        kind = Printed if "quantity" in said else Listed if "verdict" in said else TextClaim
+        entries.append(kind(**fields))
+    return tuple(entries)
 
 
 @record
@@ -28,19 +68,12 @@ class Source:
         """What is audited, in the order of the text."""
         return entries(self.name)
 
-    def rows(self) -> list[dict[str, Any]]:
-        """Its published numbers beside the computed ones.
+    def rows(self) -> list[Json]:
+        """Its published numbers beside the computed ones: the keys of `Row.told`."""
+        rows = load(f"mechsym.papers.{self.name}.rows:rows")()
+        return [row.told(self.stem, self.tolerance) for row in rows]
 
-        Returns
-        -------
-        rows : list of dict
-            Keys `rows.KEYS`, the tolerance of the record, and for some sources more
-        """
-        return [
-            _with_print(row) | {"tolerance": self.tolerance} for row in load(f"mechsym.papers.{self.name}.rows:rows")()
-        ]
-
-    def figures(self) -> Mapping[str, Any]:
+    def figures(self) -> "Mapping[str, Figure]":
         """The figures that it prints, drawn from the computation."""
         return load(f"mechsym.papers.{self.name}.figures:figures")()
 
@@ -53,15 +86,10 @@ def sources(name: str | None = None) -> tuple[Source, ...]:
     known = sorted((load(f"mechsym.papers.{folder}:SOURCE") for folder in folders), key=lambda s: s.stem)
     if name is None:
         return tuple(known)
-    found = tuple(s for s in known if name.removesuffix(".txt") in (s.stem, s.name, s.stem[:3]))
-    if not found:
+    chosen = tuple(s for s in known if name.removesuffix(".txt") in (s.stem, s.name, s.stem[:3]))
+    if not chosen:
         raise BadInput(f"source {name!r} is not known; there are {', '.join(f'{s.name} ({s.stem})' for s in known)}")
-    return found
-
-
-def _with_print(row: dict[str, Any]) -> dict[str, Any]:
-    text = row.get("printed", row["published"])
-    return row | {"published": number(text), "printed": text}
+    return chosen
 
 
 def short_name(stem: str) -> str:

@@ -1,17 +1,25 @@
 """What is possible and what is usual: nonsense is refused, the unusual is a doubt.
 
-    ranges    hard and usual range of each kind of value, with its reason
-    together  the same of what several values make: sizes by bore and stroke
-    judge     numbers by name against those ranges; acceptance of a doubt up to a value
-    engine    what several values say together: piston speed, rod ratio, masses and spring by the piston's area
+    ranges    hard and usual range of each kind of value, with its reason, and of what several make: sizes by bore
+    judge     numbers by name against those ranges, and together: piston speed, rod ratio, masses by the piston's area;
+              acceptance of a doubt up to a value
 
 Takes numbers and names, so that case files and results are judged alike.
 """
 
-from mechsym.plausible.engine import proportions, scaled
-from mechsym.plausible.judge import Acceptance, Doubt, inputs, letters, proportion, results, sifted
-from mechsym.plausible.ranges import INPUTS, RESULTS, Usual
-from mechsym.plausible.together import PROPORTIONS
+from mechsym.plausible.judge import (
+    Acceptance,
+    Doubt,
+    inputs,
+    letters,
+    moving_mass,
+    piston_speed,
+    proportion,
+    proportions,
+    results,
+    sifted,
+)
+from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 
 __all__ = [
     "INPUTS",
@@ -22,10 +30,11 @@ __all__ = [
     "Usual",
     "inputs",
     "letters",
+    "moving_mass",
+    "piston_speed",
     "proportion",
     "proportions",
     "results",
-    "scaled",
     "sifted",
 ]
 

@@ -1,14 +1,19 @@
-"""Numbers by name against the ranges of their kind; what a case accepts is told apart from what is doubted."""
+r"""Numbers by name against the ranges of their kind; what a case accepts is told apart from what is doubted.
+
+What crank, rod, masses, spring and speed say together.
+
+.. math:: c_m = 2 S n, \qquad S = 2 r \text{ (slider crank)}, \quad 4 e \text{ or } 4 r \text{ (hypocycloid, rodless)}
+"""
 
 import functools
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, LARGEST, RESULTS, Usual
-from mechsym.plausible.together import PROPORTIONS
+from mechsym.plausible.ranges import INPUTS, LARGEST, PROPORTIONS, RESULTS, Usual
 from mechsym.quantities import record
+from mechsym.quantities.units import Metre, Pure, RadPerSecond
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
 _BY_CODE = {kind.code: kind for kind in PROPORTIONS}
@@ -34,18 +39,11 @@ class Acceptance:
     why: str
 
 
-def inputs(values: Mapping[str, float]) -> tuple[Doubt, ...]:
+def inputs(values: Mapping[str, float], refusing: bool = True) -> tuple[Doubt, ...]:
     """Values of a case against hard and usual ranges.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        By dotted key, `section.field` [SI]
-
-    Returns
-    -------
-    doubts : tuple of Doubt
-        Values that are possible and not usual
+    values: by dotted key, `section.field` [SI]. refusing: whether nonsense is refused; else it is doubted, as what
+    follows from values is.
 
     Raises
     ------
@@ -60,7 +58,8 @@ def inputs(values: Mapping[str, float]) -> tuple[Doubt, ...]:
     found = []
     for key, value in values.items():
         for kind in _kinds_of_input(key):
-            _refuse(key, value, kind)
+            if refusing:
+                _refuse(key, value, kind)
             found += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
     return tuple(found)
 
@@ -72,15 +71,11 @@ def _kinds_of_input(key: str) -> tuple[Usual, ...]:
     return tuple(kind for kind in INPUTS if name in kind.keys and kind.section in ("", section))
 
 
-def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
+def proportion(code: str, quantity: str, value: float, high: float | None = None) -> tuple[Doubt, ...]:
     """A number that several values make together, against the range of its kind.
 
-    Parameters
-    ----------
-    quantity : str
-        What it is, with the values that make it, for messages
-    value : float
-        In the unit of its kind [unit]
+    quantity: what it is, with the values that make it, for messages; value: in the unit of its kind [unit]; high: upper
+    end of the usual range, where it depends on the machine's size [unit].
 
     Raises
     ------
@@ -92,7 +87,7 @@ def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
     >>> [d.usual for d in proportion("spring_area", "spring area / piston area", 4.0)]
     ['at least 0.01 and at most 3']
     """
-    kind = _BY_CODE[code]
+    kind = _BY_CODE[code] if high is None else replace(_BY_CODE[code], high=high)
     _refuse(quantity, value, kind)
     return () if kind.low <= value <= kind.high else (_doubt(quantity, value, kind),)
 
@@ -100,10 +95,7 @@ def proportion(code: str, quantity: str, value: float) -> tuple[Doubt, ...]:
 def letters(values: Mapping[str, tuple[float, str]]) -> tuple[Doubt, ...]:
     """Letters of any mechanism, whose meaning is not known, against the size of the largest machines.
 
-    Parameters
-    ----------
-    values : mapping of str to tuple of float and str
-        By letter, the value and its SI unit [SI]
+    values: by letter, the value and its SI unit [SI].
 
     Examples
     --------
@@ -118,7 +110,7 @@ def letters(values: Mapping[str, tuple[float, str]]) -> tuple[Doubt, ...]:
     )
 
 
-def results(report: Any) -> tuple[Doubt, ...]:
+def results(report: object) -> tuple[Doubt, ...]:
     """Numbers of a report, wherever they stand in it, against the usual ranges of results; `a.b` is a b."""
     worst: dict[tuple[str, str], Doubt] = {}
     for name, value in _numbers(report):
@@ -152,7 +144,7 @@ def _kinds(name: str) -> tuple[Usual, ...]:
     return tuple(kind for kind in RESULTS if last in kind.keys)
 
 
-def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
+def _numbers(report: object, name: str = "") -> Iterator[tuple[str, float]]:
     """Numbers of which a usual range is known."""
     if isinstance(report, Mapping):
         for key, value in report.items():
@@ -163,7 +155,7 @@ def _numbers(report: Any, name: str = "") -> Iterator[tuple[str, float]]:
         # a map has millions, most of them nothing that is looked for
         known = bool(_kinds(name))
         for value in report:
-            if known or type(value) is not float:
+            if known or value is not None and type(value) is not float:
                 yield from _numbers(value, name)
     elif isinstance(report, (int, float)) and not isinstance(report, bool) and math.isfinite(report) and _kinds(name):
         yield name, float(report)
@@ -175,7 +167,8 @@ def _refuse(key: str, value: float, kind: Usual) -> None:
             (math.radians(1.0), " deg") if kind.unit == "rad" else (1.0, "" if kind.unit == "-" else f" {kind.unit}")
         )
         possible = _ends(kind.lowest / size, kind.highest / size)
-        raise BadInput(f"{key} = {value / size:g}{unit}: possible is {possible}{unit} ({kind.why})")
+        why = f"{key} = {value / size:g}{unit}: possible is {possible}{unit} ({kind.why})"
+        raise BadInput(why, key="" if " " in key else key)  # with words it is made of several
 
 
 def _doubt(key: str, value: float, kind: Usual) -> Doubt:
@@ -185,3 +178,96 @@ def _doubt(key: str, value: float, kind: Usual) -> Doubt:
 
 def _ends(low: float, high: float) -> str:
     return " and ".join([f"at least {low:g}"] * math.isfinite(low) + [f"at most {high:g}"] * math.isfinite(high))
+
+
+_RACING, _LARGE = 33.0, 12.5  # fastest mean piston speed of small engines, and of those of half a metre [m/s]
+_SMALL = 0.1  # stroke up to which engines race [m]
+_LONG = 2.0  # stroke by bore from which a piston has a rod and a crosshead [-]
+_GUIDED = 5e4  # what moves with such a piston, by its area and bore [kg/m^3]
+
+
+def proportions(
+    stroke: Metre | None, ratio: Pure | None, omega: RadPerSecond | None, fired: bool = True
+) -> tuple[Doubt, ...]:
+    """Mean piston speed and rod ratio of an engine.
+
+    stroke: travel of the piston between its dead centres; None where it is not known. ratio: rod length over crank
+    radius; None without a rod. omega: speed of operation. fired: whether fuel burns in it; compressors and Stirling
+    engines are slower. Returns doubts: `piston_speed`, `process_speed`, `slow_piston`, `rod_ratio` outside 1.8 to 8.
+
+    Raises
+    ------
+    BadInput
+        A mean piston speed above 100 m/s
+
+    Notes
+    -----
+    Source: Heywood (1988), Internal combustion engine fundamentals, sections 2.2 and 2.6.
+
+    Examples
+    --------
+    >>> [f"{d.code} {d.value:.0f} m/s" for d in proportions(0.1, 3.5, 1100.0)]
+    ['piston_speed 35 m/s']
+    """
+    doubts: tuple[Doubt, ...] = ()
+    if stroke is not None and omega is not None:
+        what = f"mean piston speed (operation.speed = {omega:g} rad/s, stroke {stroke:g} m)"
+        doubts += piston_speed(what, stroke, omega, fired)
+        if fired and omega:
+            doubts += proportion("slow_piston", what, stroke * abs(omega) / math.pi)
+    if ratio is not None:
+        doubts += proportion("rod_ratio", "rod length / crank radius", ratio)
+    return doubts
+
+
+def piston_speed(what: str, stroke: float, omega: float, fired: bool = True) -> tuple[Doubt, ...]:
+    r"""Mean piston speed by the size and the kind of a machine.
+
+    .. math:: c_m = S \omega / \pi \le 33\,\mathrm{m/s}\,\sqrt{0.1\,\mathrm{m}/S}, \text{ at least } 12.5
+
+    stroke, omega: travel of the piston and speed [m, rad/s].
+
+    Raises
+    ------
+    BadInput
+        More than 100 m/s
+
+    Notes
+    -----
+    Source: data sheets: Formula 1, stroke 40 mm, 26 m/s; drag racers, 114 mm, 30.5; aircraft, 165 mm, 18;
+    medium-speed diesels, 0.6 m, 10.3; slow ones, 3.5 m, 9.2 m/s.
+
+    Examples
+    --------
+    >>> [d.usual for d in piston_speed("speed", 0.4, 135.0)]
+    ['at most 16.5 m/s']
+    """
+    mean = stroke * abs(omega) / math.pi
+    if not fired:
+        return proportion("process_speed", what, mean)
+    return proportion("piston_speed", what, mean, max(_LARGE, _RACING * math.sqrt(min(1.0, _SMALL / stroke))))
+
+
+def moving_mass(what: str, mass: float, area: float, bore: Metre, stroke: Metre) -> tuple[Doubt, ...]:
+    r"""What moves to and fro with a piston, by the piston's area and bore.
+
+    .. math:: \rho = m / (A B), \text{ at most 6000, of a long stroke with its crosshead 50,000 kg/m}^3
+
+    mass, area: mass, and area of the pistons that drive it [kg, m^2].
+
+    Raises
+    ------
+    BadInput
+        A mass that no piston has
+
+    Notes
+    -----
+    Source: masses of engines in Heywood (1988), chapter 2, and of slow marine engines with crosshead.
+
+    Examples
+    --------
+    >>> [f"{d.code} {d.value:.0f}" for d in moving_mass("parameters.m5", 2.5, 2.83e-3, 0.06, 0.052)]
+    ['reciprocating_mass 14723']
+    """
+    high = _GUIDED if stroke > _LONG * bore else None
+    return proportion("reciprocating_mass", f"{what} / (piston area * bore)", mass / (area * bore), high)

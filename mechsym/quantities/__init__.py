@@ -2,6 +2,7 @@
 
 units.py     "142 rpm" or "5 MPa" to SI; a wrong dimension is refused
 records.py   frozen records whose fields carry unit and range
+results.py   what is told of a result, with units: `quantity`, `part`, `computed`; one teller
 ranges.py    lists and ranges as options take them: `3..8 MPa:11`, `80,85 rpm`
 by_name.py   `load("module:name")` when it is wanted; `lazily` for the names of a room
 

@@ -37,7 +37,7 @@ def lazily(room: str, names: Mapping[str, str]) -> Callable[[str], Any]:
 class _Lazy(ModuleType):
     """A package some of whose names are those of its own modules: `jobs.hinge` is the job, not its page."""
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         # the import of a module would bind it under its name, in place of what has that name
         if not (isinstance(value, ModuleType) and name in self.__dict__["_NAMES"]):
             super().__setattr__(name, value)

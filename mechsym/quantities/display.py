@@ -5,16 +5,22 @@ and energies with the prefix that suits their size. `choose("mm, bar, kN, kN*m, 
 """
 
 import math
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities.names import stem_and_unit
-from mechsym.quantities.units import exponents, scale
+from mechsym.quantities.units import Pure, Scalar, exponents, scale
 
+# heads of tables in files carry these, as p_pa and phi_deg do, and columns of a user's; of results the fields say it
+_ENDINGS: Mapping[str, str] = {
+    "rpm": "rpm", "bar": "bar", "mpa": "MPa", "kpa": "kPa", "kw": "kW", "deg": "deg", "g_kwh": "g/(kW*h)", "pa": "Pa",
+    "k": "K", "m3": "m^3", "n": "N", "nm": "N*m", "kg_s": "kg/s", "j": "J", "w": "W", "kg": "kg", "rad_s": "rad/s",
+}  # fmt: skip
+_LONGEST_FIRST = "|".join(sorted(_ENDINGS, key=len, reverse=True))
+_WITH_UNIT = re.compile(rf"^(?P<stem>.+)_(?P<unit>{_LONGEST_FIRST})(?P<rest>_per_cylinder)?$")
 _USUAL = {"m": "mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m^2": "cm^2", "m^3": "cm^3",
           "J/kg": "kJ/kg", "Pa*m/s": "MPa*m/s"}  # fmt: skip
 _LADDERS = {unit: (unit, f"k{unit}") for unit in ("N", "N*m", "W", "J", "N*m/rad")}
@@ -24,27 +30,17 @@ _FAR = 100.0  # a height above the sea is told in metres [m]
 SMALLEST = 1e-9  #: A ratio below it is round-off [-]
 _TOLD = 1e-6  # of a ratio below it people want to know no more than that [-]
 _LEAST, _MOST = 4, 6  # digits in a table
-_chosen: dict[tuple[Any, ...], str] = {}
+_chosen: dict[tuple[int, ...], str] = {}
 
 
-def heading(name: str, values: Any, asked: bool = False, unit: str | None = None) -> tuple[str, Any]:
+def heading(name: str, values: Scalar, asked: bool = False, unit: str | None = None) -> tuple[str, Scalar]:
     """Name with unit, and the values in that unit, as a table shows them.
 
-    Parameters
-    ----------
-    values : sequence
-        In SI, or in the unit that the name carries [unit]
-    asked : bool
-        Only in units that the user has named
-    unit : str, optional
-        SI unit, where the name does not tell it
-
-    Returns
-    -------
-    heading : str
-        Such as `torque [kN*m]`; a name that carries its unit stays as it is where only wishes count
+    values: in SI, or in the unit that the name carries [unit]; asked: only in units that the user has named; unit: SI
+    unit, where the name does not tell it. Returns heading: str, such as `torque [kN*m]`; a name that carries its unit
+    stays as it is where only wishes count.
     """
-    stem, known = (name, unit) if unit is not None else stem_and_unit(name)
+    stem, known = stem_and_unit(name) if unit is None else (without_unit(name, unit), unit)
     if not known or all(isinstance(v, str) for v in values):
         return name, values
     changed, found = shown_in(values, known, asked or stem != name)
@@ -53,20 +49,42 @@ def heading(name: str, values: Any, asked: bool = False, unit: str | None = None
     return f"{stem} [{found}]", changed
 
 
+def stem_and_unit(name: str) -> tuple[str, str]:
+    """A name without the unit that it carries, and that unit; empty where it carries none.
+
+    Examples
+    --------
+    >>> stem_and_unit("speed_rpm"), stem_and_unit("verdict")
+    (('speed', 'rpm'), ('verdict', ''))
+    """
+    carried = _WITH_UNIT.match(name)
+    return (carried["stem"] + (carried["rest"] or ""), _ENDINGS[carried["unit"]]) if carried else (name, "")
+
+
+def without_unit(name: str, unit: str) -> str:
+    """A name without the unit that it ends with.
+
+    Examples
+    --------
+    >>> without_unit("power_kw", "kW"), without_unit("sfc_g_kwh", "g/(kW*h)"), without_unit("torque", "N*m")
+    ('power', 'sfc', 'torque')
+    """
+    end = "_" + re.sub(r"[*^()]", "", unit.lower()).replace("/", "_")
+    head, found, rest = name.rpartition(end)
+    return head + rest if found and rest in ("", "_per_cylinder") else name
+
+
 def choose(text: str | None) -> None:
     """Show numbers in these units from now on; None or an empty text goes back to the usual ones.
 
-    Parameters
-    ----------
-    text : str
-        Units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`
+    text: units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`.
 
     Raises
     ------
     BadInput
         Unknown unit, or two of one kind
     """
-    found: dict[tuple[Any, ...], str] = {}
+    found: dict[tuple[int, ...], str] = {}
     for unit in filter(None, (part.strip() for part in (text or "").split(","))):
         kind = _kind(unit)
         if kind in found:
@@ -84,12 +102,8 @@ def chosen() -> bool:
 def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
     """The unit in which a number of an SI unit is shown.
 
-    Parameters
-    ----------
-    size : float
-        How large it is at most; decides between N and kN [unit]
-    asked : bool
-        Only what the user has named, else SI: as tables for programs want it
+    size: how large it is at most; decides between N and kN [unit]. asked: only what the user has named, else SI: as
+    tables for programs want it.
     """
     if unit in ("", "-") or "(" in unit:  # g/(kW*h) has no other
         return unit
@@ -107,13 +121,10 @@ def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
     return _USUAL.get(unit, unit)
 
 
-def shown_in(values: Any, unit: str, asked: bool = False) -> tuple[Any, str]:
+def shown_in(values: Scalar, unit: str, asked: bool = False) -> tuple[Scalar, str]:
     """Values and their unit as they are shown.
 
-    Parameters
-    ----------
-    values : float or ndarray
-        In SI [unit]
+    values: in SI [unit]. Returns values, unit: in that unit [unit].
     """
     size = _largest(values)
     wanted = unit_for(unit, size, asked)
@@ -128,10 +139,7 @@ def shown_in(values: Any, unit: str, asked: bool = False) -> tuple[Any, str]:
 def quantity_text(value: float | None, unit: str, digits: int = 5) -> str:
     """A number with its unit for people.
 
-    Parameters
-    ----------
-    value : float or None
-        In SI [unit]
+    value: in SI [unit].
 
     Examples
     --------
@@ -144,13 +152,26 @@ def quantity_text(value: float | None, unit: str, digits: int = 5) -> str:
     return f"{figure(number, digits)} {found}" if found not in ("", "-") else figure(number, digits)
 
 
-def figure(value: float | None, digits: int = 5) -> str:
+def in_si(value: float, unit: str) -> tuple[float, str]:
+    """A number in the SI unit of its kind, and that unit, where its name carries another.
+
+    value: in the unit of its name [unit]. Returns number: in that SI unit [unit].
+
+    Examples
+    --------
+    >>> in_si(0.25, "kW"), in_si(3.0, "-")
+    ((250.0, 'W'), (3.0, '-'))
+    """
+    if unit in ("", "-") or "(" in unit:  # g/(kW*h) has no other
+        return value, unit
+    base = next((si for si in (*_LADDERS, *_USUAL) if _kind(si) == _kind(unit)), unit)
+    return value * scale(unit) / scale(base), base
+
+
+def figure(value: Pure | None, digits: int = 5) -> str:
     """A number for people: a few digits, no exponent between 1e-4 and 1e7, no round-off.
 
-    Parameters
-    ----------
-    value : float or None
-        In any unit [-]
+    value: in any unit.
 
     Examples
     --------
@@ -169,32 +190,25 @@ def figure(value: float | None, digits: int = 5) -> str:
     return f"{rounded:.{digits}g}"
 
 
-def ratio_text(value: float | None, digits: int = 3) -> str:
-    """A ratio or residual for people; what is round-off is said to be.
+def ratio_text(value: Pure | None, digits: int = 3) -> str:
+    """A ratio or residual for people; what is round-off is 0.
 
-    Parameters
-    ----------
-    value : float or None
-        Pure number [-]
+    value: pure number.
 
     Examples
     --------
     >>> ratio_text(7.1e-12), ratio_text(-4.9e-9), ratio_text(0.02)
-    ('0 (below 1e-9)', '0 (below 1e-8)', '0.02')
+    ('0', 'below 1e-8', '0.02')
     """
     if value is not None and abs(value) < _TOLD:
-        power = math.floor(math.log10(max(abs(value), SMALLEST / 2))) + 1
-        return f"0 (below 1e{power})"
+        return "0" if abs(value) < SMALLEST else f"below 1e{math.floor(math.log10(abs(value))) + 1}"
     return figure(value, digits)
 
 
-def per_cent(share: float, digits: int = 3) -> str:
+def per_cent(share: Pure, digits: int = 3) -> str:
     """A share for people.
 
-    Parameters
-    ----------
-    share : float
-        Of the whole [-]
+    share: of the whole.
 
     Examples
     --------
@@ -204,15 +218,10 @@ def per_cent(share: float, digits: int = 3) -> str:
     return f"{figure(100 * share, digits)} %"
 
 
-def column_text(values: Sequence[Any], least: int = _LEAST) -> list[str]:
+def column_text(values: Sequence[object], least: int = _LEAST) -> list[str]:
     """Cells of a table's column: four digits, more where neighbours differ in them only; whole numbers as they are.
 
-    Parameters
-    ----------
-    values : sequence
-        Numbers in one unit, or text [unit]
-    least : int
-        Digits where no more are needed [-]
+    values: numbers in one unit, or text [unit]; least: digits where no more are needed.
 
     Examples
     --------
@@ -232,7 +241,7 @@ def _parts(numbers: list[float], digits: int) -> list[bool]:
     return [a != b for a, b in pairwise(told)]
 
 
-def _cell(value: Any, digits: int) -> str:
+def _cell(value: object, digits: int) -> str:
     if value is None or value != value:
         return "-"
     if not isinstance(value, (float, np.floating)):
@@ -241,12 +250,12 @@ def _cell(value: Any, digits: int) -> str:
     return figure(float(value), _MOST if whole else digits)
 
 
-def _times(value: Any, factor: float) -> Any:
+def _times(value: object, factor: float) -> object:
     return value * factor if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
-def _largest(values: Any) -> float:
-    numbers: Iterable[Any] = np.ravel(values) if isinstance(values, (int, float, np.ndarray)) else values
+def _largest(values: Scalar) -> float:
+    numbers: Iterable[object] = np.ravel(values) if isinstance(values, (int, float, np.ndarray)) else values
     if isinstance(values, list) and set(map(type, values)) <= {float, type(None)}:  # a million go at once
         column = np.array(values, dtype=float)
         return float(np.abs(column).max(initial=0.0, where=np.isfinite(column)))
@@ -254,6 +263,6 @@ def _largest(values: Any) -> float:
     return max(found, default=0.0)
 
 
-def _kind(unit: str) -> tuple[Any, ...]:
+def _kind(unit: str) -> tuple[int, ...]:
     # N m is a torque or an energy, told by how it is written
     return (*exponents(unit), "J" in unit)

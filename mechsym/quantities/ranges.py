@@ -37,10 +37,7 @@ class Range:
 def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
     """A list or a range as written.
 
-    Parameters
-    ----------
-    option, unit, key : str
-        Where it was written, its unit, and what stands before an equals sign, for messages
+    option, unit, key: where it was written, its unit, and what stands before an equals sign, for messages.
 
     Raises
     ------
@@ -71,19 +68,8 @@ def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
 def values(text: str, unit: str, option: str, plain: str = "", key: str = "", most: int = MOST) -> list[float]:
     """The values of a list or a range in SI.
 
-    Parameters
-    ----------
-    unit : str
-        The SI unit wanted, `"-"` for pure numbers
-    plain : str
-        What a number without a unit is in; SI when left out
-    most : int
-        How many there may be where each is a run of its own
-
-    Returns
-    -------
-    values : list of float
-        At least one [unit]
+    unit: the SI unit wanted, `"-"` for pure numbers. plain: what a number without a unit is in; SI when left out. most:
+    how many there may be where each is a run of its own. Returns values: at least one [unit].
 
     Examples
     --------

@@ -3,66 +3,91 @@
 import dataclasses
 import inspect
 import math
-from typing import Any, NoReturn, TypeVar, dataclass_transform
+from collections.abc import Mapping
+from typing import Any, ClassVar, NoReturn, Protocol, TypeVar, dataclass_transform
 
 from mechsym.errors import BadInput, shown
+from mechsym.quantities.units import Scalar
 
 
 def quantity(
     unit: str,
     *,
-    default: Any = dataclasses.MISSING,
+    default: Scalar = dataclasses.MISSING,
     above: float | None = None,
     below: float | None = None,
     low: float | None = None,
     high: float | None = None,
     about: str = "",
+    only: tuple[str, ...] = (),
+    moved: str = "",
+    optional: bool = False,
+    card: str = "",
+    digits: int = 4,
 ) -> Any:
     """A field of a record that is a number with a unit and a range.
 
+    unit: SI unit, `"-"` for a pure number. default: value when none is given; without it the field must be given
+    [unit]. above, below: bounds that the value must not reach [unit]. low, high: bounds that the value may reach
+    [unit]. Returns field: dataclasses.Field, to be assigned in the class body.
+
+    moved: key that tells it since; files that still have this one are read, and it is left alone. optional: whether a
+    result does not tell it where it is None. card: word that names it on a card of a report, told in so many `digits`.
+
     Parameters
     ----------
-    unit : str
-        SI unit, `"-"` for a pure number
-    default : float, optional
-        Value when none is given; without it the field must be given [unit]
-    above, below : float, optional
-        Bounds that the value must not reach [unit]
-    low, high : float, optional
-        Bounds that the value may reach [unit]
-
-    Returns
-    -------
-    field : dataclasses.Field
-        To be assigned in the class body
+    only : tuple of str
+        A choice of the same record and the words with which this value is read; empty: always
     """
-    metadata = {"unit": unit, "above": above, "below": below, "low": low, "high": high, "about": about}
+    metadata = {"unit": unit, "above": above, "below": below, "low": low, "high": high, "about": about, "only": only}
+    if moved:
+        metadata["moved"] = moved
+    if card:
+        metadata |= {"card": card, "digits": digits}
+    if optional:
+        metadata[OPTIONAL] = True
     return dataclasses.field(default=default, metadata=metadata)
 
 
-def choice(*options: str, default: Any = dataclasses.MISSING, about: str = "") -> Any:
+def choice(*options: str, default: object = dataclasses.MISSING, about: str = "") -> Any:
     """A field of a record that is one of several names.
 
-    Returns
-    -------
-    field : dataclasses.Field
-        To be assigned in the class body
+    Returns field: dataclasses.Field, to be assigned in the class body.
     """
     return dataclasses.field(default=default, metadata={"options": options, "about": about})
 
 
-def allowed(metadata: Any) -> str:
+Field = dataclasses.Field[object]
+PART = "part"  #: Metadata of a field that is told and is no number
+OPTIONAL = "optional"  #: Metadata of a field that is not told where it is empty
+
+
+def part(default: object = dataclasses.MISSING, inline: bool = False, optional: bool = False) -> Any:
+    """A field of a result that is a word, another result, or a list or mapping of results.
+
+    inline: whether the names of the other result stand among those of this one.
+    optional: whether it is left out where it is empty.
+    """
+    return dataclasses.field(default=default, metadata={PART: "inline" if inline else "part", OPTIONAL: optional})
+
+
+def unread(record: "Record") -> dict[str, str]:
+    """Values of a record that its choices leave unread, each with that choice and its word."""
+    rules = {field.name: field.metadata.get("only", ()) for field in dataclasses.fields(record)}
+    chosen = {name: getattr(record, rule[0]) for name, rule in rules.items() if rule}
+    return {name: f"{rules[name][0]} is {word}" for name, word in chosen.items() if word not in rules[name][1:]}
+
+
+def moved(record: "Record") -> dict[str, str]:
+    """Values of a record that only older files have, each with the key that tells it since."""
+    keys = {field.name: field.metadata.get("moved", "") for field in dataclasses.fields(record)}
+    return {name: key for name, key in keys.items() if key}
+
+
+def allowed(metadata: Mapping[str, float | None]) -> str:
     """The range of a field in words.
 
-    Parameters
-    ----------
-    metadata : mapping
-        Metadata of a field made by `quantity`
-
-    Returns
-    -------
-    text : str
-        For example ``> 0 and <= 1``
+    metadata: metadata of a field made by `quantity`. Returns text: for example ``> 0 and <= 1``.
 
     Examples
     --------
@@ -73,20 +98,27 @@ def allowed(metadata: Any) -> str:
     return " and ".join(f"{sign} {metadata[key]:g}" for key, sign in words if metadata.get(key) is not None)
 
 
-Record = TypeVar("Record")
+T = TypeVar("T")
+
+
+class Record(Protocol):
+    """Any record: what `dataclasses` take."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field]]
+
+    def __init__(self, **values: object) -> None: ...
+
+
 _LONGEST, _LONG_VALUE = 400, 60  # characters of a record and of one value where a record is shown
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, dataclasses.field))
-def record(cls: type[Record]) -> type[Record]:
+@dataclass_transform(
+    frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, part, dataclasses.field)
+)
+def record(cls: type[T]) -> type[T]:
     """A frozen dataclass with keyword arguments whose quantities and choices are checked when it is made.
 
     A `__post_init__` of the class runs behind that check and may rely on it.
-
-    Returns
-    -------
-    cls : type
-        The same class as a record
 
     Examples
     --------
@@ -98,20 +130,33 @@ def record(cls: type[Record]) -> type[Record]:
     """
     own = cls.__dict__.get("__post_init__")
 
-    def checked(self: Any) -> None:
+    def checked(self: Record) -> None:
         check(self)
         if own is not None:
             own(self)
 
     if any(isinstance(value, dataclasses.Field) and value.metadata for value in vars(cls).values()):
         cls.__post_init__ = checked  # type: ignore[attr-defined]
+    return _shaped(cls)
+
+
+@dataclass_transform(
+    frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, part, dataclasses.field)
+)
+def result(cls: type[T]) -> type[T]:
+    """A record of what was computed: its quantities have units, no range that they must keep, and are told."""
+    cls.__result__ = True  # type: ignore[attr-defined]
+    return _shaped(cls)
+
+
+def _shaped(cls: type[T]) -> type[T]:
     for name, shared in _SHARED.items():
         if vars(cls).get(name) is None:
             setattr(cls, name, shared)
     return dataclasses.dataclass(init=False, repr=False, eq=False, match_args=False, kw_only=True)(cls)
 
 
-def _made(self: Any, /, **given: Any) -> None:
+def _made(self: Record, /, **given: object) -> None:
     for field in dataclasses.fields(self):
         if field.name in given and field.init:
             value = given.pop(field.name)
@@ -128,45 +173,45 @@ def _made(self: Any, /, **given: Any) -> None:
         self.__post_init__()
 
 
-def _compared(self: Any) -> tuple[Any, ...]:
+def _compared(self: Record) -> tuple[object, ...]:
     return tuple(getattr(self, field.name) for field in dataclasses.fields(self) if field.compare)
 
 
-def _equal(self: Any, other: object) -> bool:
+def _equal(self: Record, other: Record) -> bool:
     return _compared(self) == _compared(other) if other.__class__ is self.__class__ else NotImplemented
 
 
-def _hash(self: Any) -> int:
+def _hash(self: Record) -> int:
     return hash(_compared(self))
 
 
-def _frozen(self: Any, name: str, *_: Any) -> NoReturn:
+def _frozen(self: object, name: str, *_: object) -> NoReturn:
     raise dataclasses.FrozenInstanceError(f"cannot change field {name!r}; dataclasses.replace makes another record")
 
 
 class _Signature:
     """What `help` and editors show of a record: its fields."""
 
-    def __get__(self, made: Any, cls: type) -> inspect.Signature:
+    def __get__(self, made: object, cls: type) -> inspect.Signature:
         if made is not None:
             raise AttributeError("__signature__")
         return inspect.Signature([_parameter(field) for field in dataclasses.fields(cls) if field.init])
 
 
-def _parameter(field: dataclasses.Field[Any]) -> inspect.Parameter:
+def _parameter(field: Field) -> inspect.Parameter:
     default = field.default if field.default_factory is dataclasses.MISSING else ...
     default = inspect.Parameter.empty if default is dataclasses.MISSING else default
     return inspect.Parameter(field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=field.type)
 
 
-def _in_short(self: Any) -> str:
+def _in_short(self: Record) -> str:
     """Class and fields on one line; what is long is named by its kind, the end is cut."""
     pairs = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self) if f.repr)
     text = f"{type(self).__name__}({', '.join(f'{name}={_value_in_short(value)}' for name, value in pairs)})"
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 5]} ...)"
 
 
-def _value_in_short(value: Any) -> str:
+def _value_in_short(value: object) -> str:
     if dataclasses.is_dataclass(value):
         return f"{type(value).__name__}(..)"
     if hasattr(value, "shape"):
@@ -188,13 +233,10 @@ _SHARED = {
 }  # fmt: skip
 
 
-def check(record: Any) -> None:
+def check(record: Record) -> None:
     """Refuse a record whose numbers are not finite or out of range, or whose names are not among the options.
 
-    Parameters
-    ----------
-    record : dataclass instance
-        Fields made by `quantity` and `choice` are checked; others are left alone
+    record: dataclass instance, fields made by `quantity` and `choice` are checked; others are left alone.
 
     Raises
     ------
@@ -205,7 +247,7 @@ def check(record: Any) -> None:
         check_value(field, getattr(record, field.name))
 
 
-def check_value(field: dataclasses.Field[Any], value: Any) -> None:
+def check_value(field: Field, value: object) -> None:
     """Refuse a value that a field cannot have, as `check` does for all fields of a record."""
     meta = field.metadata
     if "options" in meta and value not in meta["options"]:
@@ -215,7 +257,7 @@ def check_value(field: dataclasses.Field[Any], value: Any) -> None:
             _check_number(field.name, number, meta)
 
 
-def _check_number(name: str, value: float, meta: Any) -> None:
+def _check_number(name: str, value: float, meta: Mapping[str, Any]) -> None:
     unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
     if not math.isfinite(value):
         raise BadInput(f"{name} = {value}{unit} is not finite")

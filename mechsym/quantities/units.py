@@ -1,14 +1,57 @@
-"""Units at the border: inside the package every number is SI, angles in radians.
+"""Units: as types, so that a signature says them, and at the border, where texts become SI.
 
-A case file or an option may write `"142 rpm"` or `"5 MPa"`; `parse` turns that into SI and refuses a wrong dimension.
+    def hertz(N: Newton, length: Metre) -> Pascal: ...                              # floats
+    def reaction(force: Newton[Scalar], rho: Metre[Array]) -> Newton[Scalar]: ...   # what is in brackets has the unit
+
+A rarer unit is written out, `Annotated[float, "W/(m*K)"]`. The unit of an `Array` is that of each element, and an array
+of which no word says the shape is (n,), a value for each angle or time of the others.
+
+Inside the package every number is SI, angles in radians. A case file or an option may write `"142 rpm"` or `"5 MPa"`;
+`parse` turns that into SI and refuses a wrong dimension.
 """
 
 import functools
 import math
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from mechsym.errors import BadInput, shown
+from mechsym.quantities.by_name import lazily
+
+if TYPE_CHECKING:
+    import numpy as np
+    from typing_extensions import TypeVar
+
+    V = TypeVar("V", default=float)
+    Array: TypeAlias = np.ndarray
+else:
+    from typing import TypeVar
+
+    V = TypeVar("V")
+    __getattr__ = lazily(__name__, {"Array": "numpy:ndarray"})  # `--help` waits for no numpy
+Scalar: TypeAlias = Any  #: What a formula takes: a float, an array, or a symbol of CasADi, which has no types
+
+Pure = Annotated[V, "-"]  #: A pure number
+Radian = Annotated[V, "rad"]
+Metre = Annotated[V, "m"]
+Area = Annotated[V, "m^2"]
+Volume = Annotated[V, "m^3"]
+Second = Annotated[V, "s"]
+Kelvin = Annotated[V, "K"]
+Kilogram = Annotated[V, "kg"]
+KilogramMetre = Annotated[V, "kg*m"]
+Inertia = Annotated[V, "kg*m^2"]
+Newton = Annotated[V, "N"]
+NewtonMetre = Annotated[V, "N*m"]
+Pascal = Annotated[V, "Pa"]
+Joule = Annotated[V, "J"]
+Watt = Annotated[V, "W"]
+RadPerSecond = Annotated[V, "rad/s"]
+MetrePerSecond = Annotated[V, "m/s"]
+MetrePerRadian = Annotated[V, "m/rad"]
+MetrePerRadian2 = Annotated[V, "m/rad^2"]
+Viscosity = Annotated[V, "Pa*s"]
+MassFlow = Annotated[V, "kg/s"]
 
 # unit: (factor to SI, exponents of kg, m, s, K, rad). Angles carry a dimension of their own so that
 # "5 m" is refused where radians are wanted; rpm and Hz are angular speeds only where rad/s is wanted.
@@ -16,8 +59,8 @@ _BASE: dict[str, tuple[float, tuple[int, ...]]] = {
     "kg": (1.0, (1, 0, 0, 0, 0)), "g": (1e-3, (1, 0, 0, 0, 0)), "t": (1e3, (1, 0, 0, 0, 0)),
     "m": (1.0, (0, 1, 0, 0, 0)), "mm": (1e-3, (0, 1, 0, 0, 0)), "cm": (1e-2, (0, 1, 0, 0, 0)),
     "um": (1e-6, (0, 1, 0, 0, 0)), "L": (1e-3, (0, 3, 0, 0, 0)),
-    "s": (1.0, (0, 0, 1, 0, 0)), "ms": (1e-3, (0, 0, 1, 0, 0)), "min": (60.0, (0, 0, 1, 0, 0)),
-    "h": (3600.0, (0, 0, 1, 0, 0)),
+    "s": (1.0, (0, 0, 1, 0, 0)), "ms": (1e-3, (0, 0, 1, 0, 0)), "us": (1e-6, (0, 0, 1, 0, 0)),
+    "min": (60.0, (0, 0, 1, 0, 0)), "h": (3600.0, (0, 0, 1, 0, 0)),
     "K": (1.0, (0, 0, 0, 1, 0)),
     "rad": (1.0, (0, 0, 0, 0, 1)), "deg": (math.pi / 180, (0, 0, 0, 0, 1)),
     "rpm": (2 * math.pi / 60, (0, 0, -1, 0, 1)), "rev": (2 * math.pi, (0, 0, 0, 0, 1)),
@@ -28,14 +71,16 @@ _BASE: dict[str, tuple[float, tuple[int, ...]]] = {
     "J": (1.0, (1, 2, -2, 0, 0)), "kJ": (1e3, (1, 2, -2, 0, 0)), "MJ": (1e6, (1, 2, -2, 0, 0)),
     "W": (1.0, (1, 2, -3, 0, 0)), "kW": (1e3, (1, 2, -3, 0, 0)), "MW": (1e6, (1, 2, -3, 0, 0)),
     "%": (1e-2, (0, 0, 0, 0, 0)),
-    "inch": (0.0254, (0, 1, 0, 0, 0)), "ft": (0.3048, (0, 1, 0, 0, 0)), "lb": (0.45359237, (1, 0, 0, 0, 0)),
+    "inch": (0.0254, (0, 1, 0, 0, 0)), "in": (0.0254, (0, 1, 0, 0, 0)), "ft": (0.3048, (0, 1, 0, 0, 0)),
+    "lb": (0.45359237, (1, 0, 0, 0, 0)),
     "lbf": (4.4482216152605, (1, 1, -2, 0, 0)), "kgf": (9.80665, (1, 1, -2, 0, 0)),
     "psi": (6894.757293168361, (1, -1, -2, 0, 0)), "hp": (745.6998715822702, (1, 2, -3, 0, 0)),
     "PS": (735.49875, (1, 2, -3, 0, 0)),
 }  # fmt: skip
 # as people type them
-_SIGNS = str.maketrans({"µ": "u", "μ": "u", "·": "*", "⋅": "*", "×": "*", "°": "deg", "²": "^2", "³": "^3", "⁴": "^4",
-                        "¹": "1", "⁻": "^-"})  # fmt: skip
+_SIGNS = str.maketrans(
+    {"µ": "u", "μ": "u", "·": "*", "⋅": "*", "×": "*", "°": "deg", "²": "^2", "³": "^3", "⁴": "^4", "¹": "1", "⁻": "^-"}
+)
 _CELSIUS, _ZERO_CELSIUS = ("degC", "Celsius"), 273.15
 _GAUGE = ("barg", "bar(g)", "psig", "atu", "atü")
 RPM = _BASE["rpm"][0]  #: One revolution a minute [rad/s]
@@ -101,10 +146,7 @@ def exponents(unit: str) -> tuple[int, ...]:
 def dimension(unit: str) -> tuple[int, ...]:
     """Exponents of kg, m, s and K in a unit; angles are pure numbers.
 
-    Parameters
-    ----------
-    unit : str
-        Product of units, `"-"` for a pure number
+    unit: product of units, `"-"` for a pure number.
 
     Examples
     --------
@@ -120,22 +162,11 @@ def _compatible(found: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
     return found == wanted if angular else found[:4] == wanted[:4]
 
 
-def parse(value: Any, unit: str, key: str = "value") -> float:
-    """A number in SI from a number or a text with a unit.
+def parse(value: object, unit: str, key: str = "value") -> float:
+    """A number in SI [unit] from a number or a text with a unit.
 
-    Parameters
-    ----------
-    value : float, int or str
-        A plain number is taken as SI; a text may end in a unit [unit]
-    unit : str
-        The SI unit wanted, `"-"` for a pure number
-    key : str
-        Name of the value, for the message
-
-    Returns
-    -------
-    number : float
-        Value in SI [unit]
+    value: a plain number is taken as SI, a text may end in a unit; unit: the SI unit wanted, `"-"` for a pure number;
+    key: name of the value, for the message.
 
     Raises
     ------

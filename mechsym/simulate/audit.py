@@ -9,6 +9,7 @@ from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
 from mechsym.native.evaluate import Compiled
 from mechsym.quantities.display import ratio_text
+from mechsym.quantities.units import Array, Joule, Pure, RadPerSecond, Second
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import Periodic, Problem
 from mechsym.simulate.result import Energy
@@ -22,17 +23,9 @@ def energies(
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Kinetic and potential energy along a run.
 
-    Parameters
-    ----------
-    q, u : ndarray, shape (n, m)
-        Coordinates and velocities, one row each [rad, rad/s]
-    letters : tuple of float
-        Parameters that the mechanism of a family leaves open [SI]
-
-    Returns
-    -------
-    kinetic, potential : ndarray, shape (m,)
-        None instead of both for a model given only by its equations [J]
+    q, u: coordinates and velocities, one row each [rad, rad/s], shape (n, m); letters: parameters that the mechanism of
+    a family leaves open [SI]. Returns kinetic, potential: None instead of both for a model given only by its equations
+    [J], shape (m,).
     """
     if "energy" not in mechanism.functions:
         return None
@@ -45,28 +38,21 @@ def _energy(mechanism: Mechanism) -> Compiled:
     return compiled(mechanism.functions["energy"])
 
 
-def energies_beside(problem: Problem, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+def energies_beside(problem: Problem, columns: Mapping[str, np.ndarray]) -> dict[str, Joule[Array]]:
     """Energy in what turns and what is stored beside a mechanism.
 
-    Parameters
-    ----------
-    columns : mapping of str to ndarray, shape (n,)
-        Of the run, with the mechanism's own kinetic energy [SI]
-
-    Returns
-    -------
-    energies : dict of str to ndarray
-        `kinetic_energy` of all, `stored_energy`; only what there is [J]
+    columns: of the run, with the mechanism's own kinetic energy [SI]. Returns energies: `kinetic_energy` of all,
+    `stored_energy`; only what there is.
     """
-    found: dict[str, np.ndarray] = {}
+    energies: dict[str, np.ndarray] = {}
     if problem.inertia is not None:
         u = columns[velocities(problem.mechanism)[0]]
-        found["kinetic_energy"] = columns["kinetic_energy"] + _along(problem.inertia[0], columns) * u**2 / 2
+        energies["kinetic_energy"] = columns["kinetic_energy"] + _along(problem.inertia[0], columns) * u**2 / 2
     if problem.stored is not None:
         speeds = [columns[name] for name in velocities(problem.mechanism)]
         curves = [_along(curve, columns) for curve in problem.curves]
-        found["stored_energy"] = problem.stored.function(speeds, curves, [columns[s.name] for s in problem.states])
-    return found
+        energies["stored_energy"] = problem.stored.function(speeds, curves, [columns[s.name] for s in problem.states])
+    return energies
 
 
 def _along(curve: Periodic, columns: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -78,14 +64,8 @@ def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], he
 
     Where the energy in stores is known, it and the heat that leaves them stand in the balance for their work.
 
-    Parameters
-    ----------
-    roles : mapping of str to str
-        Side of the balance of each part by its name, `drive` counts as work in
-    columns : mapping of str to ndarray
-        Its columns, first entry at the start, last at the end
-    heats : tuple of str
-        Columns of heat that has left a store [J]
+    roles: side of the balance of each part by its name, `drive` counts as work in; columns: its columns, first entry at
+    the start, last at the end; heats: columns of heat that has left a store [J].
     """
     work = {name: float(columns[f"work_{name}"][-1]) for name in roles}
     work_in = sum(work[name] for name, role in roles.items() if role == "drive")
@@ -93,60 +73,41 @@ def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], he
     losses = {name: -work[name] for name, role in roles.items() if role == "loss"}
     losses |= {name: float(columns[name][-1] - columns[name][0]) for name in heats}
     if "kinetic_energy" not in columns:
-        return Energy(work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None,
-                      losses=losses)  # fmt: skip
+        return Energy(
+            work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None, losses=losses
+        )
     total = columns["kinetic_energy"] + columns["potential_energy"]
-    given = sum(work.values())
+    work_done = sum(work.values())
     if "stored_energy" in columns:
         total = total + columns["stored_energy"]
-        given -= sum(work[name] for name, role in roles.items() if role == "store") + sum(
+        work_done -= sum(work[name] for name, role in roles.items() if role == "store") + sum(
             losses[name] for name in heats
         )
     change = float(total[-1] - total[0])
     peak = float(max(np.ptp(total), np.max(columns["kinetic_energy"])))
     reference = work_in if abs(work_in) > 1e-3 * peak else peak
-    residual = (given - lost - change) / reference if reference else 0.0
+    residual = (work_done - lost - change) / reference if reference else 0.0
     return Energy(work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual,
                   losses=losses)  # fmt: skip
 
 
-def speed_difference(a: Mapping[str, np.ndarray], b: Mapping[str, np.ndarray]) -> np.ndarray:
+def speed_difference(a: Mapping[str, RadPerSecond[Array]], b: Mapping[str, RadPerSecond[Array]]) -> Pure[Array]:
     """Difference of two runs at each common time: the worst speed, relative to its peak.
 
-    Parameters
-    ----------
-    a, b : mapping of str to ndarray, shape (n,)
-        Velocities of the two runs at the same times [rad/s]
-
-    Returns
-    -------
-    difference : ndarray, shape (n,)
-        0 where they agree [-]
+    a, b: velocities of the two runs at the same times. Returns difference: 0 where they agree.
     """
     peaks = {name: float(np.max(np.abs(speed))) or 1.0 for name, speed in a.items()}
     return np.max([np.abs(a[name] - b[name]) / peak for name, peak in peaks.items()], axis=0)
 
 
 def verdict(
-    t: np.ndarray, difference: np.ndarray, allowed: float, residuals: tuple[float | None, float | None]
+    t: Second[Array], difference: Pure[Array], allowed: Pure, residuals: tuple[Pure | None, Pure | None]
 ) -> tuple[str, str]:
     """Whether a run converged, and if not whether the integration or the motion is to blame.
 
-    Parameters
-    ----------
-    t : ndarray, shape (n,)
-        Times [s]
-    difference : ndarray, shape (n,)
-        Difference to the run at the tighter tolerance [-]
-    allowed : float
-        Largest difference that counts as converged [-]
-    residuals : tuple of float or None
-        Energy residuals of both runs [-]
-
-    Returns
-    -------
-    status, reason : str
-        `converged`, `not converged` or `chaotic`, and a line that says why
+    difference: difference to the run at the tighter tolerance; allowed: largest difference that counts as converged;
+    residuals: energy residuals of both runs. Returns status, reason: `converged`, `not converged` or `chaotic`, and a
+    line that says why.
     """
     worst = float(np.max(difference))
     if worst <= allowed:

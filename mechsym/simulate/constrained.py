@@ -8,8 +8,8 @@ coordinates depend changes when det J_d has fallen to a twentieth and another ch
 because J itself loses rank, the run ends with the event `locked`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -18,18 +18,15 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.native.compiler import NoCompiler
-from mechsym.native.integrate import integrate as integrate_native
 from mechsym.native.runs import Level
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Second
 from mechsym.simulate import equations as plain
-from mechsym.simulate import native_backend
-from mechsym.simulate.backends import FALLBACK, NATIVE, backend
-from mechsym.simulate.equations import System, held
-from mechsym.simulate.phase import Phase, Raw, Surface
-from mechsym.simulate.problem import Problem
+from mechsym.simulate.equations import System
+from mechsym.simulate.integrate import integrate as whole_run
+from mechsym.simulate.phase import Raw
+from mechsym.simulate.problem import Periodic, Problem, Steps
 from mechsym.simulate.settings import Settings
-from mechsym.simulate.watch import watch
 
 LOCKED = "locked"
 _FALLEN = float(np.log(0.05))
@@ -46,19 +43,20 @@ def system(problem: Problem, dependents: tuple[str, ...]) -> System:
     t, y, w = ca.SX.sym("t"), ca.SX.sym("y", 2 * n + len(works) + 2), ca.SX.sym("w", len(outer))
     q = loops.closed(mechanism, y[:n], dependents)
     u = y[n : 2 * n]
-    given = ca.Function("pose", [y], [q, u[free]])(y)
-    ydot = core(t, *given, w)
+    ydot = core(t, *ca.Function("pose", [y], [q, u[free]])(y), w)
     return System(
         function=ca.Function("system", [t, y, w], [ydot], ["t", "y", "w"], ["ydot"]),
         columns=(*mechanism.coordinates, *velocities(mechanism), *works, "dissipation", "margin"),
-        units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1) + ("-",),
+        units=mechanism.state_units + ("J",) * (len(works) + 1) + ("-",),
         values=outer,
         size=n,
         audited="energy" in mechanism.functions,
     )
 
 
-def _core(problem: Problem, dependents: tuple[str, ...]) -> tuple[ca.Function, tuple[Any, ...]]:
+def _core(
+    problem: Problem, dependents: tuple[str, ...]
+) -> tuple[ca.Function, tuple[Steps | Periodic | Callable[..., float], ...]]:
     """Rates at a closed pose, as a function of (t, q, velocities of the independent coordinates, w)."""
     mechanism = problem.mechanism
     n = len(mechanism.coordinates)
@@ -77,8 +75,7 @@ def _core(problem: Problem, dependents: tuple[str, ...]) -> tuple[ca.Function, t
     powers = [value * rates[part.input] for part, value in values]
     jacobian = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * n))[1][:, held_]
     margin = ca.trace(ca.solve(jacobian, ca.reshape(ca.jtimes(ca.vec(jacobian), q, u), jacobian.shape)))
-    found = ca.vertcat(u, acceleration, *powers, loss, margin)
-    all_rates = ca.Function("rates", [t, q, u_free, u, w], [found])
+    all_rates = ca.Function("rates", [t, q, u_free, u, w], [ca.vertcat(u, acceleration, *powers, loss, margin)])
     return ca.Function("core", [t, q, u_free, w], [all_rates(t, q, u_free, ca.mtimes(T, u_free), w)]), outer
 
 
@@ -96,10 +93,7 @@ class DependentChoice:
 def choose(mechanism: Mechanism, q: np.ndarray, now: tuple[str, ...]) -> DependentChoice:
     """The best choice of dependent coordinates beside the one in use.
 
-    Parameters
-    ----------
-    q : ndarray, shape (n,)
-        A closed pose [rad] or [m]
+    q: a closed pose [rad] or [m].
     """
     jacobian = np.asarray(mechanism.functions["constraints"].call([*q, *([0.0] * len(q))])[1])
     scale = np.abs(jacobian).max(axis=0)
@@ -119,10 +113,7 @@ def choose(mechanism: Mechanism, q: np.ndarray, now: tuple[str, ...]) -> Depende
 def start(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """Closed start: the declared independent coordinates and velocities as given, the rest following.
 
-    Returns
-    -------
-    q, u : ndarray, shape (n,)
-        Coordinates [rad or m] and velocities [rad/s or m/s]
+    Returns q, u: coordinates [rad or m] and velocities [rad/s or m/s].
 
     Raises
     ------
@@ -132,33 +123,24 @@ def start(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     mechanism = problem.mechanism
     dependents = tuple(mechanism.dependents)
     both = dict(zip(mechanism.coordinates, problem.q0, strict=True))
-    given = {n: v for n, v in both.items() if n not in dependents}
-    q = loops.close(mechanism, given, {n: both[n] for n in dependents})
+    free = {n: v for n, v in both.items() if n not in dependents}
+    q = loops.close(mechanism, free, {n: both[n] for n in dependents})
     if q is None:
         shown = ", ".join(f"{n} = {v:g}" for n, v in both.items())
         raise BadInput(
             f"{mechanism.name}: the loop does not close at the start ({shown}); give other guesses in [start]"
         )
-    return q, _rates(mechanism, q, np.array(problem.u0), dependents)
-
-
-def _rates(mechanism: Mechanism, q: np.ndarray, u: np.ndarray, dependents: tuple[str, ...]) -> np.ndarray:
-    free, held_ = loops.split(mechanism, dependents)
+    u = np.array(problem.u0, dtype=float)
+    i_free, i_held = loops.split(mechanism, dependents)
     jacobian = np.asarray(mechanism.functions["constraints"].call([*q, *([0.0] * len(q))])[1])
-    found = u.astype(float).copy()
-    found[held_] = -np.linalg.lstsq(jacobian[:, held_], jacobian[:, free] @ u[free], rcond=None)[0]
-    return found
+    u[i_held] = -np.linalg.lstsq(jacobian[:, i_held], jacobian[:, i_free] @ u[i_free], rcond=None)[0]
+    return q, u
 
 
-def integrate(problem: Problem, settings: Settings, wanted: np.ndarray, ends: list[float]) -> tuple[System, Raw]:
+def integrate(problem: Problem, settings: Settings, wanted: Second[Array], ends: list[Second]) -> tuple[System, Raw]:
     """A whole run, from one choice of dependent coordinates to the next.
 
-    Parameters
-    ----------
-    wanted : ndarray, shape (n,)
-        Times at which results are wanted [s]
-    ends : list of float
-        Ends of the stretches in which nothing jumps [s]
+    ends: ends of the stretches in which nothing jumps.
     """
     mechanism, n = problem.mechanism, len(problem.mechanism.coordinates)
     dependents = tuple(mechanism.dependents)
@@ -176,7 +158,11 @@ def integrate(problem: Problem, settings: Settings, wanted: np.ndarray, ends: li
         y = np.concatenate([q, u, extra])
         y[-1] = 0.0
         equations = system(problem, dependents)
-        leg = _stretch(problem, equations, settings, (t, y), wanted[wanted > t], [e for e in ends if e > t])
+        turns = problem.turns and problem.turns - (y[0] - problem.q0[0]) / (2 * np.pi)
+        here = replace(problem, q0=tuple(y[:n]), u0=tuple(y[n : 2 * n]), t_start=t, turns=turns)
+        fallen = Level(state=len(y) - 1, level=_FALLEN, direction=-1)
+        later = [e for e in ends if e > t]
+        leg = whole_run(here, equations, settings, wanted[wanted > t], later, y, {"margin": fallen})
         times.append(leg.t[1:])
         states.append(_projected(mechanism, leg.y[1:], dependents))
         t, last, steps, end, failure = float(leg.t[-1]), states[-1][-1], steps + leg.steps, leg.end, leg.failure
@@ -185,93 +171,22 @@ def integrate(problem: Problem, settings: Settings, wanted: np.ndarray, ends: li
             break
     else:
         failure = "the choice of dependent coordinates changes without end"
-    found, values = np.concatenate(times), np.concatenate(states)[:, :-1]
-    once = np.append(np.diff(found) > 0, True)  # a change of the choice is no wanted time of its own
-    kept = once & (np.isin(found, wanted) | (found == found[0]) | (found == found[-1]))
+    all_t, values = np.concatenate(times), np.concatenate(states)[:, :-1]
+    once = np.append(np.diff(all_t) > 0, True)  # a change of the choice is no wanted time of its own
+    rows = once & (np.isin(all_t, wanted) | (all_t == all_t[0]) | (all_t == all_t[-1]))
     reduced = replace(equations, columns=equations.columns[:-1], units=equations.units[:-1])
-    return reduced, Raw(t=found[kept], y=values[kept], steps=steps, end=end, failure=failure)
+    return reduced, Raw(t=all_t[rows], y=values[rows], steps=steps, end=end, failure=failure)
 
 
 def _projected(mechanism: Mechanism, y: np.ndarray, dependents: tuple[str, ...]) -> np.ndarray:
     """States with the dependent coordinates and velocities put on the closure."""
+    if not len(y):
+        return y
     n = len(mechanism.coordinates)
     q, u = ca.SX.sym("q", n), ca.SX.sym("u", n)
     free, _ = loops.split(mechanism, dependents)
     at = loops.closed(mechanism, q, dependents)
     T, _ = loops.motion(mechanism, at, u[free], dependents)
-    found = ca.Function("closed", [q, u], [at, ca.mtimes(T, u[free])])
-    values = found.map(max(len(y), 1))(y[:, :n].T, y[:, n : 2 * n].T) if len(y) else ()
-    return np.hstack([*(np.asarray(v).T for v in values), y[:, 2 * n :]]) if len(y) else y
-
-
-def _stretch(
-    problem: Problem,
-    equations: System,
-    settings: Settings,
-    begin: tuple[float, np.ndarray],
-    wanted: np.ndarray,
-    ends: list[float],
-) -> Raw:
-    """Integrate with one choice until it has become bad, or the run ends."""
-    n, (t, y) = equations.size, begin
-    turned = 0.0 if problem.turns is None else problem.turns - (y[0] - problem.q0[0]) / (2 * np.pi)
-    here = replace(
-        problem, q0=tuple(y[:n]), u0=tuple(y[n : 2 * n]), t_start=t, turns=None if problem.turns is None else turned
-    )
-    fallen = Surface(state=len(y) - 1, level=_FALLEN, direction=-1)
-    if settings.backend in NATIVE and not native_backend.unsuited(problem):
-        try:
-            return _natively(here, equations, settings, y, (wanted, ends), fallen)
-        except NoCompiler:
-            pass
-    method = FALLBACK if settings.backend in NATIVE else settings.backend
-    return _by_phases(here, equations, replace(settings, backend=method), y, (wanted, ends), fallen)
-
-
-def _natively(
-    here: Problem,
-    equations: System,
-    settings: Settings,
-    y: np.ndarray,
-    times: tuple[np.ndarray, list[float]],
-    fallen: Surface,
-) -> Raw:
-    runs = native_backend.runs(here, equations, settings, *times)
-    surface = Level(state=fallen.state, level=fallen.level, direction=fallen.direction)
-    runs = replace(runs, start=y, surfaces=(*runs.surfaces, surface))
-    return native_backend.raw(here, equations, times[0], integrate_native(runs), 0)
-
-
-def _by_phases(
-    here: Problem,
-    equations: System,
-    settings: Settings,
-    y: np.ndarray,
-    times: tuple[np.ndarray, list[float]],
-    fallen: Surface,
-) -> Raw:
-    (wanted, ends), t, steps, end, failure, step = times, here.t_start, 0, "t_end", "", None
-    advance = backend(settings.backend)
-    found, states = [np.array([t])], [y[None]]
-    ends = list(ends)
-    while ends and not failure:
-        around = watch(here, equations.columns, y)
-        names = (*around.ends, "margin")
-        leg = advance(Phase(
-            system=equations, t_start=t, t_end=ends[0], y=y, w=held(equations, t), surfaces=(*around.surfaces, fallen),
-            spans=around.spans, times=wanted[(wanted > t) & (wanted <= ends[0])], tolerance=settings.tolerance,
-            first_step=step, max_steps=settings.max_steps,
-        ))  # fmt: skip
-        found.append(wanted[(wanted > t) & (wanted <= leg.t)][: len(leg.samples)])
-        states.append(leg.samples)
-        t, y, step, steps, failure = leg.t, leg.y, leg.step, steps + leg.steps, leg.failure
-        if leg.met is None:
-            ends.pop(0)
-            step = None
-        elif names[leg.met]:
-            end = names[leg.met]
-            break
-    all_t, all_y = np.concatenate(found), np.vstack(states)
-    if all_t[-1] < t:
-        all_t, all_y = np.append(all_t, t), np.vstack([all_y, y])
-    return Raw(t=all_t, y=all_y, steps=steps, end="failure" if failure else end, failure=failure)
+    closed = ca.Function("closed", [q, u], [at, ca.mtimes(T, u[free])])
+    q_u = closed.map(len(y))(y[:, :n].T, y[:, n : 2 * n].T)
+    return np.hstack([*(np.asarray(v).T for v in q_u), y[:, 2 * n :]])

@@ -9,13 +9,14 @@ This is where torques computed elsewhere come in: a hinge is one `AngleForce` on
 
 from collections.abc import Callable
 
-import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.machine.loads import Load, TableLoad, load_torque
 from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
-from mechsym.mechanisms.record import Mechanism, evaluate, velocities
+from mechsym.mechanisms.record import evaluate, velocities
+from mechsym.mechanisms.shaft_inertia import is_damped
+from mechsym.quantities.units import Pure, Radian, RadPerSecond
 from mechsym.simulate.angle import ReducedMachine
 from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Problem, Stop
 
@@ -23,7 +24,7 @@ from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Proble
 def reduced(machine: Machine) -> ReducedMachine:
     """The machine over the angle of its crank."""
     (q,) = machine.mechanism.coordinates
-    if _depends_on_speed(machine.mechanism):
+    if is_damped(machine.mechanism):
         raise BadInput(f"{machine.mechanism.name} has dampers; its torque is no function of the angle alone")
 
     def inertia(phi: np.ndarray) -> np.ndarray:
@@ -40,33 +41,14 @@ def reduced(machine: Machine) -> ReducedMachine:
     )
 
 
-def _depends_on_speed(mechanism: Mechanism) -> bool:
-    dynamics = mechanism.functions["dynamics"]
-    symbols = [ca.SX.sym(dynamics.name_in(i)) for i in range(dynamics.n_in())]
-    return bool(ca.depends_on(dynamics(*symbols)[2], symbols[1]))
-
-
-def problem(machine: Machine, speed: float, turns: float, phi_start: float = 0.0, points: int = 360) -> Problem:
+def problem(machine: Machine, speed: RadPerSecond, turns: Pure, phi_start: Radian = 0.0, points: int = 360) -> Problem:
     """The machine over time, started at a speed; it ends after some turns or when the shaft stops.
 
-    Parameters
-    ----------
-    speed : float
-        Speed at the start [rad/s]
-    turns : float
-        Turns to run [-]
-    phi_start : float
-        Crank angle at the start [rad]
-    points : int
-        Results per turn at the starting speed
-
-    Returns
-    -------
-    problem : Problem
-        To be handed to `simulate`; its event is `stall`
+    speed: speed at the start; turns: turns to run; points: results per turn at the starting speed. Returns problem: to
+    be handed to `simulate`; its event is `stall`.
     """
     turn_time = 2 * np.pi / speed
-    parts = [Part(name=f.name, input=f.input, role=f.role, value=_at_angle(machine, f)) for f in acting(machine)]
+    parts = [Part(name=f.name, input=f.input, role=f.role, value=at_angle(machine, f)) for f in acting(machine)]
     angles = kinks_of(machine)
     kinks = (Kinks(coordinate=machine.mechanism.coordinates[0], angles=angles, period=period_of(machine)),)
     return Problem(
@@ -83,7 +65,8 @@ def problem(machine: Machine, speed: float, turns: float, phi_start: float = 0.0
     )
 
 
-def _at_angle(machine: Machine, force: AngleForce) -> Periodic:
+def at_angle(machine: Machine, force: AngleForce) -> Periodic:
+    """A force over the angle as the value of a part."""
     return Periodic(
         coordinate=machine.mechanism.coordinates[0],
         value=force.value,
@@ -96,15 +79,8 @@ def _at_angle(machine: Machine, force: AngleForce) -> Periodic:
 def load_value(load: Load, index: int = 0) -> FormulaForce | Callable[[float, list[float], list[float]], float]:
     """A load law as the value of a part.
 
-    Parameters
-    ----------
-    index : int
-        Coordinate whose speed it follows; -1 for the last
-
-    Returns
-    -------
-    value : FormulaForce or callable
-        A formula where the law has one; a table is a plain callable
+    index: coordinate whose speed it follows; -1 for the last. Returns value: a formula where the law has one; a table
+    is a plain callable.
     """
     if isinstance(load, TableLoad):
         return lambda t, q, u: float(load_torque(load, u[index]))

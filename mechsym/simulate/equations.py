@@ -18,7 +18,8 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, acceleration_function, velocities
 from mechsym.quantities import record
-from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Steps
+from mechsym.quantities.units import Scalar, Second
+from mechsym.simulate.problem import Along, FormulaForce, Part, Periodic, Problem, Steps
 
 
 @record
@@ -37,16 +38,14 @@ class System:
     letters: tuple[float, ...] = ()  #: Parameters that differ in the family [SI]
 
 
-def system(problem: Problem, letters: Sequence[Any] = ()) -> System:
+def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
     r"""The equations of a problem, with the power balance beside the motion.
 
     .. math:: \dot W_j = w_j\, v_j,\quad v_j = \sum_i \frac{\partial Q_i}{\partial w_j} u_i,\qquad
               \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
 
-    Parameters
-    ----------
-    letters : sequence of casadi.SX
-        Parameters that the mechanism leaves open; they become the last inputs of the function
+    letters: sequence of casadi.SX, parameters that the mechanism leaves open; they become the last inputs of the
+    function.
 
     Raises
     ------
@@ -64,18 +63,20 @@ def system(problem: Problem, letters: Sequence[Any] = ()) -> System:
     q, u = ca.vertsplit(y[:n]), ca.vertsplit(y[n : 2 * n])
     outer = outer_values(problem)
     w = ca.SX.sym("w", len(outer))
-    along = (u, _curves(problem, w), ca.vertsplit(y[len(columns) - len(problem.states) :]))
+    last = w.shape[0] - (2 if problem.inertia else 0)
+    curves = ca.vertsplit(w[last - len(problem.curves) : last]) if problem.curves else []
+    along = (u, curves, ca.vertsplit(y[len(columns) - len(problem.states) :]))
     values = part_values(problem, t, q, u, w, along)
     inputs = [sum((v for p, v in values if p.input == name), ca.SX(0)) for name in mechanism.inputs]
     qdd = _carrying(problem, q, u, w, acceleration_function(mechanism)(*q, *u, *inputs, *letters))
     rates, loss = power(mechanism, q, u, letters)
     powers = [value * rates[part.input] for part, value in values]
     inner = [s.rate.function(*along) for s in problem.states]
-    found = ca.vertcat(*u, qdd, *powers, loss, *inner)
+    ydot = ca.vertcat(*u, qdd, *powers, loss, *inner)
     return System(
-        function=ca.Function("system", [t, y, ca.vertcat(w, *letters)], [found], ["t", "y", "w"], ["ydot"]),
+        function=ca.Function("system", [t, y, ca.vertcat(w, *letters)], [ydot], ["t", "y", "w"], ["ydot"]),
         columns=columns,
-        units=("rad",) * n + ("rad/s",) * n + ("J",) * (len(works) + 1) + tuple(s.unit for s in problem.states),
+        units=mechanism.state_units + ("J",) * (len(works) + 1) + tuple(s.unit for s in problem.states),
         values=outer,
         size=n,
         audited="energy" in mechanism.functions,
@@ -85,44 +86,41 @@ def system(problem: Problem, letters: Sequence[Any] = ()) -> System:
 def start_of(problem: Problem, equations: System) -> np.ndarray:
     """The state at the start, no work done yet.
 
-    Returns
-    -------
-    y : ndarray, shape (m,)
-        In the order of the columns [SI]
+    Returns y: in the order of the columns [SI], shape (m,).
     """
     states = [s.start for s in problem.states]
     none = np.zeros(len(equations.columns) - 2 * equations.size - len(states))
     return np.concatenate([problem.q0, problem.u0, none, states])
 
 
-def outer_values(problem: Problem) -> tuple[Any, ...]:
+def outer_values(problem: Problem) -> tuple[Steps | Periodic | Callable[..., float], ...]:
     """The values that no formula gives, in the order of w: of the parts, the curves, the inertia and its slope."""
     parts = (p.value for p in problem.parts if not isinstance(p.value, FormulaForce | Along))
     return (*parts, *problem.curves, *(problem.inertia or ()))
 
 
 def part_values(
-    problem: Problem, t: Any, q: Sequence[Any], u: Sequence[Any], w: Any, along: tuple[Any, Any, Any] = ((), (), ())
-) -> list[tuple[Any, Any]]:
-    """Each part with the symbol or the formula of its value; `along` is what the formulas of `Along` are made of."""
-    found, next_w = [], 0
+    problem: Problem,
+    t: Scalar,
+    q: Sequence[Scalar],
+    u: Sequence[Scalar],
+    w: Scalar,
+    along: tuple[Sequence[Scalar], ...] = ((), (), ()),
+) -> list[tuple[Part, Scalar]]:
+    """Each part with the symbol or the formula of its value [SI]; `along` is what those of `Along` take."""
+    values, next_w = [], 0
     for part in problem.parts:
         if isinstance(part.value, FormulaForce):
-            found.append((part, ca.SX(part.value.function(t, q, u))))
+            values.append((part, ca.SX(part.value.function(t, q, u))))
         elif isinstance(part.value, Along):
-            found.append((part, ca.SX(part.value.function(*along))))
+            values.append((part, ca.SX(part.value.function(*along))))
         else:
-            found.append((part, w[next_w]))
+            values.append((part, w[next_w]))
             next_w += 1
-    return found
+    return values
 
 
-def _curves(problem: Problem, w: Any) -> list[Any]:
-    last = w.shape[0] - (2 if problem.inertia else 0)
-    return ca.vertsplit(w[last - len(problem.curves) : last]) if problem.curves else []
-
-
-def _carrying(problem: Problem, q: Sequence[Any], u: Sequence[Any], w: Any, qdd: Any) -> Any:
+def _carrying(problem: Problem, q: Sequence[Scalar], u: Sequence[Scalar], w: Scalar, qdd: Scalar) -> Scalar:
     r"""Acceleration of a shaft that turns more inertia than its mechanism has.
 
     .. math:: (I + I_h)\,\ddot q = I \ddot q_0 - \tfrac12 I_h' \dot q^2
@@ -135,9 +133,12 @@ def _carrying(problem: Problem, q: Sequence[Any], u: Sequence[Any], w: Any, qdd:
 
 
 def power(
-    mechanism: Mechanism, q: Sequence[Any], u: Sequence[Any], letters: Sequence[Any] = ()
-) -> tuple[dict[str, Any], Any]:
-    """The speed conjugate to each input, and the power that is lost inside the mechanism."""
+    mechanism: Mechanism, q: Sequence[Scalar], u: Sequence[Scalar], letters: Sequence[ca.SX] = ()
+) -> tuple[dict[str, ca.SX], ca.SX]:
+    """The speed conjugate to each input [m/s or rad/s], and the power that is lost inside the mechanism [W].
+
+    q, u: coordinates and velocities [SI].
+    """
     inputs = ca.SX.sym("inputs", len(mechanism.inputs))
     force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs), *letters)[2]
     speeds = ca.jacobian(force, inputs).T @ ca.vertcat(*u)
@@ -149,25 +150,16 @@ def power(
     return rates, -ca.dot(ca.vertcat(*u), passive + ca.gradient(potential, ca.vertcat(*q)))
 
 
-def held(system: System, t: float) -> np.ndarray:
+def held(system: System, t: Second) -> np.ndarray:
     """The values w at a time, right of any jump; a callable's place stays 0.
 
-    Parameters
-    ----------
-    t : float
-        Start of a phase [s]
-
-    Returns
-    -------
-    w : ndarray, shape (k,)
-        In the units of the inputs [N*m or N]
+    t: start of a phase. Returns w: in the units of the inputs [N*m or N], shape (k,).
     """
-    now = [_step(v, t) if isinstance(v, Steps) else 0.0 for v in system.values]
+    now = [0.0] * len(system.values)
+    for i, value in enumerate(system.values):
+        if isinstance(value, Steps):
+            now[i] = value.values[int(np.searchsorted(value.times, t, side="right"))]
     return np.array([*now, *system.fixed], dtype=float)
-
-
-def _step(steps: Steps, t: float) -> float:
-    return steps.values[int(np.searchsorted(steps.times, t, side="right"))]
 
 
 def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[..., float]:
@@ -184,7 +176,7 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 
 
 @lru_cache(maxsize=64)
-def fitted(value: Periodic) -> Any:
+def fitted(value: Periodic) -> "scipy.interpolate.PPoly":
     """Periodic piecewise polynomial of a value, to round-off; one that is such a polynomial stays as it is."""
     if isinstance(value.value, scipy.interpolate.PPoly):
         return value.value
@@ -192,36 +184,20 @@ def fitted(value: Periodic) -> Any:
 
 
 def right_side(
-    system: System, w: np.ndarray, t_end: float, spans: Sequence[Any] = ()
+    system: System, w: np.ndarray, t_end: Second, spans: Sequence[Any] = ()
 ) -> Callable[[float, np.ndarray], np.ndarray]:
     """The equations as a fast Python function, for one phase.
 
-    Parameters
-    ----------
-    w : ndarray, shape (k,)
-        Held values of the phase [N*m or N]
-    t_end : float
-        End of the phase; callables are asked just before it, so that a jump there belongs to the next phase [s]
-    spans : sequence of Span
-        Intervals of coordinates beyond which callables are not asked, for the same reason
-
-    Returns
-    -------
-    f : callable
-        (t, y) to dy/dt, a new array each time
+    w: held values of the phase [N*m or N], shape (k,). t_end: end of the phase; callables are asked just before it, so
+    that a jump there belongs to the next phase. spans: sequence of Span, intervals of coordinates beyond which
+    callables are not asked, for the same reason. Returns f: (t, y) to dy/dt, a new array each time.
     """
-    buffer: Any
-    buffer, call = system.function.buffer()
     t_now, y_now, w_now = np.zeros(1), np.zeros(len(system.columns)), np.array(w)
-    out = np.zeros(len(system.columns))
-    for i, array in enumerate((t_now, y_now, w_now)):
-        buffer.set_arg(i, array.data)
-    buffer.set_res(0, out.data)
+    rates = through_buffer(system.function, t_now, y_now, w_now)
     sampled = [(i, _asked(system, v)) for i, v in enumerate(system.values) if not isinstance(v, Steps)]
     n, last = system.size, float(np.nextafter(t_end, -np.inf))
 
-    # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory
-    def f(t: float, y: np.ndarray, _alive: Any = buffer) -> np.ndarray:
+    def f(t: float, y: np.ndarray) -> np.ndarray:
         y_now[:] = y
         t_now[0] = now = t if t < last else last
         if sampled:
@@ -230,7 +206,23 @@ def right_side(
                 q[s.state] = min(max(q[s.state], s.low), s.high)
             for i, value in sampled:
                 w_now[i] = value(now, q, u)
+        return rates()
+
+    return f
+
+
+def through_buffer(function: ca.Function, *inputs: np.ndarray) -> Callable[[], np.ndarray]:
+    """A function that reads its inputs [SI] where they stand; each call returns its first output as a new array."""
+    buffer: Any
+    buffer, call = function.buffer()
+    for i, array in enumerate(inputs):
+        buffer.set_arg(i, array.data)
+    out = np.zeros(function.size1_out(0))
+    buffer.set_res(0, out.data)
+
+    # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory
+    def evaluate(_alive: object = buffer) -> np.ndarray:
         call()
         return out.copy()
 
-    return f
+    return evaluate

@@ -7,6 +7,7 @@ oscillation by an amount that depends on the step, so a resonance may be held fo
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities.units import Array, Second
 from mechsym.simulate.equations import held, right_side, system
 from mechsym.simulate.problem import Problem, Steps
 
@@ -17,22 +18,11 @@ _FORMULAS = {
 }
 
 
-def fixed_step(problem: Problem, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
+def fixed_step(problem: Problem, step: Second, order: int) -> tuple[Second[Array], np.ndarray]:
     """Integrate a problem with one step throughout, jumps in time not split.
 
-    Parameters
-    ----------
-    problem : Problem
-        Parts that are `Steps` or `Formula`; stops, turns and kinks are not heeded
-    step : float
-        Step [s]
-
-    Returns
-    -------
-    t : ndarray, shape (n,)
-        Times [s]
-    y : ndarray, shape (n, m)
-        States as in `equations.system`; rows after an overflow are left out [SI, by column]
+    problem: parts that are `Steps` or `Formula`; stops, turns and kinks are not heeded. Returns y: states as in
+    `equations.system`; rows after an overflow are left out [SI, by column], shape (n, m).
     """
     if order not in _FORMULAS:
         raise BadInput(f"order = {order} is not an option; options are {', '.join(map(str, _FORMULAS))}")

@@ -3,45 +3,48 @@
 Start-up maps, trials and sweeps differ in parameters, start, torques and times, not in the form of the equations. Runs
 of one form share one compiled file and are integrated in lanes and on all cores; what cannot be compiled runs one by
 one, so the results do not depend on the route beyond the tolerance.
+
+    x = f(q, u, a b, ..)     a and b differ: w ends with the product a b, worked out once for each run
+
+Where only parameters of the mechanism differ, their equations are built once; what only parameters are in is taken out
+of the rates, so that such a family costs as little in each step as a single run.
 """
 
+import functools
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from types import ModuleType
 
 import casadi as ca
 import numpy as np
 
+from mechsym.mechanisms.record import BoundFunctions, Mechanism, bind_module
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import Breaks, Level, Runs, Table
-from mechsym.simulate import native_backend
-from mechsym.simulate.backends import NATIVE
-from mechsym.simulate.equations import System
-from mechsym.simulate.family import systems
+from mechsym.simulate.equations import System, outer_values, system
+from mechsym.simulate.integrate import raw, runs, unsuited
 from mechsym.simulate.phase import Raw
-from mechsym.simulate.problem import Problem
+from mechsym.simulate.problem import Periodic, Problem, Steps
 from mechsym.simulate.result import Result
 from mechsym.simulate.run import checked, ends_of, result_of, simulate, tighter, wanted_times
-from mechsym.simulate.settings import Settings
+from mechsym.simulate.settings import NATIVE, Settings
 
 
 def simulate_many(problems: Sequence[Problem], settings: Settings | None = None) -> list[Result]:
     """Integrate problems, side by side where that is possible.
 
-    Returns
-    -------
-    results : list of Result
-        In the same order; `wall_s` is the share of each in the time of its group
+    Returns results: in the same order; `wall_s` is the share of each in the time of its group.
     """
     settings = settings or Settings()
     results: dict[int, Result] = {}
     for group in _groups(problems, settings):
         try:
-            found = _together([problems[i] for i in group], settings) if len(group) > 1 else []
+            together = _together([problems[i] for i in group], settings) if len(group) > 1 else []
         except NoCompiler:
-            found = []
-        results |= dict(zip(group, found or [simulate(problems[i], settings) for i in group], strict=True))
+            together = []
+        results |= dict(zip(group, together or [simulate(problems[i], settings) for i in group], strict=True))
     return [results[i] for i in range(len(problems))]
 
 
@@ -49,7 +52,7 @@ def _groups(problems: Sequence[Problem], settings: Settings) -> list[list[int]]:
     """Problems that may share a call: same names everywhere, same jumps, stops and kinks in number."""
     families: dict[object, list[int]] = {}
     for i, p in enumerate(problems):
-        alone = settings.backend not in NATIVE or bool(native_backend.unsuited(p))
+        alone = settings.backend not in NATIVE or bool(unsuited(p))
         form = (
             p.mechanism.coordinates,
             tuple((q.name, q.input, type(q.value)) for q in p.parts),
@@ -69,24 +72,22 @@ def _together(problems: list[Problem], settings: Settings) -> list[Result]:
     begin = time.perf_counter()
     raws = _raws(problems, equations, settings)
     wall = (time.perf_counter() - begin) / len(problems)
-    results = [result_of(p, s, r, wall) for p, s, r in zip(problems, equations, raws, strict=True)]
+    results = [result_of(p, s, r, settings, wall) for p, s, r in zip(problems, equations, raws, strict=True)]
     if settings.check == "none":
         return results
     checks = _raws(problems, equations, tighter(settings))
     return [
-        r if r.status == "failed" else checked(p.mechanism, r, result_of(p, s, c, 0.0), settings)
+        r if r.status == "failed" else checked(p.mechanism, r, result_of(p, s, c, settings, 0.0), settings)
         for p, s, r, c in zip(problems, equations, results, checks, strict=True)
     ]
 
 
 def _raws(problems: list[Problem], equations: list[System], settings: Settings) -> list[Raw]:
     times = [wanted_times(p) for p in problems]
-    single = [
-        native_backend.runs(p, s, settings, t, ends_of(p)) for p, s, t in zip(problems, equations, times, strict=True)
-    ]
+    single = [runs(p, s, settings, t, ends_of(p)) for p, s, t in zip(problems, equations, times, strict=True)]
     outcome = integrate(_joined(single, [s.function for s in equations]))
-    parts = zip(problems, equations, times, range(len(problems)), strict=True)
-    return [native_backend.raw(p, s, t, outcome, i) for p, s, t, i in parts]
+    rows = zip(problems, equations, times, single, strict=True)
+    return [raw(p, s, t, outcome, i, np.asarray(r.start)) for i, (p, s, t, r) in enumerate(rows)]
 
 
 def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
@@ -112,3 +113,64 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
             for i, k in enumerate(first.kinks)
         ),
     )
+
+
+def systems(problems: Sequence[Problem]) -> list[System]:
+    """The equations of problems of one form, with one function for all of them where they differ in numbers only."""
+    mechanisms = [p.mechanism for p in problems]
+    if not all(_numbers(p) for p in problems) or len(problems) == 1:
+        return [system(p) for p in problems]
+    if all(m is mechanisms[0] for m in mechanisms):
+        first = system(problems[0])
+        return [replace(first, values=outer_values(p)) for p in problems]
+    modules = {_module(m) for m in mechanisms}
+    if len(modules) > 1 or None in modules:
+        return [system(p) for p in problems]
+    return _with_letters(problems)
+
+
+def _numbers(problem: Problem) -> bool:
+    """Whether its equations hold nothing but its mechanism and the values of its inputs."""
+    beside = problem.curves or problem.states or problem.inertia or problem.mechanism.dependents
+    return not beside and all(isinstance(p.value, Steps | Periodic) for p in problem.parts)
+
+
+def _module(mechanism: Mechanism) -> ModuleType | None:
+    return mechanism.functions.module if isinstance(mechanism.functions, BoundFunctions) else None
+
+
+def _with_letters(problems: Sequence[Problem]) -> list[System]:
+    values = [p.mechanism.parameters for p in problems]
+    varying = tuple(n for n in values[0] if len({v[n] for v in values}) > 1)
+    same = tuple((n, v) for n, v in values[0].items() if n not in varying)
+    module = _module(problems[0].mechanism)
+    assert module is not None
+    shared, letters = _open(module, same, varying)
+    first = system(replace(problems[0], mechanism=shared), letters)
+    function, formulas = _taken_out(first.function, len(varying))
+    table = np.array([[v[n] for n in varying] for v in values])
+    fixed = np.asarray(formulas(ca.DM(table.T))).T
+    return [
+        replace(first, function=function, values=outer_values(p), fixed=tuple(f), shared=shared, letters=tuple(row))
+        for p, f, row in zip(problems, fixed.tolist(), table.tolist(), strict=True)
+    ]
+
+
+@functools.lru_cache(maxsize=16)
+def _open(
+    module: ModuleType, same: tuple[tuple[str, float], ...], varying: tuple[str, ...]
+) -> tuple[Mechanism, tuple[ca.SX, ...]]:
+    """The mechanism of a family, and the parameters that it leaves open."""
+    symbols = {n: ca.SX.sym(n) for n in module.PARAMETERS if n in varying}
+    return bind_module(module, {**dict(same), **symbols}), tuple(symbols.values())
+
+
+def _taken_out(rates: ca.Function, count: int) -> tuple[ca.Function, ca.Function]:
+    """Rates over (t, y, w and values), and these values as a function of the last `count` entries of the old w."""
+    t, y, w = (ca.SX.sym(rates.name_in(i), *rates.size_in(i)) for i in range(3))
+    rest, letters = w[: w.numel() - count], w[w.numel() - count :]
+    ydot, symbols, formulas = ca.extract_parametric(rates(t, y, w), letters)
+    # a letter that stands by itself is taken as it is
+    bare = [x for x in ca.vertsplit(letters) if ca.depends_on(ydot, x)]
+    function = ca.Function(rates.name(), [t, y, ca.vertcat(rest, *symbols, *bare)], [ydot], ["t", "y", "w"], ["ydot"])
+    return function, ca.Function("values", [letters], [ca.vertcat(*formulas, *bare)])

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechsym.simulate.result import Result
-from mechsym.simulate.summary import last_period
+from mechsym.quantities.units import Radian, RadPerSecond
+from mechsym.simulate.result import Result, last_period, period_ends, period_means
 from mechsym.style import BLUE, INK, RED, axis_unit, envelope, heading, legend, over_angle, panels
 
 if TYPE_CHECKING:
@@ -16,17 +16,11 @@ _LEAST = 1e-3  # of the speed: less is not drawn larger
 _PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
-def speed(result: Result, coordinate: str, period: float, wanted: float, words: str = "") -> "Figure":
+def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond, words: str = "") -> "Figure":
     """Speed of a coordinate that turns.
 
-    Parameters
-    ----------
-    period : float
-        A turn, or two for a four-stroke engine [rad]
-    wanted : float
-        Speed of operation, drawn as a line [rad/s]
-    words : str
-        The coordinate's name for people, where there are several
+    period: a turn, or two for a four-stroke engine; wanted: speed of operation, drawn as a line; words: the
+    coordinate's name for people, where there are several.
     """
     figure, (whole, last) = panels(
         9.0, 3.9, 1, 2, "Speed over time and over the angle", width_ratios=(2, 1), sharey=True
@@ -34,9 +28,9 @@ def speed(result: Result, coordinate: str, period: float, wanted: float, words: 
     t, q, u = result.t, result.columns[coordinate], result.columns[f"{coordinate}d"]
     factor, unit = axis_unit("rad/s", u)
     envelope(whole, t, u * factor, BLUE, "speed")
-    ends = np.interp(np.arange(q[0], q[-1], period), np.maximum.accumulate(q), t)
+    ends = period_ends(result, coordinate, period)
     if len(ends) > 1:
-        means = period / np.diff(ends) * factor
+        means = period_means(result, coordinate, period) * factor
         turns = round(period / (2 * np.pi))
         label = f"mean over {'a turn' if turns == 1 else f'{turns} turns'}"
         whole.stairs(means, ends, baseline=None, color=RED, lw=1.4, label=label)

@@ -7,13 +7,13 @@ Each input of the mechanism is the sum of the parts that name it, so that the wo
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Array, Scalar, Second
 
 
 @record
@@ -37,7 +37,7 @@ class FormulaForce:
     """A value given by a function that takes numbers and CasADi symbols alike, so every backend can use it."""
 
     #: (t, q, u) to value; q and u are sequences of the coordinates and velocities, in the mechanism's order
-    function: Callable[[Any, Any, Any], Any]
+    function: Callable[[Scalar, Scalar, Scalar], Scalar]
 
 
 @record
@@ -57,7 +57,7 @@ class Along:
     """A value by a formula of the velocities, of the problem's curves and of its states; numbers and symbols alike."""
 
     #: (velocities, values of the curves, states) to value, each a sequence in the problem's order
-    function: Callable[[Any, Any, Any], Any]
+    function: Callable[[Scalar, Scalar, Scalar], Scalar]
 
 
 @record
@@ -143,29 +143,23 @@ class Problem:
             raise BadInput(f"{self.mechanism.name}: states and inertia beside a mechanism need one coordinate")
         if len({p.name for p in self.parts}) != len(self.parts):
             raise BadInput(f"two parts have one name ({', '.join(p.name for p in self.parts)}); rename one")
-        _outputs(self.output)
+        wanted = np.atleast_1d(self.output) if isinstance(self.output, (int, float)) else np.diff(times_of(self.output))
+        if not np.all(wanted > 0):
+            raise BadInput("output must be a positive spacing in s, or ascending times in s")
 
 
-def times_of(output: tuple[float, ...]) -> np.ndarray:
+def times_of(output: tuple[Second, ...]) -> Second[Array]:
     """Wanted times as an array that is made once for runs that share them.
 
-    Parameters
-    ----------
-    output : tuple of float
-        Ascending [s]
-
-    Returns
-    -------
-    times : ndarray, shape (n,)
-        Not to be written into [s]
+    output: ascending. Returns times: not to be written into.
     """
-    kept = _KEPT.get(id(output))
-    if kept is None:
+    entry = _KEPT.get(id(output))
+    if entry is None:
         if len(_KEPT) > 8:
             _KEPT.clear()
-        kept = _KEPT[id(output)] = output, np.array(output, dtype=float)  # what is kept keeps its id
-        kept[1].flags.writeable = False
-    return kept[1]
+        entry = _KEPT[id(output)] = output, np.array(output, dtype=float)  # what is kept keeps its id
+        entry[1].flags.writeable = False
+    return entry[1]
 
 
 _KEPT: dict[int, tuple[tuple[float, ...], np.ndarray]] = {}
@@ -180,9 +174,3 @@ def _known(what: str, names: list[str], allowed: tuple[str, ...]) -> None:
     for name in names:
         if name not in allowed:
             raise BadInput(f"{what} names {name!r}, which the mechanism has not; it has {', '.join(allowed)}")
-
-
-def _outputs(output: float | tuple[float, ...]) -> None:
-    wanted = np.atleast_1d(output) if isinstance(output, (int, float)) else np.diff(times_of(output))
-    if not np.all(wanted > 0):
-        raise BadInput("output must be a positive spacing in s, or ascending times in s")

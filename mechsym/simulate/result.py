@@ -1,15 +1,25 @@
-"""The result of a run: labelled columns with units, energy audit, convergence, event; written as CSV and netCDF."""
+"""The result of a run: labelled columns with units, energy audit, convergence, event; written as CSV and netCDF.
 
-from collections.abc import Mapping
-from dataclasses import field
+`summary` makes the reported numbers of it: speeds over a window at the end, audit, convergence, event.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_quantities, write_with
-from mechsym.quantities import record
+from mechsym.quantities import record, results
+from mechsym.quantities.results import Columns, part, quantity
+from mechsym.quantities.units import Pure, Radian, Second
+from mechsym.simulate import speed
+from mechsym.simulate.speed import Speed, before_last_period, speeds
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @record
@@ -57,6 +67,8 @@ class Result:
     tolerance_difference: float | None
     steps: int
     wall_s: float  #: Time that the run took, without the check [s]
+    #: Coordinates and velocities at any ascending times within the run; None where only the samples are known
+    dense: Callable[[np.ndarray], Mapping[str, np.ndarray]] | None = field(default=None, repr=False, compare=False)
 
 
 def write_series(result: Result, path: Path) -> Path:
@@ -81,13 +93,10 @@ def write_netcdf(result: Result, path: Path) -> Path:
         raise _missing(error) from None
 
 
-def dataset(result: Result) -> Any:
+def dataset(result: Result) -> "xarray.Dataset":
     """The time series as an xarray data set with unit attributes.
 
-    Returns
-    -------
-    data : xarray.Dataset
-        One variable a column over the coordinate `t`; the audit's numbers as attributes
+    Returns data: xarray.Dataset, one variable a column over the coordinate `t`; the audit's numbers as attributes.
     """
     try:
         import xarray as xr
@@ -102,3 +111,146 @@ def dataset(result: Result) -> Any:
 
 def _missing(error: Exception) -> MissingExtra:
     return MissingExtra(f"netCDF needs xarray and h5netcdf ({error}); install them with pip install 'mechsym[netcdf]'")
+
+
+_A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
+_FINER = 129  # looks between two samples, one of which is before the last period
+_LEAST, _MOST = 720, 50_000  # looks at a stretch
+
+
+@results.result
+class RunEnergy:
+    """Where the energy of a run came from and went."""
+
+    work: Mapping[str, float] = quantity("J")  #: Work that each part does on the mechanism
+    work_in: float = quantity("J")  #: Sum over the parts that drive
+    dissipation: float = quantity("J")  #: Taken by the mechanism's dampers
+    change: float | None = quantity("J")  #: Kinetic and potential energy at the end less that at the start
+
+
+@results.result
+class RunNumbers:
+    """The numbers of a run, in the units of its coordinates."""
+
+    t_end: float = quantity("s")  #: When it ended
+    speed_mean: float = quantity("@rate")  #: Mean speed of the first coordinate at the end
+    speed_min: float = quantity("@rate")  #: Least speed of the first coordinate at the end
+    speed_max: float = quantity("@rate")  #: Greatest speed of the first coordinate at the end
+    energy_residual: float | None = quantity("-")  #: Work less dissipation less change of energy, by the work
+    tolerance_difference: float | None = quantity("-")  #: Of a speed to the run at a hundredth of the tolerance
+    steps: int = quantity("-")  #: Steps of the integrator
+    wall_s: float = quantity("s")  #: Time that the run took
+    event: Columns | None = part()  #: What stopped it: name, time, state
+    end: str = part()
+    status: str = part()
+    reason: str = part()
+    window: float = quantity("s")  #: Stretch at the end over which speeds are summed up
+    speeds: Mapping[str, Columns] = part()  #: Mean, least and greatest speed of each coordinate over the window
+    energy: RunEnergy = part()
+    rate: str  # unit of the first coordinate's speed
+
+
+def summary(
+    result: Result, coordinates: tuple[str, ...], window: Second | None, period: Radian = 2 * np.pi
+) -> RunNumbers:
+    """The reported numbers of a run.
+
+    coordinates: names of the coordinates; `speed_mean` and the others are those of the first. window: stretch at the
+    end over which speeds are summed up; None takes the last period of the first coordinate. period: a turn, or two for
+    a four-stroke engine.
+    """
+    since = last_period(result, coordinates[0], period) if window is None else max(result.t[-1] - window, result.t[0])
+    over_window = speeds_over(result, coordinates, since)
+    first, event, units, audit = over_window[coordinates[0]], result.event, result.units, result.energy
+    stop = None
+    if event is not None:
+        stop = Columns({"name": event.name, "t": event.t, **event.state}, {"name": "", "t": "s", **units})
+    return RunNumbers(
+        t_end=float(result.t[-1]),
+        speed_mean=first.mean,
+        speed_min=first.min,
+        speed_max=first.max,
+        energy_residual=audit.residual,
+        tolerance_difference=result.tolerance_difference,
+        steps=result.steps,
+        wall_s=result.wall_s,
+        event=stop,
+        end=result.end,
+        status=result.status,
+        reason=result.reason,
+        window=float(result.t[-1] - since),
+        speeds={
+            c: Columns(asdict(s), dict.fromkeys(("mean", "min", "max"), units[f"{c}d"])) for c, s in over_window.items()
+        },
+        energy=RunEnergy(
+            work=dict(audit.work), work_in=audit.work_in, dissipation=audit.dissipation, change=audit.change
+        ),
+        rate=units[f"{coordinates[0]}d"],
+    )
+
+
+def final_state(result: Result, coordinates: Iterable[str]) -> Columns:
+    """Coordinates and velocities at the end of a run, under the names of `[start]`, where another may go on from."""
+    return Columns({n: float(result.columns[n][-1]) for q in coordinates for n in (q, f"{q}d")}, result.units)
+
+
+def speeds_over(result: Result, coordinates: tuple[str, ...], since: Second) -> dict[str, Speed]:
+    """Speed of each coordinate from a time to the end, with the extremes of the dense solution."""
+    since = max(since, float(result.t[0]))
+    if result.t[-1] <= since:
+        now = {c: float(result.columns[f"{c}d"][-1]) for c in coordinates}
+        return {c: Speed(mean=u, min=u, max=u) for c, u in now.items()}
+
+    def motion(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        at: Mapping[str, np.ndarray]
+        if result.dense is None:
+            at = {n: np.interp(t, result.t, result.columns[n]) for c in coordinates for n in (c, f"{c}d")}
+        else:
+            at = result.dense(t)
+        return np.array([at[c] for c in coordinates]), np.array([at[f"{c}d"] for c in coordinates])
+
+    if result.dense is None:
+        times = np.append(since, result.t[result.t > since])
+    else:  # as fine as the steps of the run, so that no peak is missed
+        share = (result.t[-1] - since) / (result.t[-1] - result.t[0])
+        times = np.linspace(since, result.t[-1], int(np.clip(_A_STEP * result.steps * share, _LEAST, _MOST)))
+    return dict(zip(coordinates, speeds(motion, times), strict=True))
+
+
+def _interpolated(result: Result, coordinates: tuple[str, ...]) -> Callable[[np.ndarray], dict[str, np.ndarray]]:
+    names = [n for c in coordinates for n in (c, f"{c}d")]
+    return lambda t: {n: np.interp(t, result.t, result.columns[n]) for n in names}
+
+
+def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:
+    """When the last period of a coordinate began.
+
+    period: a turn, or two for a four-stroke engine. Returns t: the start of a run shorter than that.
+    """
+    q, rate = result.columns[coordinate], f"{coordinate}d"
+    i = before_last_period(q, period)
+    if i is None or result.dense is None:
+        return speed.last_period(result.t, q, result.columns[rate], period)
+    t = np.linspace(result.t[i], result.t[i + 1], _FINER)
+    at = result.dense(t)
+    return speed.last_period(t, at[coordinate], at[rate], period, float(q[-1]))
+
+
+def period_means(result: Result, coordinate: str, period: Radian) -> np.ndarray:
+    """Mean speed of a coordinate that turns, over each whole period from the start (k,) [rad/s]."""
+    return period / np.diff(period_ends(result, coordinate, period))
+
+
+def period_ends(result: Result, coordinate: str, period: Radian) -> np.ndarray:
+    """When each whole period of a coordinate that turns is over, the start among them (k,) [s]."""
+    q = np.maximum.accumulate(result.columns[coordinate])
+    return np.interp(np.arange(q[0], q[-1], period), q, result.t)
+
+
+def speed_ripple(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Pure | None:
+    """Ripple of the last period, see `mechsym.simulate.speed`.
+
+    result: a run of at least a period, in steady state for the number to mean what it says; period: period of the
+    torques. Returns ripple: (max - min) / |mean|; None where nothing advances.
+    """
+    return speeds_over(result, (coordinate,), last_period(result, coordinate, period))[coordinate].ripple

@@ -1,41 +1,36 @@
-"""Run a problem: split it into smooth phases, integrate each, audit the energy, and check the tolerance."""
+"""Run a problem: integrate it, audit the energy, check the tolerance, and refuse what could not end."""
 
+import math
 import time
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
-from mechsym.native.compiler import NoCompiler
-from mechsym.simulate import constrained, native_backend
+from mechsym.quantities.units import Array, Second
+from mechsym.simulate import constrained
 from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
-from mechsym.simulate.backends import FALLBACK, NATIVE, backend
-from mechsym.simulate.equations import System, held, start_of, system
-from mechsym.simulate.forecast import TRIAL, refuse_endless, shorter
-from mechsym.simulate.opening import ended, posed
-from mechsym.simulate.phase import Phase, Raw, Surface
+from mechsym.simulate.equations import System, system
+from mechsym.simulate.integrate import integrate
+from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Problem, Steps, times_of
 from mechsym.simulate.result import Event, Result
 from mechsym.simulate.settings import Settings
-from mechsym.simulate.watch import watch
 
+TRIAL = 20_000  # steps that a run is tried with
+_OFF = 2.0  # a forecast may be off by so much; within it the run has its chance
+_STUCK = 5.0  # exponent of a run that hardly comes on any more
+_NEAR = np.concatenate([[0.0], np.geomspace(1e-14, 1e-3, 34)])  # how far off a pose is looked for [rad] or [m]
 _TIGHTEST = 3e-14  # below that a double-precision step cannot be controlled
 
 
 def simulate(problem: Problem, settings: Settings | None = None) -> Result:
     """Integrate a problem and say how far the result can be trusted.
 
-    Parameters
-    ----------
-    settings : Settings, optional
-        Tolerance 1e-10 with check unless given
-
-    Returns
-    -------
-    result : Result
-        Series, energy audit, convergence; a failure is a status with a reason
+    settings: tolerance 1e-10 with check unless given. Returns result: series, energy audit, convergence; a failure is a
+    status with a reason.
 
     Raises
     ------
@@ -54,26 +49,22 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
 
 def _once(problem: Problem, settings: Settings) -> Result:
     begin = time.perf_counter()
+    equations, raw = _raw(problem, settings)
+    return result_of(problem, equations, raw, settings, time.perf_counter() - begin)
+
+
+def _raw(problem: Problem, settings: Settings, equations: System | None = None) -> tuple[System, Raw]:
+    """A run before it is audited, and its equations, which may be known."""
     if problem.mechanism.dependents:
-        equations, raw = constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem))
-    else:
-        equations = system(problem)
-        raw = _integrate(problem, equations, settings)
-    return result_of(problem, equations, raw, time.perf_counter() - begin)
+        return constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem))
+    equations = equations or system(problem)
+    return equations, integrate(problem, equations, settings, wanted_times(problem), ends_of(problem))
 
 
 def tighter(settings: Settings) -> Settings:
     """Settings of the run that checks another.
 
-    Parameters
-    ----------
-    settings : Settings
-        Of the run to be checked
-
-    Returns
-    -------
-    settings : Settings
-        A hundredth of the tolerance, without a check of its own
+    settings: of the run to be checked. Returns settings: a hundredth of the tolerance, without a check of its own.
     """
     return replace(settings, tolerance=max(settings.tolerance / 100, _TIGHTEST), check="none")
 
@@ -81,17 +72,17 @@ def tighter(settings: Settings) -> Settings:
 def checked(mechanism: Mechanism, result: Result, check: Result, settings: Settings) -> Result:
     """A result with the verdict of its check.
 
-    Parameters
-    ----------
-    result, check : Result
-        The run, and the run at the tighter tolerance
+    result, check: the run, and the run at the tighter tolerance.
     """
     if check.status == "failed":
         return replace(result, status="not converged", reason=f"the run at the tighter tolerance {check.reason}")
     if check.end != result.end:
         why = f"ends by {result.end!r}, at the tighter tolerance by {check.end!r}; use a smaller tolerance"
         return replace(result, status="not converged", reason=why)
-    t, here, there = _common(result.t, check.t)
+    here: np.ndarray | slice = slice(None)
+    t, there = result.t, here
+    if not np.array_equal(result.t, check.t):  # the times that both share, and where they stand in each
+        t, here, there = np.intersect1d(result.t, check.t, return_indices=True)
     speeds = [f"{q}d" for q in mechanism.coordinates if q not in mechanism.dependents]  # the others follow them
     difference = speed_difference(
         {v: result.columns[v][here] for v in speeds}, {v: check.columns[v][there] for v in speeds}
@@ -101,78 +92,10 @@ def checked(mechanism: Mechanism, result: Result, check: Result, settings: Setti
     return replace(result, status=status, reason=reason, tolerance_difference=float(np.max(difference)))
 
 
-def _common(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, Any, Any]:
-    """Times that two runs share, and where they stand in each."""
-    return (a, slice(None), slice(None)) if np.array_equal(a, b) else np.intersect1d(a, b, return_indices=True)
-
-
-def _integrate(problem: Problem, equations: System, settings: Settings) -> Raw:
-    """A whole run in C where that is possible, otherwise phase by phase."""
-    wanted, ends = wanted_times(problem), ends_of(problem)
-    if settings.backend in NATIVE:
-        reason = native_backend.unsuited(problem)
-        if not reason:
-            try:
-                return native_backend.run(problem, equations, settings, wanted, ends)
-            except NoCompiler as error:
-                reason = str(error)
-        if settings.backend == "native":
-            raise BadInput(f"backend 'native' cannot take this run: {reason}; or use backend auto")
-        settings = replace(settings, backend=FALLBACK)
-    return _phase_by_phase(problem, equations, settings, wanted, ends)
-
-
-def _phase_by_phase(
-    problem: Problem, equations: System, settings: Settings, wanted: np.ndarray, ends: list[float]
-) -> Raw:
-    advance = backend(settings.backend)
-    y = start_of(problem, equations)
-    t, step, steps, end, failure = problem.t_start, None, 0, "t_end", ""
-    times, states = [np.array([t])], [y[None]]
-    while ends and not failure:
-        around = watch(problem, equations.columns, y)
-        phase = Phase(
-            system=equations, t_start=t, t_end=ends[0], y=y, w=held(equations, t), surfaces=around.surfaces,
-            spans=around.spans, times=wanted[(wanted > t) & (wanted <= ends[0])],
-            tolerance=settings.tolerance, first_step=step, max_steps=settings.max_steps,
-        )  # fmt: skip
-        leg = advance(phase)
-        times.append(phase.times[: len(leg.samples)])
-        states.append(leg.samples)
-        t, y, step, steps, failure = leg.t, leg.y, leg.step, steps + leg.steps, leg.failure
-        if leg.met is None:
-            ends.pop(0)
-            step = None
-        elif around.ends[leg.met]:
-            end = around.ends[leg.met]
-            break
-        else:
-            y = _beyond(around.surfaces[leg.met], y)
-    found, values = np.concatenate(times), np.concatenate(states)
-    if found[-1] < t:
-        found, values = np.append(found, t), np.vstack([values, y])
-    return Raw(t=found, y=values, steps=steps, end="failure" if failure else end, failure=failure)
-
-
-def _beyond(surface: Surface, y: np.ndarray) -> np.ndarray:
-    """The state moved by less than the tolerance, so that it lies on the surface to the last digit."""
-    moved = y.copy()
-    moved[surface.state] = surface.level
-    return moved
-
-
-def wanted_times(problem: Problem) -> np.ndarray:
+def wanted_times(problem: Problem) -> Second[Array]:
     """Times at which results are wanted.
 
-    Parameters
-    ----------
-    problem : Problem
-        With a spacing or a list of times
-
-    Returns
-    -------
-    times : ndarray, shape (n,)
-        After the start, ascending [s]
+    problem: with a spacing or a list of times. Returns times: after the start, ascending.
     """
     if not isinstance(problem.output, (int, float)):
         return times_of(problem.output)
@@ -180,26 +103,20 @@ def wanted_times(problem: Problem) -> np.ndarray:
     return np.minimum(problem.t_start + problem.output * np.arange(1, count + 1), problem.t_end)
 
 
-def ends_of(problem: Problem) -> list[float]:
+def ends_of(problem: Problem) -> list[Second]:
     """Ends of the stretches of time in which nothing jumps.
 
-    Returns
-    -------
-    ends : list of float
-        Ascending; the last is the end of the run [s]
+    Returns ends: ascending; the last is the end of the run.
     """
     jumps = [t for p in problem.parts if isinstance(p.value, Steps) for t in p.value.times]
     inside = sorted(t for t in {*problem.breaks, *jumps} if problem.t_start < t < problem.t_end)
     return [*inside, problem.t_end]
 
 
-def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> Result:
+def result_of(problem: Problem, equations: System, raw: Raw, settings: Settings, wall_s: Second) -> Result:
     """A finished run as a result, with its energy audited.
 
-    Parameters
-    ----------
-    wall_s : float
-        Time it took [s]
+    wall_s: time it took.
     """
     n, whole = equations.size, ended(problem.mechanism, raw)
     raw = posed(problem.mechanism, whole)
@@ -228,4 +145,116 @@ def result_of(problem: Problem, equations: System, raw: Raw, wall_s: float) -> R
         tolerance_difference=None,
         steps=raw.steps,
         wall_s=wall_s,
+        dense=None if raw.failure else _dense(problem, equations, raw, settings),
     )
+
+
+def ended(mechanism: Mechanism, raw: Raw) -> Raw:
+    """A run as it is, or with the event `locked` where it failed at a pose beyond which a loop opens."""
+    if not raw.failure or "dynamics" not in mechanism.functions or mechanism.dependents:
+        return raw
+    whole = np.isfinite(raw.y).all(axis=1)
+    if not whole.any():
+        return raw
+    last, n = int(np.flatnonzero(whole)[-1]), len(mechanism.coordinates)
+    if not opens(mechanism, raw.y[last, :n], raw.y[last, n : 2 * n]):
+        return raw
+    return replace(raw, t=raw.t[: last + 1], y=raw.y[: last + 1], end=constrained.LOCKED, failure="")
+
+
+def posed(mechanism: Mechanism, raw: Raw) -> Raw:
+    """A run without a last state that lies on the pose where the loop opens, where no energy is known."""
+    if raw.end != constrained.LOCKED or mechanism.dependents or len(raw.t) < 2 or "energy" not in mechanism.functions:
+        return raw
+    n = len(mechanism.coordinates)
+    energy = mechanism.functions["energy"].call(list(raw.y[-1, : 2 * n]))
+    return raw if np.isfinite([float(e) for e in energy]).all() else replace(raw, t=raw.t[:-1], y=raw.y[:-1])
+
+
+def opens(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> bool:
+    """Whether a loop opens at a pose or a thousandth beside it, on the way of the motion or back.
+
+    q, u: coordinates and velocities [rad, rad/s].
+    """
+    dynamics = mechanism.functions["dynamics"]
+    rest = [0.0] * (dynamics.n_in() - 2 * len(q) if dynamics.n_in() >= 2 * len(q) else 0)
+    way = np.where(u == 0, 1.0, np.sign(u))
+
+    def closed(step: float) -> bool:
+        return bool(np.isfinite(np.asarray(dynamics.call([*(q + step * way), *u, *rest])[0])).all())
+
+    return not all(closed(sign * step) for step in _NEAR for sign in (1.0, -1.0))
+
+
+def _dense(
+    problem: Problem, equations: System, raw: Raw, settings: Settings
+) -> Callable[[np.ndarray], dict[str, np.ndarray]]:
+    """A run between its samples: taken up again at the sample before, by the same method to the same tolerance."""
+    n, names = equations.size, equations.columns[: 2 * equations.size]
+
+    def at(times: np.ndarray) -> dict[str, np.ndarray]:
+        i = max(int(np.searchsorted(raw.t, times[0], side="right")) - 1, 0)
+        y, after = raw.y[i], times[times > raw.t[i]]
+        inner = zip(problem.states, y[len(y) - len(problem.states) :], strict=True)
+        again = replace(
+            problem,
+            q0=tuple(y[:n]),
+            u0=tuple(y[n : 2 * n]),
+            states=tuple(replace(s, start=float(v)) for s, v in inner),
+            t_start=float(raw.t[i]),
+            t_end=float(times[-1]),
+            turns=None,
+            stops=(),
+            output=tuple(after),
+        )
+        _, run = _raw(again, settings, equations)
+        return dict(zip(names, run.y[0 if times[0] == raw.t[i] else 1 :].T, strict=False))
+
+    return at
+
+
+def shorter(settings: Settings, steps: int = TRIAL) -> Settings:
+    """The same settings with few steps allowed."""
+    return replace(settings, max_steps=min(steps, settings.max_steps))
+
+
+def refuse_endless(problem: Problem, first: Result, tried: Result, settings: Settings) -> None:
+    r"""Refuse a run whose first steps show that it would not end within those allowed.
+
+    .. math:: N(s) = N_1 (s/s_1)^p, \qquad p = \ln 2/\ln(s_1/s_{1/2})
+
+    s is the share of the run, by time or by turns, that N steps come to: s_1 those of the trial, s_1/2 half of them. A
+    shaft that a torque speeds up for ever has p = 2. Where the second half hardly comes on (p above 5) the run is stiff
+    or singular, which no forecast tells, and it is run to the end that it meets.
+
+    first, tried: the run with half of `TRIAL` steps, and with all of them.
+
+    Raises
+    ------
+    BadInput
+        The forecast is more than twice what is allowed, with how far the run may go
+    """
+    by_time, by_turns = _shares(problem, tried)
+    half, whole = max(_shares(problem, first)), max(by_time, by_turns)
+    if not 0 < half < whole or math.log(2) > _STUCK * math.log(whole / half):
+        return
+    exponent = math.log(2) / math.log(whole / half)
+    steps = TRIAL / whole**exponent
+    if steps > _OFF * settings.max_steps:
+        reach = whole * (settings.max_steps / TRIAL) ** (1 / exponent)
+        asked, most = f"t_end = {problem.t_end:g} s", f"{reach * problem.t_end:.2g} s"
+        if problem.turns is not None and by_turns >= by_time:
+            asked, most = f"turns = {problem.turns:g}", f"{reach * problem.turns:.2g} turns"
+        raise BadInput(
+            f"{asked} asks for about {steps:.2g} steps of the integrator; allowed are {settings.max_steps}; give at "
+            f"most about {most}, or a larger tolerance"
+        )
+
+
+def _shares(problem: Problem, result: Result) -> tuple[float, float]:
+    """How much of a run has been done, by time and by turns."""
+    by_time = float((result.t[-1] - problem.t_start) / (problem.t_end - problem.t_start))
+    if problem.turns is None:
+        return by_time, 0.0
+    angle = result.columns[problem.mechanism.coordinates[0]]
+    return by_time, float((angle[-1] - problem.q0[0]) / (2 * math.pi * problem.turns))

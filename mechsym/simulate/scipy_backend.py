@@ -5,13 +5,13 @@ right-hand side on both sides of a kink, and the state at an event comes from a 
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import scipy
 
+from mechsym.native.runs import Level
 from mechsym.simulate.equations import right_side
-from mechsym.simulate.phase import Leg, Phase, Span, Surface
+from mechsym.simulate.phase import Leg, Phase, Span
 
 _CLOSE = 0.02  # a kink nearer than this share of a usual step is met by the next step, others by a step to just before
 
@@ -19,10 +19,7 @@ _CLOSE = 0.02  # a kink nearer than this share of a usual step is met by the nex
 def advance(phase: Phase, method: str) -> Leg:
     """Integrate a phase with a class of scipy.integrate.
 
-    Parameters
-    ----------
-    method : str
-        Name of the class, for example `DOP853`
+    method: name of the class, for example `DOP853`.
     """
     f = right_side(phase.system, phase.w, phase.t_end, phase.spans)
     solver = _solver(phase, method, f, (phase.t_start, phase.y), phase.t_end, phase.first_step)
@@ -45,19 +42,24 @@ def advance(phase: Phase, method: str) -> Leg:
             due = int(np.searchsorted(wanted, solver.t, side="right"))
             samples.append(solver.dense_output()(wanted[:due]).T)
             wanted = wanted[due:]
-    found = np.concatenate(samples)
-    return Leg(t=solver.t, y=solver.y.copy(), samples=found, steps=steps, met=met, step=step, failure=failure)
+    rows = np.concatenate(samples)
+    return Leg(t=solver.t, y=solver.y.copy(), samples=rows, steps=steps, met=met, step=step, failure=failure)
 
 
 def _solver(
-    phase: Phase, method: str, f: Callable[..., Any], start: tuple[float, Any], t_end: float, step: float | None
-) -> Any:
+    phase: Phase,
+    method: str,
+    f: Callable[[float, np.ndarray], np.ndarray],
+    start: tuple[float, np.ndarray],
+    t_end: float,
+    step: float | None,
+) -> "scipy.integrate.OdeSolver":
     first = None if step is None else min(step, t_end - start[0])
     cls = getattr(scipy.integrate, method)
     return cls(f, *start, t_end, rtol=phase.tolerance, atol=phase.tolerance, first_step=first)
 
 
-def _slow_down(phase: Phase, solver: Any, usual: float | None) -> bool:
+def _slow_down(phase: Phase, solver: "scipy.integrate.OdeSolver", usual: float | None) -> bool:
     """Keep the next step from reaching far across a kink, where it would be rejected; whether it was limited."""
     if not phase.spans or not hasattr(solver, "h_abs"):  # LSODA chooses its steps out of sight
         return False
@@ -68,7 +70,7 @@ def _slow_down(phase: Phase, solver: Any, usual: float | None) -> bool:
     return solver.h_abs > solver.max_step
 
 
-def _arrival(span: Span, solver: Any, rates: np.ndarray, size: int) -> float:
+def _arrival(span: Span, solver: "scipy.integrate.OdeSolver", rates: np.ndarray, size: int) -> float:
     """Estimated time until a coordinate leaves its interval."""
     speed, rate = float(rates[span.state]), float(rates[span.state + size])
     if speed == 0.0:
@@ -79,8 +81,14 @@ def _arrival(span: Span, solver: Any, rates: np.ndarray, size: int) -> float:
     return way / mean if mean > 0 else np.inf
 
 
-def _first_crossing(surfaces: tuple[Surface, ...], solver: Any, before: np.ndarray) -> tuple[int | None, float]:
-    crossed = [i for i, s in enumerate(surfaces) if _crosses(s, before[s.state], solver.y[s.state])]
+def _first_crossing(
+    surfaces: tuple[Level, ...], solver: "scipy.integrate.OdeSolver", before: np.ndarray
+) -> tuple[int | None, float]:
+    crossed = []
+    for i, s in enumerate(surfaces):
+        was, now = before[s.state], solver.y[s.state]
+        if was < s.level <= now and s.direction >= 0 or was > s.level >= now and s.direction <= 0:
+            crossed.append(i)
     if not crossed:
         return None, solver.t
     dense = solver.dense_output()
@@ -89,15 +97,9 @@ def _first_crossing(surfaces: tuple[Surface, ...], solver: Any, before: np.ndarr
     return crossed[first], times[first]
 
 
-def _crosses(surface: Surface, before: float, after: float) -> bool:
-    rising = before < surface.level <= after and surface.direction >= 0
-    falling = before > surface.level >= after and surface.direction <= 0
-    return rising or falling
-
-
-def _time(dense: Any, surface: Surface, t_old: float, t: float) -> float:
+def _time(dense: "scipy.integrate.DenseOutput", surface: Level, t_old: float, t: float) -> float:
     def distance(t: float) -> float:
-        return float(dense(t)[surface.state]) - surface.level
+        return float(dense(t)[surface.state] - surface.level)
 
     if distance(t_old) * distance(t) >= 0:
         return t

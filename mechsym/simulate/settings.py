@@ -1,8 +1,44 @@
-"""How a problem is integrated and how far its result must be trusted."""
+"""How a problem is integrated, by which integrator, and how far its result must be trusted.
+
+`native` runs a whole problem in compiled C; `auto` takes it where there is a compiler and the problem has no plain
+Python callables, otherwise scipy. Each of the others takes a `Phase` and returns a `Leg`; a new one is one line here.
+"""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
-from mechsym.quantities import choice, quantity, record
-from mechsym.simulate.backends import BACKENDS, DEFAULT
+from mechsym.quantities import choice, load, quantity, record
+
+if TYPE_CHECKING:
+    from mechsym.simulate.phase import Leg, Phase
+
+
+DEFAULT, FALLBACK = "auto", "scipy-dop853"
+NATIVE = ("auto", "native")
+# name: ("module:function", arguments after the phase); imported on first use
+_PHASES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "scipy-dop853": ("mechsym.simulate.scipy_backend:advance", ("DOP853",)),
+    "scipy-rk45": ("mechsym.simulate.scipy_backend:advance", ("RK45",)),
+    "scipy-rk23": ("mechsym.simulate.scipy_backend:advance", ("RK23",)),
+    "scipy-lsoda": ("mechsym.simulate.scipy_backend:advance", ("LSODA",)),
+    "scipy-radau": ("mechsym.simulate.scipy_backend:advance", ("Radau",)),
+    "scipy-bdf": ("mechsym.simulate.scipy_backend:advance", ("BDF",)),
+    "sundials": ("mechsym.simulate.symbolic_backends:advance_sundials", ()),
+    "heyoka": ("mechsym.simulate.symbolic_backends:advance_heyoka", ()),
+}
+
+BACKENDS = (*NATIVE, *_PHASES)
+
+
+def backend(name: str) -> "Callable[[Phase], Leg]":
+    """The function that integrates a phase."""
+    if name not in _PHASES:
+        raise BadInput(f"backend {name!r} does not go phase by phase; there are {', '.join(_PHASES)}")
+    path, arguments = _PHASES[name]
+    advance = load(path)
+    return lambda phase: advance(phase, *arguments)
+
 
 _STEP = 0.01  # of results where none is given [s]
 
@@ -51,21 +87,17 @@ class Simulation:
         if self.t_end is None and self.turns is None:
             raise BadInput("neither t_end nor turns says where the run ends; give t_end in s or turns")
         if self.t_end is None and self.output_step is not None:
-            told = f"output_step = {self.output_step:g} s is not used over turns, which give 360 results each"
-            raise BadInput(f"{told}; leave it out, or give t_end in s")
+            why = f"output_step = {self.output_step:g} s is not used over turns, which give 360 results each"
+            raise BadInput(f"{why}; leave it out, or give t_end in s")
         if self.t_end is not None and self.turns is None:
-            self._inside("output_step", self.output_step or 0.0, self.t_end)
-            self._inside("window", self.window or 0.0, self.t_end)
+            for name, value in (("output_step", self.output_step), ("window", self.window)):
+                if (value or 0.0) > self.t_end:
+                    raise BadInput(f"{name} = {value:g} s is longer than the run, t_end = {self.t_end:g} s; shorten it")
 
     @property
     def step(self) -> float:
         """Spacing of the results in a run to t_end [s]."""
         return _STEP if self.output_step is None else self.output_step
-
-    @staticmethod
-    def _inside(name: str, value: float, t_end: float) -> None:
-        if value > t_end:
-            raise BadInput(f"{name} = {value:g} s is longer than the run, t_end = {t_end:g} s; shorten it")
 
 
 @record

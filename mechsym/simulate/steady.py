@@ -1,11 +1,11 @@
 """Steady turning of a machine: the periodic speed, the ripple, and the flywheel for a wanted ripple.
 
-`speed_ripple` = (omega_max - omega_min) / omega_mean over a period in steady state. Under constant load every speed
+`speed_ripple` (see `mechsym.simulate.speed`) is that of a period in steady state. Under constant load every speed
 repeats when the torques balance (the motion is neutral), so the wanted mean speed is a choice; under a load that grows
 with speed there is one steady motion, found by Newton's method on the map of one turn.
 
 This is the machine as built, under any load law. While a guide is being designed only the work that it leaves over is
-known; the closed forms of `speed_from_work` give the speed then, for constant and propeller load.
+known; the closed forms of `mechsym.hinge.ripple` give the speed then, for constant and propeller load.
 """
 
 from dataclasses import replace
@@ -13,10 +13,11 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from mechsym.machine.loads import ConstantLoad
+from mechsym.machine.loads import ConstantLoad, load_torque
 from mechsym.quantities import record
-from mechsym.simulate.angle import Panels
-from mechsym.simulate.angle_turn import AngleTurn, lowest_energy, speeds, stop_angle, turn
+from mechsym.quantities.units import Inertia, NewtonMetre, Pure, RadPerSecond
+from mechsym.simulate.angle import AngleTurn, Panels, extremes, gauss, lowest_energy, speeds, stop_angle, turn
+from mechsym.simulate.speed import Speed
 
 # a constant load is in balance when a turn gains less than this part of the work that swings in it
 _BALANCE = 1e-6
@@ -48,41 +49,32 @@ class Flywheel:
     speed_ripple: float | None  #: Ripple with it [-]
 
 
-def steady_state(panels: Panels, speed: float, flywheel: float = 0.0) -> Steady:
+def steady_state(panels: Panels, speed: RadPerSecond, flywheel: Inertia = 0.0) -> Steady:
     """The periodic motion of a machine.
 
-    Parameters
-    ----------
-    speed : float
-        Mean speed under constant load, first guess of the speed under any other [rad/s]
-    flywheel : float
-        Inertia added to the shaft [kg*m^2]
-
-    Returns
-    -------
-    steady : Steady
-        Motion, or the reason why there is none
+    speed: mean speed under constant load, first guess of the speed under any other; flywheel: inertia added to the
+    shaft. Returns steady: motion, or the reason why there is none.
     """
     if isinstance(panels.load, ConstantLoad):
         return _neutral(panels, speed, flywheel)
+    driving, braking = mean_torque(panels), float(load_torque(panels.load, speed))
+    if driving <= _BALANCE * abs(braking) and braking > 0:
+        return _none(f"the mean torque is {driving:.6g} N*m and the load takes {braking:.6g} N*m: nothing drives it")
     energy = 0.5 * (float(np.mean(panels.inertia)) + flywheel) * speed**2
     for _ in range(50):
-        found = turn(panels, flywheel, energy)
-        gain = float(found.energy_edges[-1]) - energy
-        step = gain / _away_from_zero(1.0 - found.multiplier)
+        whole_turn = turn(panels, flywheel, energy)
+        gain = float(whole_turn.energy_edges[-1]) - energy
+        slope = 1.0 - whole_turn.multiplier
+        step = gain / float(np.copysign(max(abs(slope), 1e-6), slope))
         if abs(step) <= 1e-12 * abs(energy) or energy < 1e-9 * abs(gain):
             break
         energy = max(energy + step, 0.1 * energy)
     else:
         return _none(f"Newton's method on one turn did not settle (last step {step:.3g} J)")
-    if lowest_energy(found) <= 0:
+    if lowest_energy(whole_turn) <= 0:
         return _stopped(panels, speed, flywheel)
-    status = "steady" if abs(found.multiplier) < 1 else "unstable"
-    return _steady(panels, flywheel, found, status, "the motion repeats every period")
-
-
-def _away_from_zero(difference: float) -> float:
-    return float(np.copysign(max(abs(difference), 1e-6), difference))
+    status = "steady" if abs(whole_turn.multiplier) < 1 else "unstable"
+    return _steady(panels, flywheel, whole_turn, status, "the motion repeats every period")
 
 
 def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:
@@ -108,12 +100,13 @@ def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:
     return _steady(panels, flywheel, turn(panels, flywheel, energy), "neutral", reason)
 
 
-def _steady(panels: Panels, flywheel: float, found: AngleTurn, status: str, reason: str) -> Steady:
-    phi, omega, time = speeds(panels, flywheel, found)
+def _steady(panels: Panels, flywheel: float, motion: AngleTurn, status: str, reason: str) -> Steady:
+    phi, omega, time = speeds(panels, flywheel, motion)
     mean = float(panels.edges[-1] - panels.edges[0]) / time
+    low, high = extremes(panels, phi, omega)
     return Steady(
         status=status, reason=reason, phi=phi, omega=omega, speed_mean=mean,
-        speed_ripple=float(np.ptp(omega)) / mean, multiplier=found.multiplier,
+        speed_ripple=Speed(mean=mean, min=low, max=high).ripple, multiplier=motion.multiplier,
     )  # fmt: skip
 
 
@@ -128,24 +121,23 @@ def _stopped(panels: Panels, speed: float, flywheel: float) -> Steady:
     """Tell where a shaft stops that is started at a speed, the reason why it has no steady motion."""
     energy, period = 0.5 * (float(panels.inertia_edges[0]) + flywheel) * speed**2, panels.edges[-1] - panels.edges[0]
     for count in range(_TRIES):
-        found = turn(panels, flywheel, energy)
-        angle = stop_angle(panels, found)
+        whole_turn = turn(panels, flywheel, energy)
+        angle = stop_angle(panels, whole_turn)
         if angle is not None:
             where = f"started at {speed:.6g} rad/s it stops after {np.degrees(count * period + angle):.1f} deg"
             return _none(f"{where}: the work that swings is more than its kinetic energy; add a flywheel")
-        energy = float(found.energy_edges[-1])
+        energy = float(whole_turn.energy_edges[-1])
     return _none(f"started at {speed:.6g} rad/s it slows down for {_TRIES} periods and has no steady motion")
 
 
-def mean_torque(panels: Panels) -> float:
-    """Mean over the angle of the torque without load: the load torque that keeps a balance.
-
-    Returns
-    -------
-    torque : float
-        Mean torque [N*m]
-    """
+def mean_torque(panels: Panels) -> NewtonMetre:
+    """Mean over the angle of the torque without load: the load torque that keeps a balance."""
     return float(_free(panels)[-1] / (panels.edges[-1] - panels.edges[0]))
+
+
+def mean_inertia(panels: Panels) -> Inertia:
+    """Mean over the angle of the inertia: each panel by its width."""
+    return float(np.diff(panels.edges) / 2 @ (panels.inertia @ gauss()[1]) / np.ptp(panels.edges))
 
 
 def _free(panels: Panels) -> np.ndarray:
@@ -153,20 +145,15 @@ def _free(panels: Panels) -> np.ndarray:
     return turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0).energy_edges
 
 
-def flywheel_for_ripple(panels: Panels, speed: float, target: float = 1 / 50) -> Flywheel:
+def flywheel_for_ripple(panels: Panels, speed: RadPerSecond, target: Pure = 1 / 50) -> Flywheel:
     """The flywheel with which the steady motion has a wanted ripple.
 
-    Parameters
-    ----------
-    speed : float
-        Mean speed, see `steady_state` [rad/s]
-    target : float
-        Wanted (max - min) / mean [-]
+    speed: mean speed, see `steady_state`; target: wanted (max - min) / mean.
     """
 
     def excess(inertia: float) -> float:
-        found = steady_state(panels, speed, inertia).speed_ripple
-        return (_STANDING if found is None else found) - target
+        ripple = steady_state(panels, speed, inertia).speed_ripple
+        return (_STANDING if ripple is None else ripple) - target
 
     bare = steady_state(panels, speed)
     if bare.speed_ripple is not None and bare.speed_ripple <= target:
@@ -193,28 +180,19 @@ def _swing(panels: Panels) -> float:
     return float(np.ptp(_free(panels) - mean_torque(panels) * (panels.edges - panels.edges[0])))
 
 
-def smallest_flywheel_that_turns(panels: Panels, speed: float, turns: int = 10) -> Flywheel:
+def smallest_flywheel_that_turns(panels: Panels, speed: RadPerSecond, turns: int = 10) -> Flywheel:
     """The smallest flywheel with which the shaft, started at a speed where the panels begin, does not stop.
 
-    Parameters
-    ----------
-    panels : Panels
-        Machine without flywheel; `tabulate(machine, phi_start)` sets where it starts
-    speed : float
-        Speed at the start [rad/s]
-
-    Returns
-    -------
-    flywheel : Flywheel
-        Inertia at which the shaft just stops short; anything larger turns
+    panels: machine without flywheel; `tabulate(machine, phi_start)` sets where it starts. speed: speed at the start.
+    Returns flywheel: inertia at which the shaft just stops short; anything larger turns.
     """
 
     def lowest(inertia: float) -> float:
         energy = 0.5 * (float(panels.inertia_edges[0]) + inertia) * speed**2
         least = energy
         for _ in range(turns):
-            found = turn(panels, inertia, energy)
-            least, energy = min(least, lowest_energy(found)), float(found.energy_edges[-1])
+            motion = turn(panels, inertia, energy)
+            least, energy = min(least, lowest_energy(motion)), float(motion.energy_edges[-1])
             if least < 0:
                 break
         return least

@@ -18,7 +18,7 @@ def advance_sundials(phase: Phase) -> Leg:
     _refuse(phase, "sundials")
     t, y, w = (ca.SX.sym(n, s) for n, s in (("t", 1), ("y", len(phase.y)), ("w", len(phase.w))))
     dae = {"t": t, "x": y, "p": w, "ode": phase.system.function(t, y, w)}
-    options: dict[str, Any] = {
+    options: dict[str, float | str] = {
         "abstol": phase.tolerance,
         "reltol": phase.tolerance,
         "linear_multistep_method": "adams",

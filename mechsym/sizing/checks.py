@@ -1,18 +1,18 @@
-"""What every sizing rule shares: refusing input outside its validity, and the record of one check."""
+"""What every sizing rule shares: refusing input outside its validity, the record of one check, rounding up."""
 
 import math
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import allowed, record
+from mechsym.quantities import RPM, allowed, record
+from mechsym.quantities.units import Array, Metre, Pure, RadPerSecond, Scalar
 
 
 def require(
     name: str,
-    value: Any,
+    value: Scalar,
     unit: str,
     *,
     above: float | None = None,
@@ -23,18 +23,9 @@ def require(
 ) -> None:
     """Refuse a value outside the validity of a rule.
 
-    Parameters
-    ----------
-    name : str
-        Name of the quantity, for the message
-    value : float or ndarray
-        Value in SI; every element is checked [unit]
-    unit : str
-        Its SI unit, `"-"` for a pure number
-    above, low, below, high : float, optional
-        Bounds; `above` and `below` must not be reached [unit]
-    hint : str
-        Why the bound is there and what to do instead
+    name: name of the quantity, for the message. value: value in SI; every element is checked [unit]. unit: its SI unit,
+    `"-"` for a pure number. above, low, below, high: bounds; `above` and `below` must not be reached [unit]. hint: why
+    the bound is there and what to do instead.
 
     Raises
     ------
@@ -89,21 +80,12 @@ class Check:
 
 
 def at_most(
-    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: float, rule: str, **more: str
+    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: Pure, rule: str, **more: str
 ) -> Check:
     """A check of a load, stress or speed that must stay below a limit.
 
-    Parameters
-    ----------
-    value, limit : float
-        Load and what the part stands [unit]
-    wanted : float
-        Safety factor asked for [-]
-
-    Returns
-    -------
-    check : Check
-        Its factor is limit / value
+    value, limit: load and what the part stands [unit]; wanted: safety factor asked for. Returns check: its factor is
+    limit / value.
 
     Examples
     --------
@@ -118,21 +100,12 @@ def at_most(
 
 
 def at_least(
-    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: float, rule: str, **more: str
+    component: str, quantity: str, value: float, limit: float, unit: str, *, wanted: Pure, rule: str, **more: str
 ) -> Check:
     """A check of a size or life that must reach what is needed.
 
-    Parameters
-    ----------
-    value, limit : float
-        What the part has and what it needs [unit]
-    wanted : float
-        Safety factor asked for [-]
-
-    Returns
-    -------
-    check : Check
-        Its factor is value / limit
+    value, limit: what the part has and what it needs [unit]; wanted: safety factor asked for. Returns check: its factor
+    is value / limit.
 
     Examples
     --------
@@ -149,14 +122,44 @@ def at_least(
 def holds(check: Check) -> bool:
     """Whether a part reaches the wanted factor.
 
-    Returns
-    -------
-    holds : bool
-        True when the factor is at least the wanted one, up to rounding in the last digits of a float
+    Returns holds: True when the factor is at least the wanted one, up to rounding in the last digits of a float.
     """
     return check.safety_factor >= check.wanted * (1 - 1e-9)
+
+
+def weakest(checks: Iterable[Check]) -> Pure:
+    """Smallest factor over wanted factor."""
+    return min(check.safety_factor / check.wanted for check in checks)
 
 
 def unsafe(checks: Iterable[Check]) -> list[Check]:
     """The checks whose factor is below the wanted one."""
     return [check for check in checks if not holds(check)]
+
+
+def round_up(size: Metre, step: Metre = 0.5e-3) -> Metre:
+    """The next larger multiple of a step.
+
+    size: size needed; step: step of the sizes made. Returns size: size made, never smaller than needed beyond the last
+    digits of a float.
+
+    Examples
+    --------
+    >>> round_up(0.02629), round_up(0.0265)
+    (0.0265, 0.0265)
+    """
+    return round(math.ceil(size / step - 1e-9) * step, 12)
+
+
+def at_speed(omega: RadPerSecond[Array], index: int) -> str:
+    """The speed at which a check is worst, in words.
+
+    omega: crank speeds, shape (k,).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> at_speed(np.array([8000 * np.pi / 30]), 0)
+    'worst at 8000 rpm'
+    """
+    return f"worst at {float(omega[index]) / RPM:.0f} rpm"

@@ -1,4 +1,10 @@
-"""A crosshead drive held against its rules: pins, film, shoes, piston rod, web, and where it wears."""
+r"""A crosshead drive held against its rules: pins, film, shoes, piston rod, web, and where it wears.
+
+    piston rod --[crosshead pin, shoes on the guide]-- connecting rod --[crank pin]-- web -- main journal
+
+The crosshead pin only swings, and in a two-stroke engine its load never turns round: what carries it is the film that
+the load squeezes and the swing renews. The piston rod's buckling is in `rules.piston`.
+"""
 
 from collections.abc import Mapping
 
@@ -6,8 +12,8 @@ import numpy as np
 
 from mechsym.quantities import quantity, record
 from mechsym.sizing.checks import Check, at_least, at_most
-from mechsym.sizing.rules.crosshead import specific_pressure, squeeze_time, wear_index, web_stress
-from mechsym.sizing.rules.rod import rod_buckling_load
+from mechsym.sizing.rules.crankshaft import rectangle_stress, specific_pressure, squeeze_time, wear_index
+from mechsym.sizing.rules.piston import rod_buckling_load
 
 _MARINE = "Woodyard (2009), ch. 9"
 
@@ -61,7 +67,7 @@ def checks(part: CrossheadPart, loads: CrossheadLoads) -> list[Check]:
     """Every rule with its factor of safety."""
     pin, crank_pin, side = (float(np.abs(a).max()) for a in (loads.pin, loads.crank_pin, loads.side))
     thrust = float(loads.rod.max())
-    found = [
+    return [
         _pressure(part, "crosshead pin", pin, (part.pin_length, part.pin_diameter), part.pin_pressure),
         _pressure(part, "crank pin", crank_pin, (part.crank_pin_length, part.crank_pin_diameter),
                   part.crank_pin_pressure),
@@ -70,11 +76,10 @@ def checks(part: CrossheadPart, loads: CrossheadLoads) -> list[Check]:
         at_least("piston rod", "buckling load", rod_buckling_load(
             part.rod_diameter, part.rod_length, part.youngs_modulus, part.yield_strength), thrust, "N",
             wanted=part.wanted_buckling, rule="Euler or Johnson", source="Shigley, ch. 4"),
-        at_most("crank web", "stress", web_stress(thrust / 2 * part.web_arm, thrust / 2, part.web_width,
+        at_most("crank web", "stress", rectangle_stress(thrust / 2 * part.web_arm, thrust / 2, part.web_width,
                 part.web_thickness), part.web_fatigue, "Pa", wanted=part.wanted_web, rule="bending and pressure",
                 source="Khurmi and Gupta (2005), ch. 32", note="at the largest thrust, half on each web"),
     ]  # fmt: skip
-    return found
 
 
 def wear(part: CrossheadPart, loads: CrossheadLoads) -> Mapping[str, float]:
@@ -100,8 +105,9 @@ def _film(part: CrossheadPart, loads: CrossheadLoads) -> Check:
     # the swing turns round twice a turn: for half of it the film is squeezed by the mean load and not renewed
     half = np.pi / loads.omega
     mean = float(np.trapezoid(np.abs(loads.pin), loads.phi) / (loads.phi[-1] - loads.phi[0]))
-    lasts = squeeze_time(mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start,
-                         part.film_least)  # fmt: skip
+    lasts = squeeze_time(
+        mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start, part.film_least
+    )
     return at_least("crosshead pin", "time of the squeezed film", lasts, half, "s", wanted=part.wanted,
                     rule="squeeze film of parallel plates with open ends", source="Hays (1961)",
                     note="mean load over half a turn")  # fmt: skip

@@ -1,16 +1,16 @@
 """Section view of a sized engine to scale: cylinder axis across the page, crank axes upright. matplotlib lives here."""
 
 from pathlib import Path
-from typing import Any
 
-import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
-from mechsym.sizing.parts.bearing_design import Choice
-from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
+from mechsym.sizing.bearing_design import Choice
+from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
+from mechsym.sizing.rules.bearings import Bearing
+from mechsym.sizing.slider_crank import SliderForces, SliderParts
+from mechsym.sizing.wants import CrankPart
 from mechsym.style import INK, PAPER, RED, axis_unit, legend, panels, write_picture
 from mechsym.style.palette import BEARING, CARRIER, CRANK, CYLINDER, GEAR, PISTON, SHAFT
 
@@ -53,12 +53,7 @@ def hypocycloid_boxes(
 ) -> tuple[list[Box], list[tuple[float, float, str]]]:
     """Rectangles of the right half of the engine, crank at top dead centre, and labels.
 
-    Returns
-    -------
-    boxes : list of tuple
-        x from, x to, y from, y to [m], colour key; the drawing mirrors them in x
-    labels : list of tuple
-        x, y [m], text
+    Returns boxes: x from, x to, y from, y to [m], colour key; the drawing mirrors them in x. labels: x, y [m], text.
     """
     places, z, e = chosen(parts.bearings, stock), spans(parts, stock), forces.e
     rod = places["rod"].bearing
@@ -69,7 +64,7 @@ def hypocycloid_boxes(
     end = crank.pin_length / 2 + crank.web + shaft_length(parts, stock)
     boxes = [*_cylinder_boxes(parts, forces), *_piston_boxes(parts, forces, rod, pin)]
     half, disc = places["main"].bearing.bore / 2, e + places["outer"].bearing.outside / 2 + 3e-3
-    width = max(places["main"].bearing.width, places["inner"].count * places["inner"].bearing.width)
+    width = max(places["main"].bearing.width, places["inner"].stack)
     for side in (1, -1):
         boxes += [
             _across(axis - half, axis + half, z.inner - width / 2, width, side, "carrier"),
@@ -92,23 +87,19 @@ def hypocycloid_boxes(
         ]  # fmt: skip
     boxes += _pin_boxes(crank, pin)
     text = f"{gears.teeth_pinion:.0f}/{gears.teeth_ring:.0f} teeth"
-    labels = [(pin, 0.0, "crankpin"), (planet, z.gear, text), (forces.gap / 2 + 0.05, 0.0, "rod"),
-              (axis + 0.042, z.inner, places["main"].bearing.designation)]  # fmt: skip
+    labels = [
+        (pin, 0.0, "crankpin"),
+        (planet, z.gear, text),
+        (forces.gap / 2 + 0.05, 0.0, "rod"),
+        (axis + 0.042, z.inner, places["main"].bearing.designation),
+    ]
     return boxes, labels
 
 
 def slider_crank_boxes(parts: SliderParts, forces: SliderForces) -> tuple[list[Box], list[tuple[float, float, str]]]:
     """Rectangles of the right half of a slider crank engine at top dead centre, and labels.
 
-    Parameters
-    ----------
-    forces : SliderForces
-        For crank radius, rod, bore and gap
-
-    Returns
-    -------
-    labels : list of tuple
-        x, y [m], text
+    forces: for crank radius, rod, bore and gap. Returns labels: x, y [m], text.
     """
     crank, rod, main = parts.crank, parts.rod_bearing.bearing, parts.main_bearing
     pin = forces.gap / 2 + parts.piston.height + forces.l
@@ -116,18 +107,18 @@ def slider_crank_boxes(parts: SliderParts, forces: SliderForces) -> tuple[list[B
     boxes = [*_cylinder_boxes(parts, forces), *_piston_boxes(parts, forces, rod, pin)]
     start = crank.pin_length / 2 + crank.web
     for side in (1, -1):
-        arm = start + 2e-3 + main.count * main.bearing.width / 2
+        arm = start + 2e-3 + main.stack / 2
         boxes += [
             _across(pin - crank.pin / 2, axis + crank.shaft / 2, crank.pin_length / 2, crank.web, side, "crankshaft"),
             _across(axis - crank.shaft / 2, axis + crank.shaft / 2, start, 2 * (arm - start), side, "crankshaft"),
             *_bearing(axis, main, crank.shaft / 2, arm, side),
             _across(axis - crank.output / 2, axis + crank.output / 2, 2 * arm - start, 0.03, side, "output shaft"),
-        ]  # fmt: skip
+        ]
     boxes += _pin_boxes(crank, pin)
     return boxes, [(pin, 0.0, "crankpin"), (axis, start + 0.005, main.bearing.designation)]
 
 
-def _cylinder_boxes(parts: Any, forces: Any) -> list[Box]:
+def _cylinder_boxes(parts: Parts | SliderParts, forces: PartForces | SliderForces) -> list[Box]:
     part, inner = parts.cylinder, forces.bore / 2
     outer, half = inner + part.wall, part.length / 2
     reach = outer + 2.2e-3 * part.thread_mm  # the flange must hold a washer
@@ -138,7 +129,7 @@ def _cylinder_boxes(parts: Any, forces: Any) -> list[Box]:
     return boxes
 
 
-def _piston_boxes(parts: Any, forces: Any, rod: Any, pin: float) -> list[Box]:
+def _piston_boxes(parts: Parts | SliderParts, forces: PartForces | SliderForces, rod: Bearing, pin: float) -> list[Box]:
     part, start, radius = parts.piston, forces.gap / 2, forces.bore / 2
     cap = rod.outside / 2 + _CAP_WALL
     width = parts.crank.pin_length - 2e-3
@@ -155,7 +146,7 @@ def _piston_boxes(parts: Any, forces: Any, rod: Any, pin: float) -> list[Box]:
     return boxes
 
 
-def _pin_boxes(crank: Any, pin: float) -> list[Box]:
+def _pin_boxes(crank: CrankPart, pin: float) -> list[Box]:
     half, end = crank.pin_length / 2, crank.pin_length / 2 + crank.web
     boxes = [(pin - crank.pin / 2, pin + crank.pin / 2, -half, half, "crankshaft")]
     if crank.pin_bore > 0:
@@ -170,15 +161,17 @@ def _across(x_from: float, x_to: float, y_from: float, width: float, side: int, 
 
 def _ring(place: tuple[float, float], radii: tuple[float, float], width: float, side: int, colour: str) -> list[Box]:
     (x, y), (inner, outer) = place, radii
-    return [_across(x + sign * a, x + sign * b, y - width / 2, width, side, colour)
-            for sign, a, b in ((1, inner, outer), (-1, outer, inner))]  # fmt: skip
+    return [
+        _across(x + sign * a, x + sign * b, y - width / 2, width, side, colour)
+        for sign, a, b in ((1, inner, outer), (-1, outer, inner))
+    ]
 
 
 def _bearing(x: float, choice: Choice, inner: float, y: float, side: int) -> list[Box]:
-    return _ring((x, y), (inner, choice.bearing.outside / 2), choice.count * choice.bearing.width, side, "bearings")
+    return _ring((x, y), (inner, choice.bearing.outside / 2), choice.stack, side, "bearings")
 
 
-def _draw(axes: Any, box: Box, sign: int) -> None:
+def _draw(axes: Axes, box: Box, sign: int) -> None:
     x_from, x_to, y_from, y_to, colour = box
     low, high = sorted((sign * x_from, sign * x_to))
     k, _ = axis_unit("m", 1.0)
@@ -186,7 +179,7 @@ def _draw(axes: Any, box: Box, sign: int) -> None:
                              edgecolor=INK, linewidth=0.6))  # fmt: skip
 
 
-def _frame(axes: Any, boxes: list[Box]) -> None:
+def _frame(axes: Axes, boxes: list[Box]) -> None:
     factor, unit = axis_unit("m", 1.0)
     x = factor * max(max(abs(b[0]), abs(b[1])) for b in boxes)
     y = factor * max(max(abs(b[2]), abs(b[3])) for b in boxes)
@@ -195,14 +188,3 @@ def _frame(axes: Any, boxes: list[Box]) -> None:
     axes.set_ylim(-1.05 * y, 1.05 * y)
     axes.set_xlabel(f"along the cylinder axis [{unit}]")
     axes.set_ylabel(f"along the crank axes [{unit}]")
-
-
-def total_width(boxes: list[Box]) -> float:
-    """Width of the drawn engine along its cylinder.
-
-    Returns
-    -------
-    width : float
-        Twice the largest distance from the middle [m]
-    """
-    return float(2 * np.max([np.abs(box[:2]).max() for box in boxes]))

@@ -19,6 +19,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Array, Newton, Pascal, Pure, Radian
 from mechsym.sizing.checks import require
 
 SIDE = ("inner_journal", "outer_journal", "main", "outboard")  # places of the bearings of one side
@@ -41,26 +42,14 @@ class Spans:
             )
 
 
-def over_period(theta: np.ndarray, phi: np.ndarray, p: np.ndarray, rest: float) -> np.ndarray:
+def over_period(theta: Radian[Array], phi: Radian[Array], p: Pascal[Array], rest: Pascal) -> Pascal[Array]:
     r"""Pressure over the four-stroke period from the closed part of the cycle.
 
     .. math:: p(\theta) = p_{closed}(\theta) \text{ for } |\theta| \le \pi, \quad p_{rest} \text{ else}
 
-    Parameters
-    ----------
-    theta : ndarray, shape (n,)
-        Angles over a period, 0 at firing top dead centre [rad]
-    phi : ndarray, shape (k, m)
-        Angles of the closed period at each speed, rising, inside -pi .. pi [rad]
-    p : ndarray, shape (k, m)
-        Pressure there [Pa]
-    rest : float
-        Pressure during the gas exchange [Pa]
-
-    Returns
-    -------
-    p : ndarray, shape (k, n)
-        Absolute pressure [Pa]
+    theta: angles over a period, 0 at firing top dead centre; phi: angles of the closed period at each speed, rising,
+    inside -pi .. pi, shape (k, m); p: pressure there, shape (k, m); rest: pressure during the gas exchange. Returns p:
+    absolute pressure, shape (k, n).
 
     Notes
     -----
@@ -76,22 +65,12 @@ def over_period(theta: np.ndarray, phi: np.ndarray, p: np.ndarray, rest: float) 
     return np.array([np.interp(turn, a, b, left=rest, right=rest) for a, b in zip(phi, p, strict=True)])
 
 
-def tooth_load_printed(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
+def tooth_load_printed(F: Newton[Array], theta: Radian[Array]) -> Newton[Array]:
     r"""Tangential tooth load of all gears on one crank, for a planet without mass.
 
     .. math:: W = F\sin\theta
 
-    Parameters
-    ----------
-    F : ndarray, shape (k, n)
-        Force on the piston [N]
-    theta : ndarray, shape (n,)
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    W : ndarray, shape (k, n)
-        Load [N]
+    F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns W: load, shape (k, n).
 
     Notes
     -----
@@ -105,22 +84,12 @@ def tooth_load_printed(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
     return np.asarray(F) * np.sin(theta)
 
 
-def journal_load_massless(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
+def journal_load_massless(F: Newton[Array], theta: Radian[Array]) -> Newton[Array]:
     r"""Load of the planet's journals, both sides together, without mass and without separating force.
 
     .. math:: J = |F|\sqrt{1 + 3\sin^2\theta}
 
-    Parameters
-    ----------
-    F : ndarray, shape (k, n)
-        Force on the piston [N]
-    theta : ndarray, shape (n,)
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    J : ndarray, shape (k, n)
-        Load [N]
+    F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns J: load, shape (k, n).
 
     Notes
     -----
@@ -135,28 +104,18 @@ def journal_load_massless(F: np.ndarray, theta: np.ndarray) -> np.ndarray:
 
 
 def side_vectors(
-    F: np.ndarray, tooth: np.ndarray, radial: np.ndarray, spin: np.ndarray, theta: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    F: Newton[Array], tooth: Newton[Array], radial: Newton[Array], spin: Newton[Array], theta: Radian[Array]
+) -> tuple[Newton[Array], Newton[Array], Newton[Array]]:
     r"""Forces on one side of the planet, as vectors along and across the cylinder.
 
     .. math:: \vec F = -\tfrac12 F\,\hat x, \qquad \vec T = \tfrac12 (W\,\hat t - N\,\hat r), \qquad
               \vec c = \tfrac12 m_2 e\omega^2\,\hat r
 
-    Parameters
-    ----------
-    F : ndarray, shape (k, n)
-        Net force on the crankpin with all reciprocating mass, positive away from the head [N]
-    tooth, radial : ndarray, shape (k, n)
-        Tangential tooth load (positive in the crank's sense) and separating force of both sides together [N]
-    spin : ndarray, shape (k,)
-        Centrifugal force m_2 e omega^2 of both sides' shafts and pinions [N]
-    theta : ndarray, shape (n,)
-        Crank angle from top dead centre [rad]
-
-    Returns
-    -------
-    force, teeth, centrifugal : ndarray, shape (2, k, n)
-        On the crankpin, at the gear from the teeth, at the gear from the masses [N]
+    F: net force on the crankpin with all reciprocating mass, positive away from the head, shape (k, n); tooth, radial:
+    tangential tooth load (positive in the crank's sense) and separating force of both sides together, shape (k, n);
+    spin: centrifugal force m_2 e omega^2 of both sides' shafts and pinions, shape (k,); theta: crank angle from top
+    dead centre. Returns force, teeth, centrifugal: on the crankpin, at the gear from the teeth, at the gear from the
+    masses, shape (2, k, n).
 
     Notes
     -----
@@ -177,8 +136,8 @@ def side_vectors(
 
 
 def side_loads(
-    vectors: tuple[np.ndarray, ...], spans: Spans, shares: tuple[float, float], places: Sequence[str] = SIDE
-) -> dict[str, np.ndarray]:
+    vectors: tuple[Newton[Array], ...], spans: Spans, shares: tuple[Pure, Pure], places: Sequence[str] = SIDE
+) -> dict[str, Newton[Array]]:
     r"""Loads of the bearings of one side, as magnitudes.
 
     .. math::
@@ -187,19 +146,9 @@ def side_loads(
         B_{outboard} &= (s_T\vec T - s_F\vec F)\,\frac{z_o - z_i}{z_b - z_i}, \quad
         B_{main} = \vec F + \vec T - B_{outboard}
 
-    Parameters
-    ----------
-    vectors : tuple of ndarray, shape (2, k, n)
-        From `side_vectors` [N]
-    shares : (float, float)
-        Shares s_F, s_T of the outer journal, from `shaft_beam.outer_shares` [-]
-    places : sequence of str
-        Those that are wanted of `SIDE`
-
-    Returns
-    -------
-    loads : dict of str to ndarray, shape (k, n)
-        `inner_journal`, `outer_journal`, `main`, `outboard` [N]
+    vectors: from `side_vectors`, shape (2, k, n); shares: shares s_F, s_T of the outer journal, from
+    `turning_shaft.outer_shares`; places: those that are wanted of `SIDE`. Returns loads: `inner_journal`,
+    `outer_journal`, `main`, `outboard`, shape (k, n).
 
     Notes
     -----
@@ -230,20 +179,13 @@ def side_loads(
     return {name: np.hypot(*of[name]()) for name in places}
 
 
-def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:
+def tooth_share_one_end(spans: Spans, stiffness_ratio: Pure) -> Pure:
     r"""Share of the tooth load that the driving side's gear takes when the torque leaves at that end only.
 
     .. math:: \frac{W_1}{W} = \frac12 + \left[1 + \frac{k_j}{k_g}\frac{(z_o - z_i)^2}{2 z_g^2}\right]^{-1}
 
-    Parameters
-    ----------
-    stiffness_ratio : float
-        Stiffness of a journal over that of a gear mesh [-]
-
-    Returns
-    -------
-    share : float
-        Share of one gear; 0.5 would be an equal share, above 1 the other gear works against it [-]
+    stiffness_ratio: stiffness of a journal over that of a gear mesh. Returns share: share of one gear; 0.5 would be an
+    equal share, above 1 the other gear works against it.
 
     Notes
     -----
@@ -262,26 +204,19 @@ def tooth_share_one_end(spans: Spans, stiffness_ratio: float) -> float:
     return 0.5 + 1 / (1 + stiffness_ratio * lever)
 
 
-def reversed_tooth_load(W: np.ndarray, returns: int) -> np.ndarray:
+def reversed_tooth_load(W: Newton[Array], returns: int) -> Newton[Array]:
     r"""Load on a tooth root that bends it as much as its own load history, loads of the other flank included.
 
     .. math:: W_{eq} = \max_\theta\left(A + \tfrac37 B\right)
 
-    Parameters
-    ----------
-    W : ndarray, shape (k, n)
-        Tooth load over the period; n divisible by `returns` [N]
-    returns : int
-        How often the same tooth comes into mesh in a period: 4 for the planet, 2 for the ring [-]
-
-    Returns
-    -------
-    W_eq : ndarray, shape (k,)
-        Equivalent one-sided load; A is the larger load on one tooth in one sense, B the largest in the other [N]
+    W: tooth load over the period; n divisible by `returns`, shape (k, n). returns: how often the same tooth comes into
+    mesh in a period: 4 for the planet, 2 for the ring. Returns W_eq: equivalent one-sided load; A is the larger load on
+    one tooth in one sense, B the largest in the other, shape (k,).
 
     Notes
     -----
-    Source: `gear_life.reversed_bending_factor` solved for the load. The teeth numbers are in a whole ratio, so each
+    Source: Y_M = 1/(1 - 3/7 F_min/F_max), 0.7 for fully reversed load: AGMA 2001-D04, clause 16.2; the line between:
+    ISO 6336-3, annex B with M = 0.4; solved for the load. The teeth numbers are in a whole ratio, so each
     tooth always meets the same crank angles.
 
     Examples

@@ -9,6 +9,7 @@ from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.engine import over_speeds
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pure, RadPerSecond
 from mechsym.sizing.loads import over_period
 from mechsym.sizing.rules.cylinder import tdc_gap
 from mechsym.sizing.rules.piston import head_heat
@@ -32,15 +33,10 @@ class Pressures:
     head_heat: float
 
 
-def pressures_over(engine: ClosedEngine, omega: np.ndarray, heat_share: float) -> Pressures:
+def pressures_over(engine: ClosedEngine, omega: RadPerSecond[Array], heat_share: Pure) -> Pressures:
     """The cycle at every speed, gas exchange at the surroundings' pressure.
 
-    Parameters
-    ----------
-    omega : ndarray, shape (k,)
-        Crank speeds [rad/s]
-    heat_share : float
-        Share of the fuel's heat that goes through the two heads [-]
+    omega: crank speeds, shape (k,); heat_share: share of the fuel's heat that goes through the two heads.
     """
     theta = np.arange(_STEPS) * 4 * np.pi / _STEPS
     phi, closed, _ = dense(run(partial(closed_period, engine), {"omega": omega}))
@@ -49,8 +45,12 @@ def pressures_over(engine: ClosedEngine, omega: np.ndarray, heat_share: float) -
     top = over_speeds(engine, omega.max(keepdims=True))
     fuel = float(top.sfc[0] * top.power[0])  # in one cylinder, for the heads of both its pistons
     return Pressures(
-        omega=omega, theta=theta, net=(p - engine.chamber.back_pressure) * float(room.area),
-        dp_max=p.max(axis=1) - around, bore=float(room.bore), stroke=float(room.stroke),
+        omega=omega,
+        theta=theta,
+        net=(p - engine.chamber.back_pressure) * float(room.area),
+        dp_max=p.max(axis=1) - around,
+        bore=float(room.bore),
+        stroke=float(room.stroke),
         gap=tdc_gap(float(room.clearance), float(room.area)),
         head_heat=head_heat(fuel / 2, engine.cycle.heating_value, heat_share),
-    )  # fmt: skip
+    )

@@ -1,42 +1,55 @@
 """Sizes, checks and headline figures as the rows that the command line prints and writes."""
 
 import dataclasses
-from typing import Any
 
+from mechsym.quantities import results
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import part, result
 from mechsym.sizing.checks import Check, holds
 
-COLUMNS = ("component", "quantity", "value", "unit", "limit", "safety_factor", "rule", "source", "wanted", "holds",
-           "note")  # fmt: skip
+
+@result
+class SizeRow:
+    """A size, a figure or a check of a sizing."""
+
+    component: str = part()
+    quantity: str = part()
+    value: float = results.quantity("@unit")  #: Of the size, or of what is checked
+    unit: str = part()
+    limit: float | None = results.quantity("@unit", default=None)  #: Of a check
+    safety_factor: float | None = results.quantity("-", default=None)  #: Of a check: how far it is from its limit
+    rule: str = part()
+    source: str = part()
+    wanted: float | None = results.quantity("-", default=None)  #: Safety factor that is asked for
+    holds: bool | None = part(default=None)  #: Whether a check has the factor that is wanted
+    note: str = part()
 
 
-def fact(component: str, quantity: str, value: float, unit: str, rule: str, source: str = "", note: str = "") -> dict:
+COLUMNS = tuple(field.name for field in dataclasses.fields(SizeRow))
+
+
+def fact(
+    component: str, quantity: str, value: float, unit: str, rule: str, source: str = "", note: str = ""
+) -> SizeRow:
     """A row for a figure that no limit belongs to.
 
-    Parameters
-    ----------
-    value : float
-        The figure [unit]
-
-    Returns
-    -------
-    row : dict
-        Keys of `COLUMNS`; limit, factor, wanted and holds are None
+    value: the figure [unit].
     """
-    row: dict[str, Any] = dict.fromkeys(COLUMNS)
-    return row | {"component": component, "quantity": quantity, "value": float(value), "unit": unit, "rule": rule,
-                  "source": source, "note": note}  # fmt: skip
+    return SizeRow(
+        component=component, quantity=quantity, value=float(value), unit=unit, rule=rule, source=source, note=note
+    )
 
 
-def size_rows(component: str, part: Any, rule: str) -> list[dict]:
+def size_rows(component: str, sized: Record, rule: str) -> list[SizeRow]:
     """One row for each size of a part."""
-    found = []
-    for field in dataclasses.fields(part):
-        if "unit" in field.metadata:
-            value, unit = getattr(part, field.name), field.metadata["unit"]
-            found.append(fact(component, field.metadata["about"] or field.name, value, unit, rule))
-    return found
+    return [
+        fact(component, field.metadata["about"] or field.name, getattr(sized, field.name), field.metadata["unit"], rule)
+        for field in dataclasses.fields(sized)
+        if "unit" in field.metadata
+    ]
 
 
-def check_rows(checks: list[Check]) -> list[dict]:
+def check_rows(checks: list[Check]) -> list[SizeRow]:
     """One row for each check."""
-    return [{name: getattr(check, name, None) for name in COLUMNS} | {"holds": holds(check)} for check in checks]
+    names = [name for name in COLUMNS if name != "holds"]
+    return [SizeRow(**{name: getattr(check, name) for name in names}, holds=holds(check)) for check in checks]

@@ -1,16 +1,13 @@
 """What pictures of every room share: one palette for light and dark, panels, legends, units on axes, SVG.
 
 palette    colours on light and on dark paper, their contrast
-panels     figures with quiet panels, legends above them, axes in the units that were chosen
-labels     labels that keep clear of each other, curves that are equal named once
+panels     figures with quiet panels, legends above them, axes in the units that were chosen, labels that keep clear
+           of each other, curves that are equal named once, significant digits
 picture    a figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it
-numbers    significant digits
 
 matplotlib is imported inside functions, so that whoever only needs a colour or a number does not load it.
 """
 
-from mechsym.style.labels import clear_places, distinct, envelope, events, same_path, spread
-from mechsym.style.numbers import significant
 from mechsym.style.palette import (
     BLUE,
     DARK,
@@ -26,9 +23,25 @@ from mechsym.style.palette import (
     SERIES,
     TEAL,
     VIOLET,
-    contrast,
 )
-from mechsym.style.panels import angle_axis, axis_unit, bare, grid, heading, legend, over_angle, panels, unit_words
+from mechsym.style.panels import (
+    angle_axis,
+    axis_unit,
+    bare,
+    clear_places,
+    distinct,
+    envelope,
+    events,
+    grid,
+    heading,
+    legend,
+    over_angle,
+    panels,
+    same_path,
+    significant,
+    spread,
+    unit_words,
+)
 from mechsym.style.picture import svg, write_picture
 
 __all__ = [
@@ -50,7 +63,6 @@ __all__ = [
     "axis_unit",
     "bare",
     "clear_places",
-    "contrast",
     "distinct",
     "envelope",
     "events",

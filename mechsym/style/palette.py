@@ -18,21 +18,3 @@ DARK = {
     PAPER: "#14191f", INK: "#e6eaf0", BLUE: "#7db4f0", RED: "#f2877d", GREEN: "#6cc590", ORANGE: "#e3b341",
     VIOLET: "#c3a0e8", TEAL: "#5cc6d0", PINK: "#ee8fc4", GREY: "#9aa5b3", QUIET: "#a9b3c0", GRID: "#2b333d", **_FILLED,
 }  # fmt: skip
-
-
-def contrast(one: str, other: str) -> float:
-    """Contrast of two colours `#rrggbb` by WCAG 2.1, from 1, the same, to 21, black on white.
-
-    Examples
-    --------
-    >>> contrast("#000000", "#ffffff"), contrast(BLUE, PAPER) > 4.5
-    (21.0, True)
-    """
-    dark, light = sorted((_luminance(one), _luminance(other)))
-    return (light + 0.05) / (dark + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
-    return sum(k * c for k, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))

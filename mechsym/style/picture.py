@@ -12,6 +12,7 @@ from mechsym.files import write_text
 from mechsym.style.palette import DARK, INK
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _RC: dict[Any, Any] = {
@@ -27,10 +28,7 @@ _ID, _USED = re.compile(r' id="([^"]+)"'), re.compile(r'(url\(#|href="#)([^")]+)
 def svg(figure: "Figure", name: str = "") -> str:
     """A figure as SVG, which may be a file or stand in a page; equal data give equal text.
 
-    Parameters
-    ----------
-    name : str
-        What tells this figure from an equal one in the same page
+    name: what tells this figure from an equal one in the same page.
     """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -41,7 +39,17 @@ def svg(figure: "Figure", name: str = "") -> str:
         FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
     text = buffer.getvalue()
     text = text[text.index("<svg") :].replace("#000000", INK)
-    return _finished(text, title(figure), _description(figure), hashlib.sha256((name + text).encode()).hexdigest()[:8])
+    own = hashlib.sha256((name + text).encode()).hexdigest()[:8]
+    used = {match[2] for match in _USED.finditer(text)}
+    known = {old: f"{own}-{k}" for k, old in enumerate(sorted(used))}
+    text = _ID.sub(lambda m: f' id="{known[m[1]]}"' if m[1] in known else "", text)
+    text = _USED.sub(lambda m: m[1] + known[m[2]], text)
+    text = re.sub(r'<style type="text/css">.*?</style>', "", text, flags=re.S).replace("<defs>\n  \n </defs>", "")
+    head, _, rest = text.partition(">")
+    shows, about = escape(title(figure)), escape(_description(figure))
+    words = f'<title id="{own}-t">{shows}</title>\n <desc id="{own}-d">{about}</desc>'
+    named = f'{head} class="picture" role="img" aria-labelledby="{own}-t {own}-d">'
+    return f"{named}\n {words}\n <style>{_sheet(rest)}</style>{rest}"
 
 
 def write_picture(path: Path, figure: "Figure") -> Path:
@@ -52,20 +60,8 @@ def write_picture(path: Path, figure: "Figure") -> Path:
 def title(figure: "Figure") -> str:
     """What a figure shows: its label, its heading, or what its first panel draws."""
     first = next(iter(_panels(figure)), None)
-    found = figure.get_label() or figure.get_suptitle()
-    return " ".join(str(found or ("" if first is None else _said(first)) or "drawing").split())
-
-
-def _finished(text: str, name: str, about: str, own: str) -> str:
-    used = {found[2] for found in _USED.finditer(text)}
-    known = {old: f"{own}-{k}" for k, old in enumerate(sorted(used))}
-    text = _ID.sub(lambda m: f' id="{known[m[1]]}"' if m[1] in known else "", text)
-    text = _USED.sub(lambda m: m[1] + known[m[2]], text)
-    text = re.sub(r'<style type="text/css">.*?</style>', "", text, flags=re.S).replace("<defs>\n  \n </defs>", "")
-    head, _, rest = text.partition(">")
-    told = f'<title id="{own}-t">{escape(name)}</title>\n <desc id="{own}-d">{escape(about)}</desc>'
-    named = f'{head} class="picture" role="img" aria-labelledby="{own}-t {own}-d">'
-    return f"{named}\n {told}\n <style>{_sheet(rest)}</style>{rest}"
+    named = figure.get_label() or figure.get_suptitle()
+    return " ".join(str(named or ("" if first is None else _said(first)) or "drawing").split())
 
 
 def _sheet(text: str) -> str:
@@ -81,7 +77,7 @@ def _sheet(text: str) -> str:
     return f"{rules}@media screen and (prefers-color-scheme:dark){{.picture text{{fill:{DARK[INK]}}}{dark}}}"
 
 
-def _panels(figure: "Figure") -> Iterator[Any]:
+def _panels(figure: "Figure") -> Iterator["Axes"]:
     return (axis for axis in figure.axes if axis.get_visible() and axis.get_label() != "<colorbar>")
 
 
@@ -95,7 +91,7 @@ def _description(figure: "Figure") -> str:
     return "; ".join(" ".join(part.split()) for part in parts if part) or title(figure)
 
 
-def _said(axis: Any) -> str:
+def _said(axis: "Axes") -> str:
     across, up = axis.get_xlabel(), axis.get_ylabel()
     drawn = f"{up} over {across}" if across and up else up or across
     heads = [axis.get_title(loc) for loc in ("left", "center", "right")]

@@ -13,12 +13,12 @@ run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
 cluster.py   chunks on a dask cluster
 store.py     finished points in a file: the same command goes on where it stopped
-stopping.py  Ctrl-C and SIGTERM
 points.py    how a chunk is computed: simulations, hinges, cycles; singles.py has the other commands
 hinges.py    hinges whose guides are judged side by side
 guides.py    which guides can be built, many at once
 cycles.py    cycles that differ in numbers only as one map
 outcomes.py  a result, or a gap with a reason
+numbers.py   what the commands tell of a sweep
 data.py      labelled columns with units, CSV, netCDF
 sensitivity.py  Sobol indices: which value matters how much
 plots.py     the picture

@@ -8,7 +8,6 @@ k1=6500+-200 N*m/rad         with samples: normally distributed, mean and standa
 
 import itertools
 import math
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +15,8 @@ from mechsym.cases.values import Place
 from mechsym.errors import BadInput, shown
 from mechsym.quantities import parse, record
 from mechsym.quantities.ranges import MOST, read_range
+
+Value = str | float  # a number in the unit of its axis, or a word
 
 
 @record
@@ -28,16 +29,13 @@ class Axis:
     suffix: str  #: Unit that has to follow a value for `--set`; empty when the key or SI says it
     kind: str  #: `grid` (values), `even` or `normal` (two numbers)
     #: Values of a grid; ends of an even distribution; mean and standard deviation of a normal one [unit]
-    values: tuple[Any, ...]
+    values: tuple[Value, ...]
 
 
 def split(text: str) -> tuple[str, str]:
     """Key and range of KEY=RANGE.
 
-    Returns
-    -------
-    key, span : str
-        Left and right of the first equals sign
+    Returns key, span: left and right of the first equals sign.
     """
     key, sign, span = (part.strip() for part in text.partition("="))
     if not sign or not key or not span:
@@ -48,10 +46,7 @@ def split(text: str) -> tuple[str, str]:
 def parse_axis(text: str, place: Place) -> Axis:
     """An axis from KEY=RANGE.
 
-    Parameters
-    ----------
-    place : Place
-        Where the key belongs, see `mechsym.cases.locate`
+    place: where the key belongs, see `mechsym.cases.locate`.
     """
     key, span = split(text)
     if place.unit is None:
@@ -79,20 +74,11 @@ def _check_words(text: str, words: tuple[str, ...]) -> None:
         raise BadInput(f"--over {shown(text)}: a word is empty or stands twice; write KEY=WORD,OTHER")
 
 
-def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict[str, int], list[tuple[Any, ...]]]:
+def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict[str, int], list[tuple[Value, ...]]]:
     """All points of a grid, or samples that fill the space evenly (Sobol's sequence).
 
-    Parameters
-    ----------
-    samples : int or None
-        Number of samples; None runs the grid
-
-    Returns
-    -------
-    dims : dict of str to int
-        Name and length of each dimension
-    points : list of tuple
-        Values in the axes' order, the last axis fastest
+    samples: number of samples; None runs the grid. Returns dims: dict of str to int, name and length of each dimension;
+    points: list of tuple, values in the axes' order, the last axis fastest.
     """
     if not axes:
         raise BadInput("--over must name at least one key, for example --over 'spring.p0=3..8 MPa:11'")
@@ -109,28 +95,23 @@ def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict
     return {"sample": samples}, drawn(axes, samples, seed)
 
 
-def drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Any, ...]]:
+def drawn(axes: tuple[Axis, ...], samples: int, seed: int) -> list[tuple[Value, ...]]:
     """Samples of the ranges and distributions, of Sobol's sequence [unit of the axis]."""
     from scipy.stats import norm, qmc
 
     # the sequence is balanced in powers of two; what is over is left out
     shares = qmc.Sobol(len(axes), seed=seed).random_base2(math.ceil(math.log2(samples)))[:samples]
-    columns = [
-        a.values[0] + (a.values[1] - a.values[0]) * u
-        if a.kind == "even"
-        else norm.ppf(np.clip(u, 1e-12, 1 - 1e-12), a.values[0], a.values[1])
-        for a, u in zip(axes, shares.T, strict=True)
-    ]
+    columns = []
+    for a, u in zip(axes, shares.T, strict=True):
+        one, two = map(float, a.values)
+        columns.append(one + (two - one) * u if a.kind == "even" else norm.ppf(np.clip(u, 1e-12, 1 - 1e-12), one, two))
     return list(zip(*(c.tolist() for c in columns), strict=True))
 
 
-def saltelli(axes: tuple[Axis, ...], count: int, seed: int) -> list[tuple[Any, ...]]:
+def saltelli(axes: tuple[Axis, ...], count: int, seed: int) -> list[tuple[Value, ...]]:
     """Points A, B, AB_1 .. AB_d for `count` base samples, a power of two.
 
-    Returns
-    -------
-    points : list of tuple
-        (d + 2) times `count` values in the axes' order [unit of the axis]
+    Returns points: list of tuple, (d + 2) times `count` values in the axes' order [unit of the axis].
     """
     d = len(axes)
     both = np.array(drawn((*axes, *axes), count, seed))
@@ -139,17 +120,6 @@ def saltelli(axes: tuple[Axis, ...], count: int, seed: int) -> list[tuple[Any, .
     return [tuple(row) for row in np.concatenate([a, b, *mixed]).tolist()]
 
 
-def override(axis: Axis, value: Any) -> str | float:
-    """A value as `--set` takes it.
-
-    Parameters
-    ----------
-    value : float or str
-        One of its values [unit]
-
-    Returns
-    -------
-    text : str or float
-        With the unit, if the key needs it
-    """
+def override(axis: Axis, value: Value) -> str | float:
+    """One of its values as `--set` takes it, with the unit as a text if the key needs it [unit]."""
     return f"{value!r} {axis.suffix}" if axis.suffix else value

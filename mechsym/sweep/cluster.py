@@ -6,12 +6,15 @@ of one's own must lie at the same path there.
 
 import functools
 import threading
-from collections.abc import Generator, Sequence
-from typing import Any
+from collections.abc import Callable, Generator, Sequence
+from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.sweep import store, work
 from mechsym.sweep.outcomes import Gap
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
 
 _AHEAD = 4  # chunks that wait at each worker
 _PAUSE = "200ms"  # between two looks at a request to end
@@ -31,7 +34,7 @@ def on_cluster(
     client = _client(address)
     try:
         waiting, program = list(reversed(chunks)), store.program()
-        pending: dict[Any, work.Chunk] = {}
+        pending: dict[Future, work.Chunk] = {}
         while waiting or pending:
             if asked.is_set():
                 waiting.clear()
@@ -67,11 +70,11 @@ class _Same:
 
 
 @functools.lru_cache(maxsize=4)
-def _prepared(same: _Same) -> Any:
+def _prepared(same: _Same) -> Callable[[work.Chunk], work.Done]:
     return work.prepared(same.order)
 
 
-def _client(address: str) -> Any:
+def _client(address: str) -> "Client":
     try:
         from distributed import Client
     except ImportError as error:
@@ -84,7 +87,7 @@ def _client(address: str) -> Any:
         raise BadInput(f"--scheduler {address}: no scheduler answers ({words}); write tcp://HOST:8786") from None
 
 
-def _finished(pending: list[Any]) -> list[Any]:
+def _finished(pending: list["Future"]) -> list["Future"]:
     from distributed import wait
 
     try:
@@ -93,7 +96,7 @@ def _finished(pending: list[Any]) -> list[Any]:
         return []
 
 
-def _result(future: Any, chunk: work.Chunk) -> work.Done:
+def _result(future: "Future", chunk: work.Chunk) -> work.Done:
     from distributed import KilledWorker
 
     try:

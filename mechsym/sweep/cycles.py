@@ -3,13 +3,21 @@
 import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cycle.columns import UNITS
 from mechsym.cycle.kinds import kind_of
+from mechsym.files import Json
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import Columns
+from mechsym.quantities.units import Scalar
 from mechsym.sweep.outcomes import Gap, Outcome
+
+if TYPE_CHECKING:
+    from mechsym.cycle.closed.model import ClosedEngine
 
 BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
 _SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
@@ -18,47 +26,32 @@ _SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction
 def mapped(case: Case) -> bool:
     """Whether the cycles of a case come as maps.
 
-    Parameters
-    ----------
-    case : Case
-        With section `[cycle]`
-
-    Returns
-    -------
-    mapped : bool
-        False for cycles that are solved one by one
+    case: with section `[cycle]`. Returns mapped: False for cycles that are solved one by one.
     """
-    return kind_of(case.need("cycle")).given == "engine"
+    return kind_of(case.need("cycle")).closed
 
 
-def single(case: Case) -> dict[str, Any]:
-    """Figures of one cycle.
-
-    Returns
-    -------
-    figures : dict
-        As `mechsym.jobs.cycle` of the engine, each with one value
-    """
+def single(case: Case) -> Columns:
+    """Figures of one cycle of the engine, each with one value."""
     from mechsym.jobs.cycle import cycle
 
     return _of_the_engine(cycle(case))
 
 
-def _of_the_engine(found: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        name: values for name, values in found.items() if name not in ("cylinders", "each", "per_cylinder", "pistons")
-    }
+def _of_the_engine(found: Mapping[str, object]) -> Columns:
+    inner = ("cylinders", "each", "per_cylinder", "pistons")
+    return Columns({name: values for name, values in found.items() if name not in inner}, UNITS)
 
 
 def families(found: Sequence[Case]) -> list[list[int]]:
     """Cases that one map may hold: all but numbers of the engine and the speed are equal."""
-    families: dict[Any, list[int]] = {}
+    families: dict[object, list[int]] = {}
     for i, case in enumerate(found):
         families.setdefault(_form(case), []).append(i)
     return list(families.values())
 
 
-def _form(case: Case) -> Any:
+def _form(case: Case) -> tuple[object, ...]:
     from mechsym.cycle.friction import MechanismFriction
 
     friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
@@ -71,7 +64,7 @@ def _form(case: Case) -> Any:
     return case.mechanism, fitted, tuple(_text(record, numbers=alone) for record in records)
 
 
-def _text(record: Any, numbers: bool) -> str:
+def _text(record: Record | None, numbers: bool) -> str:
     """A record without the numbers that a map may vary, as a text to compare."""
     if record is None:
         return ""
@@ -82,15 +75,11 @@ def _text(record: Any, numbers: bool) -> str:
 def map_of(family: Sequence[Case]) -> list[Outcome]:
     """Figures of one family, each with the steps that it would take alone.
 
-    Returns
-    -------
-    figures : list of dict or Gap
-        As `mechsym.jobs.cycle` of the engine, each with one value; a gap where there is no cycle
+    Returns figures: as `mechsym.jobs.cycle` of the engine, each with one value; a gap where there is no cycle.
     """
     from mechsym.cycle.engine import columns, over_design
-    from mechsym.jobs.cycle import engine
+    from mechsym.jobs.cycle import engine, of_engine
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.jobs.whole_engine import of_engine
 
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
@@ -104,7 +93,7 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     return [outcomes[i] for i in range(len(family))]
 
 
-def _steps(machine: Any, design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
+def _steps(machine: "ClosedEngine", design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
     from mechsym.cycle.closed.model import closed_period
     from mechsym.cycle.closed.run import steps_needed
 
@@ -125,7 +114,7 @@ def _varied(seen: Sequence[Case]) -> dict[str, np.ndarray]:
     return found
 
 
-def _at(columns: Mapping[str, Any], index: int) -> dict[str, Any]:
+def _at(columns: Mapping[str, Scalar], index: int) -> Json:
     return {
         name: _at(values, index) if isinstance(values, Mapping) else float(values[index])
         for name, values in columns.items()

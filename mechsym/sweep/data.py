@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_quantities, write_with
 from mechsym.sweep.outcomes import Gap, asked
 from mechsym.sweep.run import Sweep
+
+if TYPE_CHECKING:
+    import xarray
 
 MAIN = {
     "simulate": ("speed_mean", "speed_min", "speed_max", "twist_peak", "torque_peak", "t_end"),
@@ -28,10 +31,7 @@ MAIN = {
 def failures(result: Sweep) -> dict[int, str]:
     """Points without a result.
 
-    Returns
-    -------
-    failures : dict of int to str
-        Index of the point and the reason
+    Returns failures: index of the point and the reason.
     """
     return {i: outcome.reason for i, outcome in enumerate(result.outcomes) if isinstance(outcome, Gap)}
 
@@ -39,10 +39,7 @@ def failures(result: Sweep) -> dict[int, str]:
 def columns(result: Sweep) -> dict[str, np.ndarray]:
     """Results by name, one for each point.
 
-    Returns
-    -------
-    columns : dict of str to ndarray, shape (n,)
-        Not a number in a gap, an empty text for words [SI, or as the name says]
+    Returns columns: not a number in a gap, an empty text for words [SI, or as the name says].
     """
     return dict(result.by_name)
 
@@ -50,10 +47,7 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
 def main_results(result: Sweep) -> dict[str, np.ndarray]:
     """The few numbers that are looked at first: those asked for, or the main ones of the analysis.
 
-    Returns
-    -------
-    columns : dict of str to ndarray, shape (n,)
-        Those that there are [SI, or as the name says]
+    Returns columns: those that there are [SI, or as the name says].
     """
     found = columns(result)
     wanted = MAIN[result.analysis] if not result.show or "all" in result.show else result.show
@@ -62,7 +56,7 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
     return {n: np.where(np.isfinite(v), v, math.nan) for n, v in numbers.items() if np.isfinite(v).any()}
 
 
-def dataset(result: Sweep) -> Any:
+def dataset(result: Sweep) -> "xarray.Dataset":
     """The sweep as an xarray.Dataset.
 
     Returns
@@ -118,7 +112,7 @@ def write_table(result: Sweep, folder: Path) -> Path:
     table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()
               if result.units[name] or column.dtype.kind != "f" or not np.isnan(column).all()}  # fmt: skip
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
-    return write_quantities(folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if "[" not in n})
+    return write_quantities(folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if " [" not in n})
 
 
 def write_netcdf(result: Sweep, folder: Path) -> Path:

@@ -6,7 +6,7 @@
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,35 +14,29 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.values import Place
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.quantities import parse
+from mechsym.sweep.axes import Value
 from mechsym.sweep.outcomes import Gap, Outcome, known
+
+if TYPE_CHECKING:
+    from mechsym.hinge.balance import Balance
 
 BLOCK = 10_000  # points in one call: enough to hide the making of the kernel, few enough for the progress to move
 _SECTIONS = ("spring", "guide", "rollers", "limits")
 _KERNEL = 1e-3  # margins of the kernel differ from those of `judge` by less; nearer to a limit than this is not decided
 
 
-def guides(case: str, overrides: Mapping[str, Any], heres: Sequence[Mapping[str, Any]]) -> list[Outcome]:
+def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
     """Margins of the guide at each point, by limit.
 
-    Parameters
-    ----------
-    case : str
-        Name of a built-in case or path of a file
-    overrides : mapping
-        Values that hold at all points
-    heres : sequence of mapping
-        Values of the axes at each point, as `--set` takes them
-
-    Returns
-    -------
-    outcomes : list of dict or Gap
-        `feasible`, `margin` (the smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), and
-        `margins.limit` of each [-]
+    case: name of a built-in case or path of a file; overrides: values that hold at all points; heres: sequence of
+    mapping, values of the axes at each point, as `--set` takes them. Returns outcomes: `feasible`, `margin` (the
+    smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), and `margins.limit` of each [-].
     """
     places = {key: cases.locate(case, key, overrides) for key in heres[0]}
     numbers = {key: place for key, place in places.items() if _is_number(place)}
-    groups: dict[tuple[tuple[str, Any], ...], list[int]] = {}
+    groups: dict[tuple[tuple[str, Value], ...], list[int]] = {}
     for i, here in enumerate(heres):
         groups.setdefault(tuple((k, v) for k, v in here.items() if k not in numbers), []).append(i)
     outcomes: dict[int, Outcome] = {}
@@ -61,7 +55,7 @@ def _is_number(place: Place) -> bool:
     return place.section in _SECTIONS and place.unit is not None and place.field != "shaft_ratio"
 
 
-def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Any]]) -> list[Outcome]:
+def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
     from mechsym.hinge.balance import balance
     from mechsym.hinge.kernel import design_kernel
     from mechsym.hinge.torque import torque
@@ -89,10 +83,10 @@ def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[st
     return [outcomes[i] for i in range(len(heres))]
 
 
-def _column(case: Case, given: Mapping[str, Any], key: str, place: Place, texts: Sequence[Any]) -> list[float | Gap]:
+def _column(case: Case, given: Json, key: str, place: Place, texts: Sequence[Value]) -> list[float | Gap]:
     """Values of an axis at each point [SI], each checked once, or the gap that an impossible one leaves."""
 
-    def value(text: Any) -> float | Gap:
+    def value(text: Value) -> float | Gap:
         try:
             found = parse(f"{text} {place.written}" if place.written else text, place.unit or "-", key)
             # the records of these sections check each value by itself
@@ -104,7 +98,7 @@ def _column(case: Case, given: Mapping[str, Any], key: str, place: Place, texts:
     return [made[text] for text in texts]
 
 
-def _design(given: Mapping[str, Any], names: Sequence[str], values: Sequence[float]) -> dict[str, Any]:
+def _design(given: Json, names: Sequence[str], values: Sequence[float]) -> Json:
     """Records of a point by section."""
     changed: dict[str, dict[str, float]] = {name: {} for name in given}
     for name, value in zip(names, values, strict=True):
@@ -113,19 +107,20 @@ def _design(given: Mapping[str, Any], names: Sequence[str], values: Sequence[flo
     return {name: dataclasses.replace(found, **changed[name]) for name, found in given.items()}
 
 
-def _judged(wanted: Any, design: Mapping[str, Any], limits: Sequence[str]) -> Outcome:
+def _judged(wanted: "Balance", design: Json, limits: Sequence[str]) -> Outcome:
     from mechsym.hinge.guide import cut
     from mechsym.hinge.limits import judge
 
     verdict = judge(cut(wanted, design["spring"], design["guide"]), design["rollers"], design["limits"])
-    margins = {f"margins.{c.name}": math.nan if c.margin is None else c.margin for c in verdict.checks}
-    known = {f"margins.{name}": margins[f"margins.{name}"] for name in limits if f"margins.{name}" in margins}
-    return {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0, **known}
+    margins = {c.name: math.nan if c.margin is None else c.margin for c in verdict.checks}
+    known = {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0}
+    known |= {f"margins.{name}": margins[name] for name in limits if name in margins}
+    return {f"{name} [-]": value for name, value in known.items()}
 
 
 def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> list[Outcome]:
     """What the kernel says, a limit that asks nothing as not a number; -1 throughout where there is no guide."""
-    names = ("feasible", "margin", "judged", *(f"margins.{name}" for name in limits))
+    names = [f"{name} [-]" for name in ("feasible", "margin", "judged", *(f"margins.{name}" for name in limits))]
     finite = np.where(np.isfinite(margins), margins, math.nan)
     table = np.column_stack([least >= 0, least, np.zeros_like(least), finite]).tolist()
     return [dict(zip(names, row, strict=True)) for row in table]

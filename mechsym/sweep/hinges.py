@@ -1,12 +1,19 @@
 """Hinges at many points: guides that differ in numbers only are judged side by side, see `hinge.side_by_side`."""
 
 from collections.abc import Callable, Collection, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import record
+from mechsym.quantities.results import Columns, names_of, some
 from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded
+
+if TYPE_CHECKING:
+    from mechsym.hinge.balance import Balance
+    from mechsym.hinge.side_by_side import GuideDesign
+    from mechsym.hinge.torque import Hinge
+    from mechsym.machine.record import Machine
 
 BLOCK = 64  # points in one call: enough to hide what is done once, few enough for the progress to move
 
@@ -15,19 +22,20 @@ BLOCK = 64  # points in one call: enough to hide what is done once, few enough f
 class _Wanted:
     """A torque, and what shall give it."""
 
-    machine: Any
-    hinge: Any
-    balance: Any
-    design: Any
+    machine: "Machine"
+    hinge: "Hinge"
+    balance: "Balance"
+    design: "GuideDesign"
 
 
 def check_keys(show: Collection[str]) -> None:
     """Refuse names that are no result of a hinge."""
-    from mechsym.hinge.summary import KEYS
+    from mechsym.hinge.summary import HingeNumbers
 
+    keys = names_of(HingeNumbers)
     for name in show:
-        if name != "all" and name.partition(".")[0] not in KEYS:
-            raise BadInput(f"--show {name} is no result here; {suggest(name, [*KEYS, 'all'])}")
+        if name != "all" and name.partition(".")[0] not in keys:
+            raise BadInput(f"--show {name} is no result here; {suggest(name, [*keys, 'all'])}")
 
 
 def runs(show: Collection[str]) -> bool:
@@ -37,19 +45,15 @@ def runs(show: Collection[str]) -> bool:
     return not {name.partition(".")[0] for name in show} <= set(QUICK)
 
 
-def designed(show: Collection[str]) -> Callable[[Case], dict[str, Any]]:
+def designed(show: Collection[str]) -> Callable[[Case], Columns]:
     """Designs with what is shown; how they run is computed only where a name asks for it."""
 
-    def one(case: Case) -> dict[str, Any]:
-        from mechsym.hinge.springs import Coil
-        from mechsym.hinge.summary import KEYS, summary
+    def one(case: Case) -> Columns:
+        from mechsym.hinge.summary import HingeNumbers
         from mechsym.jobs.hinge import hinge
 
-        found = summary(hinge(case), KEYS if "all" in show else {name.partition(".")[0] for name in show})
-        if "retune" in found:
-            unit = "N" if isinstance(case.need("spring"), Coil) else "Pa"
-            found["retune"] = {f"p0 [{unit}]" if key == "p0" else key: v for key, v in found["retune"].items()}
-        return found
+        names = names_of(HingeNumbers) if "all" in show else {name.partition(".")[0] for name in show}
+        return some(HingeNumbers(judged=hinge(case)), names)
 
     return one
 
@@ -57,22 +61,15 @@ def designed(show: Collection[str]) -> Callable[[Case], dict[str, Any]]:
 def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
     """Guides and verdicts; what they run like is not asked.
 
-    Parameters
-    ----------
-    show : collection of str
-        Results that are wanted; none for those of `hinge.summary.QUICK`
-
-    Returns
-    -------
-    outcomes : list of dict or Gap
-        Keys of the command `hinge`, in the same order
+    show: results that are wanted; none for those of `hinge.summary.QUICK`. Returns outcomes: keys of the command
+    `hinge`, in the same order.
     """
     from mechsym.hinge.result import JudgedHinge
-    from mechsym.hinge.summary import QUICK, summary
+    from mechsym.hinge.summary import QUICK, HingeNumbers
 
     only = {name.partition(".")[0] for name in show} or QUICK
     outcomes: dict[int, Outcome] = {}
-    groups: dict[Any, list[tuple[int, _Wanted]]] = {}
+    groups: dict[Balance, list[tuple[int, _Wanted]]] = {}
     for i, case in enumerate(found):
         wanted = guarded(_wanted, case)
         if isinstance(wanted, Gap):
@@ -82,9 +79,14 @@ def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
     for balance, members in groups.items():
         verdict = _verdicts(balance, [w.design for _, w in members])
         for (i, w), one in zip(members, verdict, strict=True):
-            outcomes[i] = one if isinstance(one, Gap) else guarded(
-                lambda known: summary(known, only), JudgedHinge(machine=w.machine, hinge=w.hinge, verdict=one)
-            )  # fmt: skip
+            outcomes[i] = (
+                one
+                if isinstance(one, Gap)
+                else guarded(
+                    lambda known: some(HingeNumbers(judged=known), only),
+                    JudgedHinge(machine=w.machine, hinge=w.hinge, verdict=one),
+                )
+            )
     return [outcomes[i] for i in range(len(found))]
 
 
@@ -101,7 +103,7 @@ def _wanted(case: Case) -> _Wanted:
     return _Wanted(machine=engine, hinge=hinge, balance=balance(hinge, choices.balance), design=design)
 
 
-def _verdicts(balance: Any, designs: Sequence[Any]) -> list[Any]:
+def _verdicts(balance: "Balance", designs: "Sequence[GuideDesign]") -> list[Outcome]:
     """Verdicts, or gaps; what has no guide, or upsets the others, is judged by itself."""
     from mechsym.hinge.guide import cut
     from mechsym.hinge.limits import judge

@@ -8,6 +8,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.results import walk
 
 # results that are words worth keeping
 WORDS = ("status", "end", "guide.reason")
@@ -25,16 +26,13 @@ class Gap:
     of_input: bool = False  #: Whether the case was refused, not its run
 
 
-Outcome = dict[str, Any] | Gap
+Outcome = Any  # a result, numbers by dotted names, or a Gap
 
 
 def known(error: Exception) -> Gap:
     """The gap that an error leaves.
 
-    Parameters
-    ----------
-    error : Exception
-        Bad input, or an error of arithmetic that only this point met
+    error: bad input, or an error of arithmetic that only this point met.
     """
     words = " ".join(str(error).split())
     if isinstance(error, BadInput):
@@ -42,13 +40,10 @@ def known(error: Exception) -> Gap:
     return Gap(reason=f"{type(error).__name__}: {words}")
 
 
-def guarded(one: Callable[[Any], Any], case: Any) -> Any:
+def guarded(one: Callable[[Any], Any], case: object) -> Any:
     """What a function gives, or the gap that its error leaves.
 
-    Parameters
-    ----------
-    one : callable
-        Of the case, or of whatever stands for it
+    one: callable, of the case, or of whatever stands for it.
     """
     try:
         return one(case)
@@ -56,51 +51,30 @@ def guarded(one: Callable[[Any], Any], case: Any) -> Any:
         return known(error)
 
 
-def flat(result: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
-    """The numbers of a nested result by dotted names.
+def flat(result: object) -> dict[str, float | str]:
+    """The numbers of a result by dotted names, `speed_mean [rad/s]` where it knows its units.
 
-    Parameters
-    ----------
-    result : mapping
-        Numbers, words, lists of one number, and mappings of these
-
-    Returns
-    -------
-    numbers : dict of str to float or str
-        None becomes not a number; longer lists and most words are left out
+    Returns numbers: None becomes not a number; longer lists and most words are left out.
     """
     found: dict[str, float | str] = {}
-    for key, value in result.items():
-        name = f"{prefix}{key}"
-        if type(value) is float and key not in _NO_RESULT:  # most are
-            found[name] = value
-        elif isinstance(value, Mapping):
-            found |= flat(value, f"{name}.")
-        elif isinstance(value, str):
-            found |= {name: value} if name in WORDS else {}
-        elif key in _NO_RESULT:
+    for path, value, unit in walk(result):
+        name = f"{path} [{unit}]" if unit else path
+        if isinstance(value, str):
+            found |= {path: value} if path in WORDS else {}
+        elif path.rpartition(".")[2] in _NO_RESULT:
             continue
         elif value is None:
             found[name] = math.nan
-        elif np.size(value) == 1 and np.asarray(value).dtype.kind in "bif":
-            found[name] = float(np.ravel(value)[0])
+        elif (numbers := np.asarray(value)).size == 1 and numbers.dtype.kind in "bif":
+            found[name] = float(numbers.ravel()[0])
     return found
 
 
 def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float | str]:
     """The results of a point that are shown; all where none is named.
 
-    Parameters
-    ----------
-    row : mapping of str to float or str
-        Results by dotted name [SI, or as the name says]
-    show : sequence of str
-        Names, groups (`guide` for `guide.z_max` and its like), or `all`
-
-    Returns
-    -------
-    row : dict of str to float or str
-        In the same order [SI, or as the name says]
+    row: results by dotted name [SI, or as the name says]; show: names, groups (`guide` for `guide.z_max` and its like),
+    or `all`. Returns row: in the same order [SI, or as the name says].
     """
     if not show or "all" in show:
         return dict(row)

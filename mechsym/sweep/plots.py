@@ -1,12 +1,12 @@
 """The picture of a sweep: lines over one axis, maps over two, histograms and scatter for samples; gaps are marked."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mechsym.quantities.names import stem_and_unit
+from mechsym.quantities.display import without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.palette import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
@@ -19,10 +19,7 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 def picture(result: Sweep) -> Figure | None:
     """The main results of a sweep, see `mechsym.sweep.main_results`.
 
-    Returns
-    -------
-    figure : Figure or None
-        None when there is nothing to draw: a single point, or gaps only
+    Returns figure: None when there is nothing to draw: a single point, or gaps only.
     """
     shown = _worth_drawing(result)
     if not shown or len(result.points) == 1:
@@ -53,7 +50,7 @@ def _words(result: Sweep, axes: list[int]) -> bool:
     return any(isinstance(result.axes[i].values[0], str) for i in axes)
 
 
-def _panels(result: Sweep, shown: Mapping[str, Any], rows: int = 1) -> tuple[Figure, Any]:
+def _panels(result: Sweep, shown: Mapping[str, object], rows: int = 1) -> tuple[Figure, np.ndarray]:
     columns = len(shown) if rows > 1 else {4: 2}.get(len(shown), min(len(shown), 3))
     down = rows if rows > 1 else -(-len(shown) // columns)
     figure = Figure(figsize=(3.5 * columns if columns > 1 else 7.0, 3.0 * down + 0.4), layout="constrained")
@@ -74,7 +71,7 @@ def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     if unit in ("", "-"):
         return np.where(np.abs(values) < _ROUND_OFF, 0.0, values), _label(name, unit)
     factor, word = axis_unit(unit, values)
-    return values * factor, _label(stem_and_unit(name)[0], word)  # speed_rpm in rad/s is no speed_rpm
+    return values * factor, _label(without_unit(name, unit), word)  # speed_rpm in rad/s is no speed_rpm
 
 
 def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
@@ -96,16 +93,16 @@ def _title(result: Sweep, free: list[int]) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def _value(axis: Axis, value: Any) -> str:
+def _value(axis: Axis, value: object) -> str:
     return f"{axis.key} = {value}" if isinstance(value, str) else f"{axis.key} = {value:.4g} {axis.unit}".rstrip(" -")
 
 
-def _ticks(axis: Any, along: Axis) -> tuple[np.ndarray, str]:
+def _ticks(axis: Axes, along: Axis) -> tuple[np.ndarray, str]:
     """Places of the values along an axis, and what is written there."""
     if not isinstance(along.values[0], str):
         return _scaled(along.key, np.array(along.values), along.unit)
     places = np.arange(len(along.values))
-    axis.set_xticks(places, along.values)
+    axis.set_xticks(places, [str(v) for v in along.values])
     return places, along.key
 
 

@@ -1,23 +1,28 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mechsym.cases import Case
-from mechsym.errors import BadInput
-from mechsym.mechanisms.own import is_file
-from mechsym.mechanisms.traits import is_train
+from mechsym.cases.facts import facts_of
+from mechsym.cases.needs import meant, require
+from mechsym.mechanisms.shaft import elastic
 from mechsym.quantities import record
 from mechsym.sweep import cycles, guides, hinges, singles
+from mechsym.sweep.axes import Value
 from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded, known
+
+if TYPE_CHECKING:
+    from mechsym.simulate.problem import Problem
+    from mechsym.simulate.result import Result, RunNumbers
+    from mechsym.simulate.settings import Settings
 
 ANALYSES = ("simulate", "hinge", "guides", "cycle", "forces", "size", "codesign")
 _SCIPY = ("scipy.interpolate", "scipy.optimize")
 #: What the points of an analysis read of the program; workers begin with it
 READS = {
     "simulate": (
-        "mechsym.jobs.loop",
+        "mechsym.jobs.run",
         "mechsym.jobs.problem",
         "mechsym.simulate.many",
         "mechsym.torsion.twist",
@@ -25,7 +30,7 @@ READS = {
     ),
     "hinge": ("mechsym.hinge.side_by_side", "mechsym.hinge.summary", "mechsym.jobs.hinge", *_SCIPY),
     "guides": ("mechsym.hinge.kernel", "mechsym.hinge.limits", "mechsym.jobs.machine", *_SCIPY),
-    "cycle": ("mechsym.cycle.closed.run", "mechsym.jobs.cycle", "mechsym.jobs.whole_engine", *_SCIPY),
+    "cycle": ("mechsym.cycle.closed.run", "mechsym.jobs.cycle", *_SCIPY),
     "forces": ("mechsym.forces.summary", "mechsym.jobs.forces", *_SCIPY),
     "size": ("mechsym.jobs.size", *_SCIPY),
     "codesign": ("mechsym.codesign.summary", "mechsym.jobs.codesign", *_SCIPY),
@@ -47,33 +52,27 @@ class Route:
     seconds: float  #: What one takes, roughly [s]
     #: In place of `run`, where cases need not be read one by one: case, overrides and values of the axes to outcomes,
     #: each of numbers by dotted names already
-    at: Callable[[str, Mapping[str, Any], Sequence[Mapping[str, Any]]], list[Outcome]] | None = None
+    at: Callable[[str, Mapping[str, object], Sequence[Mapping[str, Value]]], list[Outcome]] | None = None
 
 
 def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route:
     """The fastest safe way to compute points like a case.
 
-    Parameters
-    ----------
-    analysis : str or None
-        A name of `ANALYSES`; None takes what the case is for
-    show : tuple of str
-        Results that are wanted; others need not be computed
-
-    Returns
-    -------
-    route : Route
-        Function, and the size of its calls
+    analysis: a name of `ANALYSES`; None takes what the case is for. show: results that are wanted; others need not be
+    computed. Returns route: function, and the size of its calls.
     """
-    analysis = analysis or _meant(case)
+    if analysis is None:
+        require(case, "sweep")
+        analysis = meant(facts_of(case.mechanism, case.sections))
     if analysis == "simulate":
         # one block of lanes: what runs beside a point is the same on any machine
         return Route(analysis=analysis, run=_simulated, together=_LANES, seconds=0.03)
     if analysis == "hinge":
         return _hinges(show)
     if analysis == "guides":
-        return Route(analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.0001,
-                     at=guides.guides)  # fmt: skip
+        return Route(
+            analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.0001, at=guides.guides
+        )
     if analysis in _SINGLES:
         single, seconds = _SINGLES[analysis]
         return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)
@@ -90,20 +89,7 @@ def _hinges(show: tuple[str, ...]) -> Route:
     return Route(analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.002)
 
 
-def _meant(case: Case) -> str:
-    # a crank train that says how long to run is an elastic shaft, whatever turns it
-    if "drive" in case.sections or ("simulation" in case.sections and is_train(case.mechanism)):
-        return "simulate"
-    if {"spring", "guide"} <= set(case.sections):
-        return "hinge"
-    if "cycle" in case.sections:
-        return "cycle"
-    if "simulation" in case.sections and is_file(case.mechanism):
-        return "simulate"  # its weight or constants of [inputs] move it
-    raise BadInput(f"{case.file}: has neither [drive] nor [cycle]; nothing to run at the points of a sweep")
-
-
-def _each(one: Callable[[Case], dict[str, Any]]) -> Callable[[Sequence[Case]], list[Outcome]]:
+def _each(one: Callable[[Case], object]) -> Callable[[Sequence[Case]], list[Outcome]]:
     return lambda found: [guarded(one, case) for case in found]
 
 
@@ -126,14 +112,15 @@ def _bisected(family: list[Case]) -> list[Outcome]:
 
 
 def _simulated(found: Sequence[Case]) -> list[Outcome]:
-    from mechsym.jobs.loop import in_loop
-    from mechsym.jobs.problem import problem_of, settings_of
+    from mechsym.cases.runs import settings_of
+    from mechsym.jobs.problem import problem_of
+    from mechsym.jobs.run import in_loop
 
     looped = [i for i, case in enumerate(found) if in_loop(case)]
     problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
     outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
     outcomes |= {i: guarded(_in_loop, found[i]) for i in looped}
-    groups: dict[Any, list[int]] = {}
+    groups: dict[Settings, list[int]] = {}
     for i in (i for i in problems if i not in outcomes):
         groups.setdefault(settings_of(found[i]), []).append(i)
     for settings, members in groups.items():
@@ -144,13 +131,13 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
 
 def _in_loop(case: Case) -> Outcome:
     """One point whose gas is integrated with the motion."""
-    from mechsym.jobs.problem import settings_of
+    from mechsym.cases.runs import settings_of
     from mechsym.jobs.run import run_of
 
     return _told(case, *run_of(case, settings_of(case))[:2])
 
 
-def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
+def _side_by_side(problems: "list[Problem]", settings: "Settings") -> list[Outcome]:
     from mechsym.simulate import simulate, simulate_many
 
     try:
@@ -160,21 +147,18 @@ def _side_by_side(problems: list[Any], settings: Any) -> list[Any]:
         return [guarded(lambda problem: simulate(problem, settings), p) for p in problems]
 
 
-def _verdict(case: Case, problem: Any, result: Any) -> Outcome:
+def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
     from mechsym.jobs.problem import window_of
     from mechsym.simulate.problem import period_of
-    from mechsym.simulate.summary import summary
+    from mechsym.simulate.result import summary
 
     coordinates = problem.mechanism.coordinates
     return _told(case, result, summary(result, coordinates, window_of(case, problem), period_of(problem)))
 
 
-def _told(case: Case, result: Any, report: dict[str, Any]) -> Outcome:
-    from mechsym.torsion.twist import sections
+def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
+    from mechsym.sweep.swept_run import swept
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    twists = [dataclasses.asdict(s) for s in sections(case.need("parameters"), result, result.t[-1] - report["window"])]
-    if twists:
-        report |= {peak: max(t[peak] for t in twists) for peak in ("twist_peak", "torque_peak")}
-    return report | {"twist": {t.pop("section"): t for t in twists}}
+    return swept(elastic(case.mechanism, case.need("parameters")), result, numbers)

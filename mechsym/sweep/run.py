@@ -8,23 +8,22 @@ import os
 import threading
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from mechsym import cases
+from mechsym import cases, inputs
 from mechsym.errors import BadInput, suggest
+from mechsym.interrupts import asked_to_stop
 from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST
+from mechsym.quantities.units import Second
 from mechsym.sweep import cluster, store, work
-from mechsym.sweep.axes import Axis, override, parse_axis, points, saltelli, split
+from mechsym.sweep.axes import Axis, Value, override, parse_axis, points, saltelli, split
 from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
-from mechsym.sweep.stopping import asked_to_stop
 from mechsym.sweep.ties import Ties, ties
-from mechsym.sweep.units import unit_of
 
-Progress = Callable[[int], Any]
+Progress = Callable[[int], object]
 INTERRUPTED = Gap(reason="interrupted")
 _WORTH = 10.0  # seconds of work from which processes pay for their start
 
@@ -35,7 +34,7 @@ class Plan:
 
     case: str  #: Name of a built-in case or path of a file
     over: tuple[str, ...]  #: What to run over, each KEY=RANGE as in `axes`
-    overrides: Mapping[str, Any] = dataclasses.field(default_factory=dict)  #: Values that hold at all points
+    overrides: Mapping[str, object] = dataclasses.field(default_factory=dict)  #: Values that hold at all points
     analysis: str | None = None  #: A name of `points.ANALYSES`; None takes what the case is for
     samples: int | None = None  #: Number of samples instead of a grid
     seed: int = 0
@@ -73,11 +72,11 @@ class Sweep:
     analysis: str
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Any, ...], ...]  #: Values of the axes at each point, the last axis fastest
+    points: tuple[tuple[Value, ...], ...]  #: Values of the axes at each point, the last axis fastest
     outcomes: tuple[Outcome, ...]  #: Results of each point by name, or why there are none
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
     sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
-    interrupted: bool = False  #: Whether it was stopped before its end; points not reached are gaps
+    interrupted: bool = False  #: Whether it was asked to stop; points not reached are gaps
     kept: int = 0  #: Points that were finished before, in the store of the same sweep
     aside: str = ""  #: Where the folder's points of another sweep went
 
@@ -94,7 +93,7 @@ class Sweep:
     def units(self) -> dict[str, str]:
         """Unit of each result, that its name carries or tells; `-` of a pure number, empty of a word."""
         told = {name: name.partition(" [")[::2] for name in self._names}
-        return {stem: unit.rstrip("]") or unit_of(stem) for stem, unit in told.values()}
+        return {stem: unit.rstrip("]") for stem, unit in told.values()}
 
     @functools.cached_property
     def _names(self) -> list[str]:
@@ -108,7 +107,7 @@ class Layout:
 
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Any, ...], ...]  #: Values of the axes, the last axis fastest
+    points: tuple[tuple[Value, ...], ...]  #: Values of the axes, the last axis fastest
     ties: Ties  #: Values that follow from those of the axes
 
 
@@ -156,18 +155,10 @@ def ends(found: Layout) -> list[dict[str, str | float]]:
     return [{axis.key: override(axis, value)} for axis, value in at]
 
 
-def forecast(plan: Plan, count: int) -> float:
+def forecast(plan: Plan, count: int) -> Second:
     """How long a plan takes on one processor, by what a point of its analysis usually does.
 
-    Parameters
-    ----------
-    count : int
-        How many points `layout` found for the plan
-
-    Returns
-    -------
-    seconds : float
-        Rough, of a usual machine [s]
+    count: how many points `layout` found for the plan. Returns seconds: rough, of a usual machine.
 
     Examples
     --------
@@ -183,12 +174,8 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     An interrupt from the keyboard or a request to end (SIGTERM) ends the sweep after the points that are being
     computed and keeps what is finished, see `Sweep.interrupted`; a second one ends it at once.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with the number of points that were done
-    means : Means, optional
-        Processes and store; in this process without a store where it is left away
+    progress: called with the number of points that were done. means: processes and store; in this process without a
+    store where it is left away.
 
     Raises
     ------
@@ -196,13 +183,17 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
         The case or an axis is bad, or every point fails for one and the same reason
     """
     means = means or Means()
-    base, place = cases.load(plan.case, plan.overrides), layout(plan)
-    chosen = route(base, plan.analysis, plan.show)
-    order = work.SweepOrder(case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show,
-                            tied=plan.tied)  # fmt: skip
+    with inputs.reads() as read:
+        base, place = cases.load(plan.case, plan.overrides), layout(plan)
+        chosen = route(base, plan.analysis, plan.show)
+    order = work.SweepOrder(
+        case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show, tied=plan.tied
+    )
     outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
-    with _stored(plan, base, place, means) as kept_in, asked_to_stop() as asked_to:
+    before: dict[int, Outcome] = {}
+    with inputs.reads() as read_there, _stored(plan, read, means) as kept_in, asked_to_stop() as asked_to:
         before = store.known(kept_in) if kept_in else {}
+        inputs.tell(store.files_read(kept_in) if kept_in else {})
         for i, outcome in before.items():
             outcomes[i] = outcome
         if before:
@@ -210,14 +201,16 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
         chunks = [c for c in _chunks(place, chosen.together) if not all(i in before for i in c.members)]
         with contextlib.closing(_computed(order, chosen, chunks, means, asked_to)) as results:
             for done in results:
+                inputs.tell(done.reads)
+                _check_unchanged(read | read_there, done.reads)
                 _check_shown(plan.show, done.outcomes)
                 found = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
                 for i, outcome in zip(done.members, found, strict=True):
                     outcomes[i] = outcome
                 if kept_in:
-                    store.keep(kept_in, done.members, found, done.seconds, done.host)
+                    store.keep(kept_in, done, found)
                 progress(len(done.members))
-    interrupted = any(outcome is INTERRUPTED for outcome in outcomes)
+    interrupted = asked_to.is_set()  # in its last points too: a study would go on with the next sweep
     if not interrupted:
         _check_reasons(outcomes)
     return Sweep(
@@ -228,24 +221,25 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
 
 
 @contextlib.contextmanager
-def _stored(plan: Plan, base: cases.Case, place: Layout, means: Means) -> Iterator[store.Store | None]:
+def _stored(plan: Plan, read: Mapping[str, str], means: Means) -> Iterator[store.Store | None]:
     """The store of a plan, if it has a folder for one."""
     if means.folder is None:
         yield None
         return
     key = store.identity(
-        base, over=plan.over, overrides={k: str(v) for k, v in plan.overrides.items()}, analysis=plan.analysis,
-        samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), words=_words(place), sobol=plan.sobol,
+        read, case=plan.case, over=plan.over, overrides={k: str(v) for k, v in plan.overrides.items()},
+        analysis=plan.analysis, samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), sobol=plan.sobol,
         tied=plan.tied,
     )  # fmt: skip
     with store.opened(means.folder, key, means.fresh) as found:
         yield found
 
 
-def _words(place: Layout) -> list[str]:
-    """Texts of files that an axis runs over."""
-    words = {str(v) for a in place.axes if not a.unit for v in a.values}
-    return [Path(w).read_text(encoding="latin-1") for w in sorted(words) if Path(w).is_file()]
+def _check_unchanged(before: Mapping[str, str], now: Mapping[str, str]) -> None:
+    """Refuse points of two contents of one file."""
+    for name, content in now.items():
+        if before.get(name, content) != content:
+            raise BadInput(f"{name} has changed while the sweep ran; the same command computes all points as it is now")
 
 
 def _computed(
@@ -276,13 +270,14 @@ def _chunks(place: Layout, together: int) -> list[work.Chunk]:
     ]
 
 
-def _here(place: Layout, index: int) -> dict[str, Any]:
+def _here(place: Layout, index: int) -> dict[str, Value]:
     return {a.key: override(a, v) for a, v in zip(place.axes, place.points[index], strict=True)}
 
 
 def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
-    names = {name for outcome in found if not isinstance(outcome, Gap) for name in outcome} if show else ()
+    told = (name for outcome in found if not isinstance(outcome, Gap) for name in outcome)
+    names = {name.partition(" [")[0] for name in told} if show else ()
     for name in show if names else ():
         if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")

@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechsym.quantities import record
+from mechsym.quantities import results
+from mechsym.quantities.results import part, quantity
+from mechsym.quantities.units import Array, Pure
 from mechsym.sweep.axes import Axis
 from mechsym.sweep.data import main_results
 from mechsym.sweep.run import Sweep
@@ -13,28 +15,25 @@ _AGAIN = 1000  # resamplings of the confidence
 _SHARE = (2.5, 97.5)  # percentiles of an interval that holds the truth 19 times in 20
 
 
-@record
+@results.result
 class SobolIndex:
     """How much of a result's variance one value brings."""
 
-    result: str
-    key: str
-    first: float  #: by itself, the others averaged [-]
-    first_low: float  #: end of the 95 % interval [-]
-    first_high: float  #: end of the 95 % interval [-]
-    total: float  #: with all that it does together with others [-]
-    total_low: float  #: end of the 95 % interval [-]
-    total_high: float  #: end of the 95 % interval [-]
-    left_out: int  #: Base samples that a gap takes away
+    result: str = part()
+    key: str = part()
+    first: float = quantity("-")  #: By itself, the others averaged
+    first_low: float = quantity("-")  #: Lower end of its 95 % interval
+    first_high: float = quantity("-")  #: Upper end of its 95 % interval
+    total: float = quantity("-")  #: With all that it does together with others
+    total_low: float = quantity("-")  #: Lower end of its 95 % interval
+    total_high: float = quantity("-")  #: Upper end of its 95 % interval
+    left_out: int = quantity("-")  #: Base samples that a gap takes away
 
 
 def indices(result: Sweep) -> list[SobolIndex]:
     """Sobol indices of the main results, or of those that are shown, with their confidence.
 
-    Returns
-    -------
-    rows : list of SobolIndex
-        One for each result that varies and each axis; none where fewer than two base samples are whole
+    Returns rows: one for each result that varies and each axis; none where fewer than two base samples are whole.
     """
     count, d = result.sobol, len(result.axes)
     found = []
@@ -62,20 +61,17 @@ def _of_one(name: str, axes: Sequence[Axis], blocks: np.ndarray, left_out: int) 
     ]  # fmt: skip
 
 
-def estimates(blocks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def estimates(blocks: np.ndarray) -> tuple[Pure[Array], Pure[Array]]:
     r"""First-order and total indices out of samples A, B, and A with one column of B after the other.
 
     .. math:: S_i = \frac{\overline{f_B (f_{AB_i} - f_A)}}{V}, \quad T_i = \frac{\overline{(f_A - f_{AB_i})^2}}{2 V}
+
+    Returns first, total: indices, shape (d, ..).
 
     Parameters
     ----------
     blocks : ndarray, shape (d + 2, .., n)
         Results of A, B, AB_1 .. AB_d [unit of the result]
-
-    Returns
-    -------
-    first, total : ndarray, shape (d, ..)
-        Indices [-]
 
     Notes
     -----

@@ -1,12 +1,17 @@
 """What the other commands say of one case, as numbers by name: forces, size, codesign."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mechsym.cases import Case
+from mechsym.files import Json
+from mechsym.quantities.results import Columns, names_of, some
+
+if TYPE_CHECKING:
+    from mechsym.forces.summary import ForceNumbers
 
 
-def forces(case: Case) -> dict[str, Any]:
+def forces(case: Case) -> "ForceNumbers":
     """Figures of `mechsym forces`."""
     from mechsym.forces.summary import summary
     from mechsym.jobs.forces import forces as run
@@ -14,12 +19,12 @@ def forces(case: Case) -> dict[str, Any]:
     return summary(run(case), case.name, case.source)
 
 
-def size(case: Case) -> dict[str, Any]:
+def size(case: Case) -> Json:
     """Rows of `mechsym size` as component.quantity with its unit, and .limit and .safety_factor of a check."""
     from mechsym.jobs.size import size as sized
 
     found = sized(case)
-    numbers: dict[str, Any] = {"failing": len(found.failing), "converged": found.converged}
+    numbers: dict[str, object] = {"failing [-]": len(found.failing), "converged [-]": found.converged}
     for row in found.rows:
         name = f"{row['component']}.{row['quantity']}".replace(" ", "_")
         # one quantity may be held against several rules
@@ -31,17 +36,18 @@ def size(case: Case) -> dict[str, Any]:
     return numbers
 
 
-def codesign(case: Case) -> dict[str, Any]:
+def codesign(case: Case) -> Columns:
     """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
-    from mechsym.codesign.summary import summary
+    from mechsym.codesign.summary import CoDesignNumbers, numbers_of
     from mechsym.jobs.codesign import codesign as design
     from mechsym.jobs.codesign import settings_of
 
-    return {key: _ends(value) for key, value in summary(design(case, settings_of(case))).items()}
+    every = some(numbers_of(design(case, settings_of(case))), names_of(CoDesignNumbers))
+    return Columns({name: _ends(value, every.units[name]) for name, value in every.items()}, every.units)
 
 
-def _ends(value: Any) -> Any:
+def _ends(value: object, unit: str) -> object:
     numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
     if len(numbers) < 2 or isinstance(value, str):
         return value
-    return {"min": min(numbers), "max": max(numbers)}
+    return Columns({"min": min(numbers), "max": max(numbers)}, {"min": unit, "max": unit})

@@ -1,9 +1,11 @@
 """Finished points of a sweep in a file beside its results, so that the same command goes on where it stopped.
 
-    OUT/sweep.db    SQLite    point: i, row (JSON), seconds, host    about: what was swept, and who is writing
+    OUT/sweep.db    SQLite    point: i, row (JSON), seconds, host    input: path, digest
+                              about: what was swept, and who is writing
 
-A store belongs to one sweep: case text, values, axes, columns and program. Another sweep into the same folder begins
-anew and sets the store aside as `sweep-<first digits of its key>.db`, where it is found when its turn comes again.
+A store belongs to one sweep: values, axes, columns, program, and what was in the files that were read, for the sweep
+(its key has them) and for its points (table `input`). Another sweep into the same folder begins anew and sets the store
+aside as `sweep-<digits of what it belongs to>.db`, where it is found when its turn comes again.
 Chunks of points are written whole, so that what is computed later is computed as in one go.
 """
 
@@ -15,19 +17,21 @@ import json
 import os
 import socket
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-from mechsym import cases
+from mechsym import inputs
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.quantities import record
 from mechsym.sweep.outcomes import Gap, Outcome
+from mechsym.sweep.work import Done
 
 NAME = "sweep.db"
 _TABLES = """
 create table if not exists about (name text primary key, value text not null);
 create table if not exists point (i integer primary key, row text not null, seconds real, host text);
+create table if not exists input (path text primary key, digest text not null);
 """
 
 
@@ -36,7 +40,7 @@ class Store:
     """An open store."""
 
     path: Path
-    connection: Any  #: sqlite3.Connection
+    connection: sqlite3.Connection
     aside: Path | None = None  #: Where the store of another sweep went that was in the way
 
 
@@ -44,12 +48,7 @@ class Store:
 def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
     """The store of a sweep in its folder; nobody else writes it meanwhile.
 
-    Parameters
-    ----------
-    key : str
-        What is swept, see `identity`; a store of anything else is set aside
-    fresh : bool
-        Forget what is kept of this sweep
+    key: what is swept, see `identity`; a store of anything else is set aside. fresh: forget what is kept of this sweep.
 
     Raises
     ------
@@ -61,12 +60,12 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
         moved = None
         connection = _connected(path)
         try:
-            if _about(connection, "key") not in ("", key):
+            if not _belongs(connection, key):
                 moved = _set_aside(connection, path)
                 connection = _connected(_brought_back(path, key))
             with connection:
                 if fresh:
-                    connection.execute("delete from point")
+                    connection.executescript("delete from point; delete from input;")
                 _note(connection, "key", key)
             yield Store(path=path, connection=connection, aside=moved)
             connection.execute("delete from about where name = 'writer'")
@@ -74,7 +73,7 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
             connection.close()
 
 
-def _connected(path: Path) -> Any:
+def _connected(path: Path) -> sqlite3.Connection:
     """A store that this process alone writes."""
     connection = sqlite3.connect(path, isolation_level=None)
     try:
@@ -88,13 +87,14 @@ def _connected(path: Path) -> Any:
     return connection
 
 
-def _set_aside(connection: Any, path: Path) -> Path | None:
+def _set_aside(connection: sqlite3.Connection, path: Path) -> Path | None:
     """Close the store of another sweep and give it a name of its own; nothing is lost of hours of work."""
-    other, (count,) = _about(connection, "key"), connection.execute("select count(*) from point").fetchone()
+    (count,) = connection.execute("select count(*) from point").fetchone()
+    belongs_to = repr((_about(connection, "key"), _read(connection)))
+    aside = path.with_stem(f"{path.stem}-{hashlib.sha256(belongs_to.encode()).hexdigest()[:8]}")
     connection.execute("delete from about where name = 'writer'")
     connection.execute("pragma wal_checkpoint(truncate)")  # a reader would keep the file beside it
     connection.close()
-    aside = _aside(path, other)
     path.replace(aside)
     if count:
         return aside
@@ -103,13 +103,27 @@ def _set_aside(connection: Any, path: Path) -> Path | None:
 
 
 def _brought_back(path: Path, key: str) -> Path:
-    if _aside(path, key).exists():
-        _aside(path, key).replace(path)
+    """The store of a sweep where it was set aside, in its place again."""
+    for aside in sorted(path.parent.resolve().glob(f"{path.stem}-*{path.suffix}")):
+        # nobody writes what lies aside, and looking at it is to leave nothing beside it
+        with contextlib.closing(sqlite3.connect(f"{aside.as_uri()}?immutable=1", uri=True)) as connection:
+            try:
+                wanted = _about(connection, "key") == key and _belongs(connection, key)
+            except sqlite3.DatabaseError:
+                continue  # of an older version, or no store
+        if wanted:
+            aside.replace(path)
+            break
     return path
 
 
-def _aside(path: Path, key: str) -> Path:
-    return path.with_stem(f"{path.stem}-{key[:8]}")
+def _belongs(connection: sqlite3.Connection, key: str) -> bool:
+    """Whether a store is empty, or of this sweep and of files that are as they were."""
+    return _about(connection, "key") in ("", key) and not inputs.changed(_read(connection))
+
+
+def _read(connection: sqlite3.Connection) -> dict[str, str]:
+    return dict(connection.execute("select path, digest from input order by path").fetchall())
 
 
 def known(store: Store) -> dict[int, Outcome]:
@@ -119,36 +133,25 @@ def known(store: Store) -> dict[int, Outcome]:
     return {i: _outcome(json.loads(text)) for i, text in rows}
 
 
-def keep(store: Store, members: Sequence[int], found: Sequence[Outcome], seconds: float, host: str) -> None:
-    """Write the points of a chunk in one go.
+def files_read(store: Store) -> dict[str, str]:
+    """Files that the finished points hang on, see `inputs.reads`."""
+    with _told(store.path):
+        return _read(store.connection)
 
-    Parameters
-    ----------
-    seconds : float
-        What one of them took of a processor [s]
-    """
-    rows = [(i, _text(outcome), seconds, host) for i, outcome in zip(members, found, strict=True)]
+
+def keep(store: Store, done: Done, outcomes: Sequence[Outcome]) -> None:
+    """Write what is kept of the points of a chunk in one go, and the files that they read."""
+    rows = [(i, _text(o), done.seconds, done.host) for i, o in zip(done.members, outcomes, strict=True)]
     with _told(store.path), store.connection:
         store.connection.execute("begin immediate")
         store.connection.executemany("insert or replace into point values (?, ?, ?, ?)", rows)
+        store.connection.executemany("insert or ignore into input values (?, ?)", done.reads.items())
 
 
-def identity(case: cases.Case, **of: Any) -> str:
-    """A key that changes with whatever could change a result: program, case, files that it reads, and axes `of`."""
-    digest = hashlib.sha256(program().encode())
-    digest.update(cases.text(case.path).encode())
-    for path in _files(case):
-        digest.update(path.read_bytes())
-    digest.update(json.dumps({k: v for k, v in of.items()}, sort_keys=True).encode())
-    return digest.hexdigest()
-
-
-def _files(case: cases.Case) -> list[Path]:
-    """Files that the case reads: measured diagrams, another case, a mechanism of the user's own."""
-    named = [case.mechanism.partition(".py:")[0] + ".py" if ".py" in case.mechanism else ""]
-    for section in case.sections.values():
-        named += [v for v in vars(section).values() if isinstance(v, str) and Path(v).suffix]
-    return sorted({Path(name) for name in named if name and Path(name).is_file()})
+def identity(read: Mapping[str, str], **of: object) -> str:
+    """A key that changes with whatever could change a result: program, files that were read for it, and axes `of`."""
+    contents = sorted((Path(name).name, content) for name, content in read.items())  # a folder may move
+    return hashlib.sha256(json.dumps([program(), contents, of], sort_keys=True).encode()).hexdigest()
 
 
 @functools.lru_cache(maxsize=1)
@@ -163,7 +166,7 @@ def program() -> str:
     return digest.hexdigest()
 
 
-def _taken(connection: Any, path: Path) -> None:
+def _taken(connection: sqlite3.Connection, path: Path) -> None:
     """Refuse a store that a living process is writing, and say that this one is."""
     with connection:
         connection.execute("begin immediate")
@@ -194,12 +197,12 @@ def _only_waited_for(process: int) -> bool:
     return stat.rpartition(")")[2].split()[0] in "ZX"
 
 
-def _about(connection: Any, name: str) -> str:
+def _about(connection: sqlite3.Connection, name: str) -> str:
     row = connection.execute("select value from about where name = ?", (name,)).fetchone()
     return "" if row is None else str(row[0])
 
 
-def _note(connection: Any, name: str, value: str) -> None:
+def _note(connection: sqlite3.Connection, name: str, value: str) -> None:
     connection.execute("insert or replace into about values (?, ?)", (name, value))
 
 
@@ -209,7 +212,7 @@ def _told(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.OperationalError as error:
-        if "locked" in str(error):
+        if error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
             raise BadInput(
                 f"{path}: another process holds it ({error}); wait for it, or choose another --out"
             ) from None
@@ -226,7 +229,7 @@ def _text(outcome: Outcome) -> str:
     return json.dumps({"row": outcome})
 
 
-def _outcome(stored: dict[str, Any]) -> Outcome:
+def _outcome(stored: Json) -> Outcome:
     if "gap" in stored:
         return Gap(reason=stored["gap"], of_input=stored["of_input"])
     return dict(stored["row"])

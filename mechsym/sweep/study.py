@@ -15,13 +15,14 @@ sweeps holds for all of them.
 
 import re
 import tomllib
-from collections.abc import Mapping
 from importlib import resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
 
 from mechsym import cases
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.files import Json
+from mechsym.inputs import read_bytes
 from mechsym.quantities import record
 from mechsym.sweep.run import Plan
 
@@ -81,7 +82,7 @@ def read(name: str) -> Study:
         raise BadInput(f"{name}: {error}") from None
 
 
-def _folder() -> Any:
+def _folder() -> Traversable:
     return resources.files("mechsym.sweep") / "studies"
 
 
@@ -89,14 +90,14 @@ def _text(name: str) -> tuple[str, Path]:
     if name in built_in():
         return (_folder() / f"{name}.toml").read_text(encoding="utf-8"), Path()
     try:
-        return Path(name).read_text(encoding="utf-8"), Path(name).parent
+        return read_bytes(name).decode("utf-8"), Path(name).parent
     except (OSError, ValueError) as error:
         reason = "not UTF-8 text" if isinstance(error, UnicodeDecodeError) else getattr(error, "strerror", error)
         why = f"study {shown(name, 300)} is neither built in nor a readable file ({reason})"
         raise BadInput(f"{why}; {suggest(name, built_in())} and paths") from None
 
 
-def _study(tables: Mapping[str, Any], beside: Path) -> Study:
+def _study(tables: Json, beside: Path) -> Study:
     common = _known(tables, ("title", "about", "sweep", *_COMMON), "")
     sweeps = tables.get("sweep")
     if not isinstance(sweeps, list) or not sweeps or not all(isinstance(s, dict) for s in sweeps):
@@ -110,7 +111,7 @@ def _study(tables: Mapping[str, Any], beside: Path) -> Study:
     return Study(title=_text_of(tables, "title", ""), about=_text_of(tables, "about", "", ""), sweeps=found)
 
 
-def _sweep(common: Mapping[str, Any], table: Mapping[str, Any], number: int, beside: Path) -> StudySweep:
+def _sweep(common: Json, table: Json, number: int, beside: Path) -> StudySweep:
     where = f"sweep {number}: "
     own = _known(table, ("name", "about", *_COMMON), where)
     name = _text_of(table, "name", where)
@@ -131,20 +132,21 @@ def _sweep(common: Mapping[str, Any], table: Mapping[str, Any], number: int, bes
     return StudySweep(name=name, about=_text_of(table, "about", where, ""), plan=plan)
 
 
-def _known(table: Mapping[str, Any], keys: tuple[str, ...], where: str) -> dict[str, Any]:
+def _known(table: Json, keys: tuple[str, ...], where: str) -> Json:
     """The keys of a plan in a table, each of its type."""
     for key, value in table.items():
         if key not in keys:
             raise BadInput(f"{where}key {key} is not known; {suggest(key, keys)}")
-        kind: Any = _KINDS.get(key, object)
-        right = isinstance(value, kind) and (key not in _LISTS or all(isinstance(item, str) for item in value))
+        kind = _KINDS.get(key, object)
+        texts = not isinstance(value, list) or key not in _LISTS or all(isinstance(item, str) for item in value)
+        right = isinstance(value, kind) and texts
         if not right or (kind is int and isinstance(value, bool)):
             wanted = {str: "a text", list: "a list of texts", int: "a whole number", dict: "a table"}[kind]
             raise BadInput(f"{where}{key} = {shown(value)} is not {wanted}")
     return {key: value for key, value in table.items() if key in _COMMON}
 
 
-def _text_of(table: Mapping[str, Any], key: str, where: str, usual: str | None = None) -> str:
+def _text_of(table: Json, key: str, where: str, usual: str | None = None) -> str:
     value = table.get(key, usual)
     if value is None:
         raise BadInput(f"{where}{key} is missing")

@@ -7,13 +7,14 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.values import Place
 from mechsym.errors import BadInput, shown, suggest
+from mechsym.files import Json
 from mechsym.quantities import parse, record
+from mechsym.sweep.axes import Value
 
 _OPERATORS: dict[type, Callable[..., float]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
@@ -44,25 +45,20 @@ class Ties:
     #: Keys of the axes and of the formulas by the way they are written
     places: Mapping[str, Place]
 
-    def at(self, here: Mapping[str, Any]) -> dict[str, Any]:
+    def at(self, here: Mapping[str, Value]) -> Json:
         """Values of a point with those that are tied.
 
-        Parameters
-        ----------
-        here : mapping
-            Values of the axes, as `--set` takes them
-
-        Returns
-        -------
-        values : dict
-            `here` and every tied value by `section.field` [SI]
+        here: values of the axes, as `--set` takes them. Returns values: `here` and every tied value by `section.field`
+        [SI].
 
         Raises
         ------
         BadInput
             A formula has no value here
         """
-        values: dict[str, Any] = {_name(self.places[key]): _si(self.places[key], value) for key, value in here.items()}
+        values: dict[str, Value] = {
+            _name(self.places[key]): _si(self.places[key], value) for key, value in here.items()
+        }
         found = dict(here)
         for tie in self.ties:
             values[tie.key if tie.place is None else _name(tie.place)] = value = self._value(tie, values)
@@ -70,7 +66,7 @@ class Ties:
                 found[_name(tie.place)] = value
         return found
 
-    def _value(self, tie: Tie, values: Mapping[str, Any]) -> float:
+    def _value(self, tie: Tie, values: Mapping[str, Value]) -> float:
         try:
             value = _worked_out(tie.tree, lambda name: self._of(name, values))
         except (ArithmeticError, ValueError) as error:
@@ -79,7 +75,7 @@ class Ties:
             raise BadInput(f"--tie {tie.key} = {tie.text} has no value here: {value}")
         return float(value)
 
-    def _of(self, name: str, values: Mapping[str, Any]) -> float:
+    def _of(self, name: str, values: Mapping[str, Value]) -> float:
         if name not in self.places:
             return math.pi if name == "pi" and name not in values else float(values[name])
         place = self.places[name]
@@ -91,13 +87,10 @@ class Ties:
         return float(value)
 
 
-def ties(case: str, overrides: Mapping[str, Any], texts: tuple[str, ...], axes: Mapping[str, Place]) -> Ties:
+def ties(case: str, overrides: Mapping[str, object], texts: tuple[str, ...], axes: Mapping[str, Place]) -> Ties:
     """Ties that are written KEY=FORMULA.
 
-    Parameters
-    ----------
-    axes : mapping of str to Place
-        Keys that the sweep runs over
+    axes: keys that the sweep runs over.
 
     Raises
     ------
@@ -160,8 +153,8 @@ def _names(tree: ast.expr) -> list[str]:
     return [name for part in parts if isinstance(part, ast.expr) for name in _names(part)]
 
 
-def _worked_out(tree: ast.expr, of: Callable[[str], float]) -> Any:
-    if isinstance(tree, ast.Constant):
+def _worked_out(tree: ast.expr, of: Callable[[str], float]) -> float:
+    if isinstance(tree, ast.Constant) and isinstance(tree.value, int | float):
         return tree.value
     if isinstance(tree, ast.Name | ast.Attribute):
         return of(ast.unparse(tree))
@@ -173,7 +166,7 @@ def _worked_out(tree: ast.expr, of: Callable[[str], float]) -> Any:
     return _FUNCTIONS[tree.func.id](*(_worked_out(part, of) for part in tree.args))
 
 
-def _located(case: str, key: str, overrides: Mapping[str, Any]) -> Place | None:
+def _located(case: str, key: str, overrides: Mapping[str, object]) -> Place | None:
     """Where a tied value belongs; None for a plain name that the case does not have."""
     try:
         return _number(cases.locate(case, key, overrides, option="--tie"), key)
@@ -193,7 +186,7 @@ def _name(place: Place) -> str:
     return f"{place.section}.{place.field}"
 
 
-def _si(place: Place, value: Any) -> Any:
+def _si(place: Place, value: Value) -> Value:
     """A value of an axis in SI; a word as it is."""
     if place.unit is None:
         return value

@@ -18,16 +18,18 @@ import traceback
 import types
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from multiprocessing import connection
-from typing import Any
+from multiprocessing.context import ForkServerContext, SpawnContext
+from multiprocessing.process import BaseProcess
 
-from mechsym import cases
+from mechsym import cases, inputs
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.sweep.axes import Value
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known
 from mechsym.sweep.points import READS, Route, route
 from mechsym.sweep.ties import ties
 
-Here = Mapping[str, Any]  # values of the axes at a point, as `--set` takes them
+Here = Mapping[str, Value]  # values of the axes at a point, as `--set` takes them
 _PAUSE = 0.2  # between two looks at a request to end [s]
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -37,7 +39,7 @@ class SweepOrder:
     """What a worker has to know."""
 
     case: str
-    overrides: Mapping[str, Any]
+    overrides: Mapping[str, object]
     analysis: str
     show: tuple[str, ...]
     tied: tuple[str, ...] = ()  #: KEY=FORMULA as in `ties`
@@ -51,6 +53,7 @@ class Done:
     outcomes: tuple[Outcome, ...]
     seconds: float  #: Of a processor for one point [s]
     host: str
+    reads: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Files that were read, see `inputs.reads`
 
 
 @record
@@ -68,9 +71,12 @@ def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
 
     def work(chunk: Chunk) -> Done:
         start = time.process_time()  # a clock would count what else the machine does
-        outcomes = tied(order, chosen, chunk.heres)
+        with inputs.reads() as read:
+            outcomes = tied(order, chosen, chunk.heres)
         seconds = (time.process_time() - start) / len(chunk.members)
-        return Done(members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=socket.gethostname())
+        return Done(
+            members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=socket.gethostname(), reads=read
+        )
 
     return work
 
@@ -148,11 +154,11 @@ def on_processes(
 
 @dataclasses.dataclass
 class _Worker:
-    process: Any
-    pipe: Any
+    process: BaseProcess
+    pipe: connection.Connection
 
 
-def _context(analysis: str) -> Any:
+def _context(analysis: str) -> SpawnContext | ForkServerContext:
     """Workers are forked by a process that has read the program once and has one thread, so that this is safe."""
     if "forkserver" not in mp.get_all_start_methods():
         return mp.get_context("spawn")
@@ -216,7 +222,7 @@ def _ended(worker: _Worker) -> None:
     worker.process.join()
 
 
-def _serve(pipe: Any, order: SweepOrder) -> None:
+def _serve(pipe: connection.Connection, order: SweepOrder) -> None:
     """A worker: chunks in, what became of them out, until the pipe ends."""
     # the parent decides when to stop; a terminal sends Ctrl-C to everybody
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,9 +1,9 @@
 """Torsional vibration of shafts.
 
-modes      natural frequencies, orders of excitation, critical speeds
-twist      twist of every section of a shaft in a run
+modes      natural frequencies, orders of excitation, critical speeds, stiffness that keeps major orders away
+twist      twist of every section of a shaft in a run, and where an engine settles
 train      criticals of a crank train at its speed of operation
-startup    a start-up by a weak drive: which critical speeds held it; findings says it in sentences
+startup    a start-up by a weak drive: which critical speeds held it, in sentences and numbers
 plots      Campbell diagram, start-up, twist
 """
 

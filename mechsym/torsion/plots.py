@@ -2,28 +2,30 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import Result
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import StartUp
 from mechsym.torsion.twist import pairs
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MOST_ORDERS = 4
 
 
-def campbell(found: StartUp) -> "Figure":
+def campbell(start: StartUp) -> "Figure":
     """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft."""
     figure, (axes,) = panels(7.5, 4.8, title="Orders of excitation and natural frequency over the crank speed")
-    factor, unit = axis_unit("rad/s", found.natural)
-    top = 1.1 * max(c.speed for c in found.criticals)
-    shown = [c for c in found.criticals if c.order <= _MOST_ORDERS]
-    natural, held = found.natural * factor, {c.critical.order for c in found.captures}
+    factor, unit = axis_unit("rad/s", start.natural)
+    top = 1.1 * max(c.speed for c in start.criticals)
+    shown = [c for c in start.criticals if c.order <= _MOST_ORDERS]
+    natural, held = start.natural * factor, {c.critical.order for c in start.captures}
     high = 1.45 * natural
     axes.axhline(natural, color=INK, lw=1.5, label=f"natural frequency {natural:.4g} {unit}")
     ends = [min(top, 1.3 * c.speed) for c in shown]
@@ -31,27 +33,24 @@ def campbell(found: StartUp) -> "Figure":
     for critical, end, height in zip(shown, ends, heights, strict=True):
         speed = critical.speed * factor
         axes.plot([0, end * factor], [0, critical.order * end * factor], color=GREY, lw=1.0)
-        told, at = f"order {critical.order:g}: {speed:.4g} {unit}", (end * factor, critical.order * end * factor)
-        axes.annotate(told, at, (1.02, height), textcoords="axes fraction", va="center", fontsize=8, color=INK,
+        words, at = f"order {critical.order:g}: {speed:.4g} {unit}", (end * factor, critical.order * end * factor)
+        axes.annotate(words, at, (1.02, height), textcoords="axes fraction", va="center", fontsize=8, color=INK,
                       arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.5})  # fmt: skip
         color = RED if critical.order in held else PAPER
         axes.plot(speed, natural, "o", mec=INK, mfc=color, ms=7)
     axes.set(
         xlim=(0, 1.08 * top * factor), ylim=(0, high), xlabel=f"crank speed [{unit}]", ylabel=f"frequency [{unit}]"
     )
-    for color, told in ((PAPER, "critical speed"), (RED, "critical speed that held the shaft")):
-        axes.plot([], [], "o", mec=INK, mfc=color, ms=7, label=told)
+    for color, words in ((PAPER, "critical speed"), (RED, "critical speed that held the shaft")):
+        axes.plot([], [], "o", mec=INK, mfc=color, ms=7, label=words)
     legend(axes)
     return figure
 
 
-def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> "Figure":
+def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -> "Figure":
     """Mean speed and twist of start-ups with several dampers, beside the rigid shaft.
 
-    Parameters
-    ----------
-    claim_speed : float, optional
-        Speed that the source reports [rad/s]
+    claim_speed: speed that the source reports.
     """
     figure, (speed, twist) = panels(7.5, 6.5, 2, 1, "Start-up: mean speed and twist over time", sharex=True)
     first = runs[0]
@@ -73,7 +72,7 @@ def start_up(runs: Sequence[StartUp], claim_speed: float | None = None) -> "Figu
     return figure
 
 
-def _levels(axis: Any, marks: Mapping[str, float]) -> None:
+def _levels(axis: "Axes", marks: Mapping[str, float]) -> None:
     """Lines across a panel with their names at its right."""
     low, high = axis.get_ylim()
     shown = {name: at for name, at in marks.items() if low <= at <= high}
@@ -86,17 +85,14 @@ def _levels(axis: Any, marks: Mapping[str, float]) -> None:
 def twist(result: Result, shafts: int) -> "Figure":
     """Speed of the ends of a shaft and twist of its sections over time, and the last two turns of the crank.
 
-    Parameters
-    ----------
-    result : Result
-        A run of an elastic shaft
+    result: a run of an elastic shaft.
     """
     name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
-    found = pairs(result, shafts)
-    ends = {n: result.columns[f"{n}d"] for n in (found[0][0], found[-1][1])}
-    twists = {f"{a} - {b}": result.columns[a] - result.columns[b] for a, b in found}
-    last = result.columns[found[0][0]] >= result.columns[found[0][0]][-1] - 4 * np.pi
+    ends_of = pairs(result, shafts)
+    ends = {n: result.columns[f"{n}d"] for n in (ends_of[0][0], ends_of[-1][1])}
+    twists = {f"{a} - {b}": result.columns[a] - result.columns[b] for a, b in ends_of}
+    last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
     for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
         whole, zoomed = axes[2 * row : 2 * row + 2]
         factor, unit = axis_unit(si, *curves.values())

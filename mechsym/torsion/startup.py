@@ -8,17 +8,24 @@ speed |            . rigid            The mean speed follows the rigid shaft unt
       +---------------------------- t
 """
 
+import math
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 
-from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build
+from mechsym import mechanisms
+from mechsym.mechanisms.shaft import elastic as shaft_of
 from mechsym.page import Shown
 from mechsym.quantities import quantity, record
+from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import part, result
 from mechsym.simulate import Result
 from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
+from mechsym.torsion.twist import pairs, sections
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
@@ -73,21 +80,29 @@ class StartUp(Shown):
     speed_max: float
 
 
-def start_up(
-    parameters: CrankshaftFlywheelParameters, drive: StepTorque, claim: StartUpClaim, result: Result
-) -> StartUp:
-    """Explain the finished run of a start-up."""
-    linear = _linear(parameters)
+def start_up(mechanism: str, parameters: Record, drive: StepTorque, claim: StartUpClaim, result: Result) -> StartUp:
+    """Explain the finished run of a start-up.
+
+    mechanism: its name; of its shaft two discs are declared, with a letter for the damping between them.
+    """
+    (role,) = mechanisms.roles_of(mechanism).shafts
+
+    def linear_with(**letters: float) -> torsion.Matrices:
+        return torsion.matrices(mechanisms.build(mechanism, replace(parameters, **letters)))
+
+    linear, damping = linear_with(), str(role.damping[0])
     modes = torsion.modes(linear.mass, linear.stiffness)
-    bare = _linear(replace(parameters, m0=0.0))
-    excitation = torsion.orders(build(parameters))
+    bare = linear_with(**dict.fromkeys(role.masses, 0.0))
+    excitation = torsion.orders(mechanisms.build(mechanism, parameters))
     criticals = torsion.critical_speeds(modes, excitation, linear.damping)
-    unit = float(modes.shapes[:, -1] @ _linear(replace(parameters, c1=1.0)).damping @ modes.shapes[:, -1])
+    unit = float(modes.shapes[:, -1] @ linear_with(**{damping: 1.0}).damping @ modes.shapes[:, -1])
     rate = drive.torque / float(linear.mass.sum())
     t, speed, twist = series(result)
-    peak = float(np.abs(result.columns["phi0"] - result.columns["phi2"]).max())
+    elastic = shaft_of(mechanism, parameters)
+    assert elastic is not None  # whose role is given
+    (shaft,), ((crank, _),) = sections(elastic, result, float(result.t[0])), pairs(result, 1)
     return StartUp(
-        c1=parameters.c1,
+        c1=getattr(parameters, damping),
         drive=drive,
         claim=claim,
         result=result,
@@ -100,60 +115,193 @@ def start_up(
         holding_damping=tuple(torsion.holding_damping(c, drive.torque, unit) for c in criticals),
         rigid_rate=rate,
         captures=find_captures(t, speed, criticals, rate),
-        twist_peak=peak,
-        torque_peak=peak * parameters.k1,
-        speed_min=float(result.columns["phi0d"].min()),
-        speed_max=float(result.columns["phi0d"].max()),
+        twist_peak=shaft.twist_peak,
+        torque_peak=shaft.torque_peak,
+        speed_min=float(result.columns[f"{crank}d"].min()),
+        speed_max=float(result.columns[f"{crank}d"].max()),
     )
-
-
-def _linear(parameters: CrankshaftFlywheelParameters) -> torsion.Matrices:
-    return torsion.matrices(build(parameters))
 
 
 def series(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean speed of the crank and largest twist, each over a second.
 
-    Parameters
-    ----------
-    result : Result
-        A run longer than a second
-
-    Returns
-    -------
-    t, speed_mean, twist_amplitude : ndarray, shape (m,)
-        Every tenth of a second, from half a second after the start to half a second before the end
-        [s, rad/s, rad]
+    result: a run longer than a second. Returns t, speed_mean, twist_amplitude: every tenth of a second, from half a
+    second after the start to half a second before the end [s, rad/s, rad], shape (m,).
     """
     half = AVERAGE / 2
     count = int((result.t[-1] - result.t[0] - AVERAGE) / 0.1 + 1e-9)
     t = result.t[0] + half + 0.1 * np.arange(count + 1)
-    phi = np.interp(np.stack([t - half, t + half]), result.t, result.columns["phi0"])
-    twist = np.abs(result.columns["phi0"] - result.columns["phi2"])
+    crank, flywheel = (result.columns[name] for name in pairs(result, 1)[0])
+    phi = np.interp(np.stack([t - half, t + half]), result.t, crank)
+    twist = np.abs(crank - flywheel)
     first, last = np.searchsorted(result.t, [t - half, t + half])
     largest = np.array([twist[a:b].max() for a, b in zip(first, np.maximum(last, first + 1), strict=True)])
     return t, (phi[1] - phi[0]) / AVERAGE, largest
 
 
 def find_captures(
-    t: np.ndarray, speed: np.ndarray, criticals: tuple[Critical, ...], rate: float
+    t: np.ndarray, speed: np.ndarray, criticals: tuple[Critical, ...], rate: Annotated[float, "rad/s^2"]
 ) -> tuple[Capture, ...]:
     """Critical speeds at which the mean speed stays much longer than a rigid shaft would.
 
-    Parameters
-    ----------
-    t, speed : ndarray, shape (m,)
-        Times and mean speed [s, rad/s]
-    rate : float
-        Acceleration of the rigid shaft [rad/s^2]
+    t, speed: times and mean speed [s, rad/s], shape (m,); rate: acceleration of the rigid shaft.
     """
-    found = []
+    captures = []
     for critical in criticals:
         near = np.abs(speed - critical.speed) <= _BAND * critical.speed
         jumps = np.flatnonzero(np.diff(np.concatenate([[False], near, [False]]).astype(int)))
         for a, b in zip(jumps[::2], jumps[1::2], strict=True):
-            usual = 2 * _BAND * critical.speed / rate
-            if t[b - 1] - t[a] > _LONGER * usual:
-                released = bool(b < len(t))
-                found.append(Capture(critical=critical, t_start=float(t[a]), t_end=float(t[b - 1]), released=released))
-    return tuple(sorted(found, key=lambda c: c.t_start))
+            usual, start, end = 2 * _BAND * critical.speed / rate, float(t[a]), float(t[b - 1])
+            if end - start > _LONGER * usual:
+                captures.append(Capture(critical=critical, t_start=start, t_end=end, released=bool(b < len(t))))
+    return tuple(sorted(captures, key=lambda c: c.t_start))
+
+
+_SPOKEN = 4  # orders above are too weak to speak of
+
+
+def findings(start: StartUp) -> tuple[str, ...]:
+    """What happens and whether the model bears it."""
+    end = float(start.result.t[-1])
+    return (
+        f"natural frequency {_hertz(start.natural_bare)} bare, {_hertz(start.natural)} with the mean reciprocating "
+        "inertia",
+        f"a rigid shaft would gain {_speed(start.rigid_rate)} each second and reach {_speed(_rigid(start, end))} at "
+        f"{end:g} s at most",
+        *_passages(start),
+        *_validity(start),
+        *_claim(start),
+    )
+
+
+@result
+class HoldingOrder:
+    """A critical speed of a start-up."""
+
+    order: float = quantity("-")  #: Oscillations per turn
+    speed: float = quantity("rad/s")  #: Natural frequency by the order
+    held_below_c1: float = quantity("N*m*s/rad")  #: With a weaker damper the drive is held there
+
+
+@result
+class Stay:
+    """A stay at a critical speed."""
+
+    order: float = quantity("-")  #: That held the shaft
+    t_start: float = quantity("s")  #: When the mean speed came to it
+    t_end: float = quantity("s")  #: When the mean speed left it, or the run ended
+    released: bool = part()
+
+
+@result
+class StartUpNumbers:
+    """The numbers of a start-up, for files and scripts."""
+
+    c1: float = quantity("N*m*s/rad")  #: Torsional damping of the run
+    natural_bare: float = quantity("rad/s")  #: Natural frequency without the reciprocating inertia
+    natural: float = quantity("rad/s")  #: Natural frequency with the mean reciprocating inertia
+    rigid_speed_end: float = quantity("rad/s")  #: What a rigid shaft would reach
+    criticals: tuple[HoldingOrder, ...] = part()
+    captures: tuple[Stay, ...] = part()
+    speed_mean_end: float = quantity("rad/s")  #: Mean over the last second
+    speed_min: float = quantity("rad/s")  #: Least speed of the crank
+    speed_max: float = quantity("rad/s")  #: Greatest speed of the crank
+    twist_peak: float = quantity("rad")  #: Largest twist of the shaft
+    torque_peak: float = quantity("N*m")  #: Largest torque of the shaft
+    model_holds: bool = part()
+    energy_residual: float | None = quantity("-")  #: Work less dissipation less change of energy, by the work
+    tolerance_difference: float | None = quantity("-")  #: Of a speed to the run at a hundredth of the tolerance
+    status: str = part()
+
+
+def numbers(start: StartUp) -> StartUpNumbers:
+    """The numbers of a start-up."""
+    pairs = zip(start.criticals, start.holding_damping, strict=True)
+    return StartUpNumbers(
+        c1=start.c1,
+        natural_bare=start.natural_bare,
+        natural=start.natural,
+        rigid_speed_end=_rigid(start, float(start.result.t[-1])),
+        criticals=tuple(HoldingOrder(order=c.order, speed=c.speed, held_below_c1=d) for c, d in pairs),
+        captures=tuple(
+            Stay(order=c.critical.order, t_start=c.t_start, t_end=c.t_end, released=c.released) for c in start.captures
+        ),
+        speed_mean_end=float(start.speed_mean[-1]),
+        speed_min=start.speed_min,
+        speed_max=start.speed_max,
+        twist_peak=start.twist_peak,
+        torque_peak=start.torque_peak,
+        model_holds=start.twist_peak <= start.claim.twist_limit,
+        energy_residual=start.result.energy.residual,
+        tolerance_difference=start.result.tolerance_difference,
+        status=start.result.status,
+    )
+
+
+def _speed(value: float) -> str:
+    return quantity_text(value, "rad/s", 4)
+
+
+def _hertz(value: float) -> str:
+    return f"{figure(value / math.tau, 4)} Hz"
+
+
+def _rigid(start: StartUp, t: float) -> float:
+    return start.rigid_rate * max(t - start.drive.time, 0.0)
+
+
+def _passages(start: StartUp) -> list[str]:
+    lines, held = [], {c.critical.order for c in start.captures}
+    reached = float(start.speed_mean.max())
+    for critical, damping in zip(start.criticals, start.holding_damping, strict=True):
+        if critical.order in held:
+            lines.append(
+                f"order {critical.order:g} can hold a drive of {start.drive.torque:g} N*m at "
+                f"{_speed(critical.speed)} while c1 < {damping:.3f} N*m*s/rad (c1 = {start.c1:g})"
+            )
+        elif critical.speed < reached and critical.order <= _SPOKEN:
+            lines.append(f"order {critical.order:g} at {_speed(critical.speed)} is passed")
+    for c in start.captures:
+        left = "then leaves it" if c.released else "and is still held at the end"
+        lines.append(
+            f"from {c.t_start:.1f} s to {c.t_end:.1f} s the shaft is held at order {c.critical.order:g}, "
+            f"{_speed(c.critical.speed)}: the drive feeds the vibration, not the speed; {left}"
+        )
+    return lines or ["no resonance is reached"]
+
+
+def _validity(start: StartUp) -> list[str]:
+    times = start.torque_peak / abs(start.drive.torque) if start.drive.torque else float("inf")
+    lines = [
+        f"largest twist {quantity_text(start.twist_peak, 'rad', 3)}, shaft torque "
+        f"{quantity_text(start.torque_peak, 'N*m', 4)}, {figure(times, 3)} times the drive's"
+    ]
+    limit = start.claim.twist_limit
+    if start.twist_peak > limit:
+        lines.append(
+            f"the model does not hold: the twist is beyond {quantity_text(limit, 'rad', 3)}, no linear spring nor a "
+            "whole shaft"
+        )
+    if start.speed_min < -1e-3 * start.speed_max:
+        lines.append(f"the crank runs backwards within a turn (down to {_speed(start.speed_min)})")
+    return lines
+
+
+def _claim(start: StartUp) -> list[str]:
+    speed, since, end = start.claim.claim_speed, start.claim.claim_time, float(start.result.t[-1])
+    if speed is None or since is None:
+        return []
+    allowed = _rigid(start, max(since, end))
+    line = (
+        f"the source's {speed:g} rad/s ({_speed(speed)}) from {since:g} s on is "
+        f"{'beyond' if speed > allowed else 'within'} what the drive's work allows ({_speed(_rigid(start, since))} "
+        f"then, {_speed(allowed)} at {max(since, end):g} s)"
+    )
+    after = start.t >= since
+    if after.any():
+        low, high = start.speed_mean[after].min(), start.speed_mean[after].max()
+        line += (
+            f"; the mean speed found there is {_speed(float(low))} to {_speed(float(high))}, and the crank peaks at "
+            f"{_speed(start.speed_max)} in the whole run"
+        )
+    return [line]

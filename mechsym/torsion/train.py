@@ -10,11 +10,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from mechsym.mechanisms import crank_train, shaft
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
+from mechsym import mechanisms
+from mechsym.mechanisms.shaft import matrices
 from mechsym.plausible import Doubt, proportion
-from mechsym.quantities import quantity, record
+from mechsym.quantities import record
 from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.records import Record
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import Radian, RadPerSecond
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.twist import ShaftSection
 
@@ -27,40 +30,40 @@ _RANGE = 0.2  # of the speed of operation, either way: the operating range where
 
 @record
 class ShaftLimits:
-    """Section `[shaft]`: what the sections of an elastic shaft can bear."""
+    """What the sections of an elastic shaft can bear."""
 
     twist_limit: float = quantity("rad", default=0.1, above=0, high=10, about="largest twist of a section")
     diameter: float = quantity("m", default=0.0, low=0, high=5, about="smallest diameter; 0: the twist limit alone")
     shear_limit: float = quantity("Pa", default=2e8, above=0, high=2e9, about="shear at which the shaft yields")
 
 
-@record
+@result
 class CriticalOrder:
     """An order that meets a natural frequency within the operating range."""
 
-    order: float  #: Oscillations per turn [-]
-    speed: float  #: Where it is critical [rad/s]
-    natural: float  #: Natural frequency that it meets there [rad/s]
-    away: float  #: Critical speed over the speed of operation, less 1 [-]
-    torque_rigid: float  #: Its amplitude in the worst section of a rigid shaft, at the speed of operation [N*m]
-    torque: float  #: The same of the elastic shaft, linear and steady [N*m]
-    magnification: float  #: Quotient of the two [-]
+    order: float = quantity("-")  #: Oscillations per turn
+    speed: float = quantity("rad/s")  #: Where it is critical
+    natural: float = quantity("rad/s")  #: Natural frequency that it meets there
+    away: float = quantity("-")  #: Critical speed over the speed of operation, less 1
+    #: Its amplitude in the worst section of a rigid shaft, at the speed of operation
+    torque_rigid: float = quantity("N*m")
+    torque: float = quantity("N*m")  #: The same of the elastic shaft, linear and steady
+    magnification: float = quantity("-")  #: Quotient of the two
 
 
-@record
+@result
 class TrainVibration:
     """Torsional vibration of a crank train at its speed of operation."""
 
-    omega: float  #: Speed of operation [rad/s]
-    low: float  #: Least speed of the operating range [rad/s]
-    high: float  #: Its greatest speed [rad/s]
-    #: Natural frequencies without and with the mean reciprocating inertia [rad/s]
-    natural_bare: tuple[float, ...]
-    natural: tuple[float, ...]
-    criticals: tuple[CriticalOrder, ...]  #: Within the operating range, the nearest first
-    #: For each section, half the swing of the steady linear vibration [N*m], and twist that it can bear [rad]
-    torque_amplitude: tuple[float, ...]
-    twist_limit: tuple[float, ...]
+    omega: float = quantity("rad/s")  #: Speed of operation
+    low: float = quantity("rad/s")  #: Least speed of the operating range
+    high: float = quantity("rad/s")  #: Greatest speed of the operating range
+    natural_bare: tuple[float, ...] = quantity("rad/s")  #: Natural frequencies without the reciprocating inertia
+    natural: tuple[float, ...] = quantity("rad/s")  #: Natural frequencies with the mean reciprocating inertia
+    criticals: tuple[CriticalOrder, ...] = part()  #: Within the operating range, the nearest first
+    torque_rigid: float = quantity("N*m")  #: Half the swing of the worst section of a rigid shaft
+    torque_amplitude: tuple[float, ...] = quantity("N*m")  #: Of each section, half the swing of the steady vibration
+    twist_limit: tuple[float, ...] = quantity("rad")  #: Twist that each section can bear
 
 
 @record
@@ -72,55 +75,46 @@ class _Response:
 
 
 def vibration(
-    parameters: CrankTrainParameters,
+    name: str,
+    parameters: Record,
     gas: Mapping[str, Callable[[np.ndarray], np.ndarray]],
-    period: float,
-    speeds: tuple[float, float, float],
+    period: Radian,
+    speeds: tuple[RadPerSecond, RadPerSecond, RadPerSecond],
     limits: ShaftLimits,
 ) -> TrainVibration:
-    """Criticals and steady vibration of a crank train.
+    """Criticals and steady vibration of a mechanism on a shaft that twists, by its name and numbers.
 
-    Parameters
-    ----------
-    gas : mapping of str to callable
-        Input to its force over the shaft angle, ndarray (m,) to (m,) [N]
-    period : float
-        Of the gas [rad]
-    speeds : tuple of float
-        Speed of operation, lowest and highest speed of the operating range [rad/s]
+    gas: input to its force over the shaft angle, ndarray (m,) to (m,) [N]; period: of the gas; speeds: speed of
+    operation, lowest and highest speed of the operating range.
     """
     omega, low, high = speeds
-    mechanism = crank_train.build(parameters)
-    linear, bare = torsion.matrices(mechanism), shaft.matrices(parameters)
+    mechanism, bare = mechanisms.build(name, parameters), matrices(name, parameters)
+    linear = torsion.matrices(mechanism)
     modes = torsion.modes(linear.mass, linear.stiffness)
-    found = _response(linear, torsion.orders(mechanism, _COUNT, gas, period), omega)
-    stiffness = np.array(shaft.springs(parameters)[0])
+    response = _response(linear, torsion.orders(mechanism, _COUNT, gas, period), omega)
+    stiffness = -np.diag(bare.stiffness, 1)
     return TrainVibration(
         omega=omega,
         low=low,
         high=high,
         natural_bare=tuple(torsion.modes(bare.inertia, bare.stiffness).frequencies[1:].tolist()),
         natural=tuple(modes.frequencies[1:].tolist()),
-        criticals=_criticals(found, modes.frequencies[1:], omega, (low, high)),
-        torque_amplitude=tuple(_swing(found, period).tolist()),
+        criticals=_criticals(response, modes.frequencies[1:], omega, (low, high)),
+        torque_amplitude=tuple(_swing(response, response.elastic, period).tolist()),
+        torque_rigid=float(_swing(response, response.rigid, period).max()),
         twist_limit=tuple(_limits(limits, stiffness).tolist()),
     )
 
 
-def operating_range(omega: float, start: float | None, given: tuple[float, float] | None) -> tuple[float, float, float]:
-    """Speed of operation with its range: as given, else a fifth either way, from the start of the run on.
+def operating_range(
+    omega: RadPerSecond, start: RadPerSecond | None, named: tuple[RadPerSecond, RadPerSecond] | None
+) -> tuple[float, float, float]:
+    """Speed of operation with its range: as named, else a fifth either way, from the start of the run on [rad/s].
 
-    Parameters
-    ----------
-    omega : float
-        Speed of operation [rad/s]
-    start : float or None
-        Speed at which a run starts [rad/s]
-    given : tuple of float or None
-        Lowest and highest speed [rad/s]
+    named: lowest and highest speed.
     """
-    if given is not None:
-        return omega, *given
+    if named is not None:
+        return omega, *named
     low = (1 - _RANGE) * omega
     return omega, (min(low, start) if start else low), (1 + _RANGE) * omega
 
@@ -139,26 +133,27 @@ def _response(linear: torsion.Matrices, excitation: torsion.Orders, omega: float
 
 
 def _criticals(
-    found: _Response, natural: np.ndarray, omega: float, span: tuple[float, float]
+    response: _Response, natural: np.ndarray, omega: float, span: tuple[float, float]
 ) -> tuple[CriticalOrder, ...]:
-    rigid, elastic = (np.abs(a).max(axis=1) for a in (found.rigid, found.elastic))
+    rigid, elastic = (np.abs(a).max(axis=1) for a in (response.rigid, response.elastic))
     strong = rigid > _WEAK * rigid.max()
     rows = [
         CriticalOrder(
             order=float(k), speed=float(f / k), natural=float(f), away=float(f / k / omega - 1),
             torque_rigid=float(r), torque=float(e), magnification=float(e / r),
         )
-        for k, r, e, counts in zip(found.order, rigid, elastic, strong, strict=True)
+        for k, r, e, counts in zip(response.order, rigid, elastic, strong, strict=True)
         for f in natural
         if counts and span[0] <= f / k <= span[1]
     ]  # fmt: skip
     return tuple(sorted(rows, key=lambda c: abs(c.away)))
 
 
-def _swing(found: _Response, period: float) -> np.ndarray:
+def _swing(response: _Response, torque: np.ndarray, period: float) -> np.ndarray:
+    """Half the swing of each section, of the amplitudes of its orders [N*m]."""
     phi = np.linspace(0.0, period, 1440, endpoint=False)
-    turning = np.exp(1j * found.order[:, None] * phi)
-    return np.ptp(np.real(found.elastic.T @ turning), axis=1) / 2
+    turning = np.exp(1j * response.order[:, None] * phi)
+    return np.ptp(np.real(torque.T @ turning), axis=1) / 2
 
 
 def _limits(limits: ShaftLimits, stiffness: np.ndarray) -> np.ndarray:
@@ -168,28 +163,32 @@ def _limits(limits: ShaftLimits, stiffness: np.ndarray) -> np.ndarray:
     return np.minimum(limits.twist_limit, limits.shear_limit * np.pi * limits.diameter**3 / 16 / stiffness)
 
 
-def words(found: TrainVibration) -> tuple[str, ...]:
+def words(train: TrainVibration) -> tuple[str, ...]:
     """What a reader of a crank train should know of its criticals."""
-    bare, full = (", ".join(figure(f / math.tau, 4) for f in values) for values in (found.natural_bare, found.natural))
+    bare, full = (", ".join(figure(f / math.tau, 4) for f in values) for values in (train.natural_bare, train.natural))
     lines = [f"natural frequency {bare} Hz bare, {full} Hz with the mean reciprocating inertia"]
-    for c in found.criticals:
-        away, side = figure(round(100 * abs(c.away), 1)), "above" if c.away > 0 else "below"
-        where = f"{away} % {side}" if abs(c.away) >= _SAME else "at"
-        at, carried = quantity_text(c.speed, "rad/s", 4), quantity_text(c.torque, "N*m", 4)
-        lines.append(
-            f"order {c.order:g} is critical at {at}, {where} the speed of operation: "
-            f"there the shaft carries {carried} of it, {c.magnification:.3g} times a rigid one's"
-        )
-    if not found.criticals:
-        low, high = (quantity_text(speed, "rad/s", 4) for speed in (found.low, found.high))
+    lines += map(critical_words, train.criticals)
+    if not train.criticals:
+        low, high = (quantity_text(speed, "rad/s", 4) for speed in (train.low, train.high))
         lines.append(f"no order is critical from {low} to {high}")
     return tuple(lines)
 
 
-def twist_words(found: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[str, ...]:
+def critical_words(critical: CriticalOrder) -> str:
+    """What a reader should know of one critical."""
+    away, side = figure(round(100 * abs(critical.away), 1)), "above" if critical.away > 0 else "below"
+    where = f"{away} % {side}" if abs(critical.away) >= _SAME else "at"
+    at, carried = quantity_text(critical.speed, "rad/s", 4), quantity_text(critical.torque, "N*m", 4)
+    return (
+        f"order {critical.order:g} is critical at {at}, {where} the speed of operation: "
+        f"there the shaft carries {carried} of it, {critical.magnification:.3g} times a rigid one's"
+    )
+
+
+def twist_words(train: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[str, ...]:
     """What a run says of the twist that the shaft can bear."""
     lines = []
-    for section, limit in zip(twist, found.twist_limit, strict=True):
+    for section, limit in zip(twist, train.twist_limit, strict=True):
         peak, most = (quantity_text(angle, "rad", 3) for angle in (section.twist_peak, limit))
         lines.append(
             f"largest twist of {section.section} {peak}, shaft torque {quantity_text(section.torque_peak, 'N*m', 4)}; "
@@ -200,17 +199,17 @@ def twist_words(found: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[s
     return tuple(lines)
 
 
-def doubts(found: TrainVibration, twist: Sequence[ShaftSection] = ()) -> tuple[Doubt, ...]:
-    """Criticals that are magnified at the speed of operation, and twist beyond what the shaft can bear."""
-    told: tuple[Doubt, ...] = ()
-    for c in found.criticals:
+def doubts(train: TrainVibration, twist: Sequence[ShaftSection] = ()) -> tuple[Doubt, ...]:
+    """Criticals that swing the shaft at the speed of operation, and twist beyond what the shaft can bear."""
+    raised: tuple[Doubt, ...] = ()
+    for c in train.criticals:
         if abs(c.away) <= _NEAR:
-            what = f"order {c.order:g}, critical at {quantity_text(c.speed, 'rad/s', 4)}: magnification at "
-            what += quantity_text(found.omega, "rad/s", 4)
-            told += proportion("critical", what, c.magnification)
-    for section, limit in zip(twist, found.twist_limit if twist else (), strict=True):
+            what = f"order {c.order:g}, critical at {quantity_text(c.speed, 'rad/s', 4)}: its torque at "
+            what += f"{quantity_text(train.omega, 'rad/s', 4)} / the swing of a rigid shaft"
+            raised += proportion("critical", what, c.torque / train.torque_rigid)
+    for section, limit in zip(twist, train.twist_limit if twist else (), strict=True):
         if section.twist_peak > limit:
             why = "beyond it the shaft yields or breaks ([shaft] of the case); a linear spring is no model of it"
-            told += (Doubt(code="twist", quantity=f"twist_peak of {section.section}", value=section.twist_peak,
+            raised += (Doubt(code="twist", quantity=f"twist_peak of {section.section}", value=section.twist_peak,
                            usual=f"at most {limit:.3g} rad", why=why),)  # fmt: skip
-    return told
+    return raised

@@ -1,6 +1,7 @@
 """The workbench in a real browser: sliders move the verdict, nothing leaves the machine, two browsers are two."""
 
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -21,42 +22,58 @@ OUTSIDE = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}
 
 
 @pytest.fixture(scope="module")
-def address():
+def entrance(tmp_path_factory):
+    """The address that the workbench prints, with its token."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    server = subprocess.Popen([sys.executable, "-m", "mechsym", "app", "zotov-89", "--port", str(port)],
-                              stderr=subprocess.DEVNULL, env=OUTSIDE)  # fmt: skip
-    where = f"http://127.0.0.1:{port}/"
+    said = tmp_path_factory.mktemp("app") / "said.txt"
+    with said.open("w") as to:
+        server = subprocess.Popen([sys.executable, "-m", "mechsym", "app", "zotov-89", "--port", str(port)],
+                                  stderr=to, env=OUTSIDE)  # fmt: skip
     try:
         for _ in range(900):
-            try:
-                urllib.request.urlopen(where, timeout=5).close()
+            if (words := said.read_text().split()) and answers(words[0]):
                 break
-            except OSError:
-                time.sleep(0.2)
-        yield where
+            time.sleep(0.2)
+        yield words[0]
     finally:
         server.terminate()
         server.wait()
 
 
+def answers(where):
+    try:
+        urllib.request.build_opener(urllib.request.HTTPCookieProcessor()).open(where, timeout=5).close()
+    except OSError:
+        return False
+    return True
+
+
 @pytest.fixture(scope="module")
-def browser():
+def address(entrance):
+    return entrance.partition("?")[0]
+
+
+@pytest.fixture(scope="module")
+def browser(entrance):
     with playwright.sync_playwright() as running:
-        found = running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield found
-        found.close()
+        opened = running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        known = opened.new_context()  # one that has come in by the entrance
+        known.new_page().goto(entrance)
+        yield known
+        opened.close()
 
 
 @pytest.fixture
 def page(browser, address):
-    made = browser.new_page(viewport={"width": 1500, "height": 1100})
+    made = browser.new_page()
+    made.set_viewport_size({"width": 1500, "height": 1100})
     made.asked, made.errors = [], []
     made.on("request", lambda request: made.asked.append(request.url))
     made.on("pageerror", lambda error: made.errors.append(str(error)))
     made.goto(address)
-    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be built", timeout=30_000)
+    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be cut", timeout=30_000)
     yield made
     made.close()
 
@@ -114,7 +131,7 @@ def test_every_move_is_answered(page, record_property):
 def test_two_browsers_do_not_share_state(browser, address, page):
     other = browser.new_page()
     other.goto(address)
-    playwright.expect(other.locator("[data-verdict]")).to_contain_text("can be built", timeout=30_000)
+    playwright.expect(other.locator("[data-verdict]")).to_contain_text("can be cut", timeout=30_000)
     before = other.locator("table").first.inner_text()
     press(page, "spring.p0")
     other.wait_for_timeout(500)
@@ -133,8 +150,9 @@ def test_what_an_address_may_not_say_is_refused_in_words(browser, address):
 def said(page, tab):
     """What the command of a tab says, once it has said something."""
     shown = page.locator(f'[data-run="{tab}"]')
-    playwright.expect(shown).to_contain_text("exit status", timeout=120_000)
-    return shown.inner_text()
+    ended = shown.locator("p.mechsym-note").first
+    playwright.expect(ended).to_have_text(re.compile("^(done|refused|failed)"), timeout=120_000)
+    return ended.inner_text(), shown.inner_text()
 
 
 @pytest.mark.parametrize(
@@ -142,8 +160,8 @@ def said(page, tab):
 )
 def test_a_tab_runs_its_command_and_again_when_a_slider_rests(page, tab, key):
     page.get_by_role("tab", name=tab, exact=True).click()
-    first = said(page, tab)
-    assert "exit status 0" in first
+    state, first = said(page, tab)
+    assert state == "done"
     section = page.locator(".q-expansion-item", has_text=key.partition(".")[0]).first
     slider = page.locator(f'.q-slider[data-key="{key}"] [tabindex="0"]').first
     if not slider.is_visible():
@@ -152,7 +170,7 @@ def test_a_tab_runs_its_command_and_again_when_a_slider_rests(page, tab, key):
     page.keyboard.press("ArrowRight")
     changed = "([tab, first]) => document.querySelector(`[data-run=${tab}]`).innerText !== first"
     page.wait_for_function(changed, arg=[tab, first], timeout=120_000)
-    assert "exit status 0" in said(page, tab) and not page.errors
+    assert said(page, tab)[0] == "done" and not page.errors
     page.wait_for_url(f"**tab={tab}*", timeout=10_000)
 
 
@@ -189,7 +207,7 @@ def test_an_upload_is_judged_and_shown(browser, address, page):
     text = cases.text("zotov-142")
     page.set_input_files("input[type=file]", {"name": "a.toml", "mimeType": "text/plain", "buffer": text.encode()})
     page.wait_for_url("**case=upload-*", timeout=60_000)
-    playwright.expect(page.locator("[data-verdict]")).to_contain_text("built", timeout=30_000)
+    playwright.expect(page.locator("[data-verdict]")).to_contain_text("guide can be cut", timeout=30_000)
     page.get_by_role("button", name="upload", exact=True).click()
     bad = text.replace('mechanism = "crosshead"', 'mechanism = "./own.py"')
     page.set_input_files("input[type=file]", {"name": "b.toml", "mimeType": "text/plain", "buffer": bad.encode()})
@@ -199,9 +217,10 @@ def test_an_upload_is_judged_and_shown(browser, address, page):
 
 @pytest.mark.parametrize("width", [375, 900, 1400])
 def test_no_width_scrolls_sideways(browser, address, width):
-    made = browser.new_page(viewport={"width": width, "height": 900})
+    made = browser.new_page()
+    made.set_viewport_size({"width": width, "height": 900})
     made.goto(address)
-    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be built", timeout=30_000)
+    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be cut", timeout=30_000)
     assert made.evaluate("document.documentElement.scrollWidth") <= width
     made.close()
 
@@ -210,4 +229,37 @@ def test_a_formula_gets_its_verdict(page):
     page.get_by_role("tab", name="audit", exact=True).click()
     page.get_by_label("formula").fill("(r1 + r2)*cos(phi) + sqrt((l1 + l2)**2 - (r1 + r2)**2*sin(phi)**2)")
     page.get_by_role("button", name="run mechsym audit").click()
-    assert "verdict" in said(page, "audit")
+    assert "verdict" in said(page, "audit")[1]
+
+
+FOREIGN = """async where => {
+  const socket = new WebSocket(where.replace("http", "ws") + "_nicegui_ws/socket.io/?EIO=4&transport=websocket");
+  const opened = await new Promise(done => { socket.onopen = () => done(true); socket.onerror = () => done(false); });
+  const read = await fetch(where, { credentials: "include" }).then(r => r.text(), () => "");
+  const frame = document.body.appendChild(Object.assign(document.createElement("iframe"), { src: where }));
+  await new Promise(done => { frame.onload = done; setTimeout(done, 3000); });
+  return { opened, read };
+}"""
+
+
+def test_a_foreign_page_in_the_same_browser_learns_nothing(browser, address, page, tmp_path):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    stranger = subprocess.Popen(
+        [sys.executable, "-m", "http.server", str(port), "--bind", "127.0.0.1"], cwd=tmp_path,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    try:
+        time.sleep(1.0)
+        foreign = browser.new_page()
+        foreign.goto(f"http://127.0.0.1:{port}/")
+        learnt = foreign.evaluate(FOREIGN, address)
+        inside = [
+            frame for frame in foreign.frames if "mechsym" in frame.content()[:20_000] and "zotov" in frame.content()
+        ]
+        foreign.close()
+    finally:
+        stranger.terminate()
+        stranger.wait()
+    assert not learnt["opened"] and learnt["read"] == "" and not inside

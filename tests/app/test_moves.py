@@ -13,6 +13,7 @@ from mechsym.app.idle import idle
 from mechsym.cli import mechsym
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
+JSON = ("--json", "--with-units")
 _NOISE = ("wall", "seconds", "residual", "doubt")  # differs between two equal runs, is round-off, or is about the case
 
 
@@ -21,10 +22,10 @@ def shown(tab, name, values):
     if tab == "hinge":
         a = hinge_answer(name, values)
         return a.good, a.words, a.rows, a.bars, a.doubts, tuple((c.name, c.x, c.y) for c in a.curves)
-    done = CliRunner().invoke(mechsym, [*commands.words(tab, name, {**_short(tab, name), **values}), "--json"])
+    done = CliRunner().invoke(mechsym, [*commands.words(tab, name, {**_short(tab, name), **values}), *JSON])
     if done.exception and not isinstance(done.exception, SystemExit):
         return str(done.exception)
-    found: Run = commands._read(done.exit_code, done.stdout, done.stderr, ())
+    found: Run = commands.run_of(done.exit_code, done.stdout, done.stderr)
     return found.status, found.words, tuple(r for r in found.rows if not any(w in r[0] for w in _NOISE))
 
 
@@ -54,7 +55,7 @@ def moved(tab, name, slider, before):
 def split(tab, name):
     """Sliders of a tab that are offered, and those that are not."""
     case = cases.load(name)
-    here = [s for s in sliders(case) if s.key.partition(".")[0] in commands.reads(tab)]
+    here = [s for s in sliders(case) if s.key.partition(".")[0] in commands.reads(tab, case)]
     left_out = idle(case, tab)
     return [s for s in here if s.key not in left_out], [s for s in here if s.key in left_out]
 
@@ -107,8 +108,18 @@ def test_letters_that_enter_nothing_are_left_out_of_any_mechanism():
     assert letters("cycle", str(EXAMPLES / "compressor.toml")) == {"I", "I_rod", "m_rod", "m_piston"}
     assert not letters("forces", str(EXAMPLES / "compressor.toml"))  # its table has the inertia on the shaft
     assert not letters("simulate", str(EXAMPLES / "compressor.toml"))
-    assert letters("forces", "nunes-hypocycloid") == {"I1", "I2"}  # the speed is held
+    assert not letters("forces", "nunes-hypocycloid")
     assert {"m1", "m2", "I01"} <= letters("cycle", "zotov-89") and not letters("hinge", "zotov-89")
+    assert letters("cycle", "opposed-pistons") == {"I0", "I_f", "c", "m0", "u0"}  # put together of throws
+    assert letters("forces", "opposed-pistons") == {"m0"}  # nothing weighs
+    assert letters("cycle", "balandin") == {"I1", "I_link", "m_link", "u1"}
+    assert letters("simulate", "balandin") == {"u1"} and not letters("forces", "balandin")
+
+
+def test_masses_that_balance_each_other_move_no_torque():
+    """Three pistons a third of a turn apart, and the foot of Jansen's leg, a triangle that moves as one part."""
+    assert letters("cycle", str(EXAMPLES / "swash-plate.toml")) == {"I", "m_p"}
+    assert letters("simulate", str(EXAMPLES / "walking-leg.toml")) == {"h", "i"}
 
 
 ROLES = """    m.bearing("shaft", reactions=("R_x_O", "R_y_O"), turns=phi, radius=e)

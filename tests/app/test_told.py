@@ -4,6 +4,7 @@ import json
 
 import pytest
 from click.testing import CliRunner
+from pictures import contrast
 
 from mechsym import cases
 from mechsym.app import commands
@@ -11,7 +12,7 @@ from mechsym.app.answers import Plotted
 from mechsym.app.markup import chart, table
 from mechsym.app.told import told, unit_of
 from mechsym.cli import mechsym
-from mechsym.style import DARK, QUIET, contrast
+from mechsym.style import DARK, QUIET
 
 _DARK_PAGE = "#121212"  # of the browser's framework
 
@@ -21,16 +22,19 @@ def rows(found, units=None):
 
 
 def test_numbers_stand_in_units_of_people():
+    units = {"t_end": "s", "speeds.phi.mean": "rad/s", "p_max_mpa": "MPa", "vibration.natural": "rad/s",
+             "twist[0].twist_peak": "rad", "speed_rpm": "rpm"}  # fmt: skip
     given = {"speed_rpm": 89.0, "t_end": 2.0, "speeds": {"phi": {"mean": 9.42477796}}, "p_max_mpa": [7.4],
              "vibration": {"natural": [62.831853, 125.663706]}, "twist": [{"of": "a", "twist_peak": 0.1}]}  # fmt: skip
-    assert rows(given) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4 MPa",
+    assert rows(given, units) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4 MPa",
                            "vibration.natural": "10, 20 Hz", "twist[0]": "of a; twist_peak 5.7296 deg"}  # fmt: skip
 
 
 def test_round_off_is_named_or_zero():
     given = {"energy": {"work": {"gas": 1.1e6, "hinge": -1.9e-5}}, "power_residual": 3e-16, "tolerance": 1e-10}
-    assert rows(given) == {"power_residual": "0 (below 1e-9)", "tolerance": "1e-10", "energy.work.gas": "1100 kJ",
-                           "energy.work.hinge": "0 J"}  # fmt: skip
+    units = {"energy.work.gas": "J", "energy.work.hinge": "J", "tolerance": "-", "power_residual": "-"}
+    shown = {"power_residual": "0", "tolerance": "1e-10"}
+    assert rows(given, units) == shown | {"energy.work.gas": "1100 kJ", "energy.work.hinge": "0 J"}
 
 
 def test_what_belongs_together_stands_in_one_row():
@@ -38,7 +42,7 @@ def test_what_belongs_together_stands_in_one_row():
     given = {"max": {"phi_deg": 359.0, "F": 2000.0}, "min": {"phi_deg": 0.0, "F": -10.0},
              "angle_of_max_deg": {"F": 12.5}, "torque_orders": orders, "facts": ["one", "two"],
              "wiebe": {"start": {"value": 0.1, "confidence": 0.01}}}  # fmt: skip
-    assert told(given, {"F": "N"}) == [
+    assert told(given, {"max.F": "N", "wiebe.start.value": "rad", "torque_orders.amplitude": "N*m"}) == [
         ("facts", "one"), ("facts", "two"), ("F", "-0.01 to 2 kN, largest at 12.5 deg"),
         ("torque_orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe.start", "5.7296 deg ± 0.57296 deg"),
     ]  # fmt: skip
@@ -64,7 +68,7 @@ def numbers(path, found):
     if isinstance(found, dict) and found.keys() != {"order", "amplitude", "phase"}:
         return [n for k, v in found.items() for n in numbers(f"{path}.{k}" if path else k, v)]
     if isinstance(found, list):
-        return [n for v in found for n in numbers(path, v)]
+        return [n for i, v in enumerate(found) for n in numbers(path if isinstance(v, float) else f"{path}[{i}]", v)]
     return [path] if isinstance(found, float) else []
 
 
@@ -75,22 +79,25 @@ PAIRS = [(t, n) for n in cases.names() for t in commands.tabs(cases.load(n)) if 
 @pytest.mark.heavy
 @pytest.mark.parametrize(("tab", "name"), PAIRS)
 def test_the_unit_of_every_number_is_known(tab, name):
-    done = CliRunner().invoke(mechsym, [tab, name, "--json"])
-    found = {k: v for k, v in json.loads(done.stdout).items() if k not in ("doubts", "accepted", "min", "max")}
-    assert [path for path in numbers("", found) if not unit_of(path)[1]] == []
+    answer = json.loads(CliRunner().invoke(mechsym, [tab, name, "--json", "--with-units"]).stdout)
+    found = {k: v for k, v in answer["value"].items() if k not in ("doubts", "accepted", "min", "max")}
+    assert [path for path in numbers("", found) if not unit_of(path, answer["units"])[1]] == []
 
 
 def test_two_units_of_one_name_are_told_apart():
-    assert rows({"heat_in_j": 353.8, "heat_in_kw": 3.54}) == {"heat_in_j": "353.8 J", "heat_in_kw": "3.54 kW"}
+    units = {"heat_in_j": "J", "heat_in_kw": "kW"}
+    assert rows({"heat_in_j": 353.8, "heat_in_kw": 3.54}, units) == {"heat_in_j": "353.8 J", "heat_in_kw": "3.54 kW"}
 
 
 def test_what_only_rounds_is_no_number():
     weight = {"unbalance": -5.1e-18, "angle_deg": 177.6, "rms_before": 1.451e-12}
     given = {"shaking": {"counterweight": weight}, "rodless": {"resultant_off_crank_deg": 8.4e-15}}
-    assert rows(given) == {"shaking.counterweight.unbalance": "0 kg m", "shaking.counterweight.rms_before": "0 N",
-                           "rodless.resultant_off_crank": "0 deg"}  # fmt: skip
-    assert rows({"verified": {"energy_residual": [6.6e-14, -2.3e-13]}}) == {
-        "verified.energy_residual": "0 (below 1e-9) at most"
+    units = {"shaking.counterweight.unbalance": "kg*m", "shaking.counterweight.rms_before": "N"}
+    units["rodless.resultant_off_crank_deg"] = "deg"
+    none = {"shaking.counterweight.unbalance": "0 kg m", "shaking.counterweight.rms_before": "0 N"}
+    assert rows(given, units) == none | {"rodless.resultant_off_crank": "0 deg"}
+    assert rows({"verified": {"energy_residual": [6.6e-14, -2.3e-13]}}, {"verified.energy_residual": "-"}) == {
+        "verified.energy_residual": "0 at most"
     }
     assert rows({"findings": ["carries 70.21 N*m of it"]}) == {"findings": "carries 70.21 N m of it"}
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from mechsym.audit.question import Question
-from mechsym.audit.reader import read
+from mechsym.audit.judge.question import Question
+from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 

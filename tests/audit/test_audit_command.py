@@ -40,6 +40,7 @@ def test_own_formula(run, formula, status, verdict):
     assert row["verdict"] == verdict and set(row) >= KEYS
 
 
+X = ("--formula", "r*(1 - cos(phi))", "--against", "slider_crank.x")
 BAD = [
     (("--formula", "__import__('os')", "--against", "crosshead.inertia"), "not a known function"),
     (("--formula", "q", "--against", "crosshead.inertia"), "unknown letter"),
@@ -49,6 +50,11 @@ BAD = [
     (("--formula", "r", "--against", "crosshead.x", "--case", "chmielewski"), "is of the mechanism"),
     (("--formula", "r", "--against", "crosshead.x", "--letters", "R"), "LETTER=EXPRESSION"),
     (("--formula", "r", "--against", "crosshead.x", "--source", "prymak"), "stand alone"),
+    ((*X, "--letters", "R=r, R=l"), "two meanings"),
+    ((*X, "--assume", "phid = 0, phid = 5"), "assumed already"),
+    ((*X, "--assume", "r > l"), "no values of the letters keep it"),
+    ((*X, "--assume", "l < r/2, l > r"), "contradicts itself"),
+    ((*X, "--claim", "within 1"), "is 100 %"),
     (("--against", "crosshead.x"), "belong to --formula"),
     (("--source", "nobody"), "is not known"),
     (("--source", "prymak", "--write"), "all sources"),
@@ -61,6 +67,19 @@ def test_bad_input_ends_with_one_line(run, arguments, reason):
     done = run(*arguments)
     assert done.returncode == 2
     assert reason in done.stderr and done.stderr.count("\n") == 1 and not done.stdout
+
+
+@pytest.mark.parametrize(
+    ("option", "idle"), [(("--letters", "q=r+l"), "q of --letters"), (("--assume", "m = 0"), "m = 0")]
+)
+def test_what_is_not_read_is_told(run, option, idle):
+    row = json.loads(run(*X, *option, "--claim", "within 99 %", "--json").stdout)
+    assert f"not read: {idle}" in row["note"]
+
+
+@pytest.mark.parametrize("assume", ["r < l", "l > 2*r, l < 9*r", "r < l/3", "phid = 0, phidd = 0"])
+def test_assumptions_that_machines_keep_are_taken(run, assume):
+    assert run(*X, "--assume", assume, "--claim", "within 99 %", "--json").returncode == 0
 
 
 def test_file_of_formulas(run, tmp_path):
@@ -113,3 +132,18 @@ def test_one_source_agrees_with_the_record(run):
     rows = json.loads(done.stdout)
     assert done.returncode == 0, done.stderr
     assert {r["source"] for r in rows} == {"003_8746f5f4ad51b1d1"} and all(set(r) >= KEYS for r in rows)
+
+
+@pytest.mark.parametrize(
+    ("angle", "formula", "verdict"),
+    [
+        ("pi/2", "r + l - sqrt(l**2 - r**2)", "exact"),
+        ("pi", "2*r", "exact"),
+        ("pi/4", "r*(1 - sqrt(2)/2) + l - sqrt(l**2 - r**2/2)", "exact"),
+        ("pi/4", "r*(1 - cos(phi)) + l - sqrt(l**2 - r**2*sin(phi)**2)", "exact"),
+        ("1.5", "r*(1 - cos(phi)) + l - sqrt(l**2 - r**2*sin(phi)**2)", "exact"),
+    ],
+)
+def test_a_pose_may_be_assumed(run, angle, formula, verdict):
+    words = ("--formula", formula, "--against", "slider_crank.x", "--assume", f"phi = {angle}", "--json")
+    assert json.loads(run(*words).stdout)["verdict"] == verdict

@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from mechsym.audit.certified import of_formula, of_sources
-from mechsym.audit.findings import rows
-from mechsym.audit.formula import Asked, answer
+from mechsym.audit.hosts.sources import certificate_of_formula, certificate_of_sources, rows
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.row import answer
 from mechsym.errors import BadInput
 from mechsym.papers import sources
 
@@ -18,7 +18,7 @@ ACCELERATION = f"r*cos(phi) + r**2*cos(2*phi)/{ROOT} + r**4*sin(2*phi)**2/(4*{RO
 
 def text(formula, against):
     asked = Asked(text=formula, against=against)
-    return of_formula(asked, answer(asked))
+    return certificate_of_formula(asked, answer(asked))
 
 
 def checked(path, script):
@@ -42,7 +42,7 @@ def test_coq_accepts_what_is_right_and_refuses_a_wrong_sign(tmp_path):
 @pytest.mark.slow
 def test_coq_accepts_those_of_a_source(tmp_path):
     found = sources("moroianu2017") + sources("prymak")
-    script, without = of_sources(found, rows(found))
+    script, without = certificate_of_sources(found, rows(found))
     assert script.count("Theorem") >= 10 and not without
     done = checked(tmp_path, script)
     assert done.returncode == 0, done.stderr

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from mechsym.audit.code import read_code
-from mechsym.audit.code_rows import check_code
-from mechsym.audit.formula import Asked
+from mechsym.audit.hosts.code import read_code
+from mechsym.audit.hosts.program import check_code
+from mechsym.audit.judge.asked import Asked
 from mechsym.errors import BadInput
 
 MODELICA = """
@@ -102,7 +102,7 @@ def test_a_return_without_a_name_is_told_by_its_numbers(tmp_path):
 
 
 def test_numbers_that_several_theories_have_are_asked_back(tmp_path, monkeypatch):
-    monkeypatch.setattr("mechsym.audit.code_rows.shipped", lambda: ["rhombic_drive"])
+    monkeypatch.setattr("mechsym.audit.hosts.program.shipped", lambda: ["rhombic_drive"])
     with pytest.raises(BadInput, match="near to rhombic_drive.gap_d, slider_crank.x_d; say which with --against"):
         check_code(write(tmp_path / "p.java", JAVA) + "::rate", "", LETTERS)
 

@@ -5,8 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from mechsym.audit.algebra import FLOATS
-from mechsym.audit.formula import Asked, answer, check_formula
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.read.algebra import FLOATS
+from mechsym.audit.row import answer
 from mechsym.audit.theory.catalogue import shipped, theory
 from mechsym.audit.theory.declared import theory_of
 from mechsym.audit.theory.record import complete

@@ -3,14 +3,11 @@
 import mpmath
 import pytest
 
-from mechsym.audit.algebra import DIGITS
-from mechsym.audit.bench import bench, value
-from mechsym.audit.formula import check_formula
-from mechsym.audit.long_rods import ORDER_DIGITS, LongRods
-from mechsym.audit.orders import COARSE
-from mechsym.audit.question import Question, digit_values, small_rods
-from mechsym.audit.reader import read
-from mechsym.audit.states import drawn
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.judge.orders import COARSE, ORDER_DIGITS, LongRods
+from mechsym.audit.judge.question import Question, bench, digit_values, drawn, small_rods, value
+from mechsym.audit.read.algebra import DIGITS
+from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 

@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 
 from mechsym import cli
-from mechsym.audit.displayed import displayed
-from mechsym.audit.formula import Asked
-from mechsym.audit.paper_rows import chains, check_paper, summary
+from mechsym.audit.hosts.paper import chains, check_paper, displayed, summary
+from mechsym.audit.judge.asked import Asked
 from mechsym.errors import BadInput
 
 FOLDER = Path(__file__).parent / "paper"

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import sympy
 
-from mechsym.audit.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
-from mechsym.audit.bench import max_rel_error, turn
-from mechsym.audit.dimensions import is_consistent, rescaled
-from mechsym.audit.orders import groups, orders
-from mechsym.audit.prover import certified, is_exact, judges
-from mechsym.audit.reader import read_expression
-from mechsym.audit.repair import examine, standing
-from mechsym.audit.search import truncated
+from mechsym.audit.judge.dimensions import is_consistent, rescaled
+from mechsym.audit.judge.orders import groups, orders
+from mechsym.audit.judge.prover import is_exact, judges, proves_equal
+from mechsym.audit.judge.question import max_rel_error, turn
+from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
+from mechsym.audit.read.reader import read_expression
+from mechsym.audit.repair.examination import examine, standing
+from mechsym.audit.repair.search import truncated
 
 EXACT = [
     ("r*sin(phi + psi)/cos(psi)", "dx_dphi"),
@@ -37,7 +37,7 @@ WRONG = [
 def test_exact_formulas_are_proved(ask, text, quantity):
     question = ask(text, quantity)
     assert is_exact(judges(question), question.formula.tree)
-    assert certified(question)
+    assert proves_equal(question, question.formula.tree)
     assert max_rel_error(turn(question), question.formula.tree) < 1e-12
 
 
@@ -45,7 +45,7 @@ def test_exact_formulas_are_proved(ask, text, quantity):
 def test_the_rest_is_refuted_down_to_the_last_digits(ask, text, quantity):
     question = ask(text, quantity)
     assert not is_exact(judges(question), question.formula.tree)
-    assert not certified(question)
+    assert not proves_equal(question, question.formula.tree)
 
 
 def test_orders_by_group(ask, inertia):

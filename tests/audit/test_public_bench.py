@@ -5,9 +5,9 @@ from collections import Counter
 import pytest
 from audit.public.labels import label
 
-from mechsym.audit.formula import check_formula
-from mechsym.audit.trial import public
-from mechsym.audit.trial.matrix import stored
+from benchmarks.auditor import public
+from benchmarks.auditor.matrix import stored
+from mechsym.audit.hosts.formula import check_formula
 
 ROWS = public.formulas()
 WRONG = [row for row in ROWS if row["label"] == "wrong"]

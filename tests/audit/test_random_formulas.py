@@ -6,17 +6,17 @@ import random
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechsym.audit import tree as trees
-from mechsym.audit.edits import apply, places
-from mechsym.audit.findings import formula_row
-from mechsym.audit.formula import check_formula
-from mechsym.audit.printer import to_latex, to_python
-from mechsym.audit.prover import is_exact
-from mechsym.audit.question import Question
-from mechsym.audit.reader import read
-from mechsym.audit.repair import examine, fingerprint, standing
-from mechsym.audit.search import search
-from mechsym.audit.slips import single_edits
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.judge.prover import is_exact
+from mechsym.audit.judge.question import Question
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.reader import read
+from mechsym.audit.read.spelling import to_latex, to_python
+from mechsym.audit.repair.edits import apply, places
+from mechsym.audit.repair.examination import examine, fingerprint, standing
+from mechsym.audit.repair.search import search
+from mechsym.audit.repair.slips import single_edits
+from mechsym.audit.row import formula_row
 from mechsym.audit.theory.record import Letter, Theory, known
 from mechsym.audit.verdict import decide
 
@@ -73,9 +73,9 @@ def test_wrong_signs_squares_and_factors_are_repaired(text, seed):
     assume(fingerprint(exam, spoiled) != fingerprint(exam, right))
     assume(not is_exact(exam.judged, spoiled))
     answer = search(exam, standing(exam, spoiled))
-    found = answer.repairs
-    assert answer.verdict == "misprint", to_python(spoiled)
-    assert found[0].exact and fingerprint(exam, found[0].tree) == fingerprint(exam, right)
+    assert answer.repairs, to_python(spoiled)
+    repaired = answer.repairs[0]
+    assert repaired.exact and fingerprint(exam, repaired.tree) == fingerprint(exam, right)
 
 
 @settings(deadline=None, derandomize=True, max_examples=15)
@@ -89,11 +89,10 @@ def test_a_lost_factor_is_put_back(text, seed):
     lost = trees.replace(right, place.path, place.node.left)
     assume(fingerprint(exam, lost) != fingerprint(exam, right))
     answer = search(exam, standing(exam, lost))
-    found, verdict = answer.repairs, answer.verdict
-    if found:  # a formula with little left of it is wrong, not misprinted
-        assert found[0].exact
+    if answer.repairs:  # a formula with little left of it is wrong, not misprinted
+        assert answer.repairs[0].exact
     else:
-        assert verdict == "wrong"
+        assert not answer.mixed and answer.nearer is None
 
 
 def test_the_correction_is_printed_in_the_authors_form():

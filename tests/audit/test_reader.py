@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechsym.audit import tree as trees
-from mechsym.audit.algebra import FLOATS, evaluate
-from mechsym.audit.printer import to_latex, to_python
-from mechsym.audit.reader import letter_pairs, read, read_expression, write
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.reader import letter_pairs, read, read_expression, write
+from mechsym.audit.read.spelling import to_latex, to_python
 from mechsym.errors import BadInput
 
 KNOWN = (

@@ -4,11 +4,10 @@ import re
 
 import pytest
 
-from mechsym.audit.entries import Listed, Printed, TextClaim
-from mechsym.audit.findings import question_of, row
-from mechsym.audit.formula import Asked
-from mechsym.audit.formula import question_of as asked_by_user
-from mechsym.audit.statement import statement
+from mechsym.audit.hosts.sources import Listed, Printed, TextClaim, question_of, row
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.judge.asked import question_of as asked_by_user
+from mechsym.audit.read.reader import statement
 from mechsym.audit.theory.catalogue import names, theory
 from mechsym.errors import BadInput
 from mechsym.papers import sources

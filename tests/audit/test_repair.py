@@ -2,9 +2,9 @@
 
 import pytest
 
-from mechsym.audit.bench import max_rel_error, turn
-from mechsym.audit.findings import formula_row
-from mechsym.audit.formula import check_formula
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.judge.question import max_rel_error, turn
+from mechsym.audit.row import formula_row
 from mechsym.audit.verdict import decide
 
 REPAIRED = [

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mechsym.audit.formula import check_formula
+from mechsym.audit.hosts.formula import check_formula
 from mechsym.audit.theory.catalogue import shipped, theory
 
 FORMULAS = tomllib.loads((Path(__file__).parent / "textbook.toml").read_text())["formula"]

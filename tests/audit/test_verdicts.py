@@ -5,10 +5,10 @@ import inspect
 
 import pytest
 
-from mechsym.audit.bench import peak
-from mechsym.audit.formula import check_formula
-from mechsym.audit.trial import spoiler
-from mechsym.audit.trial.matrix import trapped
+from benchmarks.auditor import spoiler
+from benchmarks.auditor.matrix import trapped
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.judge.question import peak
 from mechsym.errors import BadInput
 
 ACCELERATION = "r*omega**2*(cos(phi) + lam*cos(2*phi))"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mechsym.audit.formula import check_formula
+from mechsym.audit.hosts.formula import check_formula
 
 SLIPS = [
     # a root that lost its whole run of a sum; a run of a product turned over

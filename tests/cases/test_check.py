@@ -1,6 +1,7 @@
 """`mechsym check` tells every problem at once, and truly which command lacks what; `sections` and the schema agree."""
 
 import json
+import math
 import tomllib
 
 import jsonschema
@@ -10,8 +11,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cases import schema
 from mechsym.cases.check import check_file
-from mechsym.cases.json_schema import json_schema
-from mechsym.cases.keys import keys
+from mechsym.cases.keys import json_schema, keys
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 
@@ -84,23 +84,6 @@ def test_the_schema_refuses_what_check_refuses(validator, bad):
     assert {"about", "parameters", "spring.k", "spring.F0", "guide.arrangement", "load.law"} <= where
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", cases.names())
-def test_what_is_called_lacking_is_lacking(name, tmp_path):
-    """A command that lacks a section refuses the case, and one that lacks nothing does not."""
-    wants_more = ("eval", "sweep", "codesign", "simulate", "optimise", "identify")  # words or files of the caller's own
-    for command, missing in check_file(name).commands.items():
-        if name == "generator" and not missing or command in wants_more:
-            continue
-        words = [name, name] if command == "compare" else [name]
-        words += {"flywheel": ["--ripple", "2%"], "guide": ["--sheet", str(tmp_path / "g.pdf")]}.get(command, [])
-        try:
-            refused = run(command, *words).exit_code == 2
-        except BadInput:
-            refused = True
-        assert refused == bool(missing), (command, missing)
-
-
 def test_a_mechanism_of_ones_own_is_not_run_without_trust(tmp_path):
     (tmp_path / "mine.py").write_text("raise SystemExit('was run')\n")
     case = tmp_path / "mine.toml"
@@ -132,3 +115,15 @@ def test_sections_in_words():
 
 def test_a_command_that_is_not_known_is_suggested():
     assert "did you mean 'forces'" in run("forcs").output
+
+
+@pytest.mark.parametrize(("written", "rpm"), [("80,85 rpm", (80, 85)), ("80..90rpm:3", (80, 85, 90))])
+def test_a_list_is_set_as_options_write_it(written, rpm):
+    speeds = cases.load("zotov-89", {"codesign.speeds": written}).need("codesign").speeds
+    assert speeds == pytest.approx([n * math.pi / 30 for n in rpm], rel=1e-12)
+
+
+@pytest.mark.parametrize("written", ["80,85 m", "a,b", "80"])
+def test_what_is_no_list_of_speeds_is_refused(written):
+    with pytest.raises(BadInput, match=r"codesign\.speeds"):
+        cases.load("zotov-89", {"codesign.speeds": written})

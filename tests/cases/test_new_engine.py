@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+import scipy
 from click.testing import CliRunner
 
 from mechsym import cases
@@ -12,7 +13,10 @@ from mechsym.cases.check import check_file
 from mechsym.cases.new_engine import KINDS, in_line, in_v, opposed, write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.mechanisms.crank_train.firing import firing_gaps, refuse_wrong_firing
+from mechsym.jobs.machine import turn
+from mechsym.mechanisms import crank_train
+from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
+from mechsym.torsion.modes import matrices
 
 TRAINS = [in_line(n, turns) for n in range(1, 13) for turns in (1, 2)] + [in_v(n) for n in (2, 4, 6, 8, 10, 12)]
 ENGINES = [
@@ -59,7 +63,25 @@ def test_the_case_has_no_problem_and_no_doubt(engine, written):
     if case.mechanism == "crank_train":
         period = (4 if "chamber" in case.sections else 2) * math.pi
         refuse_wrong_firing(case.need("parameters"), period)
-        assert sum(firing_gaps(case.need("parameters"), period)) == pytest.approx(period)
+
+
+@pytest.mark.parametrize("counts", [(2, 6), pytest.param(range(1, 13), marks=pytest.mark.slow)], ids=["some", "all"])
+@pytest.mark.parametrize("kind", ["two-stroke-crosshead", "inline", "v", "opposed"])
+def test_no_order_that_cylinders_add_up_to_is_critical_at_the_speed(kind, counts, tmp_path):
+    """Phase-vector sums over the modes of the case as written: those of a half and more lie 10 % off."""
+    for count in counts:
+        if kind == "v" and count not in (2, 4, 6, 8, 10, 12) or (kind, count) == ("two-stroke-crosshead", 1):
+            continue
+        case = cases.load(str(write_engine(kind, 0.086, 0.086, count, tmp_path)[0]))
+        values, omega = case.need("parameters"), case.need("operation").speed
+        linear, step = matrices(crank_train.build(values)), 0.5 if "chamber" in case.sections else 1.0
+        squares, shapes = scipy.linalg.eigh(linear.stiffness, linear.mass)
+        for square, shape in zip(squares[1:], shapes.T[1:], strict=True):
+            moved = shape[np.array(values.throw) - 1]
+            for order in np.arange(1, round(12 / step) + 1) * step:
+                together = abs(np.sum(moved * np.exp(1j * order * np.array(values.firing)))) / np.abs(moved).sum()
+                away = abs(math.sqrt(square) / (order * omega) - 1)
+                assert together < 0.5 or away > 0.0999, f"{case.name}: order {order:g} is {away:.2%} off"
 
 
 @pytest.mark.slow
@@ -113,3 +135,45 @@ def test_nothing_is_overwritten(tmp_path):
     assert run(*words).exit_code == 0 and (tmp_path / "mine.toml").exists()
     with pytest.raises(BadInput, match="exists"):
         run(*words)
+
+
+_TYPICAL = [ENGINES[k] for k in (1, 2, 3, 7, 9, 11)]
+EVERY_GAS = [(*engine, "exchange") for engine in _TYPICAL]
+EVERY_GAS += [(*engine, "closed") for engine in _TYPICAL if engine[0] in ("inline", "v", "hypocycloid")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", EVERY_GAS, ids=lambda e: f"{e[0]}-{e[3]}-{e[4]}")
+def test_no_gas_force_jumps(engine, tmp_path):
+    """Halving the step halves the largest difference between neighbours, down to a twentieth of a degree."""
+    kind, bore, stroke, count, gas = engine
+    case = cases.load(str(write_engine(kind, bore * 1e-3, stroke * 1e-3, count, tmp_path, gas=gas)[0]))
+    acting = turn(case).acting[0].gas
+    period, largest = acting.pressure.period, []
+    for step in (0.4, 0.2, 0.1, 0.05, 0.025):
+        phi = np.linspace(0, period, round(math.degrees(period) / step) + 1)
+        largest.append(np.abs(np.diff(acting.force(phi))).max())
+    assert np.array(largest[:-1]) / largest[1:] == pytest.approx([2.0] * 4, rel=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", EVERY_GAS, ids=lambda e: f"{e[0]}-{e[3]}-{e[4]}")
+def test_brake_figures_stand_first(engine, tmp_path):
+    """Words of the field in the text; the parts of friction and what is left at the shaft are the whole."""
+    kind, bore, stroke, count, gas = engine
+    path = str(write_engine(kind, bore * 1e-3, stroke * 1e-3, count, tmp_path, gas=gas)[0])
+    text, told = run("cycle", path).output, json.loads(run("cycle", path, "--json").output)
+    places = [text.index(word) for word in ("BMEP", "BSFC", "brake power", "IMEP", "FMEP", "indicated power")]
+    assert places == sorted(places)
+    assert told["brake_mep_kpa"][0] == pytest.approx(told["mep_kpa"][0] - told["friction_mep_kpa"][0], rel=1e-12)
+    assert told["mechanical_efficiency"][0] == pytest.approx(told["brake_power_kw"][0] / told["power_kw"][0], rel=1e-12)
+    if "gross_mep_kpa" in told:
+        assert told["mep_kpa"][0] == pytest.approx(told["gross_mep_kpa"][0] + told["pumping_mep_kpa"][0], rel=1e-12)
+        assert 8e2 < told["mep_kpa"][0] < 12e2
+    assert told["ca10_deg"][0] < told["ca50_deg"][0] < told["ca90_deg"][0]
+    if friction := json.loads(run("forces", path, "--json").output).get("friction"):
+        assert friction["mechanical_efficiency"] == pytest.approx(told["mechanical_efficiency"][0], rel=2e-4)
+        assert sum(friction["places"].values()) == pytest.approx(friction["power"], rel=1e-12)
+        assert friction["indicated_power"] - friction["power"] == pytest.approx(
+            1e3 * told["brake_power_kw"][0], rel=2e-4
+        )

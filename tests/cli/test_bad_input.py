@@ -26,14 +26,30 @@ COMMAND_LINE = [
     ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1..5 rpm:9"]),
     ("no engine", ["forces", "chmielewski"], ["crankshaft_flywheel", "crosshead"]),
     ("nothing to optimise", ["optimise", "zotov-89"], ["zotov-89", "[optimise]", "mechsym cases"]),
-    ("cycle of another kind", ["size", "zotov-89"], ["[cycle]", "'spark-ignition'"]),
+    ("sizes of an engine at speeds", ["size", "chmielewski"], ["crankshaft_flywheel", "takes a mechanism with one"]),
     ("unknown source", ["reproduce", "zotov2042"], ["'zotov2042'", "zotov2024"]),
     ("formula without its theory", ["audit", "--formula", "r*sin(phi)"], ["--against", "crosshead"]),
     ("formula that would run", ["audit", "--formula", "__import__('os')", "--against", "crosshead.x"], ["__import__"]),
     ("no dampings", ["simulate", "chmielewski", "--dampings", ""], ["--dampings", "N*m*s/rad"]),
     ("half a value", ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:2.5"], ["how many", "spring.p0=1..5 Pa:9"]),
-    ("an option given twice", ["cycle", "generator", "--diagram", "a", "--diagram", "b"], ["--diagram", "2 times"]),
+    ("an option given twice", ["cycle", "generator", "--out", "a", "--out", "b"], ["--out", "2 times"]),
     ("a key given twice", ["cycle", "zotov-89", "--set", "g=9", "--set", "g=8"], ["g is given twice, '9' and '8'"]),
+    ("equations of no mechanism", ["eval", "slider_crank", "--latex"], ["'slider_crank'", "allowed are crank_throw"]),
+    (
+        "a speed that is a comma",
+        ["eval", "crosshead", "--case", "zotov-89", "--set", "phid=,"],
+        ["phid = ','", "rad/s"],
+    ),
+    (
+        "a doubt as a value",
+        ["sweep", "zotov-89", "--over", "spring.p0=4..8MPa:3", "--set", "doubts.knock=1"],
+        ["--set doubts.knock: no section [doubts] here; allowed are parameters"],
+    ),
+    ("diagram without gas", ["fmu", "chmielewski", "--diagram", "none.csv"], ["--diagram", "case generator"]),
+    ("diagram that is not there", ["page", "opposed-pistons", "--diagram", "none.csv"], ["none.csv", "cannot be read"]),
+    ("archive for a folder", ["hinge", "zotov-89", "--out", "none/x.zip"], ["x.zip", "folder; leave .zip away"]),
+    ("archive for a unit", ["fmu", "zotov-89", "--out", "none/x.zip"], ["of kind .fmu; write none/x.fmu"]),
+    ("trace of a train", ["identify", "opposed-pistons", "--trace", "none.csv", "--free", "r"], ["from lists"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "a <= b"]),
 ]
 OVERRIDES = [
@@ -211,9 +227,15 @@ def test_measured_cycle_without_its_diagram(refused, command, tmp_path):
     expect(refused([command, str(tmp_path / "engine.toml")]), ["no file", "--diagram FILE"])
 
 
-@pytest.mark.parametrize("command", ["hinge", "cycle"])
-def test_section_that_a_command_needs(refused, command):
-    expect(refused([command, "chmielewski"]), ["chmielewski", "section [", "missing", "mechsym cases"])
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("hinge", ["2 coordinates", "takes a mechanism with one", "crosshead"]),
+        ("cycle", ["section [", "missing", "no piston"]),
+    ],
+)
+def test_what_a_command_needs(refused, command, words):
+    expect(refused([command, "chmielewski"]), ["chmielewski", *words, "mechsym cases"])
 
 
 def test_out_is_a_file(refused, tmp_path):

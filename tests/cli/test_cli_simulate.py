@@ -1,12 +1,17 @@
 """`mechsym simulate`: keys of the interface, files, exit statuses, one-line refusals."""
 
+import csv
 import json
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 
 KEYS = {
     "t_end", "speed_mean", "speed_min", "speed_max", "energy_residual", "tolerance_difference", "steps", "wall_s",
@@ -36,6 +41,14 @@ def test_start_up_keys_and_files(tmp_path):
     )
     assert any("natural frequency 30.28 Hz bare" in line for line in found["findings"])
     assert found["files"][0].endswith("series.csv")
+
+
+def test_a_shaft_without_stiffness_runs_its_crank_alone():
+    free = ("k1=0", "c1=0", "m0=0", "t_end=3 s", "window=0.5 s", "output_step=0.05 s")
+    found, status = numbers("chmielewski", *(word for key in free for word in ("--set", key)))
+    given = cases.load("chmielewski")
+    speed = given.need("drive").torque * (3 - given.need("drive").time) / given.need("parameters").I0
+    assert status == 0 and found["final_state"]["phi0d"] == pytest.approx(speed, rel=1e-9)
 
 
 def test_start_up_map_and_pictures(tmp_path):
@@ -79,7 +92,7 @@ def test_exit_status_of_a_run_that_does_not_converge():
 def test_text_for_people():
     result = run("chmielewski", "--set", "t_end=3 s", "--no-check")
     assert result.exit_code == 0
-    assert "energy_residual" in result.stdout and "unchecked" in result.stdout and "phi2" in result.stdout
+    assert "energy residual" in result.stdout and "not checked" in result.stdout and "phi2" in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -104,3 +117,41 @@ def test_bad_input_is_refused(arguments, words):
 
 def test_help_has_an_example():
     assert "Example: mechsym simulate chmielewski" in run("--help").stdout
+
+
+def test_the_final_state_is_the_last_row_of_the_series(tmp_path):
+    found, _ = numbers(
+        "chmielewski", "--set", "t_end=0.5 s", "--set", "window=0.1 s", "--no-check", "--out", str(tmp_path)
+    )
+    heads, *rows = csv.reader((tmp_path / "series.csv").read_text().splitlines())
+    last = dict(zip((head.partition(" [")[0] for head in heads), map(float, rows[-1]), strict=True))
+    assert found["final_state"] == pytest.approx({name: last[name] for name in ("phi0", "phi0d", "phi2", "phi2d")})
+    assert json.loads((tmp_path / "summary.json").read_text())["final_state"] == found["final_state"]
+    assert numbers("nunes-hypocycloid", "--set", "simulation.turns=1", "--no-check")[0]["final_state"].keys() == {
+        "theta",
+        "thetad",
+    }
+
+
+def ends(case, seconds, *words):
+    return numbers(str(EXAMPLES / case), "--set", f"t_end={seconds} s", "--no-check", *words)[0]["final_state"]
+
+
+@pytest.mark.parametrize(
+    "case, more, names",
+    [
+        ("atkinson.toml", (), {}),
+        (
+            "scotch-yoke.toml",
+            ("simulation.hinge=none",),
+            {"phi": "simulation.phi_start", "phid": "simulation.speed_start"},
+        ),
+    ],
+)
+def test_a_run_goes_on_from_where_another_ended(case, more, names):
+    """[start] of one's own mechanism takes the final state as it is, an engine's [simulation] its angle and speed."""
+    words = [word for one in more for word in ("--set", one)]
+    first, whole = (ends(case, seconds, *words) for seconds in (0.2, 0.3))
+    start = [word for key, value in first.items() for word in ("--set", f"{names.get(key, f'start.{key}')}={value!r}")]
+    assert ends(case, 0.1, *words, *start) == pytest.approx(whole, rel=1e-7, abs=1e-7)
+    assert ends(case, 0.1, *words) != pytest.approx(whole, rel=1e-2)

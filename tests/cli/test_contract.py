@@ -13,7 +13,6 @@ import pytest
 
 from mechsym import cases, files
 from mechsym.cli import COMMANDS, main, mechsym
-from mechsym.errors import BadInput
 
 MECHSYM = Path(sys.executable).parent / "mechsym"
 CYCLE = ["cycle", "nunes-slider-crank"]
@@ -102,29 +101,10 @@ def test_a_run_that_fails_leaves_the_last_run_as_it_was(monkeypatch, capsys, tmp
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
 
 
-def test_files_appear_at_the_end_of_a_run_and_others_at_once(tmp_path):
-    run, other = tmp_path / "run", tmp_path / "other"
-    with files.together(run):
-        files.write_text(run / "a.txt", "1")
-        files.write_text(run / "below" / "a.txt", "2")
-        files.write_text(run / "a.txt", "3")
-        files.write_text(other / "a.txt", "4")
-        assert not (run / "a.txt").exists() and (other / "a.txt").read_text() == "4"
-    assert (run / "a.txt").read_text() == "3" and (run / "below" / "a.txt").read_text() == "2"
-    assert len([p for p in run.rglob("*") if p.is_file()]) == 2
-
-
-@pytest.mark.parametrize(("error", "kept"), [(BadInput, False), (OSError, False), (KeyboardInterrupt, True)])
-def test_what_is_kept(tmp_path, error, kept):
-    with pytest.raises(error), files.together(tmp_path):
-        files.write_text(tmp_path / "a.txt", "1")
-        raise error
-    assert [p.name for p in tmp_path.iterdir()] == (["a.txt"] if kept else [])
-
-
 #: Every command that writes into --out, with what it needs before the case is looked at
 WRITERS = {
-    "audit": ["audit"], "codesign": ["codesign", "none"], "compare": ["compare", "none", "none"],
+    "audit": ["audit"], "balance": ["balance", "none"],
+    "codesign": ["codesign", "none"], "compare": ["compare", "none", "none"],
     "cycle": ["cycle", "none"], "derive": ["derive", "./none.py"], "export": ["export", "none", "--to", "c"],
     "flywheel": ["flywheel", "none", "--ripple", "2%"], "fmu": ["fmu", "none"], "forces": ["forces", "none"],
     "hinge": ["hinge", "none"], "new": ["new", "mechanism", "press"], "optimise": ["optimise", "none"],
@@ -169,6 +149,7 @@ def test_trying_leaves_no_folder(monkeypatch, capsys, tmp_path):
 
 #: A quick run of every command that leaves a summary
 RUNS = {
+    "balance": ["balance", "moroianu"],
     "forces": ["forces", "moroianu"], "cycle": ["cycle", "nunes-slider-crank"], "size": ["size", "nunes-slider-crank"],
     "compare": ["compare", "nunes-slider-crank", "nunes-hypocycloid", "--speeds", "1000,2000"],
     "flywheel": ["flywheel", "opposed-pistons", "--ripple", "2%"], "export": ["export", "hypocycloid", "--to", "julia"],
@@ -303,14 +284,14 @@ READERS = {
 def test_a_file_that_the_system_does_not_give(monkeypatch, capsys, tmp_path, reader, failure):
     file = tmp_path / {"paper": "a.tex", "case": "a.toml", "theory": "a.toml"}.get(reader, "a.csv")
     file.write_text("")
-    given = Path.read_text
+    given = Path.read_bytes
 
-    def read_text(self, *args, **more):
+    def read_bytes(self):
         if self == file:
             raise OSError(failure, os.strerror(failure))
-        return given(self, *args, **more)
+        return given(self)
 
-    monkeypatch.setattr(Path, "read_text", read_text)
+    monkeypatch.setattr(Path, "read_bytes", read_bytes)
     code, out, err = ended(monkeypatch, capsys, [word.replace("FILE", str(file)) for word in READERS[reader]])
     assert (code, out) == (74, "")
     assert err == f"mechsym: the system failed: [Errno {failure}] {os.strerror(failure)}: '{file}'\n"

@@ -6,9 +6,11 @@ import scipy
 
 from mechsym import periodic
 from mechsym.codesign import in_time
-from mechsym.codesign.hardware import Hardware, gas_energy, outside, roller_inertia
+from mechsym.codesign.hardware import Hardware, roller_inertia
+from mechsym.hinge.springs.air import AirAbsolute
 
-HARDWARE = Hardware(A=0.03, H=1.0, n=1.3, p0=2e5, rho0=0.6, count=2, shaft_ratio=0.5, radius=0.1, width=0.1,
+SPRING = AirAbsolute(A=0.03, H=1.0, n=1.3, p0=2e5)
+HARDWARE = Hardware(spring=SPRING, rho0=0.6, count=2, shaft_ratio=0.5, radius=0.1, width=0.1,
                     moving_mass=80.0, roller_inertia=0.4)  # fmt: skip
 
 
@@ -17,6 +19,7 @@ def turning(load=(0.0, 0.0, 1.0), speed=12.0, turns=1.5, **changes):
     z = periodic.fit(lambda phi: 0.2 - 0.15 * np.cos(phi), [], period)
     inertia = periodic.fit(lambda phi: 500 + 60 * np.cos(2 * phi), [], period)
     given = {
+        "laws": (AirAbsolute,),
         "tables": (nothing, nothing, inertia, inertia.derivative(), z, z.derivative(), z.derivative(2)),
         "held": (100.0, *load, *in_time.of_track(HARDWARE, 3e5)), "kinks": np.array([1.0]), "period": period,
         "start": (0.0, speed), "turned": turns * period, "stalled": 1.0, "longest": 100.0,
@@ -28,7 +31,7 @@ def energy(machine, phi, omega):
     z, dz, h = machine.tables[4](phi), machine.tables[5](phi), HARDWARE
     rollers = roller_inertia(h.rho0 - z / 2, dz / (2 * 0.5), h.moving_mass, h.roller_inertia, h.radius, 2)
     inertia = machine.tables[2](phi) + machine.held[0] + 0.25 * rollers
-    return inertia * omega**2 / 2 + h.A * gas_energy(z, 3e5, h.H, h.n, outside(h))
+    return inertia * omega**2 / 2 + h.charged(3e5).energy(z)
 
 
 @pytest.mark.parametrize("integrator", [in_time._compiled, in_time._by_scipy])
@@ -64,3 +67,12 @@ def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch)
     _, other, stalled = in_time.turn(machine, 20)
     assert stalled
     np.testing.assert_allclose(other, y, rtol=1e-7, atol=1e-6)
+
+
+def test_what_is_read_of_a_motion_reaches_its_end():
+    for speed in np.linspace(8.0, 16.0, 9):
+        machine = turning(speed=speed)
+        t, y, _ = in_time._compiled(machine, 90)
+        phi, omega = in_time.at_times(machine, t)
+        assert phi.shape == omega.shape == (1, 90)
+        np.testing.assert_allclose([phi[0, -1], omega[0, -1]], y[:2, -1], rtol=1e-12)

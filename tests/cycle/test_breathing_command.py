@@ -44,6 +44,19 @@ def test_command_gives_the_figures_of_the_interface():
     assert found["doubts"] == []
 
 
+def test_filling_air_and_fuel_are_one_book():
+    found = shown("--speeds", "3059,4000")
+    swept, ratio = math.pi / 4 * 0.0677**2 * 0.055, 13.5
+    for k, rpm in enumerate(found["speed_rpm"]):
+        full = found["p_in_kpa"][k] * 1e3 * swept / (287.0 * found["t_in_k"][k])
+        air = found["volumetric_efficiency"][k] * full * ratio / (1 + ratio) * rpm / 120  # kg/s
+        assert found["air_kg_h"][k] == pytest.approx(3600 * air, rel=1e-12)
+        assert found["sfc_g_kwh"][k] * found["power_kw"][k] == pytest.approx(3.6e6 * air / ratio, rel=1e-12)
+        # all that is trapped burns but for the share that the case states
+        burnt = found["trapping_efficiency"][k] * 0.9
+        assert found["fractions"]["unburnt"][k] == pytest.approx(1 - burnt, abs=1e-4)
+
+
 @pytest.mark.slow
 def test_files_and_text(tmp_path):
     done = CliRunner().invoke(mechsym, ["cycle", CASE, "--speeds", "1500:3000:1500", "--out", str(tmp_path)])

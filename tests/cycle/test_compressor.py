@@ -6,7 +6,7 @@ import pytest
 
 from mechsym.cycle.chamber import volume
 from mechsym.cycle.dead_centres import chamber_over
-from mechsym.cycle.kinds import cylinder_pressure
+from mechsym.cycle.kinds import gas_in_cylinder
 from mechsym.cycle.kinds.compressor import CompressorCycle, valves
 from mechsym.errors import BadInput
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, settle
@@ -26,7 +26,8 @@ def slider_crank(r=0.035, l=0.14, e=0.0):
 @pytest.mark.parametrize("offset", [0.0, 0.02])
 def test_its_work_is_that_of_the_p_v_diagram(offset):
     cycle = CompressorCycle(**AIR)
-    pressure, room = cylinder_pressure(cycle, slider_crank(e=offset))
+    gas = gas_in_cylinder(cycle, slider_crank(e=offset))
+    pressure, room = gas.pressure, gas.chamber
     full, least, ratio = room.clearance + room.displacement, room.clearance, 8.0
     V2, V4 = full * ratio ** (-1 / 1.3), least * ratio ** (1 / 1.2)
     compression = (8e5 * V2 - 1e5 * full) / (1.3 - 1)
@@ -45,7 +46,8 @@ def test_an_offset_moves_the_bottom_dead_centre_and_lengthens_the_stroke():
 
 
 def test_valves_open_where_the_pressures_are_reached():
-    pressure, room = cylinder_pressure(CompressorCycle(**AIR), slider_crank(e=0.01))
+    gas = gas_in_cylinder(CompressorCycle(**AIR), slider_crank(e=0.01))
+    pressure, room = gas.pressure, gas.chamber
     events = valves(CompressorCycle(**AIR), room)
     assert events["suction valve closes"] == room.motion.bottom
     assert float(volume(room, events["delivery valve opens"])) == pytest.approx(

@@ -11,10 +11,10 @@ from mechsym.cli.compare import compare
 from mechsym.cli.cycle import cycle
 from mechsym.cli.speeds import parse_speeds
 from mechsym.cycle.closed.model import at_design, design_names
+from mechsym.cycle.compare import crossovers
 from mechsym.cycle.engine import curves, over_speeds
 from mechsym.cycle.motion import piston_motion
 from mechsym.errors import BadInput
-from mechsym.jobs.compare import crossovers
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.quantities import RPM
 

@@ -11,9 +11,8 @@ from scipy.integrate import solve_ivp
 
 from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.flow import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
-from mechsym.cycle.breathing.newton import repeating
 from mechsym.cycle.breathing.records import Breathing, FreshCharge, HeatSink, Surroundings
-from mechsym.cycle.breathing.run import breathe
+from mechsym.cycle.breathing.run import breathe, repeating
 from mechsym.cycle.heat import Woschni
 
 AREA, STROKE = math.pi / 4 * 0.06**2, 0.104
@@ -100,6 +99,20 @@ def test_mass_and_energy_are_conserved_and_the_cycle_repeats():
         assert found.energy_residual < 1e-9
         assert 0 < found.residual < 0.15
         assert found.work > 0 > found.pumping
+
+
+def test_what_is_drawn_is_what_burns_and_what_is_lost():
+    """Valves that overlap blow fresh gas through under a boost; a fast engine blows burnt gas back at the throttle."""
+    early = SMALL | {"inlet_opens": math.radians(310), "exhaust_closes": math.radians(420)}
+    (through,) = breathed(Breathing(**early), FIRED, [150.0], p_in=1.4e5)
+    (back,) = breathed(Breathing(**SMALL), FIRED, [600.0])
+    assert through.trapping_efficiency < 0.95 and back.trapping_efficiency == pytest.approx(1.0, abs=3e-4)
+    for found, p_in in ((through, 1.4e5), (back, 101325.0)):
+        fresh = found.trapped * (1 - found.residual)
+        assert found.heat == pytest.approx(FIRED.heat * fresh, rel=1e-4)  # what is trapped burns
+        assert found.trapping_efficiency == pytest.approx(fresh / found.drawn, rel=1e-12)
+        full = p_in * np.ptp(found.room) / (287.0 * 288.15)
+        assert found.volumetric_efficiency * full == pytest.approx(found.drawn, rel=1e-12)
 
 
 @pytest.mark.slow

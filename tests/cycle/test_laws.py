@@ -6,9 +6,7 @@ import pytest
 
 from mechsym.cycle.friction import ChenFlynn, Heywood, NoFriction, friction_pressure
 from mechsym.cycle.heat import Adiabatic, Annand, GasAtWall, Hohenberg, Woschni, heat_flux, motored_swirl
-from mechsym.cycle.kinds.ideal import diesel_efficiency, otto_efficiency, seiliger
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, conductivity, properties, viscosity
-from mechsym.errors import BadInput
 
 # JANAF tables (NIST), cp in J/(mol K)
 JANAF = {
@@ -103,23 +101,3 @@ def test_friction_by_hand():
     assert friction_pressure(ChenFlynn(), 6e6, 10.0, 300.0) == pytest.approx(0.4e5 + 0.3e5 + 0.9e5 + 0.09e5)
     at_3000_rpm = friction_pressure(Heywood(), 6e6, 10.0, 100 * np.pi)
     assert at_3000_rpm == pytest.approx((0.97 + 0.45 + 0.45) * 1e5)
-
-
-def test_otto_and_diesel_are_limits_of_seiliger():
-    assert seiliger(10.0, 1.4, 3.0, 1.0).efficiency == pytest.approx(otto_efficiency(10.0, 1.4), rel=1e-14)
-    assert seiliger(18.0, 1.4, 1.0, 2.0).efficiency == pytest.approx(diesel_efficiency(18.0, 1.4, 2.0), rel=1e-14)
-
-
-def test_seiliger_work_is_the_area_of_its_diagram():
-    cycle, gamma = seiliger(14.0, 1.35, 1.5, 1.8), 1.35
-    (p1, p2, _, p3, p4), (v1, v2, _, v3, v4) = cycle.pressure, cycle.volume
-    # in units of p1 v1; c_v T1 is p1 v1/(gamma - 1)
-    area = (p3 * v3 - p4 * v4) / (gamma - 1) + p3 * (v3 - v2) - (p2 * v2 - p1 * v1) / (gamma - 1)
-    assert area * (gamma - 1) == pytest.approx(cycle.work, rel=1e-13)
-
-
-@pytest.mark.parametrize("ratios", [(1.0, 1.4, 2.0, 1.5), (10.0, 1.0, 2.0, 1.5), (10.0, 1.4, 0.9, 1.5),
-                                    (10.0, 1.4, 2.0, 10.0), (10.0, 1.4, 1.0, 1.0)])  # fmt: skip
-def test_impossible_ideal_cycles_are_refused(ratios):
-    with pytest.raises(BadInput, match="out of range|adds no heat"):
-        seiliger(*ratios)

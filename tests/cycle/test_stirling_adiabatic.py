@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from mechsym.cycle.kinds.stirling_equations import FiveSpaces
 from mechsym.cycle.kinds.stirling_spaces import GASES, StirlingCylinders, areas, five_spaces, swept
-from mechsym.cycle.kinds.stirling_turn import figures_function, solver, turn
+from mechsym.cycle.kinds.stirling_turn import turn
 from mechsym.errors import BadInput
 
 HELIUM = (5 / 3, 2077.0)
@@ -149,26 +149,6 @@ def test_against_an_independent_integration():
     for _ in range(12):
         y = [*solve_ivp(rate, (0, 2 * math.pi), [*y[:2], 0.0], rtol=1e-9, atol=1e-9, max_step=0.02).y[:, -1]]
     assert turn(case).work == pytest.approx(y[2], rel=2e-6)
-
-
-@pytest.mark.slow
-def test_derivatives_are_those_of_finite_differences():
-    def build(z):
-        area = math.pi / 4 * 0.09**2
-
-        def volumes(phi):
-            return 0.5e-4 + area * slider(phi + z[0]), 0.4e-4 + area * slider(phi)
-
-        return dataclasses.replace(alpha(0.5), volumes=volumes, V_r=z[1], T_h=z[2])
-
-    at = np.array([1.5, 1.2e-4, 900.0])
-    figures = figures_function(build, at)
-    work = ca.Function("work", [z := ca.MX.sym("z", 3)], [figures(z)[5] + figures(z)[6]])
-    slope = np.asarray(ca.Function("slope", [z], [ca.jacobian(work(z), z)])(at)).ravel()
-    for k, h in enumerate((1e-5, 1e-9, 1e-3)):
-        step = np.eye(3)[k] * h
-        two = [sum(solver(build, at + s)(at + s).sums[name] for name in ("W_e", "W_c")) for s in (step, -step)]
-        assert slope[k] == pytest.approx((two[0] - two[1]) / (2 * h), rel=1e-5)
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import gas
-from mechsym.jobs.turn import turn
+from mechsym.jobs.machine import turn
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 
 
@@ -86,12 +86,12 @@ def test_missing_losses_are_named():
 
 def test_rhombic_drive_is_a_crank_train():
     """The GPU-3 on the derived train is the one of test_stirling_second_order, whose drive is written out."""
-    file = Path(__file__).with_name("gpu-3.toml")
+    file = Path(__file__).parents[2] / "examples/gpu-3.toml"
     found = CliRunner().invoke(mechsym, ["cycle", str(file), "--json"])
     assert found.exit_code == 0, found.output
     result = json.loads(found.stdout)
-    assert result["power_kw"][0] == pytest.approx(4.438, abs=0.002)
-    assert result["efficiency"][0] == pytest.approx(0.3516, abs=0.001)
+    assert result["power_kw"][0] == pytest.approx(4.150, abs=0.002)
+    assert result["efficiency"][0] == pytest.approx(0.3348, abs=0.001)
 
 
 def with_phases(folder, phases):
@@ -124,7 +124,7 @@ def test_second_order_without_an_exchanger_is_refused(side):
     [
         ("operation.speed=3000 rpm", "flow_share"), ("operation.speed=5 rpm", "screen_reynolds"),
         ("stirling.seal_gap=0.3 mm", "seal_reynolds"), ("stirling.seal_gap=0.3 mm", "seal_gap"),
-        ("stirling.porosity=0.9", "porosity"), ("stirling.shuttle_gap=20 mm", "shuttle_gap"),
+        ("stirling.porosity=0.9", "porosity"), ("stirling.shuttle_gap=5.5 mm", "shuttle_gap"),
     ],
 )  # fmt: skip
 def test_second_order_beyond_its_laws_is_doubted(change, code):

@@ -8,14 +8,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
+from shen2020 import SHEN_2020
 from slider_crank import slider_crank
 
 from mechsym.cycle.chamber import dvolume_dphi, piston_area, volume
 from mechsym.cycle.gas import Gas
-from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine, back_pressure, events, kinks, scavenging_pressure
-from mechsym.cycle.kinds.two_stroke_solve import solve, two_stroke_pressure
+from mechsym.cycle.kinds.two_stroke import (
+    TwoStrokeMarine,
+    back_pressure,
+    events,
+    kinks,
+    scavenging_pressure,
+    solve,
+    two_stroke_pressure,
+)
 from mechsym.cycle.pressure import quadrature
-from mechsym.cycle.wiebe import SHEN_2020, double_wiebe
+from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 
 DEG = math.pi / 180

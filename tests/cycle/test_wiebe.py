@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shen2020 import SHEN_2020
 
-from mechsym.cycle.wiebe import SHEN_2020, ddouble_wiebe_dy, double_wiebe, dwiebe_dy, wiebe
+from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe, dwiebe_dy, wiebe
 
 positive = st.floats(0.5, 30.0)
 form = st.floats(0.0, 4.0)

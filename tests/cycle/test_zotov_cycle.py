@@ -8,7 +8,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.cycle.gas import Gas
-from mechsym.cycle.kinds import cylinder_pressure, with_diagram
+from mechsym.cycle.kinds import gas_in_cylinder, with_diagram
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.measure import measured_cycles
@@ -23,7 +23,8 @@ def hinge_torque(name, **overrides):
     parameters, cycle, omega = case.need("parameters"), case.need("cycle"), case.need("operation").speed
     kinematics = crosshead.build(parameters).functions["kinematics"]
     at = {key: np.asarray(value).ravel() for key, value in kinematics(phi=PHI.reshape(1, -1)).items()}
-    pressure, cylinder = cylinder_pressure(cycle, kinematics)
+    gas = gas_in_cylinder(cycle, kinematics)
+    pressure, cylinder = gas.pressure, gas.chamber
     gas = Gas(pressure=pressure, chamber=cylinder).force(PHI) * at["dx_dphi"]
     # gravity across the cylinder axis: m1 r1 cos phi + m2 l2 cos psi psi'
     lam = (parameters.r1 + parameters.r2) / (parameters.l1 + parameters.l2)
@@ -92,13 +93,14 @@ def test_model_cycle_written_as_a_diagram_is_read_back(tmp_path):
 
     case = cases.load("zotov-142")
     kinematics = crosshead.build(case.need("parameters")).functions["kinematics"]
-    model, _ = cylinder_pressure(case.need("cycle"), kinematics)
+    model = gas_in_cylinder(case.need("cycle"), kinematics).pressure
     angle = np.arange(-180, 180, 0.5)
     columns = {"crank_angle_deg": angle + 30, "pressure_bar": model.absolute(np.radians(angle)) / 1e5 + 7.0}
     file = str(write_csv(tmp_path / "model.csv", columns))
     diagram = with_diagram(case.need("cycle"), file)
     known = dataclasses.replace(diagram, alignment="given", tdc_offset=np.radians(30), pegging="polytropic")
-    read, cylinder = cylinder_pressure(known, kinematics)
+    gas = gas_in_cylinder(known, kinematics)
+    read, cylinder = gas.pressure, gas.chamber
     phi = np.linspace(0, 7, 400)
     assert np.allclose(read.absolute(phi), model.absolute(phi), atol=0.4e5)
     assert read.mean_indicated == pytest.approx(20e5, rel=0.005)

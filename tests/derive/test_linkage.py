@@ -8,8 +8,8 @@ from newton_euler import Oracle
 
 from mechsym.cycle.motion import top_of
 from mechsym.derive import Mechanism, derive
-from mechsym.derive.autodiff import disagreement
 from mechsym.derive.emit import module_text
+from mechsym.derive.textbook import disagreement
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.own import _module
@@ -47,7 +47,7 @@ def test_closed_forms_obey_newton_and_euler(name, flip, given):
     assert not equations.mechanism.dependent_list
     mechanism = runtime(equations)
     s = state(mechanism, given)
-    torque = s["mass_matrix"][0][0] * given["phidd"] + s["bias"][0] - s["generalized_force"][0]
+    torque = s.mass_matrix[0][0] * given["phidd"] + s.bias[0] - s.generalized_force[0]
     assert_newton_and_euler(equations, mechanism, given, torque)
     states, wrong = disagreement(equations)
     assert wrong < 1e-10
@@ -74,7 +74,7 @@ def test_closing_by_constraint_gives_the_same_motion_and_reactions(name, flip):
     assert {n for n in found if not n.startswith("driving")} == set(wanted)
     for reaction, value in wanted.items():
         assert found[reaction] == pytest.approx(value, abs=1e-9 * size), reaction
-    needed = s["mass_matrix"][0][0] * given["phidd"] + s["bias"][0] - s["generalized_force"][0]
+    needed = s.mass_matrix[0][0] * given["phidd"] + s.bias[0] - s.generalized_force[0]
     assert found["driving_phi"] == pytest.approx(needed, rel=1e-9)
     assert_newton_and_euler(held, other, all_given, needed)
 
@@ -108,7 +108,7 @@ def test_gears_on_a_carrier_obey_newton_and_euler(inside):
     assert not equations.mechanism.dependent_list
     mechanism = runtime(equations)
     s = state(mechanism, STATES[0])
-    torque = s["mass_matrix"][0][0] * STATES[0]["phidd"] + s["bias"][0] - s["generalized_force"][0]
+    torque = s.mass_matrix[0][0] * STATES[0]["phidd"] + s.bias[0] - s.generalized_force[0]
     assert_newton_and_euler(equations, mechanism, STATES[0], torque)
 
 
@@ -169,3 +169,73 @@ def test_an_open_loop_is_told_with_its_angle():
     travel = ca.Function("travel", [phi], [ca.sqrt(ca.cos(phi) + 0.5), phi])
     with pytest.raises(BadInput, match="the loop opens at a crank angle of 120.5 deg"):
         top_of(travel)
+
+
+def shared(order):
+    """A four-bar whose rod carries, at its end C, a bar besides the rocker; the bar slides in the frame.
+
+    `order` says who is pinned to whom: at C each to the rod, or each to the bar; or a plate between crank and rod.
+    """
+    m, crank, (a, b, c, d, e), (one, two) = linkages.start("shared")
+    rod, rocker = linkages.link(m, "rod", one, (b / 2, e)), linkages.link(m, "rocker", two, (c / 3, -e))
+    bar, block = linkages.link(m, "bar", one, (b / 3, 0)), linkages.link(m, "block", two, (0, 0))
+    if order != "plate":
+        m.pin("B", crank.at(a), rod)
+        m.pin("D", m.frame.at(d, e), rocker)
+        m.slider("G", m.frame.line(0, e), block)
+        if order == "row":  # rod and rocker meet in the bar's end
+            m.pin("H", bar.at(b), block)
+            m.pin("E", bar, rod.at(b))
+            m.pin("C", bar, rocker.at(c), branch=1)
+        else:
+            m.pin("E", rod.at(b), bar)
+            m.pin("C", rod.at(b), rocker.at(c), branch=1)
+            m.pin("H", bar.at(b), block)
+        return m
+    # the rod is pinned to the crank at one point of a plate, which is pinned to both there
+    plate = linkages.link(m, "plate", two, (e / 2, e / 3))
+    m.pin("P", crank.at(a), plate.at(e, e / 2))
+    m.pin("B", plate.at(e, e / 2), rod)
+    m.pin("D", m.frame.at(d, e), rocker)
+    m.pin("C", rod.at(b), rocker.at(c), branch=1)
+    m.slider("G", m.frame.line(0, e), block)
+    m.pin("E", rod.at(b), bar)
+    m.pin("H", bar.at(b), block)
+    m.slot("S", m.frame.line(0, e / 4), plate.at(c))
+    return m
+
+
+@pytest.mark.parametrize("order", ["star", "row", "plate"])
+def test_pins_at_one_point_obey_newton_and_euler(order):
+    equations = derive(shared(order))
+    assert not equations.mechanism.dependent_list
+    mechanism, given = runtime(equations), STATES[0]
+    s = state(mechanism, given)
+    torque = s.mass_matrix[0][0] * given["phidd"] + s.bias[0] - s.generalized_force[0]
+    assert_newton_and_euler(equations, mechanism, given, torque)
+    oracle, joints = Oracle(equations, linkages.VALUES | given), equations.mechanism.link_joints
+    for joint in joints:  # they meet, though three share a point
+        if joint.kind == "pin":
+            assert oracle.pair(joint.first.xy) == pytest.approx(oracle.pair(joint.second.xy), abs=1e-12)
+    assert disagreement(equations)[1] < 1e-10
+
+
+def test_a_link_pinned_at_one_point_alone_is_refused():
+    m, crank, (a, b, c, d, e), (one, two) = linkages.start("free")
+    rod, rocker = linkages.link(m, "rod", one, (b / 2, e)), linkages.link(m, "rocker", two, (c / 3, -e))
+    m.pin("B", crank.at(a), rod)
+    m.pin("D", m.frame.at(d, e), rocker)
+    m.pin("C", rod.at(0), rocker.at(c))
+    with pytest.raises(BadInput, match=r"linkages.py:\d+: all joints of the link 'rod' are pins at its point \(0, 0\)"):
+        derive(m)
+
+
+def test_a_guess_that_a_closed_form_leaves_without_use_is_refused():
+    m, crank, (a, b, c, d, e), _ = linkages.start("guessed")
+    rod, rocker = m.link("rod", guess=0.5), m.link("rocker")
+    m.pin("B", crank.at(a), rod)
+    m.pin("D", m.frame.at(d, e), rocker)
+    with pytest.raises(
+        BadInput, match=r"py:\d+: the link 'rod' closes in closed form at the joint 'C'.* branch=1 or -1"
+    ):
+        m.pin("C", rod.at(b), rocker.at(c))

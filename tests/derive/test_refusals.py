@@ -39,6 +39,12 @@ CASES = {
     "name of a rate": ('    m.coordinates("phid")\n', 10, "is the name of a rate of the coordinate 'phi'"),
     "name of a rate, later": ('    m.inputs("qd", "N"); m.coordinates("q")\n', 10, "is the name of a rate"),
     "not finite": ('    m.body("b", mass=M, at=(r * cos(phi) / 0, 0))\n', 10, "is not finite"),
+    "degrees in a cosine": (
+        '    m.body("b", mass=M, at=(r * cos(phi + 120), 0))\n',
+        10,
+        "write degrees as 120 * pi / 180",
+    ),
+    "degrees of a line": ("    m.frame.line(angle=-90)\n", 10, "write degrees as -90 * pi / 180"),
     "leaves": ("    raise SystemExit(3)\n", 10, "SystemExit: 3"),
     "any error": ("    1 / 0\n", 10, "ZeroDivisionError"),
     "millimetres": ('    m.parameters("k", "mm")\n', 10, "'k' is in mm, and letters are in SI: write 'm'"),
@@ -67,7 +73,7 @@ CASES = {
         10,
         "is in -, and must be in m",
     ),
-    "drawn by what": ('    m.draw_circle((r, 0), "x")\n', 10, "the letter 'x' is not declared"),
+    "drawn by what": ('    m.draw_circle((r, 0), "x")\n', 10, "= 'x' is no expression"),
     "drawn where": ("    m.draw_line((r, 0), phi)\n", 10, "phi is no link and no point of one"),
 }
 

@@ -1,167 +1,217 @@
-"""Loads over the turn against Newton-Euler in absolute coordinates and against balances written down by hand."""
+"""Balance of engines against closed forms, and weights that leave what they must."""
 
-import dataclasses
+import json
 import math
+from pathlib import Path
 
-import casadi as ca
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from rigid_bodies import System, motion
-from small_machines import machine, smooth_gas, turn_of
+from click.testing import CliRunner
 
-from mechsym import cases
-from mechsym.forces.loads import loads, polar, power_residual, radial, tangential
-from mechsym.forces.table import columns
-from mechsym.forces.turn import at, crank_drive
-from mechsym.jobs.turn import turn
-from mechsym.mechanisms.crosshead import CrossheadParameters
-from mechsym.mechanisms.hypocycloid import HypocycloidParameters
-from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
-from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+from mechsym.forces.balance import amplitudes, balance, couple, part
+from mechsym.forces.turn import Turn, crank_drive, turn
+from mechsym.mechanisms.crank_train import CrankTrainParameters
 
-PLANET = HypocycloidParameters(e=0.05, I1=0.1, u1=-0.2, m2=1.3, I2=2e-3, m3=2.4, alpha_n=math.radians(25))
-LINK = RodlessParameters(r=0.05, I1=0.1, u1=-0.1, m_link=1.3, I_link=2e-3, m_a=2.4, m_b=1.9)
+M, R, ROD, OMEGA = 0.4377, 0.0375, 0.125, 502.6548245743669
+UNIT = M * R * OMEGA**2  # force of a reciprocating mass at the crank radius [N]
+A = 0.0888  # distance of two throws [m]
 
 
-def numbers(low, high):
-    return st.floats(low, high, allow_nan=False)
+def harmonic(order: int, lam: float = R / ROD, terms: int = 40) -> float:
+    """A_2n of the acceleration of a piston, by the series of the rod's root (order 1: 1)."""
+    if order == 1:
+        return 1.0
+    n, total = order // 2, 0.0
+    for j in range(n, terms):
+        root = math.prod((0.5 - i) / (i + 1) for i in range(j))  # binom(1/2, j)
+        total += 2 * root * (-(lam**2)) ** j * 4.0**-j * math.comb(2 * j, j - n)
+    return 4 * n**2 / lam * (-1) ** n * total
 
 
-@st.composite
-def slider_cranks(draw):
-    r1, r2 = draw(numbers(0.0, 0.3)), draw(numbers(0.05, 0.3))
-    l1, l2 = (draw(numbers(0.6, 2.0)) * (r1 + r2) for _ in range(2))
-    masses = {name: draw(numbers(0.1, 50)) for name in ("m1", "m2", "m3", "m4", "m5")}
-    weight = {"g": draw(st.sampled_from([0.0, 9.81])), "axis_tilt": draw(numbers(-2, 2))}
-    return CrossheadParameters(r1=r1, r2=r2, l1=l1, l2=l2, I01=draw(numbers(0.1, 20)), IC2=draw(numbers(0, 9)),
-                               **masses, **weight)  # fmt: skip
+def engine(phases: list[float], banks: list[float], throws: list[int], z: list[float], z_rod: float = 0.0) -> Turn:
+    """Massless rods on throws without mass: angles [deg], places of the throws [m]."""
+    parameters = CrankTrainParameters(
+        throw=tuple(throws), phase=tuple(np.radians(phases)), bank=tuple(np.radians(banks)),
+        firing=tuple(0.0 for _ in throws), r=R, l1=0.3 * ROD, l2=0.7 * ROD, m_rod=0.0, m_piston=M, I_rod=0.0,
+        z_rod=z_rod, I0=1e-3, z=tuple(z), I_f=0.1, k=1e5,
+    )  # fmt: skip
+    return turn(crank_drive("crank_train", parameters), None, OMEGA)
 
 
-def absolute(p: CrossheadParameters, F: float, M: float) -> System:
-    """Crank, rod and piston, each with x, y and an angle of its own."""
-    r, l = p.r1 + p.r2, p.l1 + p.l2
-    down = -p.g * math.sin(p.axis_tilt), -p.g * math.cos(p.axis_tilt)
-
-    def joints(X):
-        xc, yc, a, xr, yr, b, xp, yp, turn = (X[i] for i in range(9))
-        return ca.vertcat(
-            xc - p.r1 * ca.cos(a),
-            yc - p.r1 * ca.sin(a),
-            xr - p.l1 * ca.cos(b) - r * ca.cos(a),
-            yr - p.l1 * ca.sin(b) - r * ca.sin(a),
-            xp - r * ca.cos(a) - l * ca.cos(b),
-            yp - r * ca.sin(a) - l * ca.sin(b),
-            yp,
-            turn,
-        )
-
-    m = p.m3 + p.m4 + p.m5
-
-    def forces(X):
-        weights = [(mass * down[0], mass * down[1]) for mass in (p.m1, p.m2, m)]
-        return [*weights[0], -M, *weights[1], 0, weights[2][0] - F, weights[2][1], 0]
-
-    return System((p.m1, p.m2, m), (p.I01 - p.m1 * p.r1**2, p.IC2, 1.0), joints, forces)
+def in_line(*phases: float) -> Turn:
+    n = len(phases)
+    return engine(list(phases), [0.0] * n, list(range(1, n + 1)), [A * k for k in range(n)])
 
 
-@settings(max_examples=25)
-@given(slider_cranks(), numbers(0, 2 * math.pi), numbers(1, 60))
-def test_bearing_loads_and_torque_agree_with_newton_euler(p, phi, speed):
-    one = at(crank_drive("crosshead", p), smooth_gas(2 * (p.r1 + p.r2)), speed, np.array([phi]))
-    r, l, torque = p.r1 + p.r2, p.l1 + p.l2, float(one.torque[0])
-    c, s = math.cos(phi), math.sin(phi)
-    b = -math.asin(r * s / l)
-    pose = [p.r1 * c, p.r1 * s, phi, r * c + p.l1 * math.cos(b), r * s + p.l1 * math.sin(b), b, r * c + l * math.cos(b)]
-    truth = motion(absolute(p, float(one.inputs["F"][0]), torque), np.array([*pose, 0, 0]), 2, phi, speed)
-    forces, found = truth.joint_forces, loads(one)
-    size = np.abs(forces).max() + abs(torque) / r
-    # with this load the crank neither gains nor loses speed
-    assert abs(truth.acceleration[2]) * p.I01 < 1e-9 * size * r
-    # the rod's centre hangs on the crank by the first pair of joints, the piston on the rod's end by the second
-    on_crank = -(forces[2:4] + forces[4:6])
-    assert (found.pins[0].x[0], found.pins[0].y[0]) == pytest.approx(tuple(on_crank), abs=1e-9 * size)
-    assert found.guides["side_force"][0] == pytest.approx(forces[6], abs=1e-9 * size)
-    main = forces[0:2] - on_crank
-    bearing = found.bearings["main_bearing"]
-    assert (bearing[0][0], bearing[1][0]) == pytest.approx(tuple(main), abs=1e-9 * size)
-    curves = polar(one, found)
-    assert curves["main_bearing"][0][0] == pytest.approx(-main[0], abs=1e-9 * size)
-    across = on_crank[0] * c + on_crank[1] * s, on_crank[1] * c - on_crank[0] * s
-    assert (curves["crank_pin"][0][0], curves["crank_pin"][1][0]) == pytest.approx(across, abs=1e-9 * size)
+def force(one: Turn) -> np.ndarray:
+    return balance(one, weights="none").before.force
 
 
-@settings(max_examples=25)
-@given(slider_cranks(), numbers(1, 60))
-def test_power_of_the_forces_is_the_change_of_energy(p, speed):
-    one = turn_of(machine("crosshead", p, speed), smooth_gas(2 * (p.r1 + p.r2)), 90)
-    assert power_residual(one, loads(one)) < 1e-12
+def test_harmonics_of_the_page() -> None:
+    values = [harmonic(order, 0.3) for order in (2, 4, 6)]
+    assert values == pytest.approx([0.3070506590621657, -0.00723769499682184, 0.000191936746636], rel=1e-11)
 
 
-@pytest.mark.parametrize("rule", [CrankFreeRadially(), Stiffnesses(k_a=2e8, k_b=1e8, k_c=5e7)])
-def test_power_of_the_other_mechanisms(rule):
-    faces = RodlessFaces(sides=("a+", "b-"), areas=(0.03, 0.02), firing=(0.0, 1.5 * math.pi))
-    link = machine("rodless", LINK, closing=rule, faces=faces)
-    for case in (machine("hypocycloid", PLANET), link):
-        one = turn_of(case, smooth_gas(0.2))
-        assert power_residual(one, loads(one)) < 1e-12
+def test_three_in_line() -> None:
+    one = in_line(0, 240, 120)
+    shaken = amplitudes(couple(one), one)
+    for order in (1, 2, 4):
+        assert shaken[order] == pytest.approx(math.sqrt(3) * A * abs(harmonic(order)) * UNIT, rel=1e-9)
+    assert amplitudes(force(one), one)[6] == pytest.approx(3 * harmonic(6) * UNIT, rel=1e-9)
+    assert max(amplitudes(force(one), one)[k] for k in (1, 2, 3, 4, 5)) < 1e-12 * UNIT
 
 
-def test_work_of_a_turn_is_that_of_the_gas():
-    case = machine("hypocycloid", PLANET)
-    gas = smooth_gas(0.2)
-    one = turn_of(case, gas)
-    # integral of p A x' with x' = 2 e sin: only the sine of the pressure, 20e5 / 3, gives work
-    work = math.pi * 20e5 / 3 * gas.chamber.area * 2 * PLANET.e
-    assert one.torque.mean() * 2 * math.pi == pytest.approx(work, rel=1e-12)
-    assert one.gas_power.mean() / one.omega * 2 * math.pi == pytest.approx(work, rel=1e-12)
+def test_four_in_line() -> None:
+    one = in_line(0, 180, 180, 0)
+    for order in (2, 4, 6):
+        assert amplitudes(force(one), one)[order] == pytest.approx(4 * abs(harmonic(order)) * UNIT, rel=1e-9)
+    assert amplitudes(force(one), one)[1] < 1e-12 * UNIT
+    assert np.abs(couple(one)).max() < 1e-12 * UNIT
 
 
-def test_hypocycloid_loads_by_hand():
-    """Planet: F_n on the pin, W = F_n sin(theta) - I2 theta''/e at the teeth, the rest in the journal."""
-    one = turn_of(machine("hypocycloid", PLANET), smooth_gas(0.2))
-    s, c, w = np.sin(one.phi), np.cos(one.phi), one.omega
-    F_n = one.inputs["F"] - PLANET.m3 * 2 * PLANET.e * c * w**2
-    W = F_n * s
-    R = np.abs(W) * math.tan(PLANET.alpha_n)
-    centripetal = PLANET.m2 * PLANET.e * w**2
-    journal_x = F_n + W * s + R * c - centripetal * c  # crank on planet
-    journal_y = -W * c + R * s - centripetal * s
-    pin = loads(one).pins[0]
-    assert one.reactions["tooth_force"] == pytest.approx(W, rel=1e-11, abs=1e-6)
-    assert -pin.x == pytest.approx(journal_x, rel=1e-11, abs=1e-6)
-    assert -pin.y == pytest.approx(journal_y, rel=1e-11, abs=1e-6)
-    assert one.torque == pytest.approx(2 * PLANET.e * F_n * s, rel=1e-11, abs=1e-7)
+def test_boxer_four() -> None:
+    b = 0.04
+    one = engine([0, 180, 180, 0], [0, 180, 0, 180], [1, 2, 3, 4], [0, b, A, A + b])
+    for order in (2, 4, 6):
+        assert amplitudes(couple(one), one)[order] == pytest.approx(2 * b * abs(harmonic(order)) * UNIT, rel=1e-9)
+    assert amplitudes(couple(one), one)[1] < 1e-12 * UNIT
+    assert np.abs(force(one)).max() < 1e-12 * UNIT
 
 
-def test_massless_planet_without_separating_force():
-    light = dataclasses.replace(PLANET, m2=0.0, I2=0.0, alpha_n=0.0)
-    one = turn_of(machine("hypocycloid", light), smooth_gas(0.2))
-    pin = loads(one).pins[0]
-    F_n = one.reactions["pin_force"]
-    assert np.hypot(pin.x, pin.y) == pytest.approx(np.abs(F_n) * np.sqrt(1 + 3 * np.sin(one.phi) ** 2), rel=1e-11)
+def test_v6_of_60_degrees() -> None:
+    """Pins split against the banks, as even firing wants: forwards at one and four times, backwards at twice."""
+    phases = [pin for at in (0.0, 240.0, 120.0) for pin in (at, at + 60)]
+    one = engine(phases, [30, -30] * 3, [1, 1, 2, 2, 3, 3], [0, A, 2 * A])
+    turned = couple(one)
+    for n in (1, -2, 4):
+        assert abs(part(turned, one, n)) == pytest.approx(1.5 * A * abs(harmonic(abs(n))) * UNIT, rel=1e-9)
+        assert abs(part(turned, one, -n)) < 1e-12 * UNIT
+    assert max(amplitudes(force(one), one)[k] for k in (1, 2, 4)) < 1e-12 * UNIT
 
 
-def test_roll_moment_is_what_guides_and_teeth_do_to_the_frame():
-    p = CrossheadParameters(r1=0.1, r2=0.2, l1=0.4, l2=0.5, m1=9, m2=7, m3=3, m4=2, m5=4, I01=2, IC2=0.9, g=0)
-    one = turn_of(machine("crosshead", p), smooth_gas(0.6))
-    table = columns(one, loads(one))
-    arm = p.r1 + p.r2 + p.l1 + p.l2 - table["x"]
-    assert table["roll_moment"] == pytest.approx(-table["side_force"] * arm, rel=1e-10, abs=1e-6)
-    planet = turn_of(machine("hypocycloid", PLANET), smooth_gas(0.2))
-    table = columns(planet, loads(planet))
-    assert table["roll_moment"] == pytest.approx(-2 * PLANET.e * table["tooth_force"], rel=1e-10, abs=1e-7)
-    faces = RodlessFaces(sides=("a+",), areas=(0.03,), firing=(0.0,))
-    link = turn_of(machine("rodless", LINK, closing=CrankFreeRadially(), faces=faces), smooth_gas(0.2))
-    table = columns(link, loads(link))
-    assert table["roll_moment"] == pytest.approx(-2 * LINK.r * table["guide_combination"], rel=1e-10, abs=1e-7)
+def test_v8_of_90_degrees() -> None:
+    throws = [0.0, 90.0, 270.0, 180.0]
+    phases = [pin for at in throws for pin in (at, at)]
+    one = engine(phases, [45, -45] * 4, [k for k in (1, 2, 3, 4) for _ in "ab"], [A * k for k in range(4)])
+    turned = couple(one)
+    assert abs(part(turned, one, 1)) == pytest.approx(math.sqrt(10) * A * UNIT, rel=1e-9)
+    assert max(abs(part(turned, one, n)) for n in (-1, 2, -2)) < 1e-12 * UNIT
+    four = [part(force(one), one, n) for n in (4, -4)]
+    assert sum(map(abs, four)) == pytest.approx(4 * math.sqrt(2) * abs(harmonic(4)) * UNIT, rel=1e-9)
+    assert abs(four[0]) == pytest.approx(abs(four[1]), rel=1e-9)  # in the plane of symmetry
+    assert max(amplitudes(force(one), one)[k] for k in (1, 2)) < 1e-12 * UNIT
 
 
-@pytest.mark.parametrize("name", ["zotov-89", "nunes-hypocycloid", "alpha-stirling"])
-def test_builtin_cases_balance(name):
-    one = turn(cases.load(name))
-    found = loads(one)
-    assert power_residual(one, found) < 1e-10
-    for pin in found.pins:
-        assert np.hypot(radial(pin), tangential(pin)) == pytest.approx(np.hypot(pin.x, pin.y), rel=1e-12)
+def test_radial_of_five() -> None:
+    banks = [72.0 * k for k in range(5)]
+    one = engine([0.0] * 5, banks, [1] * 5, [0.0])
+    values = force(one)
+    for n, order in ((1, 1), (-4, 4), (6, 6)):
+        assert abs(part(values, one, n)) == pytest.approx(2.5 * abs(harmonic(order)) * UNIT, rel=1e-9)
+        assert abs(part(values, one, -n)) < 1e-12 * UNIT
+    assert amplitudes(values, one)[2] < 1e-12 * UNIT
+
+
+@pytest.mark.parametrize("count", range(1, 13))
+def test_arrows_of_a_row(count: int) -> None:
+    """Evenly spaced throws of any number: forces and couples are sums of arrows exp(i k phase)."""
+    phases = 2 * math.pi * np.arange(count) / count
+    one = in_line(*np.degrees(phases))
+    z = A * (np.arange(count) - (count - 1) / 2)
+    forces, couples = amplitudes(force(one), one), amplitudes(couple(one), one)
+    for order in (1, 2, 4, 6):
+        arrows = np.exp(1j * order * phases)
+        size = abs(harmonic(order)) * UNIT
+        assert forces[order] == pytest.approx(size * abs(arrows.sum()), rel=1e-9, abs=1e-12 * UNIT)
+        assert couples[order] == pytest.approx(size * abs((z * arrows).sum()), rel=1e-9, abs=1e-12 * UNIT)
+
+
+@pytest.mark.parametrize("angle", [60.0, 90.0])
+@pytest.mark.parametrize("throws", [1, 2, 4])
+def test_arrows_of_a_v(throws: int, angle: float) -> None:
+    phases = [90.0 * k for k in range(throws)]
+    one = engine(
+        [at for at in phases for _ in "ab"], [angle / 2, -angle / 2] * throws,
+        [k + 1 for k in range(throws) for _ in "ab"], [A * k for k in range(throws)],
+    )  # fmt: skip
+    for n in (1, -1, 2, -2, 4, -4):
+        banks = np.radians([angle / 2, -angle / 2])
+        # a piston on the axis at bank b has the angle phi + phase - b from its own dead centre
+        arrows = [np.exp(1j * (b + n * (math.radians(at) - b))) for at in phases for b in banks]
+        wanted = abs(sum(arrows)) * abs(harmonic(abs(n))) * UNIT / 2
+        assert abs(part(force(one), one, n)) == pytest.approx(wanted, rel=1e-9, abs=1e-12 * UNIT)
+
+
+def test_lanchester_shafts_of_a_four() -> None:
+    one = in_line(0, 180, 180, 0)
+    done = balance(one, weights="none", shafts=(2,))
+    left = amplitudes(done.after.force, one)
+    assert left[2] < 1e-12 * UNIT
+    assert left[4] == pytest.approx(4 * abs(harmonic(4)) * UNIT, rel=1e-9)
+    assert {weight.order for weight in done.shafts} == {2, -2}
+    # each shaft carries half of 4 m r A_2 / 4, since it turns twice as fast
+    for sense in (2, -2):
+        total = sum(weight.unbalance for weight in done.shafts if weight.order == sense)
+        assert total == pytest.approx(M * R * harmonic(2) / 2, rel=1e-9)
+
+
+def test_a_single_cylinder_keeps_half() -> None:
+    one = in_line(0)
+    done = balance(one)
+    assert [weight.unbalance for weight in done.counterweights] == pytest.approx([M * R / 2], rel=1e-9)
+    assert amplitudes(done.after.force, one)[1] == pytest.approx(UNIT / 2, rel=1e-9)
+
+
+def test_weights_that_are_too_small_take_what_they_can() -> None:
+    one = in_line(0, 240, 120)
+    free = balance(one).counterweights[0].unbalance
+    done = balance(one, largest=free / 2)
+    assert max(weight.unbalance for weight in done.counterweights) <= free / 2 * (1 + 1e-9)
+    whole = amplitudes(couple(one), one)[1]
+    # of the part that turns with the crank, half of the whole, half is taken
+    assert amplitudes(done.after.couple, one)[1] == pytest.approx(0.75 * whole, rel=1e-6)
+
+
+def test_weights_for_the_bearings_shake_the_frame_no_more() -> None:
+    one = in_line(0, 240, 120)
+    frame, mains = balance(one, weights="webs"), balance(one, weights="webs", least="mains")
+    largest = [max(journal.load.max() for journal in done.after.journals) for done in (frame, mains)]
+    assert largest[1] < 0.999 * largest[0]
+    for kind in ("force", "couple"):
+        left = [amplitudes(getattr(done.after, kind), one)[1] for done in (frame, mains)]
+        assert left[1] == pytest.approx(left[0], rel=1e-6, abs=1e-6 * UNIT * A)
+
+
+def test_bearings_without_places_are_refused() -> None:
+    with pytest.raises(BadInput, match=r"give shaft\.bearings"):
+        balance(in_line(0), least="mains")
+
+
+def test_command(tmp_path: Path) -> None:
+    words = ["balance", "zotov-89", "--weights", "none", "--shafts", "1,2", "--out", str(tmp_path), "--json"]
+    done = CliRunner().invoke(mechsym, words, catch_exceptions=False)
+    told = json.loads(done.output)
+    assert told["before"]["force"]["1"] > 1e4
+    assert told["after"]["force"]["1"] == told["after"]["force"]["2"] == 0
+    assert told["after"]["force"]["4"] == pytest.approx(told["before"]["force"]["4"], rel=1e-12)
+    assert told["before"]["force"]["4"] > 200
+    heads = (tmp_path / "mounts.csv").read_text().splitlines()[0]
+    assert heads.startswith("order [-],force_x_before [N]")
+    assert "<svg" in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--shafts", "1.5"], "turn 1 to 4 times as fast"),
+        (["--largest", "5 kg"], "kg*m"),
+        (["--largest", "-1"], "more than 0"),
+        (["--least", "mains"], "shaft.bearings"),
+    ],
+)
+def test_bad_options(words: list[str], why: str) -> None:
+    with pytest.raises(BadInput) as refused:
+        CliRunner().invoke(mechsym, ["balance", "zotov-89", *words], catch_exceptions=False)
+    assert why in str(refused.value)

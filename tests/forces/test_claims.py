@@ -1,14 +1,12 @@
 """Claims on friction and loads: the verdicts follow the numbers of the comparison, whichever way they point."""
 
-import copy
+from dataclasses import replace
 
 import pytest
 from small_machines import machine, smooth_gas, turn_of
 
-from mechsym.forces.claims import claims, equal_loss_coefficient, left_out
-from mechsym.forces.comparison import ComparisonSettings, compare
-from mechsym.forces.friction import Friction
-from mechsym.forces.rings import NoRings
+from mechsym.forces.comparison import ComparisonSettings, claims, compare, equal_loss_coefficient, left_out
+from mechsym.forces.friction import Friction, NoRings
 from mechsym.mechanisms.crosshead import CrossheadParameters
 
 CRANK = CrossheadParameters(r1=0, r2=0.3, l1=0.4, l2=0.5, m1=0, m2=0, m3=3, m4=2, m5=4, I01=2, IC2=0, g=0)
@@ -33,10 +31,8 @@ def verdicts(rows):
 def test_less_friction_is_not_supported_with_equal_coefficients(rows):
     found = verdicts(rows)
     assert found["loses less by friction than one with rods"] == "unsupported claim"
-    changed = copy.deepcopy(rows)
-    for row in changed:
-        if row["mechanism"].startswith("rodless"):
-            row["friction_per_piston"] = 0.5 * rows[0]["friction_per_piston"]
+    less = replace(rows[0].friction, friction_per_piston=0.5 * rows[0].friction.friction_per_piston)
+    changed = [replace(row, friction=less) if row.mechanism.startswith("rodless") else row for row in rows]
     assert verdicts(changed)["loses less by friction than one with rods"] == "supported claim"
 
 
@@ -44,11 +40,11 @@ def test_guide_coefficient_of_equal_losses(rows):
     """With that coefficient on its guides the rodless engine loses as much as the slider crank: losses are linear."""
     rod = rows[0]
     for row in rows:
-        mu = equal_loss_coefficient(rod, row, SOME.mu_guide) if row["friction_places"]["guides"] else None
+        guides = row.friction.friction_places["guides"]
+        mu = equal_loss_coefficient(rod, row, SOME.mu_guide) if guides else None
         if mu is not None:
-            guides = row["friction_places"]["guides"]
-            total = row["friction_per_piston"] - guides + guides * mu / SOME.mu_guide
-            assert total == pytest.approx(rod["friction_per_piston"], rel=1e-12)
+            total = row.friction.friction_per_piston - guides + guides * mu / SOME.mu_guide
+            assert total == pytest.approx(rod.friction.friction_per_piston, rel=1e-12)
     assert equal_loss_coefficient(rod, rod, SOME.mu_guide) == pytest.approx(SOME.mu_guide, rel=1e-12)
 
 

@@ -104,7 +104,7 @@ def test_friction_as_a_section_of_the_case(tmp_path):
 
 
 @pytest.mark.parametrize(("words", "message"), [
-    (("chmielewski",), "forces of crankshaft_flywheel are not known"),
+    (("chmielewski",), "the 2 coordinates of crankshaft_flywheel are free"),
     (("moroianu", "--set", "l1=0.1", "--set", "l2=0.2"), "rod too short"),
     (("nunes-slider-crank", "--law", "x"), "--law 'x' takes numbers"),
 ])  # fmt: skip

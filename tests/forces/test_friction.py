@@ -9,10 +9,19 @@ import pytest
 from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
-from mechsym.forces.friction import Friction, losses, mesh_power, swept_volume
-from mechsym.forces.loads import loads
-from mechsym.forces.rings import ContactPressure, NoRings, Patton1989, patton_pressure, ring_power
-from mechsym.jobs.turn import turn
+from mechsym.forces.friction import (
+    ContactPressure,
+    Friction,
+    NoRings,
+    Patton1989,
+    losses,
+    mesh_power,
+    patton_pressure,
+    ring_power,
+    swept_volume,
+)
+from mechsym.jobs.machine import turn
+from mechsym.quantities.results import tell
 
 NOTHING = {"mu_guide": 0.0, "mu_pin": 0.0, "mu_main": 0.0, "mu_mesh": 0.0}
 RADII = {"radius_piston_pin": 0.01, "radius_crank_pin": 0.012, "radius_main": 0.013, "module": 1e-3}
@@ -36,7 +45,7 @@ def planet():
 
 
 def test_guide_friction_by_hand(slider):
-    found = losses(slider, loads(slider), only(mu_guide=0.1), NoRings())
+    found = losses(slider, only(mu_guide=0.1), NoRings())
     p = slider.drive.parameters
     lam = (p.r1 + p.r2) / (p.l1 + p.l2)
     xdd = slider.kinematics["d2x_dphi2"] * slider.omega**2
@@ -48,7 +57,7 @@ def test_guide_friction_by_hand(slider):
 
 def test_bearing_friction_by_hand(planet):
     """Planet and crank turn against each other at twice the speed, planet and rod at once."""
-    found = losses(planet, loads(planet), only(mu_pin=0.01, mu_main=0.02), NoRings())
+    found = losses(planet, only(mu_pin=0.01, mu_main=0.02), NoRings())
     journal = np.hypot(planet.reactions["journal_force_x"], planet.reactions["journal_force_y"]).mean()
     assert found.places["crank_pins"] == pytest.approx(0.01 * 0.012 * journal * 2 * planet.omega, rel=1e-12)
     pin = np.abs(planet.reactions["pin_force"]).mean()
@@ -67,7 +76,7 @@ def test_mesh_friction_is_the_sliding_of_involute_flanks():
 
 
 def test_efficiency_and_mean_pressure_follow_from_the_lost_power(slider):
-    found = losses(slider, loads(slider), FRICTION, Patton1989())
+    found = losses(slider, FRICTION, Patton1989())
     lost = sum(found.places.values())
     assert found.mechanical_efficiency == pytest.approx(1 - lost / found.indicated_power, rel=1e-12)
     per_cycle = lost * 4 * math.pi / slider.omega
@@ -100,7 +109,7 @@ def test_ring_rules(slider):
 @pytest.fixture(scope="module")
 def rows(slider):
     found = compare(slider, FRICTION, NoRings(), ComparisonSettings())
-    return {row["mechanism"]: row for row in found}
+    return {row.mechanism: tell(row) for row in found}
 
 
 def test_the_compared_machines_have_equal_gas_and_mass(rows, slider):
@@ -109,7 +118,7 @@ def test_the_compared_machines_have_equal_gas_and_mass(rows, slider):
     assert max(one) == pytest.approx(0.25 * 0.026 * slider.omega**2, rel=1e-6)
     four = rows["rodless, four pistons, crank free radially"]
     assert four["torque_mean"] == pytest.approx(4 * rows["hypocycloid"]["torque_mean"], rel=1e-9)
-    base = losses(slider, loads(slider), FRICTION, NoRings())
+    base = losses(slider, FRICTION, NoRings())
     # the blow-down is a step at bottom dead centre: the angle that stands there may take either side of it
     assert rows["slider crank"]["friction_per_piston"] == pytest.approx(sum(base.places.values()), rel=1e-4)
     per_piston = [row["torque_mean"] / row["pistons"] for row in rows.values()]
@@ -141,6 +150,6 @@ def test_guides_of_a_rodless_engine_carry_at_least_the_tangential_part(slider):
 
 
 def test_a_comparison_needs_gas(slider):
-    bare = dataclasses.replace(slider, gas=None)
+    bare = dataclasses.replace(slider, acting=())
     with pytest.raises(BadInput, match="needs a \\[cycle\\]"):
         compare(bare, None, NoRings(), ComparisonSettings())

@@ -12,8 +12,8 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.forces.indicated import NORMAL_95, CrankTorque, gaps, pressure_from_torque, scatter, shaft_lines, work
-from mechsym.jobs.indicated import common_gas, indicated, summary
-from mechsym.jobs.turn import turn
+from mechsym.jobs.indicated import common_gas, indicated
+from mechsym.jobs.machine import turn
 
 
 def written(path, one, torque, head="torque_with_inertia"):
@@ -32,18 +32,19 @@ def test_the_torque_of_a_pressure_tells_that_pressure(tmp_path, name):
     case = cases.load(name)
     one = turn(case)
     truth = one.gas.pressure.absolute(one.phi)
-    measured, found = indicated(case, written(tmp_path / "m.csv", one, one.torque), 0.0)
+    told = indicated(case, written(tmp_path / "m.csv", one, one.torque), 0.0)
+    measured, found = told.measured, told.found
     assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
     assert 1 <= (~found.told).sum() <= 4  # the dead centres alone
     done, error = work(measured, found, one.period)
     assert error == 0 and done == pytest.approx(one.gas_power.mean() * one.period / one.omega, rel=1e-12)
-    assert summary(case, measured, found)["doubts"] == []
+    assert told.doubts == []
 
 
 def test_a_torque_without_inertia_is_that_of_the_gas(tmp_path):
     case = cases.load("nunes-slider-crank")
     one = turn(case)
-    _, found = indicated(case, written(tmp_path / "m.csv", one, one.gas_power / one.omega, "torque"), 0.0)
+    found = indicated(case, written(tmp_path / "m.csv", one, one.gas_power / one.omega, "torque"), 0.0).found
     truth = one.gas.pressure.absolute(one.phi)
     assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
 
@@ -52,8 +53,8 @@ def test_inertia_left_in_a_torque_without_it_is_noticed(tmp_path):
     """The wrong heading shifts the pressure by far more than its interval, and below zero."""
     case = cases.load("nunes-slider-crank")
     one = turn(case)
-    measured, found = indicated(case, written(tmp_path / "m.csv", one, one.torque, "torque"), 0.01)
-    assert {doubt.code for doubt in summary(case, measured, found)["doubts"]} == {"pressure_below_zero"}
+    told = indicated(case, written(tmp_path / "m.csv", one, one.torque, "torque"), 0.01)
+    assert {doubt.code for doubt in told.doubts} == {"pressure_below_zero"}
 
 
 @pytest.fixture(scope="module")

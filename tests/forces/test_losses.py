@@ -14,13 +14,22 @@ from mechsym.cycle.gas import at_same_travel
 from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
-from mechsym.forces.friction import Friction, losses, mesh_power
+from mechsym.forces.friction import (
+    ContactPressure,
+    Friction,
+    NoRings,
+    Patton1989,
+    losses,
+    mesh_power,
+    patton_pressure,
+    ring_power,
+)
 from mechsym.forces.loads import loads
-from mechsym.forces.rings import ContactPressure, NoRings, Patton1989, patton_pressure, ring_power
 from mechsym.mechanisms.crosshead import CrossheadParameters
+from mechsym.mechanisms.faces import RodlessFaces
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters
-from mechsym.mechanisms.rodless_faces import RodlessFaces
+from mechsym.quantities.results import tell
 
 CRANK = CrossheadParameters(r1=0, r2=0.3, l1=0.4, l2=0.5, m1=0, m2=0, m3=3, m4=2, m5=4, I01=2, IC2=0, g=0)
 PLANET = HypocycloidParameters(e=0.15, I1=0.1, m2=0, I2=0, m3=9, alpha_n=math.radians(25))
@@ -41,7 +50,7 @@ CASES = {
 
 def lost(name, friction, rings=None):
     one = turn_of(CASES[name], smooth_gas(0.6))
-    return one, losses(one, loads(one), friction, rings or NoRings())
+    return one, losses(one, friction, rings or NoRings())
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -135,7 +144,7 @@ def test_same_travel_means_same_work(own, other):
 def rows(name):
     one = turn_of(CASES[name], smooth_gas(0.6))
     found = compare(one, SOME, RINGS, ComparisonSettings(lam=1 / 3, alpha_n=math.radians(25)))
-    return one, {row["mechanism"]: row for row in found}
+    return one, {row.mechanism: tell(row) for row in found}
 
 
 @pytest.mark.parametrize(("name", "row"), [("crosshead", "slider crank"), ("hypocycloid", "hypocycloid"),
@@ -162,7 +171,7 @@ def test_all_get_the_same_work_and_only_the_slider_crank_has_a_second_order():
 
 def test_friction_as_a_law_of_the_cycle():
     from mechsym.cases import load
-    from mechsym.jobs.turn import fitted_law
+    from mechsym.jobs.machine import fitted_law
 
     case = load("zotov-89")
     case = dataclasses.replace(case, sections={**case.sections, "friction": SOME, "rings": RINGS})
@@ -173,10 +182,10 @@ def test_friction_as_a_law_of_the_cycle():
     assert several.misfit < 0.02
     assert several.computed == pytest.approx(several.fitted, rel=0.02)
     slower = dataclasses.replace(case, sections={**case.sections, "operation": Operation(speed=6.0)})
-    from mechsym.jobs.turn import turn
+    from mechsym.jobs.machine import turn
 
     one = turn(slower)
-    wanted = losses(one, loads(one), SOME, RINGS).friction_mean_pressure
+    wanted = losses(one, SOME, RINGS).friction_mean_pressure
     assert several.computed[0] == pytest.approx(wanted, rel=1e-12)
     none = fitted_law(
         dataclasses.replace(case, sections={**case.sections, "friction": NONE, "rings": NoRings()}), [9.0]

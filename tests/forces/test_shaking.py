@@ -8,10 +8,9 @@ import pytest
 from scipy.optimize import minimize
 
 from mechsym import cases
-from mechsym.forces.harmonics import orders, whole
 from mechsym.forces.loads import loads
-from mechsym.forces.shaking import BalanceWanted, shaking, verdict
-from mechsym.jobs.turn import turn
+from mechsym.forces.shaking import BalanceWanted, orders, shaking, verdict, whole
+from mechsym.jobs.machine import turn
 
 
 def test_orders_of_a_known_curve():

@@ -13,7 +13,8 @@ from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.limits import judge, undercut_radius
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs import AirAbsolute, Coil
+from mechsym.hinge.springs.air import AirAbsolute
+from mechsym.hinge.springs.coil import Coil
 
 a, e, RHO0, OMEGA = 0.6, 0.05, 0.7, 10.0
 COIL = Coil(k=1e6, F0=1e5, H=0.5)
@@ -65,7 +66,7 @@ def test_contact_of_a_known_track(arrangement, ratio, c, planes, mass):
         "tilting_couple": planes * normal, "inertia_force": per_kilogram, "torque": c * force * slope,
         "loss_torque": c * 1e-4 * normal / 0.1 * speed,
     }  # fmt: skip
-    assert found.pressure is None and set(wanted) == set(contacts.columns(found))
+    assert found.pressure is None
     for name, values in wanted.items():
         size = np.abs(values).max() or 1.0
         assert getattr(found, name) == pytest.approx(values, abs=1e-9 * size), name
@@ -75,7 +76,6 @@ def test_a_gas_spring_shows_its_pressure():
     theta = np.array([0.0, 1.0])
     found = contacts.at_angles(guide(spring=AIR), ROLLERS, theta)
     assert found.pressure == pytest.approx(found.force / 0.031)
-    assert "pressure" in contacts.columns(found)
 
 
 def test_points_of_pieces_are_dense_and_in_order():

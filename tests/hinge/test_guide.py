@@ -10,7 +10,8 @@ from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge import balance, guide
 from mechsym.hinge.choices import GuideParameters
-from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil, law
+from mechsym.hinge.springs.air import AirAbsolute, AirGauge
+from mechsym.hinge.springs.coil import Coil
 from mechsym.hinge.torque import EngineTorques
 from mechsym.hinge.torque import hinge_of as build_hinge
 
@@ -60,7 +61,7 @@ def test_energy_of_the_spring_alone_returns_the_torque(spring, arrangement, star
 
     def energy(angle):
         z = guide.closing(found, found.rho(found.parameters.shaft_ratio * angle))
-        return law(spring).energy(z)
+        return spring.energy(z)
 
     h = 1e-3
     slope = (energy(phi - 2 * h) - 8 * energy(phi - h) + 8 * energy(phi + h) - energy(phi + 2 * h)) / (12 * h)

@@ -10,9 +10,10 @@ from mechsym.cases import load
 from mechsym.errors import BadInput
 from mechsym.hinge import guide
 from mechsym.hinge import limits as feasibility
-from mechsym.hinge.springs import AirGauge, Coil
-from mechsym.hinge.thermal import AirThermal
-from mechsym.papers.zotov2024.family import family
+from mechsym.hinge.springs.air import AirGauge
+from mechsym.hinge.springs.air_thermal import AirThermal
+from mechsym.hinge.springs.coil import Coil
+from mechsym.papers.zotov2024.computed import family
 
 LIMITS = section("limits")
 THERMAL = AirThermal(A=0.031, H=1.0, p0=5e6, tau=1.0)
@@ -48,12 +49,12 @@ def test_limits_that_are_kept_say_by_how_much():
     assert texts["closure"] == "the path closes within a billionth of its radius"
     force = 0.031 * ((5e6 + 101325) * 0.99**-1.25 - 101325)  # a closing of 10 mm of 1 m
     assert texts["spring_force"] == f"smallest spring force {force / 1e3:.4g} kN"
-    heated = feasibility._spring_checks({"z_min": 0.01, "z_max": 0.2, "spring_pressure_max": None}, THERMAL, LIMITS)
+    heated = feasibility._checks_of_spring(0.01, THERMAL)
     assert {check.name: check.text for check in heated}["spring_force"] == "the spring pushes"
 
 
 def test_a_path_that_does_not_close_tells_its_gap():
-    assert feasibility._closure_check(2e-9, 1e-9).text == "gap of the path 2e-09 of at most 1e-09 m"
+    assert feasibility._closure_check(2e-9, 1.0).text == "gap of the path 2e-09 of at most 1e-09 m"
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+from hinges import monotone_seal_torque
 
 from mechsym import cases, jobs
 from mechsym.hinge.guide import cut
-from mechsym.hinge.losses import HingeLosses, monotone_seal_torque
+from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import misfire_share, price
 from mechsym.hinge.torque import torque
 

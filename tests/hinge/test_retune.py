@@ -7,7 +7,8 @@ from hinges import HIGHER, LOWER, built, engine, section, whole
 from mechsym.errors import BadInput
 from mechsym.hinge import guide, setting
 from mechsym.hinge.retune import CRITERIA, at_setting, retune
-from mechsym.hinge.springs import AirGauge, Coil
+from mechsym.hinge.springs.air import AirGauge
+from mechsym.hinge.springs.coil import Coil
 from mechsym.periodic import even_angles
 
 PHI = even_angles(2 * np.pi)

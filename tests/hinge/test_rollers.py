@@ -91,7 +91,7 @@ def test_a_cutter_smaller_than_the_roller_cuts_the_same_profile():
 
 def test_profile_curvature_is_that_of_the_profile():
     rho, drho, d2rho = wave(0.05, 4)
-    kappa = rollers.profile_curvature(rollers.curvature(rho, drho, d2rho), 0.1)
+    kappa = rollers.curvature(rho, drho, d2rho)
     x, y = rollers.parallel(rho, drho, THETA, 0.1)
     order = np.fft.fftfreq(THETA.size, 1 / THETA.size)
 
@@ -100,7 +100,7 @@ def test_profile_curvature_is_that_of_the_profile():
 
     dx, dy = derivative(x), derivative(y)
     expected = (dx * derivative(dy) - dy * derivative(dx)) / np.hypot(dx, dy) ** 3
-    assert kappa == pytest.approx(expected, abs=1e-6)
+    assert kappa / (1 + 0.1 * kappa) == pytest.approx(expected, abs=1e-6)
 
 
 def crosses_itself(x, y):
@@ -210,8 +210,3 @@ def test_both_sides_of_a_kink_are_seen():
     # the largest jump is where the scavenge ports open and the blow-down ends
     assert at == pytest.approx(np.radians(140), abs=1e-12)
     assert np.max(jump) > 0.01
-
-
-def test_columns_hold_all_that_exists():
-    names = set(turn.columns(around()))
-    assert {"theta", "rho", "z", "pressure", "reaction_1", "reaction_2", "hertz_stress", "torque"} <= names

@@ -14,19 +14,29 @@ from mechsym.errors import BadInput
 from mechsym.machine import Machine
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, load_torque
 from mechsym.machine.record import AngleForce
-from mechsym.mechanisms.crosshead import with_flywheel
 from mechsym.mechanisms.record import curves
 from mechsym.simulate import Settings, simulate
-from mechsym.simulate.angle import ReducedMachine, tabulate
-from mechsym.simulate.angle_turn import lowest_energy, speeds, stop_angle, turn
+from mechsym.simulate.angle import ReducedMachine, lowest_energy, speeds, stop_angle, tabulate, turn
 from mechsym.simulate.engine import problem, reduced
+from mechsym.simulate.result import speed_ripple
 from mechsym.simulate.steady import (
     flywheel_for_ripple,
+    mean_inertia,
     mean_torque,
     smallest_flywheel_that_turns,
     steady_state,
 )
-from mechsym.simulate.summary import speed_ripple
+
+
+def test_the_mean_inertia_weighs_panels_by_their_width():
+    # a scotch yoke, I + m r^2 sin^2: half of m r^2 in the mean, wherever its torque has kinks
+    yoke = ReducedMachine(
+        inertia=lambda phi: 5 + 3 * np.sin(phi) ** 2, torque=np.cos, load=ConstantLoad(torque=0.0), period=2 * np.pi,
+        kinks=(1.3, 1.31, 1.35, 1.4, 1.45),
+    )  # fmt: skip
+    panels = tabulate(yoke)
+    assert mean_inertia(panels) == pytest.approx(6.5, rel=1e-13)
+    assert np.mean(panels.inertia) > 6.6
 
 
 def ideal(inertia=100.0, swing=300.0, mean=50.0, load=None, order=1):
@@ -257,7 +267,7 @@ def test_flywheel_is_right_when_run_in_time(zotov, load):
     engine = engine_of(zotov, load)
     found = flywheel_for_ripple(tabulate(reduced(engine)), SPEED, 0.02)
     steady = steady_state(tabulate(reduced(engine)), SPEED, found.inertia)
-    heavy = mechanisms.build("crosshead", with_flywheel(zotov, found.inertia))
+    heavy = mechanisms.build("crosshead", dataclasses.replace(zotov, I01=zotov.I01 + found.inertia))
     result = simulate(problem(dataclasses.replace(engine, mechanism=heavy), float(steady.omega[0]), 3), Settings())
     assert result.status == "converged" and abs(result.energy.residual) < 1e-8
     assert speed_ripple(result, "phi") == pytest.approx(0.02, rel=1e-3)
@@ -277,7 +287,7 @@ def test_engine_without_hinge_stalls_where_the_angle_domain_says(zotov):
     assert result.event.state["phi"] == pytest.approx(expected, abs=2e-3)
     least = smallest_flywheel_that_turns(panels, SPEED, turns=3).inertia
     for factor, end in ((0.99, "stall"), (1.01, "turns")):
-        heavy = mechanisms.build("crosshead", with_flywheel(zotov, factor * least))
+        heavy = mechanisms.build("crosshead", dataclasses.replace(zotov, I01=zotov.I01 + factor * least))
         assert simulate(problem(dataclasses.replace(engine, mechanism=heavy), SPEED, 3), Settings()).end == end
 
 

@@ -11,11 +11,12 @@ from scipy.integrate import solve_ivp
 from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import crank_torque, cut, gas_turn, kept_torque, refit, spring_state, torque_function
-from mechsym.hinge.springs import AirAbsolute
-from mechsym.hinge.thermal import AirThermal
+from mechsym.hinge.springs.air import AirAbsolute
+from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.torque import torque
 from mechsym.jobs import hinge as design
 from mechsym.jobs.machine import machine
+from mechsym.out.block import LawPoint
 from mechsym.out.laws import hinge_law
 
 SPRING = '[spring]\nlaw = "air_thermal"\nA = "0.031 m^2"\nH = "1 m"\np0 = "5 MPa"\ntau = "0.139 s"\n'
@@ -54,7 +55,7 @@ def test_the_gas_integrated_along_the_path_gives_the_torque(wanted, choices, tau
         return -0.4 * T * dV / V - (T - 320.0) / (wanted.omega * tau)
 
     theta, z = through(guide)
-    start = gas_turn(guide, guide.spring).temperature[0]
+    start = gas_turn(guide).temperature[0]
     turn = solve_ivp(rate, (0, 2 * np.pi), [start], t_eval=theta, rtol=1e-10, atol=1e-7, max_step=0.02)
     again = solve_ivp(rate, (0, 2 * np.pi), [start], rtol=1e-10, atol=1e-7, max_step=0.02).y[0, -1]
     assert again == pytest.approx(start, rel=1e-6)  # it repeats
@@ -81,7 +82,7 @@ def test_on_a_half_speed_shaft_the_gas_has_twice_the_time(choices):
         heat = (T - 320.0) / (wanted.omega / 2 * 0.2)
         return [-0.4 * T * guide.rollers * slope(theta) / height - heat, heat]
 
-    start = gas_turn(guide, guide.spring).temperature[0]
+    start = gas_turn(guide).temperature[0]
     turn = solve_ivp(rate, (0, 2 * np.pi), [start, 0.0], rtol=1e-10, atol=1e-7, max_step=0.02)
     assert turn.y[0, -1] == pytest.approx(start, rel=1e-5)
     lost = turn.y[1, -1] * (3e5 + 101325.0) * 0.01 * 0.5 / 320.0 / 0.4  # c_v m by the filling at 320 K
@@ -139,7 +140,8 @@ def test_floats_arrays_and_the_exported_text_are_one_law(wanted, choices):
         at = phi % (2 * np.pi)
         curves = [(float(c.poly(at)), float(c.poly.derivative()(at))) for c in law.curves]
         assert one(float(phi)) == pytest.approx(value, rel=1e-9, abs=1e-6)
-        assert law.value(0.0, [phi], [9.0], letters, curves, ()) == pytest.approx(value, rel=1e-9, abs=1e-6)
+        point = LawPoint(t=0.0, q=[phi], u=[9.0], letters=letters, curves=curves, s=[])
+        assert law.value(point) == pytest.approx(value, rel=1e-9, abs=1e-6)
     assert {"A", "H", "p0", "pa", "rho0"} == set(letters)
 
 

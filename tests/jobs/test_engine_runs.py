@@ -1,6 +1,7 @@
 """Every engine case runs in time: without a section for it, against a propeller, to the speed of operation."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +10,8 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.jobs.flywheel import shaft
-from mechsym.jobs.loop import in_loop
-from mechsym.jobs.problem import braked, problem_of
-from mechsym.jobs.run import run
+from mechsym.jobs.problem import problem_of
+from mechsym.jobs.run import in_loop, run
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import reduced
@@ -21,6 +21,10 @@ from mechsym.sweep.points import route
 ENGINES = [name for name in cases.names() if "cycle" in cases.load(name).sections]
 LOOPED = ("balandin", "nunes-hypocycloid", "nunes-slider-crank")
 SHORT = {"simulation.turns": "6"}
+
+
+def with_propeller(case):
+    return replace(case, sections={"load": PropellerLoad(), **case.sections})
 
 
 def test_all_engines_are_tried():
@@ -34,13 +38,15 @@ def test_every_engine_runs_and_keeps_its_speed(name):
     found = run(case)
     assert found.result.status == "converged" and found.result.end == "turns"
     assert not any("the shaft stops" in line for line in found.findings)
-    assert abs(found.summary["energy_residual"]) < 1e-8
-    told = found.summary["speeds"][found.engine.coordinate]
+    assert abs(found.summary.energy_residual) < 1e-8
+    told = found.summary.speeds[found.engine.coordinate]
     # under a constant load nothing draws the mean speed anywhere: it stays where the start at dead centre put it
     drawn = not isinstance(case.sections.get("load"), ConstantLoad) or "spring" in case.sections
-    assert told["mean"] == pytest.approx(case.need("operation").speed, rel=0.01 if drawn else 0.03)
+    # a measured diagram's own speed, 3000 rpm, stands before the 3059 rpm of the case
+    speed = 100 * np.pi if name == "generator" else case.need("operation").speed
+    assert told["mean"] == pytest.approx(speed, rel=0.01 if drawn else 0.03)
     assert told["min"] <= told["mean"] <= told["max"]
-    turned = np.ptp(found.result.columns[next(iter(found.summary["speeds"]))]) / (2 * np.pi)
+    turned = np.ptp(found.result.columns[next(iter(found.summary.speeds))]) / (2 * np.pi)
     assert turned == pytest.approx(case.sections["simulation"].turns if "simulation" in case.sections else 20)
 
 
@@ -49,16 +55,16 @@ def test_the_run_goes_to_the_periodic_motion_over_the_angle(name):
     # the shaft of the crank train is made stiff: the other way knows a rigid one
     stiff = {"parameters.k": [2e6, 4e6]} if name == "opposed-pistons" else {}
     case = cases.load(name, {"simulation.turns": "150", **stiff})
-    found, rigid = run(case, check="none"), shaft(braked(case), 0.0)
+    found, rigid = run(case, check="none"), shaft(with_propeller(case), 0.0)
     steady = steady_state(tabulate(reduced(rigid)), rigid.omega)
-    told = found.summary["speeds"][found.engine.coordinate]
+    told = found.summary.speeds[found.engine.coordinate]
     assert told["mean"] == pytest.approx(steady.speed_mean, rel=1e-4)
     assert (told["max"] - told["min"]) / told["mean"] == pytest.approx(steady.speed_ripple, rel=0.02)
 
 
 def test_without_a_load_a_propeller_takes_the_mean_torque():
     case = cases.load("moroianu", SHORT)
-    assert braked(case).need("load") == PropellerLoad() and "load" not in case.sections
+    assert "load" not in case.sections
     constant = cases.load("moroianu", SHORT | {"load.law": "constant"})
     (ours, theirs) = ({p.name: p for p in problem_of(c).parts}["load"].value.function for c in (case, constant))
     omega = case.need("operation").speed
@@ -82,8 +88,8 @@ def test_a_hypocycloid_with_an_algebraic_cycle_runs(tmp_path):
     file = tmp_path / "two_stroke.toml"
     file.write_text(text[: text.index("[speeds]")] + cycle[cycle.index("[cycle]") :])
     found = run(cases.load(str(file), {"operation.speed": "3000 rpm", "flywheel.inertia": "0.05 kg*m^2"}))
-    assert found.result.status == "converged" and abs(found.summary["energy_residual"]) < 1e-9
-    assert found.summary["speed_mean"] == pytest.approx(3000 * np.pi / 30, rel=0.02)
+    assert found.result.status == "converged" and abs(found.summary.energy_residual) < 1e-9
+    assert found.summary.speed_mean == pytest.approx(3000 * np.pi / 30, rel=0.02)
 
 
 def test_points_of_a_sweep_run_in_the_loop_too():
@@ -91,5 +97,6 @@ def test_points_of_a_sweep_run_in_the_loop_too():
     found = [cases.load("nunes-hypocycloid", values) for values in asked]
     here, rough = route(found[0], "simulate").run(found)
     alone = run(found[0]).summary
-    assert here["speed_max"] == alone["speed_max"] and here["energy_residual"] == alone["energy_residual"]
-    assert rough["speed_max"] == pytest.approx(here["speed_max"], rel=1e-4) and rough["steps"] < here["steps"]
+    here, rough = here.numbers, rough.numbers
+    assert here.speed_max == alone.speed_max and here.energy_residual == alone.energy_residual
+    assert rough.speed_max == pytest.approx(here.speed_max, rel=1e-4) and rough.steps < here.steps

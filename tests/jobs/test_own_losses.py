@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from one_turn import numbers
 
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs import own_turn
 from mechsym.jobs.export import ready
 from mechsym.out.laws import block_of
 
@@ -46,7 +46,7 @@ def written(folder, roles):
 def told(tmp_path):
     def told_of(roles):
         case = cases.load(written(tmp_path, roles))
-        return own_turn.summary(own_turn.turn(case), case)
+        return numbers(case)
 
     return told_of
 
@@ -84,7 +84,7 @@ def test_the_command_tells_it(tmp_path):
     result = CliRunner().invoke(mechsym, ["forces", file, "--json"])
     assert json.loads(result.stdout)["friction"]["power"] > 0
     text = CliRunner().invoke(mechsym, ["forces", file]).stdout
-    assert "friction takes" in text and "kg*m at 180 deg from the crank" in text
+    assert "\nfriction " in text and "kg*m at 180 deg: shaking force" in text
 
 
 def test_a_coordinate_that_a_bearing_puts_out_is_exported_once(tmp_path):

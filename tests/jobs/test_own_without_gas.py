@@ -4,20 +4,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from one_turn import turned
 
 from mechsym import cases
 from mechsym.cases.check import check_file
+from mechsym.cases.runs import settings_of
 from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
 from mechsym.hinge.report import html
 from mechsym.hinge.shown import pictures
-from mechsym.hinge.summary import QUICK, hinge_columns, summary
+from mechsym.hinge.summary import HingeNumbers, hinge_columns
 from mechsym.hinge.torque import torque
-from mechsym.jobs import own_turn
 from mechsym.jobs.flywheel import flywheel
 from mechsym.jobs.hinge import hinge
 from mechsym.jobs.machine import machine
-from mechsym.jobs.problem import problem_of, settings_of
+from mechsym.jobs.problem import problem_of
+from mechsym.machine.record import shaft_torque
+from mechsym.quantities.results import tell
 from mechsym.simulate import simulate
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
@@ -40,7 +43,7 @@ def curve(tmp_path):
     rows = [
         f"{np.degrees(a):.12g},{m - d * w**2 / 2:.17g},{w:.17g}"
         for w in (80.0, 100.0)
-        for a, m, d in zip(phi, built.gas.force(phi) * kinematics["dx_dphi"], kinematics["dinertia_dphi"], strict=True)
+        for a, m, d in zip(phi, shaft_torque(built, "drive", phi), kinematics["dinertia_dphi"], strict=True)
     ]
     (tmp_path / "curve.csv").write_text("phi [deg],torque_with_inertia [N*m],speed [rad/s]\n" + "\n".join(rows))
     return '[torque]\nfile = "curve.csv"\n'
@@ -61,8 +64,8 @@ def test_a_torque_curve_stands_for_the_cycle(tmp_path, curve):
     np.testing.assert_allclose(found.torque(phi), wanted.torque(phi), atol=2e-3 * wanted.torque_max)
     run = simulate(problem_of(case), settings_of(case))
     assert abs(run.energy.residual) < 1e-8
-    turned = own_turn.turn(case)
-    assert turned.columns["driving_torque"].mean() == pytest.approx(-found.load_torque, rel=1e-3)  # of 720 points
+    one = turned(case)
+    assert one.columns["driving_torque"].mean() == pytest.approx(-found.load_torque, rel=1e-3)  # of 720 points
 
 
 @pytest.mark.slow
@@ -80,7 +83,7 @@ def test_a_hinge_without_gas_balances_inertia_alone(tmp_path):
     slope = dict(zip(names, values, strict=True))[f"dinertia_d{q}"]
     np.testing.assert_allclose(design.hinge.torque(phi), design.machine.omega**2 / 2 * slope, atol=1e-9)
     assert design.check.speed_ripple < 1e-9 and abs(design.check.result.energy.residual) < 1e-8
-    told = summary(design)
+    told = tell(HingeNumbers(judged=design))
     assert told["p_max_bar"] is None and told["losses"]["share"] is None
     assert told["losses"]["speed_ripple"] is not None  # what is driven is driven harder
     assert "pressure" not in hinge_columns(design)
@@ -90,9 +93,8 @@ def test_a_hinge_without_gas_balances_inertia_alone(tmp_path):
 def test_the_report_shows_what_there_is(tmp_path):
     design = hinge(compressor(tmp_path))
     assert [picture.name for picture in pictures(design)][:2] == ["mechanism", "torque"]
-    text = html(design, summary(design, QUICK + ("check", "losses", "misfire_speed_share", "offers", "runs", "retune",
-                                                 "sensitivity", "loads")), dict.fromkeys(
-        ("mechanism", "torque", "speeds", "track", "contact"), "<svg/>"))  # fmt: skip
+    figures = dict.fromkeys(("mechanism", "torque", "speeds", "track", "contact"), "<svg/>")
+    text = html(design, HingeNumbers(judged=design), figures)
     assert "Cylinder pressure" not in text and "Torque of the hinge" in text
     assert "one misfire" not in text.lower() and "nan" not in text.lower().split()
 
@@ -113,6 +115,34 @@ def test_a_drive_is_carried_by_the_load(tmp_path):
     case = compressor(tmp_path, '[drive]\ninput = "M_r"\ntorque = "-5 N*m"\n')
     phi = np.linspace(0, 6, 50)
     np.testing.assert_allclose(torque(machine(case)).torque(phi), torque(machine(compressor(tmp_path))).torque(phi))
+
+
+def test_a_drive_without_an_input_drives_and_the_load_takes_its_mean(tmp_path):
+    # the only torque on this shaft is the load's, which counts against the motion
+    for name in ("constant", "propeller"):
+        case = compressor(tmp_path, f'[drive]\ntorque = "30 N*m"\n[load]\nlaw = "{name}"\ntorque = "30 N*m"\n')
+        assert torque(machine(case)).load_torque == pytest.approx(30.0, rel=1e-12)
+        found = flywheel(case, 0.002)
+        assert found.status == "found" and found.torque_mean == pytest.approx(30.0, rel=1e-12)
+        assert found.trial.speed_ripple == pytest.approx(0.002, rel=1e-5)
+
+
+def test_a_load_that_nothing_drives_is_told_so(tmp_path):
+    found = flywheel(compressor(tmp_path, '[load]\nlaw = "propeller"\ntorque = "5 N*m"\n'), 0.02)
+    assert found.status == "none" and found.reason.endswith("the load takes 5 N*m: nothing drives it")
+
+
+def test_rounding_is_no_load(tmp_path):
+    """A torque without a mean leaves a load of 1e-15 N m: no share of it is told, and losses have to be driven."""
+    angles = np.arange(0, 360, 5.0)
+    rows = "\n".join(f"{a:g},{40 * np.sin(np.radians(a) + 0.3):.17g},900" for a in angles)
+    (tmp_path / "swing.csv").write_text(f"phi [deg],torque [N*m],speed [rpm]\n{rows}\n")
+    for law in ("constant", "propeller"):
+        design = hinge(compressor(tmp_path, f'[torque]\nfile = "swing.csv"\n[load]\nlaw = "{law}"\n'))
+        assert design.hinge.load_torque == 0.0
+        lost = tell(HingeNumbers(judged=design))["losses"]
+        assert lost["share"] is None and set(lost["shares"].values()) == {None}
+        assert lost["total"] > 0 and lost["speed_ripple"] is not None
 
 
 def test_torque_and_cycle_are_one_too_many(tmp_path, curve):

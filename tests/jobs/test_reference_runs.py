@@ -13,10 +13,10 @@ import pytest
 
 from mechsym import cases
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.jobs.loop import in_loop, run_in_loop
 from mechsym.jobs.problem import problem_of
+from mechsym.jobs.run import in_loop, run_in_loop
 from mechsym.simulate import Settings, simulate
-from mechsym.simulate.backends import BACKENDS
+from mechsym.simulate.settings import BACKENDS
 
 FILE = Path(__file__).parent / "golden" / "runs.csv"
 TUBE = 1e4  # tolerances

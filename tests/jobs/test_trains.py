@@ -7,12 +7,14 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
+from mechsym.cases.runs import settings_of
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs import train as trains
-from mechsym.jobs.problem import problem_of, settings_of
-from mechsym.jobs.turn import turn
+from mechsym.jobs.machine import turn
+from mechsym.jobs.problem import driving_of, problem_of
 from mechsym.mechanisms import crank_train
+from mechsym.mechanisms.shaft import elastic
+from mechsym.mechanisms.shaft_inertia import with_torque
 from mechsym.simulate import simulate
 from mechsym.torsion import twist
 
@@ -74,13 +76,13 @@ def test_one_throw_is_the_crankshaft_with_flywheel(written):
     ours, theirs = finished(train), finished(other)
     assert ours.columns["phi1d"][-1] == pytest.approx(theirs.columns["phi0d"][-1], rel=1e-8)
     assert ours.energy.work["drive"] == pytest.approx(theirs.energy.work["drive"], rel=1e-8)
-    (section,), (printed) = (
-        twist.sections(train.need("parameters"), ours, 3.0),
-        twist.sections(other.need("parameters"), theirs, 3.0)[0],
+    (section,), (printed,) = (
+        twist.sections(elastic(train.mechanism, train.need("parameters")), ours, 3.0),
+        twist.sections(elastic(other.mechanism, other.need("parameters")), theirs, 3.0),
     )
     assert section.twist_amplitude == pytest.approx(printed.twist_amplitude, rel=1e-5)
-    assert twist.natural_frequencies(train.need("parameters")) == pytest.approx(
-        twist.natural_frequencies(other.need("parameters")), rel=1e-9
+    assert twist.natural_frequencies(train.mechanism, train.need("parameters")) == pytest.approx(
+        twist.natural_frequencies(other.mechanism, other.need("parameters")), rel=1e-9
     )
 
 
@@ -121,14 +123,15 @@ def test_each_piston_follows_its_own_throw(written):
     assert {k.coordinate for k in problem.kinks} == {"phi1", "phi2"}
     result = finished(case)
     assert result.status == "converged" and abs(result.energy.residual) < 1e-9
-    first, second = twist.sections(case.need("parameters"), result, float(result.t[-1] - 0.06))
+    shaft = elastic(case.mechanism, case.need("parameters"))
+    first, second = twist.sections(shaft, result, float(result.t[-1] - 0.06))
     # the flywheel takes the torque of both throws, the first section that of one
     assert second.torque_mean / first.torque_mean == pytest.approx(2, rel=0.05)
 
 
 def test_kinks_and_forces_are_those_of_the_firing_angles(written):
     text = cases.text("opposed-pistons").replace('firing = ["0 deg", "0 deg"]', 'firing = ["0 deg", "20 deg"]')
-    gas = trains.cylinders(cases.load(written(text)))
+    gas = driving_of(cases.load(written(text)))
     first, second = (p.value for p in gas.parts)
     phi = np.linspace(0, 2 * np.pi, 50)
     assert second.value(phi + np.radians(20)) == pytest.approx(first.value(phi), rel=1e-12)
@@ -146,7 +149,8 @@ def test_drive_and_gas_together(written):
 
 def test_torque_at_the_free_end_turns_the_first_throw_only():
     p = cases.load("opposed-pistons").need("parameters")
-    plain, driven = crank_train.build(p), crank_train.build_driven(p)
+    plain = crank_train.build(p)
+    driven = with_torque(plain, "M_drive")
     state = [0.3, 0.2, 0.1, 9.0, 8.0, 7.0, 100.0, 50.0, 4.0]
     before = [np.array(v) for v in plain.functions["dynamics"](*state)]
     after = [np.array(v) for v in driven.functions["dynamics"](*state, 6.0)]
@@ -164,10 +168,10 @@ def test_torque_at_the_free_end_turns_the_first_throw_only():
         ({'[drive]\ntorque = "1.5 N*m"\ntime = "1 s"': ""}, "nothing turns the shaft"),
         ({"[drive]": "[load]\nlaw = 'constant'\n[drive]"}, "pull the shaft backwards"),
         ({"[drive]": "[load]\nlaw = 'propeller'\n[drive]"}, "[operation] is missing"),
-        ({'t_end = "5 s"': "turns = 3", 'output_step = "0.005 s"\n': ""}, "turns need a start speed"),
+        ({'t_end = "5 s"': "turns = 3", 'output_step = "0.005 s"\n': ""}, "simulation.t_end or speed_start"),
         ({'t_end = "5 s"': "turns = 3"}, "is not used over turns"),
         ({"[drive]": "[drive]\ninput = 'X'"}, "has not"),
-        ({"[drive]": "[startup]\n[drive]"}, "crankshaft_flywheel"),
+        ({"[drive]": "[startup]\n[drive]"}, "a shaft with two discs"),
     ],
 )
 def test_bad_cases_are_refused(written, changes, words):
@@ -182,4 +186,4 @@ def test_bad_cases_are_refused(written, changes, words):
 def test_gas_that_the_train_cannot_carry_is_refused(written):
     apart = cases.text("alpha-stirling").replace("throw = [1, 1]", "throw = [1, 2]")
     with pytest.raises(BadInput, match="put them on one throw"):
-        trains.cylinders(cases.load(written(apart)))
+        driving_of(cases.load(written(apart)))

@@ -11,9 +11,8 @@ from mechsym import cases
 from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.cycle import cycle
-from mechsym.jobs.turn import turn
-from mechsym.jobs.whole_engine import cylinders
+from mechsym.jobs.cycle import cycle, cylinders
+from mechsym.jobs.machine import turn
 
 SIX = """
 mechanism = "crank_train"
@@ -102,7 +101,7 @@ def test_opposed_pistons_share_a_chamber(six):
 
 
 def test_unlike_cylinders_have_no_common_cycle(six):
-    with pytest.raises(BadInput, match="r differs between the cylinders"):
+    with pytest.raises(BadInput, match="moves otherwise than 1"):
         cycle(cases.load(six(r="[0.045, 0.045, 0.045, 0.045, 0.045, 0.05]")))
 
 

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from rigid_bodies import System, lagrange, motion
 from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceFrame, RigidBody, dynamicsymbols, inertia
 
+from mechsym import mechanisms
 from mechsym.errors import BadInput
-from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build, build_printed
+from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters, build
 from mechsym.mechanisms.state import state
 
 STATE = {"phi0": 1.0, "phi2": 0.99, "phi0d": 50.0, "phi2d": 51.0, "M": 1.5}
@@ -60,12 +61,12 @@ def test_motion_and_rod_force_agree_with_absolute_coordinates(p, s):
     guess = np.array([0, 0, s["phi0"], p.r * c + math.sqrt(p.l**2 - (p.r * n) ** 2), 0, 0])
     truth = motion(system, guess, 2, s["phi0"], s["phi0d"])
     found = state(build(p), s)
-    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-10)
-    assert found["acceleration"][1] == pytest.approx(shaft_torque(p, s) / p.I2, rel=1e-12, abs=1e-12)
-    assert p.r + p.l - found["outputs"]["x0"] == pytest.approx(truth.pose[3], rel=1e-13)
+    assert found.acceleration[0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-10)
+    assert found.acceleration[1] == pytest.approx(shaft_torque(p, s) / p.I2, rel=1e-12, abs=1e-12)
+    assert p.r + p.l - found.outputs["x0"] == pytest.approx(truth.pose[3], rel=1e-13)
     # the multiplier stretches the rod: positive multiplier, compressed rod
     scale = 1 + np.abs(truth.joint_forces).max()
-    assert found["outputs"]["rod_force"] == pytest.approx(-truth.joint_forces[2], abs=1e-9 * scale)
+    assert found.outputs["rod_force"] == pytest.approx(-truth.joint_forces[2], abs=1e-9 * scale)
 
 
 @given(parameters, states)
@@ -82,7 +83,7 @@ def test_acceleration_agrees_with_t_minus_v(p, s):
 
     function = lagrange(kinetic, lambda q: p.k1 * (q[0] - q[1]) ** 2 / 2, force, 2)
     truth = np.asarray(function([s["phi0"], s["phi2"]], [s["phi0d"], s["phi2d"]])).ravel()
-    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-10, abs=1e-10)
+    assert state(build(p), s).acceleration == pytest.approx(truth, rel=1e-10, abs=1e-10)
 
 
 def test_acceleration_agrees_with_sympy_mechanics(chmielewski):
@@ -109,21 +110,21 @@ def test_acceleration_agrees_with_sympy_mechanics(chmielewski):
     values = {I0: p.I0, I2: p.I2, r: p.r, l: p.l, m0: p.m0, k1: p.k1, M: s["M"], F: s["F"]}
     mass, force = (np.array(v.subs(at).subs(values), float) for v in (method.mass_matrix, method.forcing))
     truth = np.linalg.solve(mass, force).ravel()
-    assert state(build(p), s)["acceleration"] == pytest.approx(truth, rel=1e-12)
+    assert state(build(p), s).acceleration == pytest.approx(truth, rel=1e-12)
 
 
 @given(parameters, states)
 def test_power_is_balanced(p, s):
     m = build(p)
-    found, out = state(m, s), state(m, s)["outputs"]
+    found, out = state(m, s), state(m, s).outputs
     q, u = ca.SX.sym("q", 2), ca.SX.sym("u", 2)
     total = sum(m.functions["energy"](*ca.vertsplit(q), *ca.vertsplit(u)))
     rate = ca.Function("rate", [q, u], [ca.gradient(total, q), ca.gradient(total, u)])
     rates = np.array([s["phi0d"], s["phi2d"]])
     by_q, by_u = (np.asarray(v).ravel() for v in rate([s["phi0"], s["phi2"]], rates))
-    change = by_q @ rates + by_u @ np.array(found["acceleration"])
+    change = by_q @ rates + by_u @ np.array(found.acceleration)
     power = s["M"] * s["phi0d"] + s["F"] * out["dx0_dphi0"] * s["phi0d"] - p.c1 * (rates[0] - rates[1]) ** 2
-    scale = 1 + np.abs([*(by_q * rates), *(by_u * found["acceleration"]), power]).max()
+    scale = 1 + np.abs([*(by_q * rates), *(by_u * found.acceleration), power]).max()
     assert abs(change - power) < 1e-11 * scale
 
 
@@ -134,9 +135,13 @@ def test_a_long_rod_tends_to_the_scotch_yoke(chmielewski):
     torque = 1.5 - shaft_torque(chmielewski, s) + 100.0 * r * n - m0 * r**2 * n * c * 50.0**2
     limit = torque / (I0 + m0 * r**2 * n**2)
     for l in (30.0, 300.0):
-        errors.append(abs(state(build(dataclasses.replace(chmielewski, l=l)), s)["acceleration"][0] - limit))
+        errors.append(abs(state(build(dataclasses.replace(chmielewski, l=l)), s).acceleration[0] - limit))
     assert errors[1] == pytest.approx(errors[0] / 10, rel=0.02)
     assert errors[1] < 2e-3 * abs(limit)
+
+
+def build_printed(parameters):
+    return mechanisms.build("crankshaft_flywheel_printed", parameters)
 
 
 def test_printed_model_equals_the_exact_one_only_as_the_rod_grows(chmielewski):
@@ -144,7 +149,7 @@ def test_printed_model_equals_the_exact_one_only_as_the_rod_grows(chmielewski):
     gap = []
     for l in (0.26, 2.6, 26.0):
         p = dataclasses.replace(chmielewski, l=l)
-        exact, printed = (state(make(p), STATE)["acceleration"][0] for make in (build, build_printed))
+        exact, printed = (state(make(p), STATE).acceleration[0] for make in (build, build_printed))
         gap.append(abs(printed - exact))
     assert gap[0] > 0.01
     assert gap[1] < 0.05 * gap[0]
@@ -155,7 +160,7 @@ def test_printed_model_is_equation_6_with_11(chmielewski):
     p, s = chmielewski, STATE
     phi, w, lam = s["phi0"], s["phi0d"], p.r / p.l
     transmission = math.sin(phi) + lam * math.sin(phi) * math.cos(phi) / math.sqrt(1 - (lam * math.sin(phi)) ** 2)
-    found = state(build_printed(p), s)["acceleration"]
+    found = state(build_printed(p), s).acceleration
 
     def residual(phidd):
         xdd = p.r * (

@@ -20,9 +20,10 @@ def test_points_agree_with_single_states(name, rng):
     for i in range(5):
         one = state(mechanism, {n: float(v[i]) for n, v in letters.items()})
         n = len(q)
-        assert found["mass_matrix"].reshape(n, n, 5)[..., i] == pytest.approx(np.array(one["mass_matrix"]), rel=1e-14)
+        assert found["mass_matrix"].reshape(n, n, 5)[..., i] == pytest.approx(np.array(one.mass_matrix), rel=1e-14)
         for vector in ("bias", "generalized_force"):
-            assert found[vector].reshape(n, 5)[:, i] == pytest.approx(np.array(one[vector]), rel=1e-12, abs=1e-9)
+            wanted = np.array(getattr(one, vector))
+            assert found[vector].reshape(n, 5)[:, i] == pytest.approx(wanted, rel=1e-12, abs=1e-9)
     energies = evaluate(mechanism, "energy", **letters)
     assert {v.shape for v in energies.values()} == {(5,)}
 

@@ -101,7 +101,7 @@ def down(p):
 def test_slider_crank(phi):
     truth = acceleration([(THROW, 0.0, 0.0, 900.0)], phi, 80.0, 12.0, down(THROW))
     found = state(build_throw(THROW), {"phi": phi, "phid": 80.0, "F": 900.0, "M": 12.0})
-    assert found["acceleration"][0] == pytest.approx(truth, rel=1e-6)
+    assert found.acceleration[0] == pytest.approx(truth, rel=1e-6)
 
 
 def test_crank_train():
@@ -118,4 +118,4 @@ def test_crank_train():
         rows.append((p, each(train, "phase")[i] - bank, bank, force))
     truth = acceleration(rows, 0.9, 80.0, -7.0, down(THROW))
     found = state(build_rigid(train), {"phi": 0.9, "phid": 80.0, "F1": 900.0, "F2": -400.0, "M": 7.0})
-    assert found["acceleration"][0] == pytest.approx(truth, rel=1e-6)
+    assert found.acceleration[0] == pytest.approx(truth, rel=1e-6)

@@ -82,8 +82,8 @@ def oracle(p, s):
 @given(parameters, states)
 def test_motion_and_reactions_agree_with_absolute_coordinates(p, s):
     found, truth = state(build(p), s), oracle(p, s)
-    out = found["outputs"]
-    assert found["acceleration"][0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-9)
+    out = found.outputs
+    assert found.acceleration[0] == pytest.approx(truth.acceleration[2], rel=1e-10, abs=1e-9)
     assert out["x"] == pytest.approx(2 * p.e - truth.pose[6], abs=1e-13)
     assert out["dx_dtheta"] * s["thetad"] == pytest.approx(-truth.velocity[6], abs=1e-12)
     forces = truth.joint_forces
@@ -105,7 +105,7 @@ def test_acceleration_agrees_with_t_minus_v(p, s):
         return -s["F"] * ca.gradient(2 * p.e * ca.cos(q), q) - s["M"]
 
     truth = float(lagrange(kinetic, lambda q: 0, force, 1)(s["theta"], s["thetad"]))
-    assert state(build(p), s)["acceleration"][0] == pytest.approx(truth, rel=1e-10, abs=1e-10)
+    assert state(build(p), s).acceleration[0] == pytest.approx(truth, rel=1e-10, abs=1e-10)
 
 
 def test_acceleration_agrees_with_sympy_mechanics():
@@ -130,13 +130,13 @@ def test_acceleration_agrees_with_sympy_mechanics():
     rate = theta.diff()
     values = {e: p.e, I1: p.I1, I2: p.I2, m2: p.m2, m3: p.m3, F: STATE["F"], M: STATE["M"]}
     right = method.rhs()[1].subs(rate, STATE["thetad"]).subs(theta, STATE["theta"]).subs(values)
-    assert state(build(p), STATE)["acceleration"][0] == pytest.approx(float(right), rel=1e-12)
+    assert state(build(p), STATE).acceleration[0] == pytest.approx(float(right), rel=1e-12)
 
 
 def test_torque_and_tooth_force_are_the_papers():
     """Thesis: torque 2 e F_n sin(theta) (2.73), tooth force F_n sin(theta) (2.75), here with the planet's inertia."""
     found = state(build(SAMPLE), STATE)
-    out, acceleration, p = found["outputs"], found["acceleration"][0], SAMPLE
+    out, acceleration, p = found.outputs, found.acceleration[0], SAMPLE
     xdd = out["dx_dtheta"] * acceleration + out["d2x_dtheta2"] * STATE["thetad"] ** 2
     F_n = STATE["F"] - p.m3 * xdd
     s = math.sin(STATE["theta"])
@@ -171,7 +171,7 @@ def test_journal_load_at_constant_speed_with_massless_planet(theta):
 @given(parameters, states)
 def test_every_body_is_in_balance(p, s):
     found = state(build(p), s)
-    out, a = found["outputs"], found["acceleration"][0]
+    out, a = found.outputs, found.acceleration[0]
     sn, cs = math.sin(s["theta"]), math.cos(s["theta"])
     main = np.array([out["main_bearing_force_x"], out["main_bearing_force_y"]])
     journal = np.array([out["journal_force_x"], out["journal_force_y"]])
@@ -198,7 +198,7 @@ def test_kinematics_are_a_pure_cosine():
 def test_limit_without_planet_and_piston_is_a_wheel():
     wheel = dataclasses.replace(SAMPLE, m2=0, I2=0, m3=0)
     found = state(build(wheel), {**STATE, "F": 0})
-    assert found["acceleration"][0] == pytest.approx(-STATE["M"] / wheel.I1, rel=1e-14)
+    assert found.acceleration[0] == pytest.approx(-STATE["M"] / wheel.I1, rel=1e-14)
 
 
 @pytest.mark.parametrize("wrong", [{"e": 0}, {"m3": -1}, {"I1": 0}, {"alpha_n": 1.6}, {"u1": math.nan}])

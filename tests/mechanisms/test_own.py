@@ -61,7 +61,8 @@ def test_a_scotch_yoke_has_forces_a_run_and_a_hinge(folder):
     table, units = read_table(folder / "forces" / "forces.csv")
     assert units["R_n_S"] == "N" and units["M_G"] == "N*m" and units["x"] == "m"
     omega = 89 * np.pi / 30
-    acting = table["F"] - 460 * omega**2 * 0.5 * np.cos(table["phi"])  # gas less what the yoke's mass takes
+    gas = table["F"]
+    acting = gas - 460 * omega**2 * 0.5 * np.cos(np.radians(table["phi_deg"]))  # less what the yoke takes
     np.testing.assert_allclose(table["R_n_S"], -acting, rtol=1e-9, atol=1e-6)
     assert (folder / "forces" / "mechanism.html").read_text().startswith("<!doctype html>")
 
@@ -110,6 +111,26 @@ def test_the_code_is_derived_once(folder):
         (("eval", "./scotch_yoke.py"), "no value for r"),
         (("eval", "./scotch_yoke.py", "--case", "scotch-yoke.toml", "--set", "r=-1"), "it must be > 0 m"),
         (("simulate", "scotch-yoke.toml", "--set", "parameters.q=1"), "key parameters.q is not known"),
+        (
+            (
+                "eval",
+                "./watt_six_bar.py",
+                "--case",
+                "watt-six-bar.toml",
+                "--set",
+                "phi=1",
+                "--set",
+                "theta2=1",
+                "--set",
+                "theta3=1.6",
+                "--set",
+                "theta4=.5",
+                "--set",
+                "theta5=1.8",
+            ),
+            "theta5 given (gap 0.105); give another pose, or leave theta2, theta4, theta3, theta5 to follow",
+        ),
+        (("new", "mechanism", "press", "--kind", "inline", "--bore", "86 mm"), "--kind, --bore belong to an engine;"),
     ],
 )
 def test_wrong_input_is_refused_in_one_line(folder, arguments, message):

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import mechsym
-from mechsym.mechanisms import traits
+from mechsym.mechanisms import own, parameters_class
 
 ROOT = Path(mechsym.__file__).parent
 #: Rooms that may name mechanisms: data files, papers, and the theories that formulas of papers are held against
@@ -28,9 +28,9 @@ def written(path):
 
 def holding(words):
     """Files outside the modules of the mechanisms that hold one of the words anywhere, taken apart."""
-    own, any_of = own_files(), re.compile("|".join(words))
+    modules, any_of = own_files(), re.compile("|".join(words))
     return {
-        str(p.relative_to(ROOT)): ast.parse(written(p)) for p in FILES if p not in own and any_of.search(written(p))
+        str(p.relative_to(ROOT)): ast.parse(written(p)) for p in FILES if p not in modules and any_of.search(written(p))
     }
 
 
@@ -54,11 +54,11 @@ def asked(tree):
 def own_files():
     """Modules of the built-in mechanisms: each may name what it is and what it is made of."""
     room = ROOT / "mechanisms"
-    return {p for name in traits.packaged() for p in (*room.glob(f"{name}*.py"), *room.glob(f"{name}/*.py"))}
+    return {p for name in own.packaged() for p in (*room.glob(f"{name}*.py"), *room.glob(f"{name}/*.py"))}
 
 
 def test_no_name_of_a_mechanism_stands_outside_its_module():
-    names = set(traits.packaged())
+    names = set(own.packaged())
     assert {"crosshead", "crank_train", "rodless"} <= names
     # as a text of its own: in quotes
     quoted = holding([f"[\"']{name}[\"']" for name in names])
@@ -66,7 +66,7 @@ def test_no_name_of_a_mechanism_stands_outside_its_module():
 
 
 def test_no_class_of_a_mechanism_is_asked_for():
-    classes = {t.parameters.__name__ for name in traits.packaged() if (t := traits.traits_of(name))}
+    classes = {parameters_class(name).__name__ for name in own.packaged()}
     found = {path: set(asked(tree)) & classes for path, tree in holding(classes).items()}
     assert {path: here for path, here in found.items() if here} == {}
 
@@ -81,12 +81,13 @@ ALL = """
 import json, sys
 from pathlib import Path
 from mechsym import cases, mechanisms
-from mechsym.jobs import own_turn
+from mechsym.jobs.forces import forces, told as told_of, write
+from mechsym.quantities.results import tell
 assert Path(mechanisms.__file__).is_relative_to(Path.cwd()), mechanisms.__file__
 case = cases.load("yoke", {f"friction.{k}": v for k, v in json.loads(sys.argv[1]).items()})
-found = own_turn.turn(case)
-told = own_turn.summary(found, case)
-told["drawn"] = sorted(p.name for p in own_turn.write(found, case, Path("out")))
+found = forces(case)
+told = tell(told_of(case, found))
+told["drawn"] = sorted(p.name for p in write(case, found, told, Path("out")))
 told["known"] = mechanisms.names()
 print(json.dumps(told))
 """

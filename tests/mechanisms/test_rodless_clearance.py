@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
+from mechsym.mechanisms.closing import Clearances, redundant_force
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses, build, closed
-from mechsym.mechanisms.rodless_clearance import Clearances, redundant_force
 
 PARAMETERS = RodlessParameters(r=0.04, I1=0.02, m_link=1.5, I_link=2e-3, m_a=2.0, m_b=2.0)
 K = {"k_a": 2e8, "k_b": 1e8, "k_c": 3e8}

@@ -44,9 +44,9 @@ def test_other_units_give_the_same_results(name, rng):
         bind(name, {n: v * factor(units[n]) for n, v in parameters.items()}),
         {n: v * factor(units[n]) for n, v in values.items()},
     )
-    scale = max(abs(v) for v in here["outputs"].values() if v is not None)
+    scale = max(abs(v) for v in here.outputs.values() if v is not None)
     for output, unit in letters["outputs"].items():
-        wanted = here["outputs"][output] * factor(unit)
-        assert there["outputs"][output] == pytest.approx(wanted, rel=1e-10, abs=1e-11 * scale * factor(unit)), output
-    for a, b, unit in zip(here["acceleration"], there["acceleration"], letters["coordinates"].values(), strict=True):
+        wanted = here.outputs[output] * factor(unit)
+        assert there.outputs[output] == pytest.approx(wanted, rel=1e-10, abs=1e-11 * scale * factor(unit)), output
+    for a, b, unit in zip(here.acceleration, there.acceleration, letters["coordinates"].values(), strict=True):
         assert b == pytest.approx(a * factor(unit) / SCALES["s"] ** 2, rel=1e-9)

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.turn import turn
+from mechsym.jobs.machine import turn
 from mechsym.mechanisms import crankshaft_flywheel, shaft
 from mechsym.mechanisms.crank_train import build, build_rigid
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
@@ -33,7 +33,7 @@ def test_one_piston_of_the_stirling_engine_is_the_sources_machine(chmielewski):
     there = state(
         crankshaft_flywheel.build(source), {"phi0": 1.0, "phi2": 0.99, "phi0d": 50.0, "phi2d": 51.0, "F": 300.0}
     )
-    assert here["acceleration"] == pytest.approx(there["acceleration"], rel=1e-12)
+    assert here.acceleration == pytest.approx(there.acceleration, rel=1e-12)
 
 
 def test_two_pistons_in_quadrature_have_almost_constant_inertia():
@@ -105,7 +105,7 @@ def test_eval_reads_a_crank_train_case():
 
 
 def test_torsion_matrices_of_the_cases_are_those_of_the_data():
-    found = shaft.matrices(parameters("alpha-stirling"))
+    found = shaft.matrices("crank_train", parameters("alpha-stirling"))
     assert math.sqrt(max(np.linalg.eigvals(np.linalg.solve(found.inertia, found.stiffness)).real)) == pytest.approx(
         190.281, abs=5e-4
     )

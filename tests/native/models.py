@@ -5,6 +5,7 @@ import functools
 import casadi as ca
 import numpy as np
 
+from mechsym import mechanisms
 from mechsym.mechanisms import crank_throw, crank_train, crankshaft_flywheel, crosshead, hypocycloid, rodless
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 
@@ -29,7 +30,7 @@ def mechanism(name: str) -> Mechanism:
     return {
         "crosshead": lambda: crosshead.build(CROSSHEAD),
         "crankshaft_flywheel": lambda: crankshaft_flywheel.build(FLYWHEEL),
-        "crankshaft_flywheel_printed": lambda: crankshaft_flywheel.build_printed(FLYWHEEL),
+        "crankshaft_flywheel_printed": lambda: mechanisms.build("crankshaft_flywheel_printed", FLYWHEEL),
         "crank_throw": lambda: crank_throw.build(THROW),
         "crank_train": lambda: crank_train.build(TRAIN),
         "hypocycloid": lambda: hypocycloid.build(HYPOCYCLOID),

@@ -10,7 +10,7 @@ from native.models import functions, rhs
 
 from mechsym import native
 from mechsym.errors import BadInput
-from mechsym.native import adams, arc, series
+from mechsym.native import adams, arc
 from mechsym.native import integrate as integration
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import Breaks, Level, Runs
@@ -59,7 +59,7 @@ def test_weights_integrate_polynomials():
 @pytest.mark.parametrize("strength", [0.3, 1.2])
 def test_series_of_an_arc_length(strength):
     form = arc.form(disc().serialize())
-    found = series.arcs(form, np.array([[[2.0, strength]]]).tobytes(), (1, 1, 2))
+    found = arc.arcs(form, np.array([[[2.0, strength]]]).tobytes(), (1, 1, 2))
     assert not found.even
     assert found.turns
     x = np.linspace(0, 6, 50)
@@ -79,17 +79,17 @@ def test_what_has_no_form():
     assert arc.form(coupled.serialize()) is None
     # a term in the square of the speed that is not that of the inertia, by a hundredth of its half
     wrong = rhs("wrong", 2, 0, lambda t, y, p: (y[1], (1.0 + 0.505 * ca.sin(y[0]) * y[1] ** 2) / (3 + ca.cos(y[0]))))
-    assert series.arcs(arc.form(wrong.serialize()), np.ones((1, 1, 0)).tobytes(), (1, 1, 0)) is None
+    assert arc.arcs(arc.form(wrong.serialize()), np.ones((1, 1, 0)).tobytes(), (1, 1, 0)) is None
     right = rhs("right", 2, 0, lambda t, y, p: (y[1], (1.0 + 0.5 * ca.sin(y[0]) * y[1] ** 2) / (3 + ca.cos(y[0]))))
-    assert series.arcs(arc.form(right.serialize()), np.ones((1, 1, 0)).tobytes(), (1, 1, 0)).even
+    assert arc.arcs(arc.form(right.serialize()), np.ones((1, 1, 0)).tobytes(), (1, 1, 0)).even
     # nor is that of the printed model, beside a stiff spring
     printed = functions("crankshaft_flywheel_printed")["acceleration"]
     wrong = rhs("wrong", 4, 1, lambda t, y, p: (y[2], y[3], printed(*y, p[0])))
-    assert series.arcs(arc.form(wrong.serialize()), np.ones((1, 1, 1)).tobytes(), (1, 1, 1)) is None
+    assert arc.arcs(arc.form(wrong.serialize()), np.ones((1, 1, 1)).tobytes(), (1, 1, 1)) is None
     # the crosshead's inertia varies fourfold within a turn: too many terms
     acceleration = functions("crosshead")["acceleration"]
     long = arc.form(rhs("long", 2, 0, lambda t, y, p: (y[1], acceleration(*y, 1.0, 0, 0))).serialize())
-    assert series.arcs(long, np.ones((1, 1, 0)).tobytes(), (1, 1, 0)) is None
+    assert arc.arcs(long, np.ones((1, 1, 0)).tobytes(), (1, 1, 0)) is None
     bumpy = rhs("bumpy", 2, 0, lambda t, y, p: (y[1], -ca.fabs(y[0])))
     assert arc.form(bumpy.serialize()) is None
 

@@ -12,7 +12,7 @@ import casadi as ca
 import pytest
 
 from mechsym import native
-from mechsym.native import cache, compiler, library
+from mechsym.native import cache, compiler
 from mechsym.native.compiler import NoCompiler
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
@@ -30,7 +30,6 @@ print(made.route, made.scalar(16.0), made.batch([4.0, 9.0]).tolist(), made.reaso
 @pytest.fixture(autouse=True)
 def home(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    library.load.cache_clear()
     return tmp_path / "mechsym" / "native"
 
 
@@ -62,7 +61,7 @@ def test_damaged_file_is_made_again(home, damage):
     path.write_bytes(broken[damage])
     again = cache.shared_object(SOURCE, "strict")
     assert sound(home) == [again]
-    assert library.load(SOURCE, "strict").answer() == 42
+    assert cache.load(SOURCE, "strict").answer() == 42
 
 
 @needs_compiler
@@ -97,6 +96,26 @@ def test_compiler_that_fails_is_named(monkeypatch):
         cache.shared_object(SOURCE, "strict")
 
 
+BROKEN = {
+    "exit 0": "made nothing",
+    'for a; do [ "$before" = "-o" ] && echo text > "$a"; before="$a"; done': "made what cannot be loaded",
+    "exec sleep 60": "did not end in 0.5 s",
+}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a compiler in the shell")
+@pytest.mark.parametrize("does", BROKEN)
+def test_a_compiler_that_makes_nothing_of_use_or_hangs_is_told(monkeypatch, tmp_path, home, does):
+    script = tmp_path / "broken"
+    script.write_text(f"#!/bin/sh\n{does}\n")
+    script.chmod(0o755)
+    monkeypatch.setenv("CC", str(script))
+    monkeypatch.setattr(compiler, "PATIENCE", 0.5)
+    for _ in range(2):  # what was made is not kept
+        with pytest.raises(NoCompiler, match=BROKEN[does]):
+            cache.load(SOURCE, "strict")
+
+
 def test_named_compiler_that_is_missing(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler -O2")
     with pytest.raises(NoCompiler, match="tried no-such-compiler"):
@@ -108,7 +127,7 @@ def test_cache_directory_that_cannot_be_used(monkeypatch, tmp_path):
     file = tmp_path / "file"
     file.write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(file))
-    assert library.load(SOURCE, "strict").answer() == 42
+    assert cache.load(SOURCE, "strict").answer() == 42
 
 
 @needs_compiler

@@ -6,7 +6,6 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym.cli.native import native
-from mechsym.native import library
 
 
 @pytest.fixture(autouse=True)
@@ -38,4 +37,3 @@ def test_clear_empties_the_cache(tmp_path):
     done = CliRunner().invoke(native, ["--clear", "--json"])
     assert json.loads(done.output)["removed"] == 1
     assert not folder.exists()
-    library.load.cache_clear()

@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from mechsym.native import library
+from mechsym.native import cache
 from mechsym.native.source import header
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
@@ -34,7 +34,7 @@ def _call(mode: str, name: str, x: np.ndarray, z: np.ndarray | None = None) -> n
     x = np.ascontiguousarray(x, dtype=float)
     z = np.ascontiguousarray(x if z is None else z, dtype=float)
     y = np.empty_like(x)
-    library.load(_source(), mode)[f"test_{name}"](
+    cache.load(_source(), mode)[f"test_{name}"](
         ctypes.c_long(x.size), *(ctypes.c_void_p(a.ctypes.data) for a in (x, z, y))
     )
     return y

@@ -10,7 +10,7 @@ from native.models import MECHANISMS, agree, functions, interpreted, mechanism, 
 
 from mechsym import native
 from mechsym.errors import BadInput
-from mechsym.native import cache, library
+from mechsym.native import cache
 
 NAMES = [
     (name, f)
@@ -25,7 +25,6 @@ needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "
 def no_compiler(monkeypatch, tmp_path):
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setenv("PATH", str(tmp_path))
-    library.load.cache_clear()
 
 
 @needs_compiler

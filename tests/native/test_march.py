@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from mechsym.errors import BadInput
-from mechsym.native import library
 from mechsym.native.march import marcher, separated
 from mechsym.native.source import program
 
@@ -39,7 +38,6 @@ def by_hand(start, stages, lanes):
 def test_against_a_plain_loop(route, lanes, monkeypatch, tmp_path):
     if route == "numpy":
         monkeypatch.setenv("CC", "no-such-compiler")
-        library.load.cache_clear()
     given = data(lanes)
     state, record = marcher(step(), "fast" if route == "numpy" else route)(*given)
     wanted, wanted_record = by_hand(*given)
@@ -75,7 +73,6 @@ def test_what_a_lane_decides_alone_is_computed_once():
 def test_lanes_that_decide_nothing_or_everything_alone(route, monkeypatch):
     if route == "numpy":
         monkeypatch.setenv("CC", "no-such-compiler")
-        library.load.cache_clear()
     x, s, z = (ca.SX.sym(n) for n in "xsz")
     start, stages, lanes = np.ones((1, 3)), np.ones((4, 1)), np.array([[1.0, 4.0, 9.0]])
     plain = marcher(ca.Function("plain", [x, s, z], [x + s * z]))

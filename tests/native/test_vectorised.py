@@ -53,7 +53,7 @@ def test_batches(name, mode, tmp_path):
 
 @pytest.mark.parametrize("mode", ["strict", "fast"])
 def test_the_printed_cycle(mode, tmp_path, monkeypatch):
-    steps = marched(monkeypatch, "mechsym.cycle.kinds.march")
+    steps = marched(monkeypatch, "mechsym.cycle.kinds.printed")
     cycle(cases.load("nunes-slider-crank", {"cycle.method": "nunes2017_printed"}))
     assert not scalar_loops(text(steps[0], mode), mode, tmp_path)
 

@@ -12,6 +12,7 @@ from mechsym.cli import mechsym
 from mechsym.cli.identify import _told_apart
 from mechsym.errors import BadInput
 from mechsym.jobs.identify import identify
+from mechsym.optimise.fit import grid
 from mechsym.optimise.trace import read_trace
 
 TRUTH = {"I2": 0.58, "k1": 400.0, "c1": 2.0, "friction.constant": 0.4}
@@ -155,7 +156,7 @@ def test_a_trace_that_is_finer_at_its_end_has_no_gap(tmp_path):
     times = [*np.arange(0, 2, 0.005), *np.arange(2, 2.5, 0.00025)]
     file = tmp_path / "fine.csv"
     file.write_text("t_s,phi0d [rad/s]\n" + "".join(f"{t:.5f},{t * t}\n" for t in times))
-    assert len(read_trace(str(file), ("phi0d",), {}).t) == len(times)
+    assert len(read_trace(str(file), {"phi0d": "rad/s"}, {}).t) == len(times)
 
 
 @pytest.mark.parametrize("free", [("J9",), ("I2", "I2"), ()])
@@ -163,3 +164,13 @@ def test_names_that_are_none_are_refused(tmp_path, speeds, free):
     words = ["identify", "chmielewski", "--trace", written(tmp_path, speeds), "--free", ",".join(free) or ","]
     done = CliRunner().invoke(mechsym, words)
     assert isinstance(done.exception, BadInput)
+
+
+def test_the_same_samples_give_the_same_maps_to_the_last_digit():
+    """Nothing is drawn by chance on the way, so that a search ends at the same digits each time."""
+    t = np.linspace(0.0, 2.0, 41)
+    first, again = (grid(t, (0.7,), 0.11) for _ in range(2))
+    assert (first.samples != again.samples).nnz == 0
+    # a cubic of the time goes through each interval as it is
+    nodes = np.sort(np.append(first.nodes, first.edges[:-1]))
+    assert first.samples.T @ nodes**3 == pytest.approx(t**3, abs=1e-13)

@@ -79,7 +79,7 @@ def test_active_limits_and_their_multipliers(machine):
     limits = {"p_max": {"high": "8 MPa"}}
     found = solve(task(machine, IGNITION | RATIO, limits))
     assert found.status == "optimal"
-    assert {row["name"] for row in found.active} == {"p_max", "chamber.compression_ratio"}
+    assert {row.name for row in found.active} == {"p_max", "chamber.compression_ratio"}
     assert found.figures["p_max"] == pytest.approx(8e6, rel=1e-7)
     step = 5e4
     ends = [solve(task(machine, IGNITION | RATIO, {"p_max": {"high": 8e6 + s}})).objective for s in (-step, step)]
@@ -89,7 +89,7 @@ def test_active_limits_and_their_multipliers(machine):
         for s in (-0.05, 0.05)
     ]
     assert found.multipliers["chamber.compression_ratio"] == pytest.approx((wider[1] - wider[0]) / 0.1, rel=1e-3)
-    assert "would change efficiency by +" in found.active[0]["meaning"]
+    assert "would change efficiency by +" in found.active[0].meaning
 
 
 def test_a_limit_that_is_met_with_room_costs_nothing(machine):
@@ -101,9 +101,9 @@ def test_a_peak_as_objective(machine):
     ratio = {"chamber.compression_ratio": {"low": 8, "high": 14}}
     found = solve(task(machine, IGNITION | ratio, {"efficiency": {"low": 0.43}}, objective="p_max", goal="minimise"))
     assert found.status == "optimal" and found.figures["efficiency"] == pytest.approx(0.43, rel=1e-7)
-    row = next(row for row in found.active if row["name"] == "efficiency")
+    row = next(row for row in found.active if row.name == "efficiency")
     looser = solve(task(machine, IGNITION | ratio, {"efficiency": {"low": 0.431}}, objective="p_max", goal="minimise"))
-    assert row["multiplier"] == pytest.approx((looser.objective - found.objective) / 0.001, rel=0.05)
+    assert row.multiplier == pytest.approx((looser.objective - found.objective) / 0.001, rel=0.05)
 
 
 @pytest.mark.slow

@@ -9,8 +9,7 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.optimise import optimise
-from mechsym.jobs.optimise_figures import figures, programme
+from mechsym.jobs.optimise import figures, optimise, programme
 from mechsym.optimise.problem import Limit, Optimise
 from mechsym.optimise.search import FigureProgramme, search
 
@@ -43,7 +42,7 @@ def test_multiplier_is_that_of_the_closed_form():
     found = search(task(hill, (limit("sum", high=2.4),)))
     assert found.variables == pytest.approx({"x0": 0.6, "x1": 1.8}, abs=1e-4)
     assert found.multipliers["sum"] == pytest.approx(0.8, rel=1e-4)
-    assert [row["name"] for row in found.active] == ["sum"] and "would change J by" in found.active[0]["meaning"]
+    assert [row.name for row in found.active] == ["sum"] and "would change J by" in found.active[0].meaning
 
 
 def test_bound_of_a_variable_has_its_price():

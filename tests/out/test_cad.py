@@ -3,6 +3,7 @@
 import io
 import json
 import math
+import os
 import subprocess
 import sys
 
@@ -15,7 +16,7 @@ from scipy.interpolate import PPoly
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.guide import workshop
+from mechsym.jobs.hinge import workshop
 from mechsym.out.cad import track
 from mechsym.out.cad.curve import cubic, nurbs, offset
 
@@ -120,6 +121,15 @@ def test_the_same_drawing_is_the_same_text(shops):
     shop = shops("zotov-89")
     curves = track(shop.guide, shop.rollers, 1e-5, shop.kinks)
     assert text(curves, 0.06, ["a"]) == text(curves, 0.06, ["a"])
+
+
+def test_the_same_command_writes_the_same_bytes(tmp_path):
+    """Two processes, whose sets have another order."""
+    files = [tmp_path / f"{seed}.dxf" for seed in (1, 2)]
+    for seed, file in enumerate(files, 1):
+        words = [sys.executable, "-m", "mechsym", "guide", "zotov-89", "--dxf", str(file), "--tolerance", "10 um"]
+        subprocess.run(words, env={**os.environ, "PYTHONHASHSEED": str(seed)}, check=True, capture_output=True)
+    assert files[0].read_bytes() == files[1].read_bytes()
 
 
 def test_layers_units_and_title(shops):

@@ -1,6 +1,7 @@
 """FMUs: what the standard wants, numbers against `simulate`, derivatives, state, sources, and other importers."""
 
 import dataclasses
+import importlib.util
 import io
 import json
 import re
@@ -66,12 +67,13 @@ def test_numbers_are_those_of_simulate(unit, exported, name, version):
 
 @pytest.mark.slow
 def test_knots_of_a_table_are_not_stepped_over(tmp_path):
-    """Combustion that ends at 40 deg: a first step after the event that is chosen by the slope alone missed 2e-7."""
+    """Combustion that ends at 40 deg: a first step after the event that is chosen by the slope alone missed 2e-7, a
+    hundred times what is allowed."""
     case = cases.load("generator-breathing", {"cycle.duration": "60 deg"})
     run = ready(case)
     (tmp_path / "e.fmu").write_bytes(fmu(block_of(case.name, case.about, run), 2).data)
     for found in compare(tmp_path / "e.fmu", run.problem):
-        assert found.largest < 1e-9, f"{found.kind}: {found.largest:.2g}"
+        assert found.largest < 2e-9, f"{found.kind}: {found.largest:.2g}"
 
 
 def test_an_importer_with_its_own_solver_gets_the_same(unit, exported):
@@ -228,8 +230,17 @@ def test_the_command_says_what_it_wrote(tmp_path):
     done = CliRunner().invoke(mechsym, ["fmu", "zotov-89", "--fmi", "3", "--out", str(path), "--json"])
     assert done.exit_code == 0, done.output
     answer = json.loads(done.output)
-    assert answer["written"] == [str(path)] and path.stat().st_size < 100_000
-    assert answer["checks"]["binaries"] == ["binaries/x86_64-linux/zotov_89.so"]
+    assert answer["written"] == [str(path)] and path.stat().st_size < 300_000
+    windows = ["binaries/x86_64-windows/zotov_89.dll"] * (importlib.util.find_spec("ziglang") is not None)
+    assert answer["checks"]["binaries"] == ["binaries/x86_64-linux/zotov_89.so", *windows]
+    assert len(answer["checks"]["missing"]) == 1 - len(windows)
+
+
+def test_a_folder_gets_the_file_under_its_usual_name_and_the_text_has_words(tmp_path):
+    words = ["fmu", "zotov-89", "--platforms", "none", "--out", str(tmp_path / "units")]
+    done = CliRunner().invoke(mechsym, words)
+    assert done.exit_code == 0 and f"written: {tmp_path}/units/zotov-89.fmu" in done.output.splitlines()
+    assert (tmp_path / "units/zotov-89.fmu").exists() and "_" not in done.output.replace(str(tmp_path), "")
 
 
 @pytest.mark.slow
@@ -347,15 +358,18 @@ def test_a_new_engine_is_an_fmu_at_once(tmp_path, kind, version):
 @pytest.mark.slow
 def test_each_cylinder_of_a_train_has_its_own_gas(tmp_path):
     """The exported force on each piston against its cycle, a table too: 3e-5, and 5 % without the kinks of each."""
-    from mechsym.jobs.turn import turn
+    from mechsym.jobs.machine import turn
 
     case = new_engine("inline", tmp_path, "3")
     run, once = ready(case), turn(case)
     for i in (1, 2, 3):
-        gas = next(part.value.value for part in run.problem.parts if part.name == f"gas_F{i}")
-        found = gas(once.phi % once.period)
-        wanted = once.inputs[f"F{i}"]
-        assert np.max(np.abs(found - wanted)) < 1e-4 * np.max(np.abs(wanted))
+        gas = next(part.value for part in run.problem.parts if part.input == f"F{i}")
+        phi = once.phi % once.period
+        found, wanted = gas.value(phi), once.inputs[f"F{i}"]
+        # where the exhaust opens the force jumps, and either side is right
+        smooth = np.abs(phi[:, None] - np.array(gas.kinks)).min(axis=1) > 1e-9
+        assert smooth.sum() > 0.99 * len(phi)
+        assert np.max(np.abs(found - wanted)[smooth]) < 1e-4 * np.max(np.abs(wanted))
 
 
 @pytest.mark.parametrize("version", ["4", "1", "two"])

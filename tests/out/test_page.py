@@ -1,6 +1,8 @@
 """The page in a real browser: numbers of `simulate`, every slider moves the answer, no request, no error."""
 
+import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -262,3 +264,13 @@ def test_the_shaft_of_a_new_engine_is_as_elastic_as_that_of_its_run(tmp_path):
 def test_nobody_is_offered_a_misfire_without_gas(opened):
     tab, errors, _ = opened("chmielewski")
     assert not tab.is_visible("#misfire") and tab.is_visible("#slider_k1") and errors == []
+
+
+def test_a_system_without_a_process_left_has_failed_and_makes_no_report_without_its_page(monkeypatch):
+    def full(*_, **__):
+        raise BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN))
+
+    block = block_of("chmielewski", "", ready(cases.load("chmielewski")))
+    monkeypatch.setattr(subprocess, "Popen", full)
+    with pytest.raises(OSError, match=os.strerror(errno.EAGAIN)):
+        page(block)

@@ -12,9 +12,10 @@ from scipy.spatial import ConvexHull
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.jobs.size import Sizing, size
+from mechsym.jobs.size import size
 from mechsym.out.cad.parts import bodies
 from mechsym.out.cad.solids import Plate, Turned, hull_area, tangents, tube, volume
+from mechsym.sizing.result import Sizing
 
 
 def test_volumes_of_turned_bodies_are_those_of_the_books():
@@ -57,7 +58,7 @@ def test_sized_parts_stand_where_the_engine_has_them(name):
 
 
 def test_what_has_no_sized_parts_is_refused():
-    loads = Sizing(rows=[], failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
+    loads = Sizing(told=[], failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
     with pytest.raises(BadInput, match="only engines that are sized have parts"):
         bodies(loads)
 

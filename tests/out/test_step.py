@@ -11,10 +11,11 @@ pytest.importorskip("OCP", reason="the extra step is not installed")
 
 from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.jobs.guide import workshop
+from mechsym.jobs.hinge import workshop
 from mechsym.jobs.size import size
 from mechsym.out.cad import track
-from mechsym.out.cad.check_step import disc_volume, main, read, wall_deviation
+from mechsym.out.cad.check import true_size
+from mechsym.out.cad.check_step import main, read, wall_deviation
 from mechsym.out.cad.curve import tracks_of
 from mechsym.out.cad.parts import bodies
 from mechsym.out.cad.solids import volume
@@ -35,6 +36,13 @@ def shops():
         return made[key]
 
     return get
+
+
+def disc_volume(disc, rho):
+    """Volume from the path alone: by Steiner a groove of radius r along a path of length L has the area 2 r L [m^3]."""
+    groove = 2 * disc.track.roller_radius * true_size(rho, 0.0)[0] * disc.depth
+    around = np.pi * (disc.radius**2 - (disc.bore / 2) ** 2) * disc.thickness
+    return around - len(disc.track.turned) * groove
 
 
 def walls_of(shop, disc):

@@ -6,23 +6,22 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.cycle.compare import compare
 from mechsym.errors import BadInput
 from mechsym.jobs.codesign import codesign, settings_of
-from mechsym.jobs.compare import compare
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces
 from mechsym.jobs.gas import gas
 from mechsym.jobs.hinge import hinge
-from mechsym.jobs.loop import loop
 from mechsym.jobs.machine import machine
 from mechsym.jobs.optimise import optimise
-from mechsym.jobs.run import run
+from mechsym.jobs.run import loop, run, startup
 from mechsym.jobs.size import size
-from mechsym.jobs.startup import startup
 from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, grid, page, shows
 from mechsym.page.template import _environment, pretty
 from mechsym.quantities import record
 from mechsym.quantities.display import choose
+from mechsym.quantities.results import Columns
 from mechsym.simulate.loop.run import run_loop
 
 SPEEDS = np.array([400.0, 500.0])
@@ -50,6 +49,9 @@ class Spot(Shown):
     force: float  #: [N]
 
 
+UNITS = {"phi": "rad", "torque_1": "N*m", "speed_rpm": "rpm"}
+
+
 @shows(Spot)
 def spot_view(spot):
     """What of a spot is worth seeing."""
@@ -58,7 +60,7 @@ def spot_view(spot):
     return View(
         title="A <spot>", cards=(Card(name="force", value=f"{spot.force:g} N*m", mark="yes"),),
         pictures=(Picture(name="nothing", see="Nothing.", draw=lambda: panels(3, 2)[0]),),
-        columns=lambda: {"phi": [0.0, np.pi], "torque_1": [1e3, spot.force], "speed_rpm": [1.0, 2.0]},
+        columns=lambda: Columns({"phi": [0.0, np.pi], "torque_1": [1e3, spot.force], "speed_rpm": [1.0, 2.0]}, UNITS),
     )  # fmt: skip
 
 
@@ -95,7 +97,7 @@ def test_a_table_has_units_and_goes_to_xarray_and_pandas():
 def test_a_table_is_in_the_units_that_were_chosen():
     try:
         choose("kN*m, deg")
-        table = ResultTable({"phi": [np.pi], "torque": [1e3]})
+        table = ResultTable(Columns({"phi": [np.pi], "torque": [1e3]}, {"phi": "rad", "torque": "N*m"}))
     finally:
         choose(None)
     assert (table["phi [deg]"], table["torque [kN*m]"]) == (180.0, 1.0)
@@ -121,7 +123,7 @@ def test_a_page_lacks_nothing_in_silence():
 
 
 def test_a_view_is_a_record():
-    assert [f.name for f in dataclasses.fields(View)] == ["title", "cards", "pictures", "columns"]
+    assert [f.name for f in dataclasses.fields(View)] == ["title", "cards", "pictures", "columns", "findings"]
 
 
 def test_a_wide_table_is_stacked_on_a_phone_and_repeats_its_head_in_print():

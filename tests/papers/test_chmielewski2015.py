@@ -5,8 +5,7 @@ import pytest
 
 from mechsym.cases import load
 from mechsym.papers.chmielewski2015 import computed as paper
-from mechsym.papers.chmielewski2015 import studies
-from mechsym.papers.chmielewski2015.rows import rows
+from mechsym.papers.sources import sources
 
 
 def test_table_1_is_the_case():
@@ -30,7 +29,7 @@ def test_mean_speed_is_angle_over_time():
 
 @pytest.fixture(scope="module")
 def found():
-    return {row["item"]: row for row in rows()}
+    return {row["item"]: row for row in sources("chmielewski2015")[0].rows()}
 
 
 def one(found, start):
@@ -41,7 +40,7 @@ def one(found, start):
 @pytest.mark.slow
 @pytest.mark.heavy
 def test_convergence_of_both_models():
-    study = studies.convergence()
+    study = paper.convergence()
     for model, mean in ((paper.EXACT, 103.9820), (paper.PRINTED, 103.956)):
         rough, fine, second = (s.mean for s in study[model])
         assert fine == pytest.approx(mean, abs=1e-3)
@@ -75,7 +74,7 @@ def test_torque_step_and_dependence_on_the_step_are_reproduced(found):
 
 @pytest.mark.slow
 def test_more_than_one_fixed_step_gives_194_so_it_cannot_be_told(found):
-    peaks = [s.peak for s in studies.step_study()[1:]]
+    peaks = [s.peak for s in paper.step_study()[1:]]
     assert peaks == pytest.approx([194, 194], abs=2)
     assert one(found, "Fig. 10: 194 rad/s with")["verdict"] == "not computable"
 

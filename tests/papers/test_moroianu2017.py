@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 import pytest
+from slider_crank import piston_inertia_printed
 from small_machines import machine, smooth_gas, turn_of
 
-from mechsym.forces import textbook
 from mechsym.forces.loads import loads, radial, tangential
 from mechsym.forces.textbook import chain, errors, slider_crank, terskih, weight_shares
 from mechsym.mechanisms.crosshead import CrossheadParameters
@@ -99,7 +99,7 @@ def test_chain_and_exact_forces_count_alike():
 def test_two_harmonics_of_the_piston_inertia_miss_the_fourth():
     one = marine()
     s, lam = slider_crank(one), 0.5 / 1.55
-    printed = textbook.piston_inertia_printed(one)
+    printed = piston_inertia_printed(one)
     exact = -(s.m_p + s.m_b * s.L_m / s.L) * one.kinematics["d2x_dphi2"] * one.omega**2
     assert np.abs(printed - exact).max() / np.abs(exact).max() < lam**3
     assert printed[0] == pytest.approx(exact[0], rel=1e-12)  # equal at the dead centres

@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mechsym.audit import errata, findings
-from mechsym.audit.algebra import FLOATS
-from mechsym.audit.entries import Printed, TextClaim
+from mechsym.audit.hosts import sources as findings
+from mechsym.audit.hosts.sources import Printed, TextClaim
+from mechsym.audit.read.algebra import FLOATS
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
 from mechsym.papers import sources
 from mechsym.papers.nunes2017 import claims_loads as loads
-from mechsym.sizing.rules import bolts, crankshaft, cylinder, gear_factors, gears, piston, rod
+from mechsym.sizing.rules import crankshaft, cylinder, gear_factors, gears, piston
 
 STEM = "004_e00ef50339108dab"
 ALL = sources("nunes2017")[0].entries
@@ -132,12 +132,12 @@ def test_theory_agrees_with_the_sizing_rules():
     shaft, omega = v.F_bearing, v.N * math.pi / 30
     rules = {
         "head_strength": piston.head_thickness_strength(v.p, v.B, v.sigma_t),
-        "rod_diameter": rod.rod_diameter(v.F_t, v.sigma_f),
+        "rod_diameter": piston.rod_diameter(v.F_t, v.sigma_f),
         "ring_thickness": piston.ring_radial_thickness(v.B, v.p_w, v.sigma_ring),
         "wall_thickness": cylinder.wall_thickness(v.p, v.B, v.sigma_c, v.C_reboring),
         "d_TDC": cylinder.tdc_gap(v.V_C, v.A_piston),
         "cylinder_length": cylinder.cylinder_length(v.d_TDC, v.L_piston, v.S / 2),
-        "bolt_core": bolts.core_diameter(v.p, v.B, int(v.n_bolt), v.sigma_bolt),
+        "bolt_core": cylinder.core_diameter(v.p, v.B, int(v.n_bolt), v.sigma_bolt),
         "F_bearing": crankshaft.bearing_reaction(v.F_t, v.d_force, v.d_bearing),
         "crankpin_diameter": crankshaft.crankpin_diameter(shaft, v.d_force, v.sigma_b),
         "web_stress": crankshaft.web_stress(shaft, v.d_force, v.l_crankpin, v.t_crankweb, v.w_crankweb),
@@ -161,6 +161,6 @@ def test_journal_load_by_hand(monkeypatch):
 
 def test_readable_errata_have_them(audited):
     source = sources("nunes2017")[0]
-    text = errata.text([source], audited, {})
+    text = findings.errata([source], audited, "")
     for needed in ("### Unsupported claim: (4.35), the output shaft needs 7.82 mm", "2423 MPa", "### Misprint: (4.26)"):
         assert needed in text

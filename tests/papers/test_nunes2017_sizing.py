@@ -7,7 +7,7 @@ from mechsym.papers.nunes2017.sizing import rows
 
 @pytest.fixture(scope="module")
 def found():
-    return {row["item"]: row for row in rows()}
+    return {row.item: row.told("") for row in rows()}
 
 
 def test_all_48_face_widths_to_the_printed_digit(found):

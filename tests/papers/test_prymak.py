@@ -8,8 +8,8 @@ import pytest
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.forces.loads import loads
+from mechsym.mechanisms.faces import RodlessFaces
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
-from mechsym.mechanisms.rodless_faces import RodlessFaces
 from mechsym.papers.sources import sources
 
 M = 1.1  # reciprocating mass of a rod journal; two journals on each axis

@@ -28,12 +28,12 @@ def test_rows_by_digits():
 
 
 def test_row_keeps_words_and_numbers_apart():
-    assert row("s", "i", "194", 97.0, NOT_REPRODUCED)["rel_error"] == -0.5
-    words = row("s", "i", "rises", 97.0, NOT_REPRODUCED)
+    assert row("i", "194", 97.0, NOT_REPRODUCED).told("s")["rel_error"] == -0.5
+    words = row("i", "rises", 97.0, NOT_REPRODUCED).told("s")
     assert words["published"] is None and words["printed"] == "rises" and words["rel_error"] is None
-    assert row("s", "i", "0", 1e-3, NOT_REPRODUCED)["rel_error"] is None
+    assert row("i", "0", 1e-3, NOT_REPRODUCED).told("s")["rel_error"] is None
     with pytest.raises(BadInput, match="reproduced"):
-        row("s", "i", None, None, "maybe")
+        row("i", None, None, "maybe")
 
 
 @pytest.mark.parametrize("name", FAST)
@@ -118,8 +118,7 @@ PAPER = {
     "__init__.py": "from mechsym.papers import Source\n"
     "SOURCE = Source(stem='009_f', name='doe1999', title='Doe (1999): Cranks')\n",
     "printed.toml": "entry = []\n",
-    "rows.py": "from mechsym.papers import row\n"
-    "def rows():\n    return [row('009_f', 'sum', '2', 1 + 1, 'reproduced')]\n",
+    "rows.py": "from mechsym.papers import row\ndef rows():\n    return [row('sum', '2', 1 + 1, 'reproduced')]\n",
     "figures.py": "def figures():\n    return {}\n",
 }
 

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
+from mechsym.papers.sources import sources
 from mechsym.papers.zotov2024 import computed as zotov2024
-from mechsym.papers.zotov2024.rows import rows
 
 PHI = np.linspace(0, 2 * np.pi, 721)
 
 
 @pytest.fixture(scope="module")
 def found():
-    return {row["item"]: row for row in rows()}
+    return {row["item"]: row for row in sources("zotov2024")[0].rows()}
 
 
 def one(found, start):

@@ -10,7 +10,7 @@ from mechsym.jobs.problem import problem_of
 from mechsym.mechanisms.record import BoundFunctions, bind
 from mechsym.simulate import Settings, simulate, simulate_many
 from mechsym.simulate.equations import held, start_of, system
-from mechsym.simulate.family import systems
+from mechsym.simulate.many import systems
 from mechsym.simulate.problem import FormulaForce, Problem
 
 SHORT = {"t_end": "2 s", "window": "0.5 s"}

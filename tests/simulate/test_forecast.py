@@ -7,10 +7,9 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.jobs.problem import problem_of
 from mechsym.simulate import Settings, simulate
-from mechsym.simulate.forecast import TRIAL, refuse_endless
 from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Result
-from mechsym.simulate.run import _once
+from mechsym.simulate.run import TRIAL, _once, refuse_endless
 
 QUICK = Settings(tolerance=1e-3, check="none")
 

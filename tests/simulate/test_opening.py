@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.cases.runs import settings_of
 from mechsym.errors import BadInput
-from mechsym.jobs.problem import problem_of, settings_of
+from mechsym.jobs.problem import problem_of
 from mechsym.simulate import simulate
 
 FOURBAR = """from mechsym.derive import Mechanism

@@ -10,7 +10,6 @@ from simulated import oscillator, shaft
 from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.jobs.problem import problem_of
-from mechsym.native import library
 from mechsym.simulate import Part, Periodic, Problem, Settings, Steps, simulate, simulate_many
 from mechsym.simulate.problem import Kinks, Stop
 
@@ -108,7 +107,6 @@ def test_plain_callables_are_left_to_scipy():
 
 @pytest.mark.parametrize("hidden", ["no compiler", "a compiler that fails"])
 def test_without_a_compiler_scipy_takes_over(hidden, monkeypatch, tmp_path):
-    library.load.cache_clear()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setenv("CC", "no-such-compiler" if hidden == "no compiler" else "false")
     reason = "no C compiler found" if hidden == "no compiler" else "false failed"

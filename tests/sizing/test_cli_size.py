@@ -44,7 +44,7 @@ def test_text_marks_what_is_below():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("args", [
-    ("zotov-142",), ("nunes-slider-crank", "--as-printed"), ("nunes-hypocycloid", "--set", "sizing.life=5 m"),
+    ("nunes-slider-crank", "--as-printed"), ("nunes-hypocycloid", "--set", "sizing.life=5 m"),
     ("nunes-hypocycloid", "--set", "sizing.gears=steel"), ("nunes-hypocycloid", "--set", "part_bearings.main=6099"),
 ])  # fmt: skip
 def test_bad_input_is_refused(args):

@@ -16,7 +16,7 @@ from scipy.sparse.linalg import spsolve
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, checks, wear
-from mechsym.sizing.rules.crosshead import specific_pressure, squeeze_time, wear_index, web_stress
+from mechsym.sizing.rules.crankshaft import rectangle_stress, specific_pressure, squeeze_time, wear_index
 
 PART = CrossheadPart(
     pin_diameter=0.22, pin_length=0.3, crank_pin_diameter=0.22, crank_pin_length=0.2, shoe_width=0.25, shoe_length=0.4,
@@ -60,9 +60,9 @@ def test_long_and_square_films():
 
 
 def test_web_stress_is_the_sum_of_bending_and_pressure():
-    assert web_stress(0.0, 1e5, 0.4, 0.1) == pytest.approx(1e5 / 0.04)
+    assert rectangle_stress(0.0, 1e5, 0.4, 0.1) == pytest.approx(1e5 / 0.04)
     section = 0.4 * 0.1**2 / 6
-    assert web_stress(2e4, 0.0, 0.4, 0.1) == pytest.approx(2e4 / section)
+    assert rectangle_stress(2e4, 0.0, 0.4, 0.1) == pytest.approx(2e4 / section)
 
 
 @given(st.floats(1e3, 1e7), st.floats(0.01, 1), st.floats(0.01, 1), st.floats(0.1, 10))

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.jobs.size import check_printed, gas_of, printed_parts, size, task
+from mechsym.jobs.size import check_printed, gas_of, planet_of, printed_parts, size, task
 from mechsym.mechanisms import hypocycloid
 from mechsym.mechanisms.record import evaluate
 from mechsym.sizing.checks import unsafe
+from mechsym.sizing.gear_design import candidates, faults
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import design as hypocycloid_design
 from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.forces import hypocycloid_forces
-from mechsym.sizing.parts.gear_design import candidates, faults
+from mechsym.sizing.hypocycloid.masses import hypocycloid_forces
 
 COARSE = {"sizing.speed_step": "250 rpm"}
 
@@ -28,7 +28,7 @@ def job():
 
 @pytest.fixture(scope="module")
 def forces_of(job):
-    return hypocycloid_forces(gas_of(job), job.case.need("parameters"))
+    return hypocycloid_forces(gas_of(job), planet_of(job.case))
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_consequences_of_the_moving_mass(job, printed):
     """Erratum E20 at 8000 rpm in the thesis's own cycle: largest force and exhaust TDC for 0.250 and 0.579 kg."""
     changes = {**COARSE, "speeds.lowest": "8000 rpm", "cycle.vaporisation": "latent_heat", "chamber.back_pressure": 0.0}
     found = task(load("nunes-hypocycloid", changes))
-    forces_of = hypocycloid_forces(gas_of(found), found.case.need("parameters"))
+    forces_of = hypocycloid_forces(gas_of(found), planet_of(found.case))
     light, heavy = (
         forces_of(hypocycloid_masses.Moving(rod=m, axis=m, planet=0.0, unbalance=0.0)) for m in (0.25, 0.579)
     )

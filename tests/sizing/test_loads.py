@@ -17,9 +17,8 @@ from mechsym.sizing.loads import (
     tooth_load_printed,
     tooth_share_one_end,
 )
-from mechsym.sizing.rules.shaft_beam import Shaft, inner_slope, moment, outer_shares
-from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor
-from mechsym.sizing.slider_crank.rod_forces import slider_crank_chain
+from mechsym.sizing.rules.crankshaft import slider_crank_chain
+from mechsym.sizing.rules.turning_shaft import Section, Shaft, fatigue_factor, inner_slope, moment, outer_shares
 
 THETA = np.arange(720) * 4 * np.pi / 720
 OMEGA = np.array([300.0, 800.0])

@@ -8,32 +8,18 @@ from hypothesis import strategies as st
 from mechsym.errors import BadInput
 from mechsym.quantities import parse
 from mechsym.sizing import loads
-from mechsym.sizing.rounding import round_up
-from mechsym.sizing.rules import (
-    balancing,
-    bearings,
-    bolts,
-    crankshaft,
-    cylinder,
-    fatigue,
-    gear_factors,
-    gear_life,
-    gears,
-    hertz,
-    masses,
-    piston,
-    rod,
-)
+from mechsym.sizing.checks import round_up
+from mechsym.sizing.rules import bearings, crankshaft, cylinder, fatigue, gear_factors, gears, masses, piston
 from mechsym.sizing.rules.gear_geometry import Pair
 
 # part size or stress as a function of one load
 GROWING = {
     "head, strength": lambda x: piston.head_thickness_strength(x * 1e6, 0.06, 60e6),
     "head, heat": lambda x: piston.head_thickness_heat(x * 100, 134.0, 75.0),
-    "rod": lambda x: rod.rod_diameter(x * 1e3, 50e6),
+    "rod": lambda x: piston.rod_diameter(x * 1e3, 50e6),
     "wall": lambda x: cylinder.wall_thickness(x * 1e6, 0.06, 52.5e6, 0.002),
-    "bolts": lambda x: bolts.core_diameter(x * 1e6, 0.06, 5, 70e6),
-    "thread": lambda x: bolts.thread_for(bolts.core_diameter(x * 1e6, 0.06, 5, 70e6)),
+    "bolts": lambda x: cylinder.core_diameter(x * 1e6, 0.06, 5, 70e6),
+    "thread": lambda x: cylinder.thread_for(cylinder.core_diameter(x * 1e6, 0.06, 5, 70e6)),
     "crankpin": lambda x: crankshaft.crankpin_diameter(x * 1e3, 0.043, 450e6),
     "web": lambda x: crankshaft.web_stress(x * 1e3, 0.043, 0.034, 0.015, 0.04),
     "shaft": lambda x: crankshaft.shaft_diameter(x, 800e6),
@@ -41,8 +27,6 @@ GROWING = {
     "gear, bending": lambda x: gears.face_width_bending(x * 1e3, 1e-3, 0.4, 450e6, gears.LoadFactors()),
     "gear, contact": lambda x: gears.face_width_contact(x * 1e3, 0.026, 0.13, 187030, 1.3e9, gears.LoadFactors()),
     "bearing": lambda x: bearings.required_rating(x * 1e3, 1e8, "roller"),
-    "contact": lambda x: hertz.line_pressure(x * 1e3, 0.02, 0.01, 0.02, 1.1e11),
-    "counterweight": lambda x: balancing.counterweight(x * 1e-3, 0.004),
 }
 
 
@@ -80,7 +64,7 @@ def test_reversal_lies_between_one_sided_and_full(W):
 @given(F_max=st.floats(1, 1e5), share=st.floats(0, 1))
 def test_reversal_factor_and_equivalent_load_agree(F_max, share):
     W = np.array([[F_max, -share * F_max]])
-    factor = gear_life.reversed_bending_factor(F_max, -share * F_max)
+    factor = 1 / (1 + 3 / 7 * share)  # Y_M of ISO 6336-3, annex B with M = 0.4: 0.7 for load that reverses fully
     assert loads.reversed_tooth_load(W, 2)[0] == pytest.approx(F_max / factor, rel=1e-9)
 
 
@@ -88,8 +72,8 @@ REFUSED = {
     "negative pressure": lambda: piston.head_thickness_strength(-1.0, 0.06, 60e6),
     "ring outside its range": lambda: piston.ring_radial_thickness(0.06, 1e6, 100e6),
     "thick wall": lambda: cylinder.hoop_stress(1e6, 0.06, 0.02),
-    "bolts beyond the list": lambda: bolts.thread_for(0.1),
-    "thread not made": lambda: bolts.root_diameter(11),
+    "bolts beyond the list": lambda: cylinder.thread_for(0.1),
+    "thread not made": lambda: cylinder.root_diameter(11),
     "load beyond the bearings": lambda: crankshaft.bearing_reaction(1.0, 0.1, 0.086),
     "lever inside the web": lambda: crankshaft.web_stress(1.0, 0.01, 0.034, 0.015, 0.04),
     "soft steel": lambda: fatigue.endurance_limit(50e6, 0.02, "ground"),
@@ -100,21 +84,18 @@ REFUSED = {
     "too fast for the grade": lambda: gear_factors.dynamic_factor(60.0, 6.0),
     "wide face": lambda: gear_factors.load_distribution_factor(0.06, 0.026, 1.1, "open"),
     "enclosure": lambda: gear_factors.mesh_alignment_factor(0.03, "closed"),
-    "hot gear": lambda: gear_life.temperature_factor(400.0),
-    "few cycles": lambda: gear_life.life_factor_bending(10.0),
-    "reliability": lambda: gear_life.reliability_factor(0.99999),
+    "few cycles": lambda: gear_factors.life_factor_bending(10.0),
+    "reliability": lambda: gear_factors.reliability_factor(0.99999),
     "thin rim": lambda: gear_factors.rim_factor(1e-3, 2.35e-3),
     "bearing kind by reliability": lambda: bearings.life_revolutions(1e4, 1e3, "ball", 0.999),
     "too many bearings": lambda: bearings.set_rating(1e4, 20, "ball"),
-    "flat inside flat": lambda: hertz.line_pressure(1.0, 0.1, 0.02, -0.01, 1e11),
-    "short rod": lambda: rod.rod_length(0.05, 0.013, 0.011, 0.014, 0.032),
-    "short connecting rod": lambda: balancing.slider_crank_shaking(1, 1, 0.5, 0.05, 0.1, np.zeros(1)),
+    "short rod": lambda: piston.rod_length(0.05, 0.013, 0.011, 0.014, 0.032),
     "web of circles inside each other": lambda: masses.web_outline(0.05, 0.015, 0.013),
     "half a tooth": lambda: Pair(kind="external", module=1e-3, teeth_1=20.5, teeth_2=40, pressure_angle=0.35),
     "ring smaller than pinion": lambda: Pair(
         kind="internal", module=1e-3, teeth_1=52, teeth_2=26, pressure_angle=0.35
     ),
-    "not a number": lambda: rod.rod_diameter(float("nan"), 50e6),
+    "not a number": lambda: piston.rod_diameter(float("nan"), 50e6),
     "wrong unit": lambda: parse("5 MPa", "m", "face"),
 }  # fmt: skip
 

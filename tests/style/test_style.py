@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pictures import faults, ids
+from pictures import contrast, faults, ids
 
 from mechsym import style
 from mechsym.out.web.build import _palette
@@ -20,15 +20,15 @@ FILLS = "PISTON CYLINDER CRANK GEAR BEARING CARRIER SHAFT WHEEL GAS ROLLER NOTHI
 
 @pytest.mark.parametrize("name", READ)
 def test_what_is_read_stands_out_on_both_papers(name):
-    assert style.contrast(READ[name], style.PAPER) >= 4.5
-    assert style.contrast(style.DARK[READ[name]], style.DARK[style.PAPER]) >= 4.5
+    assert contrast(READ[name], style.PAPER) >= 4.5
+    assert contrast(style.DARK[READ[name]], style.DARK[style.PAPER]) >= 4.5
 
 
 @pytest.mark.parametrize("name", FILLS)
 def test_letters_stand_out_on_what_is_filled(name):
     fill = getattr(palette, name)
-    assert style.contrast(style.INK, fill) >= 4.5
-    assert style.contrast(style.DARK[style.INK], style.DARK[fill]) >= 4.5
+    assert contrast(style.INK, fill) >= 4.5
+    assert contrast(style.DARK[style.INK], style.DARK[fill]) >= 4.5
 
 
 def test_pages_stand_out(pytestconfig):
@@ -37,8 +37,8 @@ def test_pages_stand_out(pytestconfig):
     for text, whole in ((light, ""), (dark, light)):
         shades = dict(re.findall(r"--(\w+): (#\w{6})", whole + text))
         for name in ("ink", "quiet", "blue", "green", "red", "amber"):
-            assert style.contrast(shades[name], shades["paper"]) >= 4.5, name
-            assert style.contrast(shades[name], shades["soft"]) >= 4.5, name
+            assert contrast(shades[name], shades["paper"]) >= 4.5, name
+            assert contrast(shades[name], shades["soft"]) >= 4.5, name
 
 
 def test_notebook_cards_and_simulating_pages_stand_out(pytestconfig):
@@ -46,23 +46,23 @@ def test_notebook_cards_and_simulating_pages_stand_out(pytestconfig):
     # letters have the notebook's own colour, whatever its theme; only the bars of verdicts have one of ours
     assert "prefers-color-scheme" not in cards and not re.findall(r"(?<![-\w])color: (?!inherit)", cards)
     for bar in re.findall(r"border(?:-left|-color): [^;]*?(#\w{6})", cards):
-        assert min(style.contrast(bar, paper) for paper in ("#ffffff", "#111111")) >= 3, bar
+        assert min(contrast(bar, paper) for paper in ("#ffffff", "#111111")) >= 3, bar
     page = (pytestconfig.rootpath / "mechsym/out/web/page.html").read_text()
     for sheet in re.findall(r":root \{([^}]*)\}", page):
         shades = {name: "#" + (c if len(c) == 6 else "".join(2 * d for d in c))
                   for name, c in re.findall(r"--(\w+): #(\w{3,6})", sheet)}  # fmt: skip
         for name in ("ink", "quiet"):
-            assert min(style.contrast(shades[name], shades[back]) for back in ("paper", "soft")) >= 4.5, name
+            assert min(contrast(shades[name], shades[back]) for back in ("paper", "soft")) >= 4.5, name
     script = page.partition("<script>")[2]
     assert not re.findall(r"#[0-9a-f]{3,6}\b", script)  # canvases take the palette's colours, which the page carries
     for kind, of in (("light", lambda colour: colour), ("dark", style.DARK.__getitem__)):
         drawn = _palette(of)
-        assert min(style.contrast(c, of(style.PAPER)) for c in (*drawn["series"], drawn["quiet"])) >= 4.5, kind
+        assert min(contrast(c, of(style.PAPER)) for c in (*drawn["series"], drawn["quiet"])) >= 4.5, kind
 
 
 def test_contrast_of_black_and_white():
-    assert style.contrast("#000000", "#ffffff") == pytest.approx(21)
-    assert style.contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)  # as the guidelines' examples
+    assert contrast("#000000", "#ffffff") == pytest.approx(21)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)  # as the guidelines' examples
 
 
 def simple(title="", name="speed"):

@@ -4,6 +4,7 @@ import dataclasses
 import math
 import shutil
 import signal
+import time
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.jobs.problem import problem_of
 from mechsym.simulate import Settings, simulate
-from mechsym.sweep import Gap, Plan, columns, failures, layout, points, sweep
+from mechsym.sweep import Gap, Plan, columns, failures, layout, points, sweep, work
 from mechsym.sweep.axes import override, parse_axis
 from mechsym.sweep.axes import points as points_of
 
@@ -242,7 +243,7 @@ def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
     [
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="hinge"), r"section \[spring\] is missing"),
         (Plan(case="chmielewski", over=("c1=1,2",), analysis="cycle"), r"section \[cycle\] is missing"),
-        (Plan(case="moroianu", over=("bore=0.5,0.52",), analysis="codesign"), r"section \[rollers\] is missing"),
+        (Plan(case="moroianu", over=("bore=0.5,0.52",), analysis="codesign"), "this kind of engine has no hinge"),
         (Plan(case="no-such-case", over=("c1=1,2",)), "no-such-case"),
     ],
 )
@@ -277,6 +278,32 @@ def test_a_signal_ends_the_sweep_after_the_points_under_way(number, default):
         signal.signal(number, usual)
     assert found.interrupted and len(done) == 2
     assert failures(found) == {2: "interrupted", 3: "interrupted"}
+
+
+def test_an_interrupt_in_the_last_points_is_not_forgotten():
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        plan = Plan(case="zotov-89", over=("spring.p0=5,6 MPa",), analysis="cycle")
+        found = sweep(plan, lambda count: signal.raise_signal(signal.SIGINT))
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    assert found.interrupted and set(failures(found)) <= {1}
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="timers of processes are POSIX")
+def test_points_that_take_long_are_interrupted(monkeypatch):
+    def slow(*_):
+        signal.raise_signal(signal.SIGINT)
+        time.sleep(60)
+
+    monkeypatch.setattr(work, "tied", slow)
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    began = time.monotonic()
+    try:
+        found = sweep(Plan(case="zotov-89", over=("spring.p0=5,6 MPa",), analysis="cycle"))
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    assert found.interrupted and len(failures(found)) == 2 and time.monotonic() - began < 30
 
 
 def test_an_interrupt_keeps_what_is_finished(monkeypatch):
@@ -365,15 +392,17 @@ def test_what_a_hinge_has_not_is_refused_before_it_is_designed():
 
 @pytest.mark.slow
 def test_hinges_are_those_of_single_designs():
-    from mechsym.hinge.summary import summary
+    from mechsym.hinge.summary import HingeNumbers
     from mechsym.jobs import hinge as design
+    from mechsym.quantities.results import tell
 
     show = ("check.speed_ripple", "hinge_torque_max", "flywheel_inertia_saved", "guide", "losses.total", "retune.p0")
     found = sweep(Plan(case="zotov-89", over=("spring.p0=5,8 MPa", "speed_rpm=80,89"), show=show))
     data = columns(found)
     assert np.all(data["check.speed_ripple"] < 1e-6)
     for i, (p0, speed) in enumerate(found.points):
-        alone = summary(design(cases.load("zotov-89", {"spring.p0": f"{p0} MPa", "speed_rpm": speed})))
+        single = design(cases.load("zotov-89", {"spring.p0": f"{p0} MPa", "speed_rpm": speed}))
+        alone = tell(HingeNumbers(judged=single))
         for name in ("hinge_torque_max", "flywheel_inertia_saved"):
             assert data[name][i] == pytest.approx(alone[name], rel=1e-9)
         assert data["guide.margin"][i] == pytest.approx(alone["guide"]["margin"], rel=1e-9)

@@ -109,17 +109,6 @@ def test_a_changed_file_begins_anew(tmp_path):
     assert sweep(plan, means=Means(folder=tmp_path)).kept == 0
 
 
-def test_a_changed_diagram_begins_anew(tmp_path):
-    name = tmp_path / "p.csv"
-    name.write_text("1", encoding="utf-8")
-    case = cases.load("zotov-89")
-    reading = cases.Case(**{**vars(case), "sections": {"cycle": type("Diagram", (), {})()}})
-    reading.sections["cycle"].file = str(name)
-    keys = [store.identity(reading, over=[]), store.identity(reading, over=[])]
-    name.write_text("2", encoding="utf-8")
-    assert keys[0] == keys[1] != store.identity(reading, over=[])
-
-
 def test_what_is_no_store_is_refused(tmp_path):
     (tmp_path / store.NAME).write_text("no database, but long enough to be read as one" * 20, encoding="utf-8")
     with pytest.raises(BadInput, match="sweep.db: no store of a sweep .* remove it"):

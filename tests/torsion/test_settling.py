@@ -7,7 +7,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.jobs.run import run
-from mechsym.torsion.settling import sentences, settling
+from mechsym.torsion.twist import sentences, settling
 
 PERIOD = 2 * np.pi
 ADIABATIC = {"cycle.kind": "stirling-adiabatic", "simulation.speed_start": "250 rpm"}

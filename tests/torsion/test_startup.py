@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from mechsym import cases, mechanisms
-from mechsym.jobs.problem import problem_of, settings_of
-from mechsym.jobs.startup import startup, startup_map
+from mechsym.cases.runs import settings_of
+from mechsym.jobs.problem import problem_of
+from mechsym.jobs.run import startup, startup_map
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.fixed_step import fixed_step
-from mechsym.simulate.summary import summary
-from mechsym.torsion.findings import findings, numbers
-from mechsym.torsion.startup import find_captures, series
+from mechsym.simulate.result import summary
+from mechsym.torsion.startup import find_captures, findings, numbers, series
 
 BACKENDS = ("scipy-dop853", "sundials")
 
@@ -29,7 +29,7 @@ def test_first_seconds_agree_between_integrators():
         result = simulate(problem, Settings(backend=backend))
         assert result.status == "converged"
         assert abs(result.energy.residual) < 1e-8
-        means.append(summary(result, problem.mechanism.coordinates, 1.0)["speeds"])
+        means.append(summary(result, problem.mechanism.coordinates, 1.0).speeds)
     for coordinate in ("phi0", "phi2"):
         assert means[0][coordinate]["mean"] == pytest.approx(means[1][coordinate]["mean"], rel=1e-7)
 
@@ -86,7 +86,7 @@ def test_hundred_seconds_converge():
         result = simulate(problem, Settings(backend=backend, tolerance=tolerance, check="none"))
         if backend == "scipy-dop853":
             assert abs(result.energy.residual) < 1e-8
-        speeds = summary(result, problem.mechanism.coordinates, 2.0)["speeds"]
+        speeds = summary(result, problem.mechanism.coordinates, 2.0).speeds
         means[backend, tolerance] = [speeds[c]["mean"] for c in ("phi0", "phi2")]
     reference = means["scipy-dop853", 1e-12]
     for other in means.values():
@@ -106,7 +106,7 @@ def test_capture_by_the_second_order_and_what_damping_does():
     assert 0.2 < second < 1.0
     assert 50 < bare.captures[0].t_start < 56 and 85 < bare.captures[0].t_end < 95
     assert bare.twist_peak > 1 and bare.speed_min < 0
-    assert [numbers(r)["model_holds"] for r in runs] == [False, False, True, True]
+    assert [numbers(r).model_holds for r in runs] == [False, False, True, True]
     assert any("model does not hold" in line for line in findings(bare))
     assert not any("model does not hold" in line for line in findings(strong))
     # 194 rad/s from 90 s on is more than the work of the drive allows, damped or not

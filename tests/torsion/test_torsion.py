@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from simulated import mechanism as build
 
+from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crank_train, crankshaft_flywheel
 from mechsym.simulate import Part, Problem, Settings, Steps, simulate
@@ -147,4 +148,4 @@ def test_balanced_in_line_six_keeps_orders_three_and_six():
 
 def test_model_without_energies_is_refused(chmielewski):
     with pytest.raises(BadInput, match="has no energies"):
-        torsion.matrices(crankshaft_flywheel.build_printed(chmielewski))
+        torsion.matrices(mechanisms.build("crankshaft_flywheel_printed", chmielewski))

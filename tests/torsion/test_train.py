@@ -9,9 +9,9 @@ from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
+from mechsym.jobs.forces import vibration
+from mechsym.jobs.machine import turn
 from mechsym.jobs.run import run
-from mechsym.jobs.turn import turn
-from mechsym.jobs.vibration import vibration
 from mechsym.torsion.train import doubts, operating_range, twist_words, words
 
 NAME = "alpha-stirling"

@@ -5,9 +5,9 @@ from functools import cache, partial
 from importlib import resources
 from pathlib import Path
 
-from mechsym.audit.theory import drives, engines, guides, parts, rodless, sliders
+from mechsym.audit.theory import engines, mechanisms
 from mechsym.audit.theory.declared import read_theory, theory_of
-from mechsym.audit.theory.own import own_theory
+from mechsym.audit.theory.mechanisms import mechanism, own_theory
 from mechsym.audit.theory.record import Theory
 from mechsym.cases.numbers import numbers, usual
 from mechsym.derive.build import scripts
@@ -18,18 +18,18 @@ Build = Callable[[Mapping[str, float], str], Theory]
 
 # theory: (builder, case that its values come from unless another is named)
 _THEORIES: dict[str, tuple[Build, str]] = {
-    "crosshead": (drives.crosshead, "zotov-89"),
-    "crankshaft_flywheel": (drives.crankshaft_flywheel, "chmielewski"),
-    "crankshaft_flywheel_truncated": (drives.crankshaft_flywheel_truncated, "chmielewski"),
-    "guide": (guides.guide, "zotov-89"),
-    "slider_crank": (sliders.slider_crank, "zotov-89"),
-    "two_mass_rod": (sliders.two_mass_rod, "zotov-89"),
-    "rodless": (rodless.rodless, ""),
+    "crosshead": (mechanisms.crosshead, "zotov-89"),
+    "crankshaft_flywheel": (mechanisms.crankshaft_flywheel, "chmielewski"),
+    "crankshaft_flywheel_truncated": (mechanisms.crankshaft_flywheel_truncated, "chmielewski"),
+    "guide": (engines.guide, "zotov-89"),
+    "slider_crank": (mechanisms.slider_crank, "zotov-89"),
+    "two_mass_rod": (mechanisms.two_mass_rod, "zotov-89"),
+    "rodless": (mechanisms.rodless, ""),
     "opposed_slider_crank": (engines.opposed_slider_crank, ""),
     "opposed_hypocycloid": (engines.opposed_hypocycloid, ""),
     "otto": (engines.otto, ""),
     "cylinder": (engines.cylinder, ""),
-    "engine_parts": (parts.engine_parts, ""),
+    "engine_parts": (engines.engine_parts, ""),
 }
 
 
@@ -76,19 +76,13 @@ def named(name: str, case: str = "", file: str = "") -> Theory:
 
 @cache
 def theory(name: str, case: str = "") -> Theory:
-    """A theory with the data of a case.
-
-    Parameters
-    ----------
-    case : str
-        Name of a built-in case or a path; empty for the source's data
-    """
+    """A theory with the data of a case: its name, a path, or the source's."""
     if name not in names():
         raise BadInput(
             f"there is no theory {name!r}; theories are {', '.join(names())}, or one of your own by --theory"
         )
     if name in shipped() and name not in _THEORIES:
         return theory_of(shipped()[name], name, f"theories/{name}.toml")
-    build, own = _THEORIES.get(name) or (partial(drives.mechanism, name), usual(name))
+    build, own = _THEORIES.get(name) or (partial(mechanism, name), usual(name))
     chosen = case or own
     return build(numbers(chosen, name if name in scripts() else "") if chosen else {}, chosen)

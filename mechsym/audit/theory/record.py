@@ -1,21 +1,79 @@
 """The record of a theory, made from sympy expressions: what printed formulas are compared with."""
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
+import mpmath
 import numpy as np
 
-from mechsym.audit.algebra import Algebra, evaluate
-from mechsym.audit.reader import CONSTANTS, read_expression
-from mechsym.audit.theory.implicit import harmonic, root
-from mechsym.audit.theory.tape import Entry, Harmonic, Root, TheoryTape, needed
-from mechsym.audit.tree import Node, children, function_of, walk
+from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, Algebra, Values, evaluate
+from mechsym.audit.read.reader import CONSTANTS, read_expression
+from mechsym.audit.read.tree import Node, children, function_of, number, walk
+from mechsym.audit.theory.tape import Entry, Harmonic, Root, TheoryTape, derivative, needed
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
+
+_STEPS = 60
+_POINTS = 32
+
+
+def root(entry: Root, names: dict[str, Values], algebra: Algebra) -> Values:
+    """Values of the unknown at all states, in its unit; nan where Newton's method does not converge."""
+    if algebra is SYMBOLS:
+        raise BadInput("a root of an equation is decided by its digits alone")
+    slope = derivative(entry.equation, lambda k: number(int(k == entry.unknown)))
+    start = evaluate(entry.start, names, algebra)
+    floats = {k: np.asarray(v, dtype=float) for k, v in names.items()}
+    solution = _newton(entry, slope, floats, np.asarray(start, dtype=float), FLOATS, _STEPS)
+    if algebra is FLOATS:
+        return solution
+    steps = 2 + int(np.log2(max(mpmath.mp.dps / 14, 1)) + 1)
+    digits = np.array([mpmath.mpf(float(v)) for v in np.atleast_1d(solution)])
+    return _newton(entry, slope, names, digits, DIGITS, steps)
+
+
+def _newton(entry: Root, slope: Node, names: dict[str, Values], value: Values, algebra: Algebra, steps: int) -> Values:
+    divide = algebra.operations[ast.Div]
+    for _ in range(steps):
+        now = {**names, entry.unknown: value}
+        step = divide(evaluate(entry.equation, now, algebra), evaluate(slope, now, algebra))
+        value = value - step
+        if algebra is FLOATS and not np.any(np.abs(step) > 1e-15 * (1 + np.abs(value))):
+            break
+    if algebra is FLOATS:
+        left = np.abs(evaluate(entry.equation, {**names, entry.unknown: value}, algebra))
+        value = np.where(left < 1e-9 * (1 + np.max(np.where(np.isfinite(left), left, 0.0))), value, np.nan)
+    return value
+
+
+def harmonic(
+    entry: Harmonic, names: dict[str, Values], algebra: Algebra, fill: Callable[[dict[str, Values]], None]
+) -> Values:
+    """Fourier coefficient of a name at all states, in its unit; nan where the points of a turn do not suffice."""
+    if algebra is SYMBOLS:
+        raise BadInput("a harmonic is decided by its digits alone")
+    close = 1e-12 if algebra is FLOATS else mpmath.mpf(10) ** (6 - mpmath.mp.dps)
+    before: Values = None
+    count = _POINTS
+    while count <= 16 * _POINTS:
+        now = sum(_term(entry, names, algebra, fill, k, count) for k in range(count))
+        now = now * (2 if entry.order else 1) / count
+        if before is not None and np.all(np.abs(now - before) <= close * (1 + np.abs(now))):
+            return now
+        before, count = now, 2 * count
+    return now * (np.nan if algebra is FLOATS else mpmath.nan)
+
+
+def _term(entry: Harmonic, names: dict[str, Values], algebra: Algebra, fill: Values, k: int, count: int) -> Values:
+    angle = 2 * algebra.pi() * k / count
+    like = names[entry.angle]
+    turned = {n: v for n, v in names.items() if n in entry.free} | {"pi": names["pi"], entry.angle: like * 0 + angle}
+    fill(turned)
+    function = algebra.functions["sin" if entry.sine else "cos"]
+    return turned[entry.of] * function(like * 0 + entry.order * angle)
 
 
 @record
@@ -24,9 +82,8 @@ class Letter:
 
     unit: str  #: SI unit, `"-"` for a pure number
     value: float  #: Value in the source's data, or a plausible one where it prints none [unit]
-    sign: str = (
-        ""  #: `positive`, `any`, or by the unit: lengths, masses, pressures, temperatures and numbers are positive
-    )
+    #: `positive`, `any`, or by the unit: lengths, masses, pressures, temperatures and numbers are positive
+    sign: str = ""
     domain: tuple[float, float] | None = None  #: Ends of the range, where it is known [unit]
 
     @property
@@ -34,14 +91,16 @@ class Letter:
         """Whether it is never negative."""
         if self.domain:
             return self.domain[0] >= 0
-        return self.sign == "positive" or (not self.sign and self.value >= 0 and _never_negative(self.unit))
+        if self.sign or self.value < 0 or self.unit.startswith("rad"):
+            return self.sign == "positive"
+        mass, length, time, kelvin = dimension(self.unit)
+        return time == 0 or kelvin != 0 or (mass, length, time) == (1, -1, -2)
 
 
-def _never_negative(unit: str) -> bool:
-    mass, length, time, kelvin = dimension(unit)
-    if unit.startswith("rad"):
-        return False
-    return time == 0 or kelvin != 0 or (mass, length, time) == (1, -1, -2)
+def letters_of(text: str) -> dict[str, Letter]:
+    """Letters of a table with name, value and unit of each: `B 0.06 m; p 9.6e6 Pa`."""
+    rows = (line.split() for line in text.split(";"))
+    return {name: Letter(unit=unit, value=float(value)) for name, value, unit in rows}
 
 
 @record
@@ -71,54 +130,40 @@ class Theory:
             object.__setattr__(self, "tape", TheoryTape(self.tape, self.letters, self.angle))
 
 
-def complete(theory: Theory, names: dict[str, Any], wanted: Iterable[str], algebra: Algebra) -> None:
-    """Add the values of those names on the tape that are wanted.
-
-    Parameters
-    ----------
-    names : dict of str to value
-        Values of the letters; names are added
-    """
+def complete(theory: Theory, names: dict[str, Values], wanted: Iterable[str], algebra: Algebra) -> None:
+    """Add the values of those names on the tape that are wanted."""
     for wish in wanted:
         if wish in names or wish not in theory.tape:
             continue
         entry = theory.tape[wish]
         if isinstance(entry, Harmonic):
-            names[wish] = harmonic(entry, names, algebra, partial(_fill, theory, entry.of, algebra))
+            fill = partial(complete, theory, wanted=[entry.of], algebra=algebra)
+            names[wish] = harmonic(entry, names, algebra, fill)
             continue
         complete(theory, names, needed(entry), algebra)
         if isinstance(entry, Root):
             names[wish] = root(entry, names, algebra)
-            continue
-        found = [evaluate(part, names, algebra) for part in (entry if isinstance(entry, tuple) else (entry,))]
-        names[wish] = np.stack(np.broadcast_arrays(*found)) if isinstance(entry, tuple) else found[0]
-
-
-def _fill(theory: Theory, wish: str, algebra: Algebra, names: dict[str, Any]) -> None:
-    complete(theory, names, [wish], algebra)
+        elif isinstance(entry, tuple):
+            names[wish] = np.stack(np.broadcast_arrays(*(evaluate(part, names, algebra) for part in entry)))
+        else:
+            names[wish] = evaluate(entry, names, algebra)
 
 
 def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:
     """Letters and names that the wanted ones are made of, themselves included."""
-    found, waiting = set(), list(wanted)
+    reached, waiting = set(), list(wanted)
     while waiting:
         wish = waiting.pop()
-        if wish in found:
+        if wish in reached:
             continue
-        found.add(wish)
+        reached.add(wish)
         if wish in theory.tape:
             waiting += needed(theory.tape[wish])
-    return found
+    return reached
 
 
 def parts(theory: Theory, tree: Node) -> bool:
-    """Whether an expression has one value per part because a letter was not summed.
-
-    Returns
-    -------
-    answer : bool
-        True when a letter with parts stands outside every sum()
-    """
+    """Whether a letter with one value per part stands outside every sum()."""
     if isinstance(tree, ast.Name):
         return isinstance(theory.tape.get(tree.id), tuple)
     return function_of(tree) != "sum" and any(parts(theory, child) for _, child in children(tree))
@@ -150,13 +195,7 @@ def need_result(theory: Theory, quantity: str) -> None:
 def extended(
     theory: Theory, new_name: str, more_letters: Mapping[str, Letter], expressions: Mapping[str, tuple[str, str]]
 ) -> Theory:
-    """A theory with further letters and expressions.
-
-    Parameters
-    ----------
-    expressions : mapping of str to (str, str)
-        Name to expression in letters and names, and its unit; in the order of definition
-    """
+    """A theory with further letters and expressions, each with its unit, in the order of definition."""
     letters_now = {**theory.letters, **more_letters}
     tape = dict(theory.tape)
     for new, (text, _) in expressions.items():

@@ -5,13 +5,105 @@
 Where a declaration calls something else so (a volume V beside a displacement V_d), the derivative goes by `V_d_`.
 """
 
+import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from mechsym.audit.calculus import Rate, derivative, is_zero, over
-from mechsym.audit.tree import Node, letters, name, negative, number
+from mechsym.audit.read.tree import Node, binary, call, function_of, letters, name, negative, number, value_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+
+Rate = Callable[[str], Node]  # of a letter or a name
+
+
+def derivative(tree: Node, rate: Rate) -> Node:
+    """Derivative of an expression whose letters have given rates."""
+    if isinstance(tree, ast.Constant):
+        return number(0)
+    if isinstance(tree, ast.Name):
+        return rate(tree.id)
+    if isinstance(tree, ast.UnaryOp):
+        return minus(number(0), derivative(tree.operand, rate))
+    if isinstance(tree, ast.IfExp):
+        body, other = derivative(tree.body, rate), derivative(tree.orelse, rate)
+        return number(0) if is_zero(body) and is_zero(other) else ast.IfExp(test=tree.test, body=body, orelse=other)
+    if isinstance(tree, ast.Call):
+        inner = derivative(tree.args[0], rate)
+        return number(0) if is_zero(inner) else times(_outer(str(function_of(tree)), tree), inner)
+    assert isinstance(tree, ast.BinOp)
+    left = derivative(tree.left, rate)
+    right = derivative(tree.right, rate)
+    if isinstance(tree.op, ast.Add):
+        return plus(left, right)
+    if isinstance(tree.op, ast.Sub):
+        return minus(left, right)
+    if isinstance(tree.op, ast.Mult):
+        return plus(times(left, tree.right), times(tree.left, right))
+    if isinstance(tree.op, ast.Div):
+        return minus(over(left, tree.right), times(over(tree, tree.right), right))
+    total: Node = number(0)
+    if not is_zero(left):
+        exponent = value_of(tree.right)
+        less = minus(tree.right, number(1)) if exponent is None else number(exponent - 1)
+        total = times(times(tree.right, binary(ast.Pow, tree.left, less)), left)
+    if not is_zero(right):
+        total = plus(total, times(times(tree, call("log", tree.left)), right))
+    return total
+
+
+def _outer(function: str, tree: ast.Call) -> Node:
+    x = tree.args[0]
+    square = binary(ast.Pow, x, number(2))
+    rules: dict[str, Callable[[], Node]] = {
+        "sin": lambda: call("cos", x),
+        "cos": lambda: negative(call("sin", x)),
+        "tan": lambda: binary(ast.Add, number(1), binary(ast.Pow, tree, number(2))),
+        "cot": lambda: negative(binary(ast.Add, number(1), binary(ast.Pow, tree, number(2)))),
+        "asin": lambda: over(number(1), call("sqrt", binary(ast.Sub, number(1), square))),
+        "acos": lambda: negative(over(number(1), call("sqrt", binary(ast.Sub, number(1), square)))),
+        "atan": lambda: over(number(1), binary(ast.Add, number(1), square)),
+        "sqrt": lambda: over(number(1), binary(ast.Mult, number(2), tree)),
+        "exp": lambda: tree,
+        "log": lambda: over(number(1), x),
+        "abs": lambda: over(x, tree),
+    }
+    if function not in rules:
+        raise BadInput(f"{function}() has no derivative here; there are {', '.join(rules)}")
+    return rules[function]()
+
+
+def is_zero(tree: Node) -> bool:
+    """Whether a tree is the number 0."""
+    return value_of(tree) == 0
+
+
+def plus(left: Node, right: Node) -> Node:
+    """Sum without zeros."""
+    return right if is_zero(left) else left if is_zero(right) else binary(ast.Add, left, right)
+
+
+def minus(left: Node, right: Node) -> Node:
+    """Difference without zeros."""
+    if is_zero(left):
+        return right if is_zero(right) else negative(right)
+    return left if is_zero(right) else binary(ast.Sub, left, right)
+
+
+def times(left: Node, right: Node) -> Node:
+    """Product without zeros and ones."""
+    if is_zero(left) or is_zero(right):
+        return number(0)
+    return right if value_of(left) == 1 else left if value_of(right) == 1 else binary(ast.Mult, left, right)
+
+
+def over(left: Node, right: Node) -> Node:
+    """Quotient without zeros and ones."""
+    return number(0) if is_zero(left) else left if value_of(right) == 1 else binary(ast.Div, left, right)
+
+
+def by_name(names: dict[str, str]) -> Rate:
+    """Rates that are names, 0 for every other letter."""
+    return lambda letter: name(names[letter]) if letter in names else number(0)
 
 
 @record
@@ -62,10 +154,10 @@ class TheoryTape(Mapping[str, Entry]):
         if key not in self.made:
             self.made[key] = None  # a name that is derived from itself is none
             self.made[key] = self._derived(key)
-        found = self.made[key]
-        if found is None:
+        entry = self.made[key]
+        if entry is None:
             raise KeyError(key)
-        return found
+        return entry
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.base)
@@ -163,8 +255,8 @@ def slope_name(of: str, by: str) -> str:
 
 def _sloped(key: str, free: Iterable[str]) -> str:
     # the name that a slope by any letter belongs to
-    found = (re.fullmatch(rf"d\d?(\w+?)_d{re.escape(by)}\d?", key) for by in free)
-    return next((match[1] for match in found if match), "")
+    matches = (re.fullmatch(rf"d\d?(\w+?)_d{re.escape(by)}\d?", key) for by in free)
+    return next((match[1] for match in matches if match), "")
 
 
 def _integrated(key: str, by: str) -> str:

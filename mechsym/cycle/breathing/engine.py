@@ -1,31 +1,43 @@
 r"""An engine that breathes: its balance with the turbocharger, pressure over the angle, figures over the speeds.
 
 .. math:: p_{mi} = W/V_d, \quad p_{mp} = W_{exchange}/V_d, \quad p_{me} = p_{mi} - p_{mf}, \quad
-          \eta = W/(m_f Q_{HV}), \quad m_f = m_{drawn}/(1 + AFR)
+          \eta = W/(m_f Q_{HV}), \quad m_f = m_{drawn}/(1 + AFR), \quad \eta_v = m_{drawn} R T_{in}/(p_{in} V_d)
+
+One book of fresh gas: what is drawn gives air, fuel and filling (Heywood 1988, eq. 2.27); of it burns what is trapped,
+`trapping_efficiency`, and what is lost through the exhaust is unburnt fuel.
 
 The work of the two strokes of gas exchange is part of the mean indicated pressure (net), and so of all brake figures.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import scipy
 
+from mechsym.cycle.brake import brake_figures
 from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, HeatSink, Surroundings
 from mechsym.cycle.breathing.run import breathe
 from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
 from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume
+from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
 from mechsym.cycle.friction import Friction, NoFriction, friction_pressure
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.heat import Adiabatic, Law
 from mechsym.cycle.kinds.gas_exchange import GasExchange, charge
 from mechsym.cycle.knock import knock_along
+from mechsym.cycle.plots import breathing_picture
 from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
+from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
+from mechsym.cycle.wiebe import BURNT, burnt_at
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import ratio_text
+from mechsym.quantities.units import Scalar
 
 
 @record
@@ -66,21 +78,21 @@ def run(engine: BreathingEngine, omega: Sequence[float]) -> BreathingRun:
         return BreathingRun(
             engine=engine, chamber=room, breaths=breathe(cylinder, around, omega), around=around, boosted=None
         )
-    last: list[Any] = []
+    last: list[tuple[Surroundings, list[Breath]]] = []
 
     air = engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio)
 
     def answer(state: Boosted) -> tuple[np.ndarray, np.ndarray]:
         around = _around(b, state.p_2, state.T_2, state.p_3)
-        last[:] = [around, breathe(cylinder, around, omega)]
-        drawn = np.array([breath.drawn * breath.omega / PERIOD for breath in last[1]])
-        return np.array([breath.T_exhaust for breath in last[1]]), drawn * air
+        last[:] = [(around, breathe(cylinder, around, omega))]
+        drawn = np.array([breath.drawn * breath.omega / PERIOD for breath in last[0][1]])
+        return np.array([breath.T_exhaust for breath in last[0][1]]), drawn * air
 
     state = boosted(engine.boost, outside, answer, len(omega))
-    return BreathingRun(engine=engine, chamber=room, breaths=last[1], around=last[0], boosted=state)
+    return BreathingRun(engine=engine, chamber=room, breaths=last[0][1], around=last[0][0], boosted=state)
 
 
-def _around(b: Breathing, p_in: Any, T_in: Any, p_out: Any) -> Surroundings:
+def _around(b: Breathing, p_in: Scalar, T_in: Scalar, p_out: Scalar) -> Surroundings:
     return Surroundings(
         p_in=p_in if b.inlet_pressure is None else b.inlet_pressure,
         T_in=T_in if b.inlet_temperature is None else b.inlet_temperature,
@@ -116,12 +128,14 @@ def pressure(found: BreathingRun) -> Pressure:
     facts = (
         f"gas exchange at {breath.omega / RPM:.5g} rpm: {100 * breath.volumetric_efficiency:.1f} % of the swept volume "
         f"filled, {100 * breath.residual:.1f} % of the charge is residual gas",
+        f"{100 * max(0.0, round(1 - breath.trapping_efficiency, 5)):.2g} % of the fresh gas drawn is lost through the "
+        "exhaust",
         f"mass and energy closed to {ratio_text(max(breath.mass_residual, breath.energy_residual), 1)}",
     )
     return pressure_over("gas-exchange", absolute, PERIOD, kinks, found.chamber, facts=facts)
 
 
-def _curve(breath: Breath) -> Callable[[Any], Any]:
+def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
     """Pressure in the cylinder at any angle; the cycle repeats but for `closure`, which the last node gives up."""
     p = breath.pressures["cylinder"]
     return periodic(
@@ -131,7 +145,7 @@ def _curve(breath: Breath) -> Callable[[Any], Any]:
     )
 
 
-def figures(found: BreathingRun) -> dict[str, Any]:
+def figures(found: BreathingRun) -> Json:
     """Figures over the speeds under the names of `mechsym cycle`, of one cylinder.
 
     Returns
@@ -141,7 +155,7 @@ def figures(found: BreathingRun) -> dict[str, Any]:
         the temperature of the exhaust, and what the turbocharger leaves before and behind the engine
     """
     rows = [_at(found, breath) for breath in found.breaths]
-    columns: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
+    columns: Json = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     columns["fractions"] = {name: columns.pop(name) for name in ("heat", "work", "exhaust", "unburnt")}
     n, around = len(rows), found.around
     if found.boosted is not None:
@@ -153,30 +167,32 @@ def figures(found: BreathingRun) -> dict[str, Any]:
 
 
 def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
-    engine, room, omega = found.engine, found.chamber, breath.omega
-    fuel = breath.drawn / (1 + engine.cycle.air_fuel_ratio)
-    energy = fuel * engine.cycle.heating_value
+    engine, room, omega, c = found.engine, found.chamber, breath.omega, found.engine.cycle
+    fuel = breath.drawn / (1 + c.air_fuel_ratio)
+    energy = fuel * c.heating_value
     p = breath.pressures["cylinder"]
     p_max, phi_max = peak(_curve(breath), PERIOD, ())
     piston_speed = room.stroke * omega / math.pi
     lost = float(friction_pressure(engine.friction_pressure, p_max, piston_speed, omega))
-    brake = breath.work - lost * room.displacement
     force = piston_force(room, breath.phi, omega, p)
     per_second, share, unburnt = omega / PERIOD, breath.work / energy, 1 - breath.heat / energy
     return {
         "speed_rpm": omega / RPM, "torque_avg": breath.work / PERIOD,
         "torque_max": float(np.max(force * travel(room.motion, breath.phi)[1])),
         "power_kw": breath.work * per_second / 1e3, "mep_kpa": breath.work / room.displacement / 1e3,
+        "gross_mep_kpa": (breath.work - breath.pumping) / room.displacement / 1e3,
         "sfc_g_kwh": 3.6e9 * fuel / breath.work if breath.work > 0 else math.nan, "efficiency": share,
         "p_max_mpa": p_max / 1e6, "p_max_angle_deg": math.degrees(phi_max), "force_max": float(np.max(force)),
-        "friction_mep_kpa": lost / 1e3, "brake_torque": brake / PERIOD, "brake_power_kw": brake * per_second / 1e3,
-        "brake_sfc_g_kwh": 3.6e9 * fuel / brake if brake > 0 else math.nan, "brake_efficiency": brake / energy,
+        **{name: math.degrees(c.ignition + c.duration * burnt_at(share, c.wiebe_a, c.wiebe_m))
+           for name, share in BURNT.items()},
+        **brake_figures(breath.work, lost, room.displacement, PERIOD, omega, (fuel, energy)),
         "energy_residual": breath.energy_residual, "mass_residual": breath.mass_residual,
         "pumping_mep_kpa": breath.pumping / room.displacement / 1e3,
         "volumetric_efficiency": breath.volumetric_efficiency, "residual_gas": breath.residual,
+        "trapping_efficiency": breath.trapping_efficiency,
         "knock": _knock(found, breath),
         "t_max_k": float(breath.temperature.max()), "t_exhaust_k": breath.T_exhaust,
-        "air_kg_h": breath.drawn * engine.cycle.air_fuel_ratio / (1 + engine.cycle.air_fuel_ratio) * per_second * 3600,
+        "air_kg_h": fuel * c.air_fuel_ratio * per_second * 3600,
         "heat": breath.wall_heat / energy, "work": share, "exhaust": 1 - share - unburnt - breath.wall_heat / energy,
         "unburnt": unburnt,
     }  # fmt: skip
@@ -192,11 +208,8 @@ def _knock(found: BreathingRun, breath: Breath) -> float:
 def curves(found: BreathingRun) -> dict[str, np.ndarray]:
     """The cycle at the first speed, curve by curve over the angle from firing top dead centre.
 
-    Returns
-    -------
-    curves : dict of str to ndarray, shape (k,)
-        `phi_deg` from -180 to 540, `p_pa`, `t_k`, `v_m3`, `p_plenum_pa`, `p_manifold_pa`, `force_n` and `torque_nm` of
-        one piston
+    Returns curves: `phi_deg` from -180 to 540, `p_pa`, `t_k`, `v_m3`, `p_plenum_pa`, `p_manifold_pa`, `force_n` and
+    `torque_nm` of one piston, shape (k,).
     """
     breath, room = found.breaths[0], found.chamber
     phi = np.remainder(breath.phi[:-1] + math.pi, PERIOD) - math.pi
@@ -209,3 +222,69 @@ def curves(found: BreathingRun) -> dict[str, np.ndarray]:
         "torque_nm": force * travel(room.motion, phi)[1],
     }  # fmt: skip
     return {name: values[order] for name, values in columns.items()}
+
+
+def _closing(found: Json) -> str:
+    mass, energy = (float(found[f"{name}_residual"].max()) for name in ("mass", "energy"))
+    return f"mass closed to {ratio_text(mass, 1)} of the charge, first law to {ratio_text(energy, 1)} of its energy"
+
+
+class BreathingGas:
+    """Gas of an engine whose gas exchange is followed."""
+
+    page = FiguresPage(
+        tables=(
+            *ENGINE_PAGE.tables,
+            (
+                "gas exchange",
+                ("speed_rpm", "volumetric_efficiency", "trapping_efficiency", "residual_gas", "air_kg_h", "p_in_kpa",
+                 "t_in_k", "p_out_kpa", "t_exhaust_k", "knock"),
+            ),
+        ),
+        closing=_closing,
+        peaks=True,
+    )  # fmt: skip
+
+    def __init__(self, cycle: GasExchange, parts: EngineParts) -> None:
+        self.cycle, self.parts = cycle, parts
+        self._runs: dict[tuple[float, ...], BreathingRun] = {}
+
+    @cached_property
+    def engine(self) -> BreathingEngine:
+        """The engine; without `[heat_transfer]` no heat is lost."""
+        return BreathingEngine(
+            chamber=self.parts.section("chamber"),
+            motion=self.parts.motion,
+            cycle=self.cycle,
+            breathing=self.parts.section("breathing"),
+            boost=self.parts.section("boost"),
+            heat_transfer=self.parts.section("heat_transfer", Adiabatic()),
+            friction_pressure=self.parts.friction,
+        )
+
+    def at(self, omega: float) -> Gas:
+        """Gas at a speed [rad/s]."""
+        found = self._run((omega,))
+        return Gas(pressure=pressure(found), chamber=found.chamber)
+
+    def figures(self, omega: np.ndarray, progress: Progress = unseen) -> Json:
+        """Figures of one cylinder over speeds [rad/s]."""
+        return figures(self._run(tuple(omega.tolist())))
+
+    def curves(self, omega: np.ndarray, operating: float) -> dict[str, np.ndarray]:
+        """The cycle at the first of the speeds [rad/s]."""
+        return curves(self._run(tuple(omega.tolist())))
+
+    def picture(self, path: Path, curves: Mapping[str, np.ndarray]) -> Path:
+        """Draw the cycle and the lift of its valves."""
+        return breathing_picture(path, curves, self.engine.breathing)
+
+    @property
+    def bound(self) -> float | None:
+        """Efficiency of the Otto cycle with cold air [-]."""
+        return otto_bound(self.parts.section("chamber").compression_ratio)
+
+    def _run(self, omega: tuple[float, ...]) -> BreathingRun:
+        if omega not in self._runs:
+            self._runs[omega] = run(self.engine, omega)
+        return self._runs[omega]

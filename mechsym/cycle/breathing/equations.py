@@ -8,7 +8,6 @@ The gas is ideal with constant heat capacities; burnt gas is told from fresh by 
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import casadi as ca
 
@@ -17,11 +16,12 @@ from mechsym.cycle.breathing.records import PERIOD, Breathing, FreshCharge, Heat
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 
 VOLUMES = ("plenum", "cylinder", "manifold")
 # mass [kg], internal energy [J] and burnt mass [kg] of each volume, then what has crossed the borders [kg, J]
 STATES = (*(f"{q}_{v}" for v in VOLUMES for q in ("m", "E", "b")),
-          "work", "pumping", "m_in", "H_in", "m_out", "H_out", "heat", "wall_heat")  # fmt: skip
+          "work", "pumping", "m_in", "b_in", "H_in", "m_out", "H_out", "heat", "wall_heat")  # fmt: skip
 # speed [rad/s], fresh mass [kg] and state [Pa, K] when the inlet closes, state of the surroundings [Pa, K, Pa]
 GIVEN = ("omega", "fresh", "p_closed", "T_closed", "p_in", "T_in", "p_out")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
@@ -33,7 +33,7 @@ class Cylinder:
 
     breathing: Breathing
     charge: FreshCharge
-    volume: Callable[[Any], Any]  #: Crank angle, number or CasADi symbol [rad], to the volume of the cylinder [m^3]
+    volume: Callable[[Scalar], Scalar]  #: Crank angle, number or symbol [rad], to the volume of the cylinder [m^3]
     walls: HeatSink = HeatSink()
 
     # a cylinder is itself: its volume is a function
@@ -50,7 +50,7 @@ def rate(cylinder: Cylinder) -> ca.Function:
     return ca.Function("rate", [s, y, z], [slope(here, y, z) * PERIOD], list("syz"), ["ds"])
 
 
-def _slopes(cylinder: Cylinder, phi: Any, y: Any, z: dict[str, Any]) -> Any:
+def _slopes(cylinder: Cylinder, phi: Scalar, y: Scalar, z: dict[str, ca.SX]) -> Scalar:
     b, c, room = cylinder.breathing, cylinder.charge, cylinder.volume(phi)
     cv, size = c.R / (c.gamma - 1), (b.plenum_volume, room, b.manifold_volume)
     inside = [((c.gamma - 1) * y[3 * i + 1] / size[i], y[3 * i + 1] / (y[3 * i] * cv)) for i in range(3)]
@@ -62,13 +62,13 @@ def _slopes(cylinder: Cylinder, phi: Any, y: Any, z: dict[str, Any]) -> Any:
     rows[1][2] += release
     # the two strokes about the dead centre of exchange
     exchange = ca.if_else(ca.fabs(phi - 6 * math.pi) < math.pi, work, 0.0)
-    last = [work, exchange, flows[0], heats[0], flows[3], heats[3], c.heat * release, lost]
+    last = [work, exchange, flows[0], shares[0], heats[0], flows[3], heats[3], c.heat * release, lost]
     return ca.vertcat(*(value for row in rows for value in row), *last)
 
 
 def _exchanged(
-    cylinder: Cylinder, phi: Any, y: Any, inside: list[tuple[Any, Any]], z: dict[str, Any]
-) -> tuple[list[Any], list[Any], list[Any]]:
+    cylinder: Cylinder, phi: Scalar, y: Scalar, inside: list[tuple[ca.SX, ca.SX]], z: dict[str, ca.SX]
+) -> tuple[list[ca.SX], list[ca.SX], list[ca.SX]]:
     """Mass [kg/rad], energy [J/rad] and burnt mass [kg/rad] through the four throats, positive towards the exhaust."""
     c = cylinder.charge
     cp = c.gamma * c.R / (c.gamma - 1)
@@ -84,7 +84,7 @@ def _exchanged(
     return flows, heats, shares
 
 
-def _to_walls(cylinder: Cylinder, phi: Any, inside: tuple[Any, Any], room: Any, z: dict[str, Any]) -> Any:
+def _to_walls(cylinder: Cylinder, phi: Scalar, inside: tuple[ca.SX, ca.SX], room: ca.SX, z: dict[str, ca.SX]) -> Scalar:
     """Heat from the gas to the walls [J/rad]; Woschni's term of combustion counts while the valves are closed."""
     walls, opens = cylinder.walls, cylinder.breathing.exhaust_opens
     if isinstance(walls.law, Adiabatic):
@@ -102,8 +102,8 @@ def _to_walls(cylinder: Cylinder, phi: Any, inside: tuple[Any, Any], room: Any, 
     return heat_flux(walls.law, state) * area / z["omega"]
 
 
-def _areas(b: Breathing, phi: Any) -> list[Any]:
-    def valve(opens: float, closes: float, lift: float, diameter: float) -> Any:
+def _areas(b: Breathing, phi: Scalar) -> list[Scalar]:
+    def valve(opens: float, closes: float, lift: float, diameter: float) -> Scalar:
         return b.valves * curtain_area(valve_lift(phi, opens, closes, lift), diameter, b.discharge)
 
     def throat(diameter: float) -> float:
@@ -117,7 +117,7 @@ def _areas(b: Breathing, phi: Any) -> list[Any]:
     ]
 
 
-def _burning(c: FreshCharge, phi: Any) -> Any:
+def _burning(c: FreshCharge, phi: Scalar) -> Scalar:
     # the turn begins where the inlet closes, so its firing dead centre is at 4 pi
     y = ca.fmin(ca.fmax((phi - PERIOD - c.ignition) / c.duration, 0.0), 1.0)
     slope = c.a * (c.m + 1) * y**c.m * ca.exp(-c.a * y ** (c.m + 1)) / c.duration

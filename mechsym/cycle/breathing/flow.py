@@ -7,27 +7,21 @@ absolute; flow is positive from the first volume to the second.
 """
 
 import math
-from typing import Any
+from typing import Annotated
 
 import casadi as ca
+
+from mechsym.quantities.units import Area, MassFlow, Metre, Pure, Radian, Scalar
 
 _SOFT = 1e-3  # relative difference of pressure below which the root is a straight line, so that a flow can turn round
 
 
-def critical_ratio(gamma: float) -> float:
+def critical_ratio(gamma: Pure) -> Pure:
     r"""Ratio of the pressures at and below which the flow is choked.
 
     .. math:: \left(\frac{2}{\gamma + 1}\right)^{\gamma/(\gamma - 1)}
 
-    Parameters
-    ----------
-    gamma : float
-        Ratio of the heat capacities [-]
-
-    Returns
-    -------
-    ratio : float
-        Pressure behind the throat by the pressure before it [-]
+    gamma: ratio of the heat capacities. Returns ratio: pressure behind the throat by the pressure before it.
 
     Notes
     -----
@@ -41,27 +35,21 @@ def critical_ratio(gamma: float) -> float:
     return (2 / (gamma + 1)) ** (gamma / (gamma - 1))
 
 
-def orifice_flow(area: Any, up: tuple[Any, Any], down: tuple[Any, Any], gamma: float, R: float) -> Any:
+def orifice_flow(
+    area: Area[Scalar],
+    up: tuple[Scalar, Scalar],
+    down: tuple[Scalar, Scalar],
+    gamma: Pure,
+    R: Annotated[float, "J/(kg*K)"],
+) -> MassFlow[Scalar]:
     r"""Mass flow through a throat between two volumes.
 
     .. math:: \dot m = \frac{A\,p_0}{\sqrt{R T_0}}\sqrt{\frac{2\gamma}{\gamma - 1}
               \left(r^{2/\gamma} - r^{(\gamma + 1)/\gamma}\right)}, \qquad r = \max(p_1/p_0, r_{crit})
 
-    Parameters
-    ----------
-    area : float or CasADi expression
-        Effective area, discharge coefficient included [m^2]
-    up, down : tuple of float or CasADi expression
-        Pressure and temperature of the first and the second volume [Pa, K]
-    gamma : float
-        Ratio of the heat capacities [-]
-    R : float
-        Gas constant [J/(kg*K)]
-
-    Returns
-    -------
-    flow : float or CasADi expression
-        From the first to the second volume; the volume of the higher pressure gives p_0 and T_0 [kg/s]
+    area: effective area, discharge coefficient included; up, down: pressure and temperature of the first and the second
+    volume [Pa, K]; gamma: ratio of the heat capacities; R: gas constant.
+    Returns flow: from the first to the second volume; the volume of the higher pressure gives p_0 and T_0.
 
     Notes
     -----
@@ -80,8 +68,8 @@ def orifice_flow(area: Any, up: tuple[Any, Any], down: tuple[Any, Any], gamma: f
     return area * p_0 / ca.sqrt(R * T_0) * _root(ratio, gamma) * ca.if_else(forward, 1.0, -1.0)
 
 
-def _root(ratio: Any, gamma: float) -> Any:
-    def exact(r: Any) -> Any:
+def _root(ratio: Scalar, gamma: float) -> Scalar:
+    def exact(r: Scalar) -> Scalar:
         return ca.sqrt(2 * gamma / (gamma - 1) * (r ** (2 / gamma) - r ** ((gamma + 1) / gamma)))
 
     near = 1 - _SOFT
@@ -89,26 +77,15 @@ def _root(ratio: Any, gamma: float) -> Any:
     return ca.if_else(ratio < near, exact(ca.fmin(ratio, near)), straight)
 
 
-def valve_lift(phi: Any, opens: float, closes: float, lift: float, period: float = 4 * math.pi) -> Any:
+def valve_lift(
+    phi: Radian[Scalar], opens: Radian, closes: Radian, lift: Metre, period: Radian = 4 * math.pi
+) -> Metre[Scalar]:
     r"""Lift of a valve on a polynomial cam.
 
     .. math:: h = h_{max}\,(1 - u^2)^3, \qquad u = \frac{2\varphi - \varphi_o - \varphi_c}{\varphi_c - \varphi_o}
 
-    Parameters
-    ----------
-    phi : float or CasADi expression
-        Crank angle [rad]
-    opens, closes : float
-        Crank angles between which it is open, closes above opens [rad]
-    lift : float
-        Largest lift [m]
-    period : float
-        Of the cycle [rad]
-
-    Returns
-    -------
-    h : float or CasADi expression
-        Lift, 0 while closed; velocity and acceleration have no jump [m]
+    opens, closes: crank angles between which it is open, closes above opens; lift: largest lift; period: of the cycle.
+    Returns h: lift, 0 while closed; velocity and acceleration have no jump.
 
     Notes
     -----
@@ -124,24 +101,12 @@ def valve_lift(phi: Any, opens: float, closes: float, lift: float, period: float
     return lift * (1 - u**2) ** 3
 
 
-def curtain_area(lift: Any, diameter: float, discharge: float) -> Any:
+def curtain_area(lift: Metre[Scalar], diameter: Metre, discharge: Pure) -> Area[Scalar]:
     r"""Effective area of a poppet valve.
 
     .. math:: A = C_d \min(\pi d h,\ \pi d^2/4)
 
-    Parameters
-    ----------
-    lift : float or CasADi expression
-        Lift h [m]
-    diameter : float
-        Inner diameter of the seat d [m]
-    discharge : float
-        Discharge coefficient [-]
-
-    Returns
-    -------
-    area : float or CasADi expression
-        Effective area [m^2]
+    diameter: inner diameter of the seat d; discharge: discharge coefficient.
 
     Notes
     -----
@@ -155,24 +120,13 @@ def curtain_area(lift: Any, diameter: float, discharge: float) -> Any:
     return discharge * ca.fmin(math.pi * diameter * lift, math.pi / 4 * diameter**2)
 
 
-def port_area(x: Any, uncovered_from: float, height: float, width: float, discharge: float) -> Any:
+def port_area(x: Metre[Scalar], uncovered_from: Metre, height: Metre, width: Metre, discharge: Pure) -> Area[Scalar]:
     r"""Effective area of ports that the piston uncovers.
 
     .. math:: A = C_d\, w\,\min(\max(x - x_p, 0), h)
 
-    Parameters
-    ----------
-    x : float or CasADi expression
-        Travel of the piston from top dead centre [m]
-    uncovered_from, height, width : float
-        Travel x_p at the upper edge, height h and total width w of the ports [m]
-    discharge : float
-        Discharge coefficient [-]
-
-    Returns
-    -------
-    area : float or CasADi expression
-        Effective area [m^2]
+    x: travel of the piston from top dead centre; uncovered_from, height, width: travel x_p at the upper edge, height h
+    and total width w of the ports; discharge: discharge coefficient.
 
     Notes
     -----

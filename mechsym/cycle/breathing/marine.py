@@ -10,6 +10,7 @@ together; of several balances the highest that comes back after a disturbance is
 """
 
 import dataclasses
+import functools
 import math
 from typing import NamedTuple
 
@@ -20,11 +21,24 @@ from mechsym.cycle.breathing.flow import orifice_flow
 from mechsym.cycle.breathing.scavenging import Scavenging, dew_point, flow_area, remaining, trapped_temperature
 from mechsym.cycle.breathing.turbocharger import atmosphere, compressor_temperature
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine, absolute_pressure, kinks, scavenging_pressure
-from mechsym.cycle.kinds.two_stroke_solve import solve
-from mechsym.cycle.pressure import mean_indicated_pressure
+from mechsym.cycle.cylinder import CylinderGas
+from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.kinds.two_stroke import (
+    TwoStrokeMarine,
+    absolute_pressure,
+    back_pressure,
+    burnt_angles,
+    kinks,
+    scavenging_pressure,
+    solve,
+    two_stroke_pressure,
+)
+from mechsym.cycle.pressure import Pressure, mean_indicated_pressure
+from mechsym.cycle.source import EngineParts
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import RadPerSecond
 
 _GAMMA, _CP = 1.4, 1005.0
 _GAMMA_E, _CP_E = 1.34, 1130.0
@@ -120,13 +134,8 @@ class _Engine(NamedTuple):
         return self.ambient[0] + self.s.stack_loss
 
 
-def scavenge(s: Scavenging, cycle: TwoStrokeMarine, room: Chamber, omega: float) -> ScavengeState:
+def scavenge(s: Scavenging, cycle: TwoStrokeMarine, room: Chamber, omega: RadPerSecond) -> ScavengeState:
     """The steady balance of a cylinder and its share of the turbocharger.
-
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
 
     Raises
     ------
@@ -188,11 +197,6 @@ def _by_pressure(cycle: TwoStrokeMarine, room: Chamber) -> tuple[tuple[float, fl
         found.append((mean / p_evc, float(p(cycle.evo)) / p_evc))
     (mean_1, evo_1), (mean_2, evo_2) = found
     return (mean_1, mean_2 - mean_1), (evo_1, evo_2 - evo_1)
-
-
-def with_charge(cycle: TwoStrokeMarine, p_s: float, T_evc: float) -> TwoStrokeMarine:
-    """The cycle with another scavenge pressure [Pa] and trapped temperature [K]."""
-    return dataclasses.replace(cycle, p_s=p_s, T_evc=T_evc)
 
 
 def _flow(engine: _Engine, c: _Charge, p_r: float) -> _Flow:
@@ -268,3 +272,62 @@ def _left_over(state: ScavengeState, shaft: float) -> float:
     given = state.air * _CP * (state.T_1 - _T_0) + state.heat + state.blower
     taken = state.indicated + state.walls + state.cooler + (1 - shaft) * state.turbine + flow * _CP_E * (T_4 - _T_0)
     return abs(given - taken) / state.heat
+
+
+class MarineGas(CylinderGas):
+    """Gas of the two-stroke marine cycle; where `[scavenging]` has a turbocharger, at the charge that it gives."""
+
+    def charged(self, omega: float) -> tuple[TwoStrokeMarine, ScavengeState | None]:
+        """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s], and how that runs; None without.
+
+        Raises
+        ------
+        BadInput
+            There is no balance
+        """
+        section: Scavenging | None = self.parts.section("scavenging")
+        if section is None or section.source != "turbocharger":
+            return self.cycle, None
+        state = _balance(section, self.cycle, self.parts, omega)
+        return dataclasses.replace(self.cycle, p_s=state.p_s, T_evc=state.T_evc), state
+
+    def p_back(self, omega: float) -> float:
+        """Absolute pressure under the piston [Pa] at a speed [rad/s]."""
+        return back_pressure(self.charged(omega)[0])
+
+    def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+        """Pressure at a speed [rad/s], with what the turbocharger does; the fuel is known where that is."""
+        cycle, state = self.charged(omega)
+        pressure = two_stroke_pressure(cycle, room)
+        burnt = burnt_angles(cycle, math.inf)
+        if state is None:
+            return pressure, burnt
+        return dataclasses.replace(pressure, facts=(*pressure.facts, *_facts(state))), burnt | _columns(state)
+
+
+@functools.lru_cache(maxsize=64)
+def _balance(section: Scavenging, cycle: TwoStrokeMarine, parts: EngineParts, omega: float) -> ScavengeState:
+    return scavenge(section, cycle, chamber_over(parts.travel, cycle.bore, cycle.compression_ratio), omega)
+
+
+def _facts(state: ScavengeState) -> tuple[str, ...]:
+    """How the turbocharger runs, in sentences."""
+    return (
+        f"turbocharger: scavenge air {quantity_text(state.p_s, 'Pa', 4)} and {state.T_s:.0f} K, before the turbine "
+        f"{quantity_text(state.p_r, 'Pa', 4)} and {state.T_r:.0f} K, compressor ratio {state.ratio:.2f}",
+        f"scavenging: {state.delivery:.2f} times the cylinder's volume of air, {100 * state.residual:.0f} % stays "
+        f"burnt gas; the exhaust closes on {state.T_evc:.0f} K",
+        f"mean-value balance: mass closed to {state.mass_residual:.1g}, energy to {state.energy_residual:.1g}",
+    )
+
+
+def _columns(s: ScavengeState) -> dict[str, float]:
+    heat, work = s.walls / s.heat, s.indicated / s.heat
+    row = {
+        "sfc_g_kwh": 3.6e9 * s.fuel / s.indicated, "efficiency": work, "heat": heat, "work": work,
+        "exhaust": 1 - heat - work, "unburnt": 0.0, "p_in_kpa": s.p_s / 1e3, "t_in_k": s.T_s,
+        "p_out_kpa": s.p_r / 1e3, "t_turbine_k": s.T_r, "t_evc_k": s.T_evc, "delivery_ratio": s.delivery,
+        "residual_gas": s.residual, "compressor_ratio": s.ratio, "air_kg_h": s.air * 3600,
+        "energy_residual": s.energy_residual, "mass_residual": s.mass_residual,
+    }  # fmt: skip
+    return row if s.dew is None else row | {"dew_margin_k": s.T_s - s.dew}

@@ -10,24 +10,19 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mechsym.quantities.units import Pure
+
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5
 
 
 def repeating(
-    cycle: Callable[[np.ndarray, np.ndarray], np.ndarray], state: np.ndarray, sizes: list[int], settled: float
+    cycle: Callable[[np.ndarray, np.ndarray], np.ndarray], state: np.ndarray, sizes: list[int], settled: Pure
 ) -> np.ndarray | None:
-    """States that repeat, lane by lane, or None where Newton finds none or none that is stable.
+    """States that repeat, lane by lane, or None where Newton finds none or none that is stable [kg, J].
 
-    Parameters
-    ----------
-    cycle : callable
-        States, shape (n, k), and the lane of each, shape (k,), to the states one cycle later
-    state : ndarray, shape (n, lanes)
-        Where to start [kg, J]
-    sizes : list of int
-        For each state the one by which it is measured
-    settled : float
-        Relative change over a cycle that is none [-]
+    cycle: states, shape (n, k), and the lane of each, shape (k,), to the states one cycle later; state: where to start
+    [kg, J], shape (n, lanes); sizes: for each state the one by which it is measured; settled: relative change over a
+    cycle that is none.
     """
     n, lanes = state.shape
     lane = np.tile(np.arange(lanes), n + 1)

@@ -87,13 +87,11 @@ class Breath:
     pressures: dict[str, np.ndarray]
     temperature: np.ndarray
     room: np.ndarray
-    #: Mass of gas when the inlet closes [kg], its burnt share [-], its pressure [Pa] and temperature [K]
-    trapped: float
-    residual: float
-    p_trapped: float
-    T_trapped: float
-    volumetric_efficiency: float  #: Fresh gas trapped by the mass of the swept volume at inlet conditions [-]
-    drawn: float  #: Fresh gas drawn in [kg]
+    trapped: float  #: Mass of gas when the inlet closes [kg]
+    residual: float  #: Its burnt share [-]
+    drawn: float  #: Fresh gas that comes in at the throttle, less what is blown back there [kg]
+    volumetric_efficiency: float  #: Fresh gas drawn by the mass of the swept volume at inlet conditions [-]
+    trapping_efficiency: float  #: Fresh gas in the cylinder when the inlet closes by that drawn; the rest is lost [-]
     T_exhaust: float  #: Mean temperature of the gas that leaves, by energy [K]
     #: Works of the gas on the piston over the cycle, and over the two strokes of gas exchange [J]
     work: float

@@ -9,7 +9,6 @@ lies around 2 pi.
 import functools
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -21,6 +20,7 @@ from mechsym.cycle.breathing.records import PERIOD, Breath, Surroundings
 from mechsym.cycle.closed.runge_kutta import METHOD
 from mechsym.errors import BadInput
 from mechsym.native.fold import Fold, folder
+from mechsym.quantities.units import RadPerSecond, Scalar
 
 _STEPS, _CYCLES, _SETTLED = 1440, 40, 1e-10
 _FINER = (1, 4)  # times as many steps, where small volumes behind wide throats ask for it
@@ -30,14 +30,8 @@ _SUMS = len(STATES) - 9
 _HOT = 3.0  # temperature of the first guess in the manifold, by that of the surroundings [-]
 
 
-def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[float]) -> list[Breath]:
-    """Follow cycles until one repeats.
-
-    Parameters
-    ----------
-    omega : sequence of float
-        Crank speeds [rad/s]
-    """
+def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[RadPerSecond]) -> list[Breath]:
+    """Follow cycles until one repeats."""
     speeds = np.asarray(omega, float)
     outside = np.array([np.broadcast_to(v, speeds.shape) for v in (around.p_in, around.T_in, around.p_out)])
     steps = _STEPS * max(1, math.ceil(_SLOW / float(speeds.min())))
@@ -136,17 +130,17 @@ def _summed(
 ) -> Breath:
     b, c, (p_in, T_in, _), (phi, room) = cylinder.breathing, cylinder.charge, outside, along
     cv = c.R / (c.gamma - 1)
-    sizes: dict[str, Any] = dict(zip(VOLUMES, (b.plenum_volume, room, b.manifold_volume), strict=True))
+    sizes: dict[str, Scalar] = dict(zip(VOLUMES, (b.plenum_volume, room, b.manifold_volume), strict=True))
     pressures = {name: (c.gamma - 1) * history[:, 3 * i + 1] / sizes[name] for i, name in enumerate(VOLUMES)}
     temperature = history[:, 4] / (history[:, 3] * cv)
     sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
-    fresh = trapped - float(history[0, 5])
+    fresh, drawn = trapped - float(history[0, 5]), sums["m_in"] - sums["b_in"]
     leaving = _leaving(cylinder, outside, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
     return Breath(
         omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
-        residual=1 - fresh / trapped, p_trapped=float(pressures["cylinder"][0]), T_trapped=float(temperature[0]),
-        volumetric_efficiency=fresh / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=sums["m_in"],
-        T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
+        residual=1 - fresh / trapped,
+        volumetric_efficiency=drawn / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=drawn,
+        trapping_efficiency=fresh / drawn, T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
         heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure, **_residuals(history, sums),
     )  # fmt: skip
 

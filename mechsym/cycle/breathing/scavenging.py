@@ -6,7 +6,6 @@ Pressures are absolute; areas, masses and powers are of one cylinder. `marine` h
 """
 
 import math
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -14,6 +13,7 @@ import numpy as np
 from mechsym.cycle.breathing.flow import curtain_area, port_area, valve_lift
 from mechsym.cycle.chamber import Chamber, travel
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Area, Array, Kelvin, Pascal, Pure, Radian
 
 _TURN = 2 * math.pi
 _POINTS = 7200
@@ -47,20 +47,13 @@ class Scavenging:
     stack_loss: float = quantity("Pa", default=0.0, low=0, below=1e5, about="pressure behind the turbine over ambient")
 
 
-def flow_area(s: Scavenging, opened: tuple[float, float, float], room: Chamber) -> float:
+def flow_area(s: Scavenging, opened: tuple[Radian, Radian, Radian], room: Chamber) -> Area:
     r"""Mean effective area of scavenge ports and exhaust valve one behind the other.
 
     .. math:: A = \frac{1}{2\pi}\oint \left(A_{port}^{-2} + A_{valve}^{-2}\right)^{-1/2} d\varphi
 
-    Parameters
-    ----------
-    opened : tuple of float
-        Exhaust opens and closes, ports open; from top dead centre, exhaust closing negative [rad]
-
-    Returns
-    -------
-    area : float
-        Discharge coefficient included [m^2]
+    opened: exhaust opens and closes, ports open; from top dead centre, exhaust closing negative. Returns area:
+    discharge coefficient included.
 
     Notes
     -----
@@ -85,28 +78,19 @@ def flow_area(s: Scavenging, opened: tuple[float, float, float], room: Chamber) 
     return float(np.mean(in_series(*(np.asarray(v).ravel() for v in both(phi.reshape(1, -1), x.reshape(1, -1))))))
 
 
-def in_series(first: Any, second: Any) -> np.ndarray:
-    """Area that lets through as much as two areas [m^2] one behind the other [m^2]."""
+def in_series(first: Area[Array], second: Area[Array]) -> Area[Array]:
+    """Area that lets through as much as two areas one behind the other."""
     size = np.hypot(first, second)
     return np.asarray(first * second / np.where(size > 0, size, 1.0))
 
 
-def remaining(delivery: float, displaced: float = 0.0) -> float:
+def remaining(delivery: Pure, displaced: Pure = 0.0) -> Pure:
     r"""Volume share of the gas that stays behind: displacement first, perfect mixing then.
 
     .. math:: x = 1 - \Lambda \quad (\Lambda \le y), \qquad x = (1 - y)\,e^{y - \Lambda} \quad (\Lambda > y)
 
-    Parameters
-    ----------
-    delivery : float
-        Delivery ratio: volume of fresh air at cylinder pressure by the cylinder's [-]
-    displaced : float
-        Delivery ratio y up to which nothing mixes, 0 to 1 [-]
-
-    Returns
-    -------
-    x : float
-        Share of residual gas [-]
+    delivery: delivery ratio: volume of fresh air at cylinder pressure by the cylinder's. displaced: delivery ratio y up
+    to which nothing mixes, 0 to 1. Returns x: share of residual gas.
 
     Notes
     -----
@@ -121,25 +105,14 @@ def remaining(delivery: float, displaced: float = 0.0) -> float:
     return 1 - delivery if delivery <= displaced else (1 - displaced) * math.exp(displaced - delivery)
 
 
-def trapped_temperature(fresh: float, share: float, rise: float) -> float:
+def trapped_temperature(fresh: Kelvin, share: Pure, rise: Pure) -> Kelvin:
     r"""Temperature when the exhaust closes, of fresh air with the gas that stayed behind from the cycle before.
 
     .. math:: \frac{1}{T} = \frac{1 - x}{T_f} + \frac{x}{\tau T} \quad\Rightarrow\quad
               T = T_f\,\frac{1 - x/\tau}{1 - x}
 
-    Parameters
-    ----------
-    fresh : float
-        Temperature of the fresh air T_f, warmed [K]
-    share : float
-        Volume share x of the gas that stays [-]
-    rise : float
-        Temperature of burnt gas at scavenge pressure by that of the charge it was made from, tau [-]
-
-    Returns
-    -------
-    T : float
-        Temperature of the mixture [K]
+    fresh: temperature of the fresh air T_f, warmed; share: volume share x of the gas that stays; rise: temperature of
+    burnt gas at scavenge pressure by that of the charge it was made from, tau. Returns T: temperature of the mixture.
 
     Notes
     -----
@@ -153,25 +126,14 @@ def trapped_temperature(fresh: float, share: float, rise: float) -> float:
     return fresh * (1 - share / rise) / (1 - share)
 
 
-def dew_point(p: float, ambient: tuple[float, float], humidity: float) -> float:
+def dew_point(p: Pascal, ambient: tuple[float, float], humidity: Pure) -> Kelvin:
     r"""Temperature at which the water of ambient air condenses after its compression.
 
     .. math:: e = \varphi\,e_s(T_1)\,\frac{p}{p_1}, \qquad
               e_s = 611.2\,\mathrm{Pa}\,\exp\frac{17.62\,\vartheta}{243.12 + \vartheta}
 
-    Parameters
-    ----------
-    p : float
-        Absolute pressure after compression [Pa]
-    ambient : tuple of float
-        Pressure [Pa] and temperature [K] of the ambient air
-    humidity : float
-        Relative humidity, above 0 [-]
-
-    Returns
-    -------
-    T : float
-        Dew point [K]
+    p: absolute pressure after compression; ambient: pressure [Pa] and temperature [K] of the ambient air; humidity:
+    relative humidity, above 0. Returns T: dew point.
 
     Notes
     -----

@@ -3,17 +3,75 @@ r"""A turbocharger of fixed efficiencies or with a compressor map, its intercool
     ambient p_1, T_1 --[compressor]-- p_2 --[intercooler]-- T_2 -> engine -> p_3, T_3 --[turbine]-- p_1
 
 The wanted boost pressure sets the compressor's work; the balance of the shaft says to which pressure the exhaust must
-be dammed up before the turbine, and so what the boost costs in pumping. Pressures are absolute.
+be dammed up before the turbine, and so what the boost costs in pumping. Pressures are absolute. A map holds points of
+corrected flow and pressure ratio, between which the efficiency is linear.
 """
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import numpy as np
+import scipy
 
-from mechsym.cycle.breathing.compressor_map import corrected_flow, map_efficiency
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Array, Kelvin, MassFlow, Metre, Pascal, Pure, Scalar
+
+_T, _P = 288.15, 101325.0  # state that a map's flow is corrected to [K, Pa]
+
+
+def corrected_flow(flow: MassFlow[Array], p: float, T: float) -> MassFlow[Array]:
+    r"""Flow through a compressor as its map counts it.
+
+    .. math:: \dot m_{corr} = \dot m\,\frac{\sqrt{T/288.15\,\mathrm{K}}}{p/101325\,\mathrm{Pa}}
+
+    p, T: state before the compressor [Pa, K]. Returns flow: corrected flow, shape of `flow`.
+
+    Notes
+    -----
+    Source: similarity of Mach numbers; SAE J1826. Valid: the gas of the map, Reynolds number without effect.
+
+    Examples
+    --------
+    >>> round(float(corrected_flow(np.array(0.1), 101325.0, 288.15)), 3)
+    0.1
+    """
+    return flow * np.sqrt(T / _T) / (p / _P)
+
+
+def map_efficiency(points: Sequence[Sequence[float]], flow: MassFlow[Array], ratio: Pure) -> Pure[Array]:
+    """Isentropic efficiency at a pressure ratio.
+
+    points: corrected flows [kg/s], pressure ratios and efficiencies [-] of the map's points; flow: corrected flow.
+
+    Raises
+    ------
+    BadInput
+        A point outside the map: surge on its left, choke on its right
+
+    Notes
+    -----
+    Source: planes through each three neighbouring points of the map (Delaunay), flow and ratio by their largest. Valid
+    between the points that the maker measured.
+
+    Examples
+    --------
+    >>> points = ([0.1, 0.3, 0.1, 0.3], [1.0, 1.0, 3.0, 3.0], [0.6, 0.7, 0.6, 0.7])
+    >>> round(float(map_efficiency(points, np.array([0.2]), 2.0)[0]), 9)
+    0.65
+    """
+    flows, ratios, values = (np.asarray(p, float) for p in points)
+    scale = np.array([flows.max(), ratios.max()])
+    surface = scipy.interpolate.LinearNDInterpolator(np.column_stack([flows, ratios]) / scale, values)
+    found = np.asarray(surface(np.column_stack([flow, np.full(len(flow), ratio)]) / scale))
+    if np.isnan(found).any():
+        out = float(flow[int(np.argmax(np.isnan(found)))])
+        raise BadInput(
+            f"boost.map_flow: the engine asks for {out:.4g} kg/s at a pressure ratio of {ratio:.3g}, outside the map "
+            f"(flows {flows.min():.4g} to {flows.max():.4g} kg/s, ratios {ratios.min():.3g} to {ratios.max():.3g}): "
+            "surge or choke; change boost.pressure, boost.cylinders or the compressor"
+        )
+    return found
+
 
 _GAMMA_AIR, _CP_AIR = 1.4, 1005.0
 _GAMMA_EXHAUST, _CP_EXHAUST = 1.34, 1130.0
@@ -59,22 +117,12 @@ class Boosted:
     T_3: np.ndarray
 
 
-def atmosphere(altitude: float) -> tuple[float, float]:
+def atmosphere(altitude: Metre) -> tuple[Pascal, Kelvin]:
     r"""International standard atmosphere.
 
     .. math:: T = 288.15 - 0.0065\,h, \qquad p = 101325\,(T/288.15)^{5.25588}
 
-    Parameters
-    ----------
-    altitude : float
-        Height h above the sea [m]
-
-    Returns
-    -------
-    p : float
-        Absolute pressure [Pa]
-    T : float
-        Temperature [K]
+    altitude: height h above the sea. Returns p: absolute pressure.
 
     Notes
     -----
@@ -90,26 +138,15 @@ def atmosphere(altitude: float) -> tuple[float, float]:
     return 101325.0 * (T / 288.15) ** 5.25588, T
 
 
-def compressor_temperature(T: float, ratio: float, efficiency: Any, gamma: float = _GAMMA_AIR) -> Any:
+def compressor_temperature(
+    T: Kelvin, ratio: Pure, efficiency: Pure[Scalar], gamma: Pure = _GAMMA_AIR
+) -> Kelvin[Scalar]:
     r"""Temperature behind a compressor.
 
     .. math:: T_2 = T_1\left(1 + \frac{\pi^{(\gamma - 1)/\gamma} - 1}{\eta_c}\right)
 
-    Parameters
-    ----------
-    T : float
-        Temperature before it [K]
-    ratio : float
-        Pressure ratio, at least 1 [-]
-    efficiency : float or ndarray
-        Isentropic efficiency [-]
-    gamma : float
-        Ratio of the heat capacities [-]
-
-    Returns
-    -------
-    T_2 : same kind as `efficiency`
-        Temperature [K]
+    T: temperature before it; ratio: pressure ratio, at least 1; efficiency: isentropic efficiency; gamma: ratio of the
+    heat capacities.
 
     Notes
     -----
@@ -123,27 +160,17 @@ def compressor_temperature(T: float, ratio: float, efficiency: Any, gamma: float
     return T * (1 + (ratio ** ((gamma - 1) / gamma) - 1) / efficiency)
 
 
-def turbine_ratio(boost: Boost, T_1: float, T_3: Any, ratio: float, efficiency: Any = None) -> Any:
+def turbine_ratio(
+    boost: Boost, T_1: Kelvin, T_3: Kelvin[Scalar], ratio: Pure, efficiency: Pure[Scalar] = None
+) -> Pure[Scalar]:
     r"""Expansion ratio of the turbine that drives the compressor.
 
     .. math:: \pi_t^{-(\gamma_e - 1)/\gamma_e} = 1 - \frac{c_p T_1 (\pi_c^{(\gamma - 1)/\gamma} - 1)}
               {\eta_c \eta_t \eta_m (1 + 1/AFR)\,c_{p,e} T_3}
 
-    Parameters
-    ----------
-    T_1 : float
-        Temperature before the compressor [K]
-    T_3 : float or ndarray
-        Temperature before the turbine [K]
-    ratio : float
-        Pressure ratio of the compressor [-]
-    efficiency : float or ndarray, optional
-        Isentropic efficiency of the compressor, else that of the record [-]
-
-    Returns
-    -------
-    ratio : same kind as `T_3`
-        Pressure before the turbine by that behind it [-]
+    T_1: temperature before the compressor; T_3: temperature before the turbine; ratio: pressure ratio of the
+    compressor; efficiency: isentropic efficiency of the compressor, else that of the record. Returns ratio: pressure
+    before the turbine by that behind it.
 
     Notes
     -----
@@ -178,10 +205,10 @@ def boosted(
 ) -> Boosted:
     """The engine and its turbocharger in balance at n speeds.
 
+    outside: pressure [Pa] and temperature [K] of the atmosphere.
+
     Parameters
     ----------
-    outside : tuple of float
-        Pressure [Pa] and temperature [K] of the atmosphere
     engine : callable
         State before and behind the engine to the temperature of its exhaust [K] and the air that a cylinder draws
         [kg/s], each of shape (n,)

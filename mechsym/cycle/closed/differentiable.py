@@ -5,17 +5,17 @@ given as the vector of its values along the cycle: a bound on the peak is a boun
 where the place of the peak jumps.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
+from mechsym.cycle.closed.blowdown import open_function
 from mechsym.cycle.closed.model import ClosedEngine, at_design, closed_period
 from mechsym.cycle.closed.performance import force_function
 from mechsym.cycle.closed.phases import closed_function
-from mechsym.cycle.friction import friction_pressure
+from mechsym.cycle.friction import Friction, friction_pressure
 from mechsym.cycle.knock import knock_integral
 
 STEPS = 120
@@ -32,18 +32,9 @@ PEAK_UNITS = {"p_max": "Pa", "t_max": "K", "force_max": "N", "torque_max": "N*m"
 def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STEPS) -> ca.Function:
     """Figures of the engine as a function of some of its values.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Design variables, see `model.design_names`; must hold `omega`
-    steps : int
-        Steps of the integration, a multiple of 10
-
-    Returns
-    -------
-    function : casadi.Function
-        (design (k,)) -> the scalars of `SCALAR_UNITS`, and the columns of `PEAK_UNITS` and the
-        mechanism's loads, whose largest entries are the peaks
+    names: design variables, see `model.design_names`; must hold `omega`. steps: steps of the integration, a multiple of
+    10. Returns function: (design (k,)) -> the scalars of `SCALAR_UNITS`, and the columns of `PEAK_UNITS` and the
+    mechanism's loads, whose largest entries are the peaks.
     """
     design = ca.MX.sym("design", len(names))
     closed = closed_function(partial(closed_period, engine), names, steps)
@@ -59,13 +50,16 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
         "torque_max": forces.pop("torque"),
         **forces,
     }
+    if engine.blowdown is not None:
+        exchange = open_function(partial(closed_period, engine), names)
+        found["exchange_work"] = exchange(design, found["t"][-1])[2]
     here = at_design(engine, {name: design[k] for k, name in enumerate(names)})
     knock = knock_integral(found, steps, here.gas, here.cycle.octane)
     outputs = _scalars(found, here.friction_pressure) | {"knock": knock} | peaks
     return ca.Function("engine", [design], list(outputs.values()), ["design"], list(outputs))
 
 
-def _scalars(found: dict[str, Any], friction: Any) -> dict[str, Any]:
+def _scalars(found: Mapping[str, ca.MX], friction: Friction) -> dict[str, ca.MX]:
     omega, fuel, displacement = found["omega"], found["fuel"], found["displacement"]
     work = found["work"] + found["exchange_work"]
     speed = found["stroke"] * omega / np.pi

@@ -9,7 +9,8 @@ and after combustion; `phases` integrates them.
 Every attribute of `Closed` may be a number or a CasADi expression of the design.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, NamedTuple
 
 import casadi as ca
 
@@ -19,6 +20,7 @@ from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.cycle.values import Scalar
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
+from mechsym.quantities.units import Kelvin, Pascal, Radian
 
 PHASES = ("before", "during", "after")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
@@ -55,6 +57,10 @@ class Closed:
     #: `vaporised`: evenly before ignition; `injected`: as it burns; `premixed`: in the charge from the start
     fuel_entry: str
     wiebe: tuple[Scalar, ...]  #: a_p, m_p, a_d, m_d, b of the double Wiebe function; b = 0 leaves the first alone [-]
+    blowdown: Any = None  #: Exhaust valve (`blowdown.Blowdown`); without one the pressure is that of the intake at once
+
+
+Build = Callable[[Mapping[str, Scalar]], Closed]  # design, numbers or symbols, to the closed period
 
 
 class Contents(NamedTuple):
@@ -66,18 +72,11 @@ class Contents(NamedTuple):
     mass_slope: Scalar
 
 
-def contents(closed: Closed, phase: str, phi: Scalar) -> Contents:
+def contents(closed: Closed, phase: str, phi: Radian[Scalar]) -> Contents:
     """What the chamber holds at a crank angle.
 
-    Parameters
-    ----------
-    phi : CasADi scalar
-        Crank angle from firing top dead centre [rad]
-
-    Returns
-    -------
-    contents : Contents
-        burnt [-], burnt_slope [1/rad], mass [kg], mass_slope [kg/rad]
+    phi: crank angle from firing top dead centre. Returns contents: burnt [-], burnt_slope [1/rad], mass [kg],
+    mass_slope [kg/rad].
     """
     y = {"before": 0.0, "during": (phi - closed.starts) / closed.duration, "after": 1.0}[phase]
     burnt = 0.0 if phase == "before" else double_wiebe(y, *closed.wiebe)
@@ -93,43 +92,21 @@ def contents(closed: Closed, phase: str, phi: Scalar) -> Contents:
     return Contents(burnt, slope, closed.mass, 0.0)
 
 
-def pressure(closed: Closed, phase: str, phi: Scalar, t: Scalar) -> Scalar:
+def pressure(closed: Closed, phase: str, phi: Radian[Scalar], t: Kelvin[Scalar]) -> Pascal[Scalar]:
     """Pressure of the gas.
 
-    Parameters
-    ----------
-    phi : CasADi scalar
-        Crank angle from firing top dead centre [rad]
-    t : CasADi scalar
-        Temperature [K]
-
-    Returns
-    -------
-    p : CasADi scalar
-        Absolute pressure [Pa]
+    phi: crank angle from firing top dead centre. Returns p: absolute pressure.
     """
     now = contents(closed, phase, phi)
     return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)
 
 
-def rates(closed: Closed, phase: str, phi: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+def rates(
+    closed: Closed, phase: str, phi: Radian[Scalar], t: Kelvin[Scalar]
+) -> tuple[Annotated[Scalar, "K/rad"], Annotated[Scalar, "J/rad"], Annotated[Scalar, "J/rad"]]:
     """Slopes of temperature, work and heat loss with the crank angle.
 
-    Parameters
-    ----------
-    phi : CasADi scalar
-        Crank angle from firing top dead centre [rad]
-    t : CasADi scalar
-        Temperature [K]
-
-    Returns
-    -------
-    dt_dphi : CasADi scalar
-        Temperature [K/rad]
-    dw_dphi : CasADi scalar
-        Work p dV [J/rad]
-    dq_dphi : CasADi scalar
-        Heat to the walls [J/rad]
+    phi: crank angle from firing top dead centre. Returns dw_dphi: work p dV; dq_dphi: heat to the walls.
     """
     v, dv = volume_and_slope(closed.chamber, phi)
     now = contents(closed, phase, phi)
@@ -142,18 +119,10 @@ def rates(closed: Closed, phase: str, phi: Scalar, t: Scalar) -> tuple[Scalar, S
     return gain / (now.mass * gas.heat_capacity), p * dv, loss
 
 
-def scalars(closed: Closed, t_end: Scalar) -> tuple[Scalar, ...]:
+def scalars(closed: Closed, t_end: Kelvin[Scalar]) -> tuple[Scalar, ...]:
     """Energies, masses and angles of the closed period.
 
-    Parameters
-    ----------
-    t_end : CasADi scalar
-        Temperature when the exhaust opens [K]
-
-    Returns
-    -------
-    values : tuple of CasADi scalar
-        In the order and the units of `SCALARS` [-]
+    t_end: temperature when the exhaust opens. Returns values: in the order and the units of `SCALARS` [-].
     """
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
     v_closes, v_opens = (volume(closed.chamber, angle) for angle in (closed.closes, closed.opens))

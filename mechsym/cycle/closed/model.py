@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cycle.chamber import ChamberParameters, Motion, chamber
+from mechsym.cycle.closed.blowdown import Blowdown
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.friction import Friction
 from mechsym.cycle.heat import Law
@@ -19,6 +20,7 @@ from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_hea
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 
 _SECTIONS = ("chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
 
@@ -33,20 +35,14 @@ class ClosedEngine:
     gas: ConstantGamma | NasaMixture
     heat_transfer: Law
     friction_pressure: Friction
+    blowdown: Blowdown | None = None
 
 
-def at_design(engine: ClosedEngine, design: Mapping[str, Any]) -> ClosedEngine:
+def at_design(engine: ClosedEngine, design: Mapping[str, Scalar]) -> ClosedEngine:
     """The engine with some of its values replaced.
 
-    Parameters
-    ----------
-    design : mapping of str to value
-        Dotted names; `omega` belongs to no section and is passed over
-
-    Returns
-    -------
-    engine : ClosedEngine
-        A copy; values that are CasADi symbols are not checked
+    design: mapping of str to value, dotted names; `omega` belongs to no section and is passed over. Returns engine: a
+    copy; values that are CasADi symbols are not checked.
     """
     parts = {f.name: getattr(engine, f.name) for f in dataclasses.fields(engine)}
     for name, value in design.items():
@@ -63,13 +59,11 @@ def at_design(engine: ClosedEngine, design: Mapping[str, Any]) -> ClosedEngine:
     return ClosedEngine(**parts)
 
 
-def check_design(engine: ClosedEngine, design: Mapping[str, Any]) -> None:
+def check_design(engine: ClosedEngine, design: Mapping[str, Scalar]) -> None:
     """Refuse a design with numbers that the engine's own records would refuse.
 
-    Parameters
-    ----------
-    design : mapping of str to float or ndarray
-        Dotted names to numbers; each is tried at its smallest and its largest value
+    design: mapping of str to float or ndarray, dotted names to numbers; each is tried at its smallest and its largest
+    value.
     """
     for name, values in design.items():
         section, _, key = name.partition(".")
@@ -91,13 +85,10 @@ def design_names(engine: ClosedEngine) -> list[str]:
     return names
 
 
-def closed_period(engine: ClosedEngine, design: Mapping[str, Any]) -> Closed:
+def closed_period(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Closed:
     """The closed period of the engine at a design.
 
-    Parameters
-    ----------
-    design : mapping of str to value
-        Must hold `omega` [rad/s]; the other names replace values of the engine
+    design: mapping of str to value, must hold `omega` [rad/s]; the other names replace values of the engine.
     """
     engine, omega = at_design(engine, design), design["omega"]
     cycle, room = engine.cycle, chamber(engine.chamber, engine.motion)
@@ -110,11 +101,11 @@ def closed_period(engine: ClosedEngine, design: Mapping[str, Any]) -> Closed:
         fuel_heat=held.fuel * cycle.heating_value, latent_heat=held.fuel * latent_heat(cycle),
         fuel_energy=vapour_energy(cycle, engine.gas),
         fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
-        wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0),
+        wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0), blowdown=engine.blowdown,
     )  # fmt: skip
 
 
-def _replaced(record: Any, key: str, value: Any) -> Any:
+def _replaced(record: object, key: str, value: object) -> object:
     # dataclasses.replace would run the range checks, which cannot compare symbols
     twin = copy.copy(record)
     object.__setattr__(twin, key, value)

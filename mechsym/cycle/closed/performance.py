@@ -1,23 +1,28 @@
 r"""What an engine does at its operating points: torque, power, consumption, energy shares, peaks.
 
 Work of a cycle is the integral of p dV over the closed period; the ideal gas exchange adds p_0 times the difference
-of the volumes at its ends. Powers count one power stroke in two revolutions.
+of the volumes at its ends, one with a blowdown what `blowdown` integrates. Powers count one power stroke in two
+revolutions.
 """
 
 import functools
 from collections.abc import Mapping
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel
+from mechsym.cycle.closed.blowdown import open_period
 from mechsym.cycle.closed.model import ClosedEngine, at_design, check_design, closed_period
 from mechsym.cycle.closed.run import MANY, ClosedRun, dense, run
 from mechsym.cycle.friction import Friction, friction_pressure
+from mechsym.cycle.kinds.spark_ignition import SparkIgnition, timing
 from mechsym.cycle.knock import knock_of_runs
+from mechsym.cycle.wiebe import BURNT, burnt_at
+from mechsym.files import Json
 from mechsym.native import compiled
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Pure, Radian, RadPerSecond, Scalar
 
 _CYCLE_ANGLE = 4 * np.pi
 
@@ -31,6 +36,7 @@ class Performance:
     torque_max: np.ndarray  #: Largest torque of one piston on its crank, from absolute pressure and inertia [N*m]
     power: np.ndarray  #: Mean power [W]
     mep: np.ndarray  #: Mean indicated pressure and friction mean pressure [Pa]
+    pumping_mep: np.ndarray  #: Work of the two strokes of gas exchange by the swept volume [Pa]
     sfc: np.ndarray  #: Fuel by work [kg/J]
     efficiency: np.ndarray  #: Work by heating value of the fuel [-]
     brake_torque: np.ndarray  #: Mean torque of the gas on all pistons, and less friction [N*m]
@@ -41,6 +47,7 @@ class Performance:
     #: Peak pressure [Pa] and its angle from firing top dead centre [rad]
     p_max: np.ndarray
     p_max_angle: np.ndarray
+    burnt: Mapping[str, np.ndarray]  #: Angles from firing top dead centre by the names of `wiebe.BURNT` [deg]
     t_max: np.ndarray  #: Highest mean temperature of the gas [K]
     knock: np.ndarray  #: Livengood and Wu's integral, 1 where the end gas ignites by itself; nan where not known [-]
     force_max: np.ndarray  #: Largest force of one piston, from absolute pressure and inertia [N]
@@ -53,15 +60,12 @@ class Performance:
     loads: Mapping[str, np.ndarray]  #: Largest magnitude of each load of the mechanism over a revolution
 
 
-def performance(engine: ClosedEngine, design: Mapping[str, Any]) -> Performance:
+def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performance:
     r"""Figures of the converged cycle.
 
     .. math:: \bar T = W/(4\pi), \quad p_{mi} = W/V_d, \quad \eta = W/(m_f Q_{HV})
 
-    Parameters
-    ----------
-    design : mapping of str to ndarray, shape (n,)
-        Operating points; must hold `omega` [rad/s]
+    design: mapping of str to ndarray, shape (n,), operating points; must hold `omega` [rad/s].
 
     Raises
     ------
@@ -70,36 +74,34 @@ def performance(engine: ClosedEngine, design: Mapping[str, Any]) -> Performance:
     """
     check_design(engine, design)
     result = run(functools.partial(closed_period, engine), design)
-    scalars = dict(result.scalars)
+    scalars, pumping = dict(result.scalars), np.zeros(len(result.t))
+    if engine.blowdown is not None:
+        exchange = open_period(functools.partial(closed_period, engine), design, result.t[:, -1])
+        scalars["exchange_work"], pumping = exchange.work, exchange.pumping
     scalars["work"] = scalars["work"] + scalars["exchange_work"]
     phi, p, t = dense(result)
     p_max, p_max_angle = peak(phi, p)
+    here = at_design(engine, {k: np.asarray(v, float) for k, v in design.items()})
     along = _along(engine, design, phi, p)
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
+    angles = burnt_angles(here.cycle, scalars["omega"])
     return Performance(
-        **figures(_friction(engine, design), scalars, p_max), **_shares(scalars),
-        p_max=p_max, p_max_angle=p_max_angle, t_max=t.max(axis=1), knock=_knock(engine, design, result),
+        **figures(here.friction_pressure, scalars, p_max), **_shares(scalars),
+        pumping_mep=pumping / scalars["displacement"],
+        p_max=p_max, p_max_angle=p_max_angle, burnt=angles, t_max=t.max(axis=1), knock=_knock(engine, design, result),
         torque_max=largest.pop("torque"), force_max=largest.pop("force"),
         energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
     )  # fmt: skip
 
 
-def figures(friction: Friction, scalars: Mapping[str, Any], p_max: np.ndarray) -> dict[str, Any]:
+def figures(friction: Friction, scalars: Mapping[str, np.ndarray], p_max: Pascal[Array]) -> Json:
     r"""Figures that follow from the work of a cycle.
 
     .. math:: \bar T = W/(4\pi), \quad P = \bar T\omega, \quad b = m_f/W, \quad W_b = W - p_{mf} V_d
 
-    Parameters
-    ----------
-    scalars : mapping of str to ndarray, shape (n,)
-        `omega` [rad/s], `work`, `fuel_heat` [J], `fuel` [kg], `displacement` [m^3], `stroke` [m]
-    p_max : ndarray, shape (n,)
-        Peak pressure [Pa]
-
-    Returns
-    -------
-    figures : dict of str to ndarray
-        Entries of `Performance`, for a power stroke in two revolutions
+    scalars: mapping of str to ndarray, shape (n,), `omega` [rad/s], `work`, `fuel_heat` [J], `fuel` [kg],
+    `displacement` [m^3], `stroke` [m]; p_max: peak pressure. Returns figures: dict of str to ndarray, entries of
+    `Performance`, for a power stroke in two revolutions.
     """
     omega, work, fuel, room = (scalars[k] for k in ("omega", "work", "fuel", "displacement"))
     lost = friction_pressure(friction, p_max, scalars["stroke"] * omega / np.pi, omega)
@@ -116,22 +118,11 @@ def figures(friction: Friction, scalars: Mapping[str, Any], p_max: np.ndarray) -
     return figures
 
 
-def peak(phi: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def peak(phi: Radian[Array], y: Pure[Array]) -> tuple[Pure[Array], Radian[Array]]:
     """Largest value of each row and where it lies, by the parabola through the three points around it.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n, k)
-        Crank angles, increasing along a row [rad]
-    y : ndarray, shape (n, k)
-        Values, any unit [-]
-
-    Returns
-    -------
-    largest : ndarray, shape (n,)
-        Largest value, unit of `y` [-]
-    angle : ndarray, shape (n,)
-        Its crank angle [rad]
+    phi: crank angles, increasing along a row, shape (n, k); y: values, any unit, shape (n, k). Returns largest: largest
+    value, unit of `y`.
     """
     row, top = np.arange(y.shape[0]), np.argmax(y, axis=1)
     k = np.clip(top, 1, y.shape[1] - 2)
@@ -144,7 +135,7 @@ def peak(phi: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.where(higher, value, y[row, top]), np.where(higher, vertex, phi[row, top])
 
 
-def _shares(scalars: Mapping[str, Any]) -> dict[str, Any]:
+def _shares(scalars: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
     carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
     return {
@@ -155,17 +146,22 @@ def _shares(scalars: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _friction(engine: ClosedEngine, design: Mapping[str, Any]) -> Friction:
-    return at_design(engine, {k: np.asarray(v, float) for k, v in design.items()}).friction_pressure
+def burnt_angles(cycle: SparkIgnition, omega: RadPerSecond[Array]) -> dict[str, np.ndarray]:
+    """CA10, CA50 and CA90 of a spark-ignition cycle, whose values may be arrays over the speeds [deg]."""
+    start, duration = timing(cycle, omega)
+    return {
+        name: np.degrees(start + duration * burnt_at(share, cycle.wiebe_a, cycle.wiebe_m))
+        for name, share in BURNT.items()
+    }
 
 
-def _knock(engine: ClosedEngine, design: Mapping[str, Any], result: ClosedRun) -> np.ndarray:
+def _knock(engine: ClosedEngine, design: Mapping[str, Scalar], result: ClosedRun) -> np.ndarray:
     here = at_design(engine, {k: np.atleast_1d(np.asarray(v, float))[:, None] for k, v in design.items()})
     nodes = {"p": result.p, "t": result.t, **result.scalars}
     return knock_of_runs(nodes, here.gas, np.ravel(here.cycle.octane))
 
 
-def _along(engine: ClosedEngine, design: Mapping[str, Any], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
+def _along(engine: ClosedEngine, design: Mapping[str, Scalar], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
     columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
     function = force_function(engine, tuple(design))
     points = [*columns, phi.ravel(), p.ravel()]
@@ -179,10 +175,7 @@ def _along(engine: ClosedEngine, design: Mapping[str, Any], phi: np.ndarray, p: 
 def force_function(engine: ClosedEngine, names: tuple[str, ...]) -> ca.Function:
     """Force and torque of one piston, and the mechanism's loads, at a point of a cycle as a function of the design.
 
-    Returns
-    -------
-    function : casadi.Function
-        (design (k,), phi [rad], p [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each load
+    Returns function: (design (k,), phi [rad], p [Pa]) -> `torque` [N*m], `force` [N] and the magnitude of each load.
     """
     z, phi, p = ca.SX.sym("z", len(names)), ca.SX.sym("phi"), ca.SX.sym("p")
     design = {name: z[k] for k, name in enumerate(names)}
@@ -191,7 +184,7 @@ def force_function(engine: ClosedEngine, names: tuple[str, ...]) -> ca.Function:
     return ca.Function("forces", [z, phi, p], list(forces.values()), ["design", "phi", "p"], list(forces))
 
 
-def _forces(engine: ClosedEngine, room: Chamber, omega: Any, phi: Any, p: Any) -> dict[str, Any]:
+def _forces(engine: ClosedEngine, room: Chamber, omega: Scalar, phi: Scalar, p: Scalar) -> dict[str, ca.SX]:
     force = piston_force(room, phi, omega, p)
     outputs = {"torque": force * travel(engine.motion, phi)[1], "force": force}
     loads = engine.motion.loads

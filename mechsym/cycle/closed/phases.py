@@ -8,16 +8,16 @@ pays for many designs.
 
 import functools
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.closed.equations import PHASES, SCALARS, Closed, pressure, rates, scalars
+from mechsym.cycle.closed.equations import PHASES, SCALARS, Build, Closed, pressure, rates, scalars
 from mechsym.cycle.closed.runge_kutta import METHOD, fold
 from mechsym.native import compiled_all
 from mechsym.native.fold import folder
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 
 _SHARES = {"before": 0.3, "during": 0.4, "after": 0.3}  # shares of the steps; combustion is short but steep
 GRADING = {"before": 1, "during": 4, "after": 1}
@@ -34,15 +34,11 @@ class _Parts:
     node: ca.Function
 
 
-def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps: int) -> ca.Function:
+def closed_function(build: Build, names: Sequence[str], steps: int) -> ca.Function:
     """The closed period as a function of a design.
 
-    Parameters
-    ----------
-    build : callable
-        Mapping of the design's names to CasADi symbols -> Closed
-    steps : int
-        Steps of the integration in all; a multiple of 10
+    build: callable, mapping of the design's names to CasADi symbols -> Closed. steps: steps of the integration in all;
+    a multiple of 10.
 
     Returns
     -------
@@ -53,7 +49,7 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
     """
     start, parts, books = _functions(build, tuple(names))
     design = ca.MX.sym("design", len(names))
-    state: Any = start(design)
+    state = start(design)
     nodes = []
     for phase in PHASES:
         n = steps_of(phase, steps)
@@ -65,13 +61,11 @@ def closed_function(build: Callable[[Any], Closed], names: Sequence[str], steps:
     return ca.Function("closed", [design], outputs, ["design"], [*NODES, "work", "wall_heat", *SCALARS])
 
 
-def closed_map(build: Callable[[Any], Closed], names: Sequence[str]) -> Map:
+def closed_map(build: Build, names: Sequence[str]) -> Map:
     """The closed period at many designs, compiled where there is a compiler.
 
-    Returns
-    -------
-    map : callable
-        Designs (k, n) and the number of steps -> what `closed_function` gives, by name, designs along the first axis
+    Returns map: designs (k, n) and the number of steps -> what `closed_function` gives, by name, designs along the
+    first axis.
     """
     start, parts, books = _functions(build, tuple(names))
     folds = {phase: folder(parts[phase].rate, METHOD) for phase in PHASES}
@@ -104,7 +98,7 @@ def steps_of(phase: str, steps: int) -> int:
 
 
 @functools.lru_cache(maxsize=8)
-def _functions(build: Callable[[Any], Closed], names: tuple[str, ...]) -> tuple[Any, dict[str, _Parts], Any]:
+def _functions(build: Build, names: tuple[str, ...]) -> tuple[ca.Function, dict[str, _Parts], ca.Function]:
     """State at the start, the phases, and the scalars, as functions of the design."""
     z, t = ca.SX.sym("z", len(names)), ca.SX.sym("t")
     closed = build({name: z[k] for k, name in enumerate(names)})
@@ -113,7 +107,7 @@ def _functions(build: Callable[[Any], Closed], names: tuple[str, ...]) -> tuple[
     return start, parts, ca.Function("scalars", [z, t], [ca.vertcat(*scalars(closed, t))])
 
 
-def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
+def _span(closed: Closed, phase: str, s: Scalar) -> tuple[Scalar, Scalar]:
     ends = closed.starts + closed.duration
     first, last = {
         "before": (closed.closes, closed.starts),
@@ -124,14 +118,14 @@ def _span(closed: Closed, phase: str, s: Any) -> tuple[Any, Any]:
     return first + (last - first) * s**power, (last - first) * power * s ** (power - 1)
 
 
-def _rate(closed: Closed, phase: str, z: Any) -> ca.Function:
+def _rate(closed: Closed, phase: str, z: Scalar) -> ca.Function:
     s, phi, y = ca.SX.sym("s"), ca.SX.sym("phi"), ca.SX.sym("y", 3)
     slope = ca.Function("slope", [phi, y, z], [ca.vertcat(*rates(closed, phase, phi, y[0]))])
     here, ds = _span(closed, phase, s)
     return ca.Function(f"rate_{phase}", [s, y, z], [slope(here, y, z) * ds])
 
 
-def _node(closed: Closed, phase: str, z: Any) -> ca.Function:
+def _node(closed: Closed, phase: str, z: Scalar) -> ca.Function:
     s, y, phi = ca.SX.sym("s"), ca.SX.sym("y", 3), ca.SX.sym("phi")
     p = pressure(closed, phase, phi, y[0])
     dt = rates(closed, phase, phi, y[0])[0]

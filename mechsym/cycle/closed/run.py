@@ -5,16 +5,17 @@ period is then checked for each point by itself; where the residual is not below
 """
 
 import functools
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Mapping
 
+import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.cycle.closed.equations import Closed
+from mechsym.cycle.closed.equations import Build
 from mechsym.cycle.closed.phases import NODES, Map, closed_function, closed_map
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, record
+from mechsym.quantities.units import Array, Kelvin, Pascal, Pure, Radian, Scalar
 
 _STEPS, _MOST_STEPS = 120, 7680
 MANY = 100  # points for which it pays to compile, or to read what is compiled
@@ -36,22 +37,13 @@ class ClosedRun:
     residual: np.ndarray  #: shape (n,): First law: (change of energy - heat + losses + work)/heat released [-]
 
 
-def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = _STEPS) -> ClosedRun:
+def run(build: Build, design: Mapping[str, Scalar], steps: int = _STEPS) -> ClosedRun:
     """Integrate the closed period at every operating point.
 
-    Parameters
-    ----------
-    build : callable
-        Mapping of names to values -> Closed, for example `model.closed_period` with its engine bound
-    design : mapping of str to ndarray, shape (n,)
-        Values of the design at the n points; numbers are repeated
-    steps : int
-        Steps to begin with, a multiple of 10
-
-    Returns
-    -------
-    run : ClosedRun
-        All points with one number of steps, the smallest that closes the first law everywhere
+    build: callable, mapping of names to values -> Closed, for example `model.closed_period` with its engine bound.
+    design: mapping of str to ndarray, shape (n,), values of the design at the n points; numbers are repeated. steps:
+    steps to begin with, a multiple of 10. Returns run: all points with one number of steps, the smallest that closes
+    the first law everywhere.
     """
     names = list(design)
     values = np.array(np.broadcast_arrays(*(np.atleast_1d(np.asarray(design[n], float)) for n in names)))
@@ -67,20 +59,11 @@ def run(build: Callable[[Any], Closed], design: Mapping[str, Any], steps: int = 
         steps *= 2
 
 
-def steps_needed(build: Callable[[Any], Closed], design: Mapping[str, Any]) -> tuple[np.ndarray, dict[int, str]]:
+def steps_needed(build: Build, design: Mapping[str, Scalar]) -> tuple[Pure[Array], dict[int, str]]:
     """Steps with which each point closes the first law, and why others never do.
 
-    Parameters
-    ----------
-    design : mapping of str to ndarray, shape (n,)
-        Values of the design at the n points; numbers are repeated
-
-    Returns
-    -------
-    steps : ndarray of int, shape (n,)
-        0 at points that have no cycle [-]
-    reasons : dict of int to str
-        Why they have none, by index
+    design: mapping of str to ndarray, shape (n,), values of the design at the n points; numbers are repeated. Returns
+    steps: 0 at points that have no cycle; reasons: why they have none, by index.
     """
     names = list(design)
     values = np.array(np.broadcast_arrays(*(np.atleast_1d(np.asarray(design[n], float)) for n in names)))
@@ -104,10 +87,7 @@ def steps_needed(build: Callable[[Any], Closed], design: Mapping[str, Any]) -> t
 def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
     """Refuse points at which combustion does not fit into the closed period.
 
-    Parameters
-    ----------
-    scalars : mapping of str to ndarray, shape (n,)
-        `omega` [rad/s], `closes`, `starts`, `ends`, `opens` [rad]
+    scalars: `omega` [rad/s], `closes`, `starts`, `ends`, `opens` [rad].
     """
     for reason in _phase_faults(scalars).values():
         raise BadInput(reason)
@@ -133,24 +113,11 @@ def _phase_faults(scalars: Mapping[str, np.ndarray]) -> dict[int, str]:
     return faults
 
 
-def dense(result: ClosedRun, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def dense(result: ClosedRun, parts: int = 4) -> tuple[Radian[Array], Pascal[Array], Kelvin[Array]]:
     """Pressure and temperature at the nodes and between them, by cubic Hermite polynomials; every angle stands once.
 
-    Parameters
-    ----------
-    result : ClosedRun
-        The closed period at n points
-    parts : int
-        Parts that each step is cut into
-
-    Returns
-    -------
-    phi : ndarray, shape (n, k)
-        Crank angle [rad]
-    p : ndarray, shape (n, k)
-        Pressure [Pa]
-    t : ndarray, shape (n, k)
-        Temperature [K]
+    result: the closed period at n points; parts: parts that each step is cut into. Returns phi: crank angle, shape (n,
+    k); p: pressure, shape (n, k); t: temperature, shape (n, k).
     """
     u = np.arange(parts) / parts
     h = np.diff(result.phi, axis=1)[..., None]
@@ -160,22 +127,11 @@ def dense(result: ClosedRun, parts: int = 4) -> tuple[np.ndarray, np.ndarray, np
     return phi[:, once], p[:, once], t[:, once]
 
 
-def at_angles(result: ClosedRun, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def at_angles(result: ClosedRun, step: Radian) -> tuple[Radian[Array], Pascal[Array], Kelvin[Array]]:
     """Pressure and temperature of the first point on even angles.
 
-    Parameters
-    ----------
-    step : float
-        Distance of the angles [rad]
-
-    Returns
-    -------
-    phi : ndarray, shape (k,)
-        From inlet closing to exhaust opening, both included [rad]
-    p : ndarray, shape (k,)
-        Pressure [Pa]
-    t : ndarray, shape (k,)
-        Temperature [K]
+    step: distance of the angles. Returns phi: from inlet closing to exhaust opening, both included, shape (k,); p:
+    pressure, shape (k,); t: temperature, shape (k,).
     """
     once = np.append(np.diff(result.phi[0]) > _SAME, True)
     nodes = result.phi[0, once]
@@ -185,7 +141,7 @@ def at_angles(result: ClosedRun, step: float) -> tuple[np.ndarray, np.ndarray, n
     return phi, p, t
 
 
-def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int) -> ClosedRun:
+def _run(build: Build, names: tuple[str, ...], values: np.ndarray, steps: int) -> ClosedRun:
     found = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
     scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
@@ -194,20 +150,18 @@ def _run(build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndar
     return ClosedRun(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
 
 
-def _called(
-    build: Callable[[Any], Closed], names: tuple[str, ...], values: np.ndarray, steps: int
-) -> dict[str, np.ndarray]:
+def _called(build: Build, names: tuple[str, ...], values: np.ndarray, steps: int) -> dict[str, np.ndarray]:
     found = _function(build, names, steps).call({"design": values})
     return {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in found.items()}
 
 
 @functools.lru_cache(maxsize=8)
-def _mapped(build: Callable[[Any], Closed], names: tuple[str, ...]) -> Map:
+def _mapped(build: Build, names: tuple[str, ...]) -> Map:
     return closed_map(build, names)
 
 
 @functools.lru_cache(maxsize=8)
-def _function(build: Callable[[Any], Closed], names: tuple[str, ...], steps: int) -> Any:
+def _function(build: Build, names: tuple[str, ...], steps: int) -> ca.Function:
     # searches call `run` again and again with one `build`; making the function costs more than evaluating it
     return closed_function(build, names, steps)
 

@@ -9,13 +9,12 @@ eleven stages, order 8, nodes of the Lobatto quadrature.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import casadi as ca
 
 from mechsym.native.fold import Method
+from mechsym.quantities.units import Pure, Scalar
 
-ORDER = 8
 _S = 21**0.5
 _A: tuple[dict[int, float], ...] = (
     {},
@@ -37,24 +36,13 @@ _B = {0: 1 / 20, 7: 49 / 180, 8: 16 / 45, 9: 49 / 180, 10: 1 / 20}
 METHOD = Method(rows=_A, weights=_B)
 
 
-def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
+def step(rate: Callable[[Scalar, Scalar], Scalar], s: Pure[Scalar], y: Scalar, ds: Pure[Scalar]) -> Scalar:
     """One step of the method.
 
-    Parameters
-    ----------
-    s : float or CasADi scalar
-        Independent variable at the start [-]
-    y : CasADi column, shape (n,)
-        State at the start
-    ds : float or CasADi scalar
-        Length of the step [-]
-
-    Returns
-    -------
-    y : CasADi column, shape (n,)
-        State at s + ds
+    s: independent variable at the start; y: state at the start [unit of the state]; ds: length of the step. Returns y:
+    state at s + ds, shape (n,) [unit of the state].
     """
-    slopes: list[Any] = []
+    slopes: list[Scalar] = []
     for row in METHOD.rows:
         shifted = y + ds * sum((a * slopes[j] for j, a in row.items()), 0 * y) if row else y
         slopes.append(rate(s + sum(row.values()) * ds, shifted))
@@ -64,10 +52,7 @@ def step(rate: Callable[[Any, Any], Any], s: Any, y: Any, ds: Any) -> Any:
 def fold(rate: ca.Function, steps: int) -> ca.Function:
     """Integrate over s from 0 to 1 in equal steps.
 
-    Returns
-    -------
-    function : casadi.Function
-        (y at 0, z) -> y at the ends of all steps, shape (states, steps)
+    Returns function: (y at 0, z) -> y at the ends of all steps, shape (states, steps).
     """
     s, y, z = (ca.SX.sym(name, rate.numel_in(i)) for i, name in enumerate("syz"))
     one = ca.Function("step", [y, s, z], [step(lambda s, y: rate(s, y, z), s, y, 1 / steps)])

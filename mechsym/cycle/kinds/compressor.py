@@ -10,15 +10,16 @@ The gas takes work: the mean indicated pressure is negative, and so is the mean 
 """
 
 import math
-from typing import Any
 
 import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
+from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.pressure import Pressure, pressure_over
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Array, Pascal, Radian, Scalar
 
 _TURN = 2 * math.pi
 
@@ -48,21 +49,13 @@ class CompressorCycle:
             )
 
 
-def absolute_pressure(cycle: CompressorCycle, room: Chamber, phi: Any) -> np.ndarray:
+def absolute_pressure(cycle: CompressorCycle, room: Chamber, phi: Radian[Scalar]) -> Pascal[Array]:
     r"""Pressure in the cylinder.
 
     .. math:: p = \min(p_s (V_1/V)^{n_c}, p_d) \text{ on the way in}, \quad p = \max(p_d (V_3/V)^{n_e}, p_s)
               \text{ on the way out}
 
-    Parameters
-    ----------
-    phi : ndarray
-        Crank angles after top dead centre, in [0, 2 pi) [rad]
-
-    Returns
-    -------
-    p : ndarray
-        Absolute [Pa]
+    phi: crank angles after top dead centre, in [0, 2 pi). Returns p: absolute.
 
     Notes
     -----
@@ -104,12 +97,9 @@ def compressor_pressure(cycle: CompressorCycle, room: Chamber) -> Pressure:
     )  # fmt: skip
 
 
-def at_speed(cycle: CompressorCycle, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
-    """Pressure, and no fuel; the cycle does not know the speed.
+class CompressorGas(CylinderGas):
+    """Gas of a compressor; its cycle does not know the speed."""
 
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    """
-    return compressor_pressure(cycle, room), {}
+    def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+        """Pressure at a speed [rad/s], and no fuel."""
+        return compressor_pressure(self.cycle, room), {}

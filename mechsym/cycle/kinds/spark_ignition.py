@@ -4,7 +4,7 @@ Crank angles count from firing top dead centre, so that the thesis's 180, 360 an
 Start and duration of combustion are straight lines over the speed (Nunes 2017, eqs. (3.1) and (3.2)).
 """
 
-from typing import Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -13,11 +13,12 @@ from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.cycle.values import Value
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Pure, Radian, RadPerSecond, Scalar
 
 
 @record
 class SparkIgnition:
-    """Section `[cycle]`, `model = "spark_ignition"`."""
+    """Section `[cycle]`, `kind = "spark-ignition"`."""
 
     #: `converged`: the differential equation in crank angle; `nunes2017_printed`: the thesis's one-degree march
     method: str = choice(
@@ -57,7 +58,13 @@ class SparkIgnition:
         about="where the fuel takes its heat of evaporation from",
     )
     octane: float = quantity("-", default=95.0, low=60, high=130, about="octane number of the fuel, for knock")
-    latent_heat: float = quantity("J/kg", default=0.0, low=0, about="latent heat of vaporisation")
+    latent_heat: float = quantity(
+        "J/kg",
+        default=0.0,
+        low=0,
+        about="latent heat of vaporisation",
+        only=("vaporisation", "latent_heat", "liquid_energy"),
+    )
 
     def __post_init__(self) -> None:
         relative = self.air_fuel_ratio / self.stoichiometric_ratio
@@ -78,20 +85,12 @@ class Charge(NamedTuple):
     heat: Value
 
 
-def combustion_efficiency(cycle: Any) -> Value:
+def combustion_efficiency(cycle: SparkIgnition) -> Pure[Scalar]:
     r"""Share of the heating value that combustion can release.
 
     .. math:: \eta_c = \eta_{c,max}(-1.6082 + 4.6509\lambda - 2.0764\lambda^2)
 
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data; numbers or CasADi expressions
-
-    Returns
-    -------
-    eta_c : float
-        Combustion efficiency [-]
+    cycle: its values may be CasADi expressions. Returns eta_c: combustion efficiency.
 
     Notes
     -----
@@ -101,23 +100,14 @@ def combustion_efficiency(cycle: Any) -> Value:
     return cycle.combustion_efficiency_max * (-1.6082 + 4.6509 * lam - 2.0764 * lam**2)
 
 
-def charge(chamber: Chamber, cycle: Any, gas_constant: Value) -> Charge:
+def charge(chamber: Chamber, cycle: SparkIgnition, gas_constant: Annotated[Scalar, "J/(kg*K)"]) -> Charge:
     r"""Masses in the chamber and the heat that combustion may release.
 
     .. math:: m = \frac{p_0 V(\varphi_{ivc})}{R T_0}, \quad
         m_f = \frac{p_0 (V(\varphi_{ivc}) - V_c)}{R T_0\, AFR}, \quad Q = \eta_c m_f Q_{HV}
 
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data; numbers or CasADi expressions
-    gas_constant : float
-        Of the charge [J/(kg*K)]
-
-    Returns
-    -------
-    charge : Charge
-        gas [kg], fuel [kg], heat [J]
+    cycle: its values may be CasADi expressions. gas_constant: of the charge. Returns charge:
+    gas [kg], fuel [kg], heat [J].
 
     Notes
     -----
@@ -129,31 +119,19 @@ def charge(chamber: Chamber, cycle: Any, gas_constant: Value) -> Charge:
     return Charge(density * v_closed, fuel, combustion_efficiency(cycle) * fuel * cycle.heating_value)
 
 
-def latent_heat(cycle: Any) -> Value:
+def latent_heat(cycle: SparkIgnition) -> Annotated[Scalar, "J/kg"]:
     """Latent heat that the cycle charges for a kilogram of fuel.
 
-    Returns
-    -------
-    heat : float
-        Latent heat, 0 for a charge that is vapour from the start [J/kg]
+    Returns heat: latent heat, 0 for a charge that is vapour from the start.
     """
     return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
 
 
-def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Value:
+def vapour_energy(cycle: SparkIgnition, gas: ConstantGamma | NasaMixture) -> Annotated[Scalar, "J/kg"]:
     """Internal energy that a kilogram of fuel brings along when it turns into vapour.
 
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data; numbers or CasADi expressions
-    gas : ConstantGamma or NasaMixture
-        Gas model, whose zero of energy counts
-
-    Returns
-    -------
-    energy : float
-        Specific internal energy, latent heat taken off [J/kg]
+    cycle: its values may be CasADi expressions. gas: gas model, whose zero of energy counts.
+    Returns energy: specific internal energy, latent heat taken off.
 
     Notes
     -----
@@ -164,21 +142,9 @@ def vapour_energy(cycle: Any, gas: ConstantGamma | NasaMixture) -> Value:
     return -latent_heat(cycle)
 
 
-def timing(cycle: Any, omega: Value) -> tuple[Value, Value]:
+def timing(cycle: SparkIgnition, omega: RadPerSecond[Scalar]) -> tuple[Radian[Scalar], Radian[Scalar]]:
     """Start and duration of combustion at a speed.
 
-    Parameters
-    ----------
-    cycle : SparkIgnition
-        The cycle's data; numbers or CasADi expressions
-    omega : float or ndarray
-        Crank speed [rad/s]
-
-    Returns
-    -------
-    start : same kind as `omega`
-        From firing top dead centre [rad]
-    duration : same kind as `omega`
-        Duration [rad]
+    cycle: its values may be CasADi expressions. Returns start: from firing top dead centre.
     """
     return cycle.ignition + cycle.ignition_slope * omega, cycle.duration + cycle.duration_slope * omega

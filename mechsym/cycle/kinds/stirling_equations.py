@@ -17,12 +17,13 @@ Source: I. Urieli, D. M. Berchowitz, Stirling Cycle Engine Analysis, Adam Hilger
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Annotated
 
 import casadi as ca
 import numpy as np
 
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Kelvin, Radian, Scalar
 
 STATES = ("p", "m_e", "m_c", "theta_e", "theta_c", "Q_h", "Q_r", "Q_k", "Q_e", "Q_c", "W_e", "W_c", "p_mean")
 TALLIES = STATES[5:]
@@ -33,52 +34,38 @@ class FiveSpaces:
     """The gas and its spaces; attributes are numbers or CasADi expressions."""
 
     #: shaft angle [rad] to the volumes of the expansion and of the compression space, clearance included [m^3]
-    volumes: Callable[[Any], tuple[Any, Any]]
+    volumes: Callable[[Scalar], tuple[Scalar, Scalar]]
     #: volumes of heater, regenerator and cooler [m^3]
-    V_h: Any
-    V_r: Any
-    V_k: Any
+    V_h: Scalar
+    V_r: Scalar
+    V_k: Scalar
     #: temperatures of the gas in heater and cooler [K]
-    T_h: Any
-    T_k: Any
+    T_h: Scalar
+    T_k: Scalar
     #: ratio of the heat capacities [-] and gas constant [J/(kg*K)]
-    gamma: Any
-    R: Any
+    gamma: Scalar
+    R: Scalar
     #: absolute pressure, mean over a turn [Pa]
-    mean_pressure: Any
+    mean_pressure: Scalar
     #: heat conductance between gas and wall by angular speed, of each working space [J/(K*rad)]
-    film_e: Any = 0.0
-    film_c: Any = 0.0
+    film_e: Scalar = 0.0
+    film_c: Scalar = 0.0
 
 
-def evaluated(volumes: Callable[[Any], tuple[Any, Any]], phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Both volumes and their slopes, each of shape (2, n) [m^3, m^3/rad].
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Shaft angles [rad]
-    """
+def evaluated(volumes: Callable[[Scalar], tuple[Scalar, Scalar]], phi: Radian[Array]) -> tuple[np.ndarray, np.ndarray]:
+    """Both volumes and their slopes, each of shape (2, n) [m^3, m^3/rad]."""
     angle = ca.SX.sym("phi")
     both = ca.vertcat(*volumes(angle))
     found = ca.Function("volumes", [angle], [both, ca.jacobian(both, angle)])(phi.reshape(1, -1))
     return np.asarray(found[0]), np.asarray(found[1])
 
 
-def regenerator_temperature(T_h: Any, T_k: Any) -> Any:
+def regenerator_temperature(T_h: Kelvin[Scalar], T_k: Kelvin[Scalar]) -> Kelvin[Scalar]:
     r"""Mean temperature of a regenerator with a straight profile, as the mass of its gas asks for it.
 
     .. math:: T_r = \frac{T_h - T_k}{\ln(T_h/T_k)}
 
-    Parameters
-    ----------
-    T_h, T_k : float or CasADi expression
-        Temperatures at its ends, not equal [K]
-
-    Returns
-    -------
-    T_r : float or CasADi expression
-        Harmonic mean over the length [K]
+    T_h, T_k: temperatures at its ends, not equal. Returns T_r: harmonic mean over the length.
 
     Notes
     -----
@@ -92,20 +79,13 @@ def regenerator_temperature(T_h: Any, T_k: Any) -> Any:
     return (T_h - T_k) / ca.log(T_h / T_k)
 
 
-def exchanger_capacity(spaces: FiveSpaces) -> Any:
-    r"""Mass of gas in the exchangers by pressure, times the gas constant.
+def exchanger_capacity(spaces: FiveSpaces) -> Annotated[Scalar, "m^3/K"]:
+    """Mass of gas in the exchangers by pressure, times the gas constant.
 
     .. math:: K = V_h/T_h + V_r/T_r + V_k/T_k
 
-    Parameters
-    ----------
-    spaces : FiveSpaces
-        Volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler
-
-    Returns
-    -------
-    K : float or CasADi expression
-        Sum over the three [m^3/K]
+    spaces: volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler. Returns K: sum over
+    the three.
 
     Notes
     -----
@@ -126,36 +106,31 @@ def exchanger_capacity(spaces: FiveSpaces) -> Any:
 class _Side:
     """One working space at one angle: volume, its slope, wall, what passes its border, heat through its wall."""
 
-    volume: Any
-    slope: Any
-    wall: Any
-    passing: Any
-    heat: Any
-    dtheta: Any
+    volume: Scalar  #: [m^3]
+    slope: Scalar  #: [m^3/rad]
+    wall: Scalar  #: [K]
+    passing: Scalar  #: [K]
+    heat: Scalar  #: [J/rad]
+    dtheta: Scalar  #: slope of T p^-kappa [K/(Pa^kappa*rad)]
 
 
-def rates(spaces: FiveSpaces, inward: tuple[bool, bool], phi: Any, y: Any) -> tuple[Any, Any]:
+def rates(
+    spaces: FiveSpaces, inward: tuple[bool, bool], phi: Radian[Scalar], y: Scalar
+) -> tuple[ca.SX, Annotated[Scalar, "J/rad"]]:
     r"""Slopes of all states while the flows keep their directions.
 
     .. math:: p' = -\frac{\sum_j (p V_j' - \kappa Q_j')/T^*_j}{K + \sum_j V_j/(\gamma T^*_j)}, \qquad
               \kappa = \frac{\gamma - 1}{\gamma}
 
+    inward: whether gas flows into the expansion space, and into the compression space. Returns slopes: CasADi column,
+    shape (13,), slopes of y [unit of the state/rad]; inflow: R T*_j m_j' of both spaces, whose sign is the flow's,
+    shape (2,).
+
     Parameters
     ----------
-    inward : tuple of bool
-        Whether gas flows into the expansion space, and into the compression space
-    phi : CasADi symbol
-        Shaft angle [rad]
     y : CasADi column, shape (13,)
         `STATES`: p [Pa], m_e, m_c [kg], theta_e, theta_c [K/Pa^kappa], then heats and works since the start [J] and
         the integral of p over the angle by a turn [Pa]
-
-    Returns
-    -------
-    slopes : CasADi column, shape (13,)
-        Slopes of y [unit of the state/rad]
-    inflow : CasADi column, shape (2,)
-        R T*_j m_j' of both spaces, whose sign is the flow's [J/rad]
 
     Notes
     -----
@@ -184,7 +159,7 @@ def rates(spaces: FiveSpaces, inward: tuple[bool, bool], phi: Any, y: Any) -> tu
     return ca.vertcat(*slopes), ca.vertcat(*inflow)
 
 
-def _side(s: FiveSpaces, j: int, inward: bool, phi: Any, y: Any) -> _Side:
+def _side(s: FiveSpaces, j: int, inward: bool, phi: Scalar, y: Scalar) -> _Side:
     kappa, p, wall = (s.gamma - 1) / s.gamma, y[0], (s.T_h, s.T_k)[j]
     volume, film = s.volumes(phi)[j], (s.film_e, s.film_c)[j]
     kept = y[3 + j] * p**kappa
@@ -200,7 +175,7 @@ def _side(s: FiveSpaces, j: int, inward: bool, phi: Any, y: Any) -> _Side:
     )  # fmt: skip
 
 
-def _heats(s: FiveSpaces, dp: Any, dm: list[Any], sides: list[_Side]) -> list[Any]:
+def _heats(s: FiveSpaces, dp: Scalar, dm: list[Scalar], sides: list[_Side]) -> list[Scalar]:
     # first law of each exchanger; its gas has constant temperature, so its energy follows the pressure alone
     cp = s.gamma * s.R / (s.gamma - 1)
     heater, cooler = (cp * (side.passing - side.wall) * flow for side, flow in zip(sides, dm, strict=True))

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -56,7 +55,9 @@ def _march(volume: np.ndarray, slope: np.ndarray, numbers: tuple[float, ...]) ->
     return rows
 
 
-def _slopes(state: Any, row: list[float], numbers: tuple[float, ...]) -> tuple[Any, tuple[bool, bool]]:
+def _slopes(
+    state: tuple[float, ...], row: list[float], numbers: tuple[float, ...]
+) -> tuple[tuple[float, ...], tuple[bool, bool]]:
     (p, *m), (hot, cold, gamma, capacity, *films) = state, numbers
     volume, walls = row[:2], (hot, cold)
     own = [p * volume[j] / m[j] for j in (0, 1)]

@@ -12,7 +12,6 @@ turned by half a turn, their offsets mirrored.
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -21,6 +20,7 @@ from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.kinds.stirling_equations import FiveSpaces
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Scalar
 
 _POINTS = 2880
 
@@ -60,7 +60,9 @@ class StirlingCylinders:
     arrangement: str = choice(*ARRANGEMENTS, default="alpha", about="which piston sweeps which space")
     gas: str = choice(*GASES, default="air", about="working gas")
     bore: float = quantity("m", above=0, about="bore of the cylinders")
-    piston_bore: float | None = quantity("m", default=None, above=0, about="bore of the piston of gamma, else `bore`")
+    piston_bore: float | None = quantity(
+        "m", default=None, above=0, about="bore of the piston of gamma, else `bore`", only=("arrangement", "gamma")
+    )
     rod_diameter: float = quantity("m", default=0.0, low=0, about="rod of the displacer through the piston")
     dead_hot: float = quantity("m^3", low=0, about="heater and clearance of the expansion space")
     dead_cold: float = quantity("m^3", low=0, about="cooler and clearance of the compression space")
@@ -79,7 +81,8 @@ class StirlingCylinders:
             raise BadInput(f"rod_diameter = {self.rod_diameter:g} m must be below bore = {self.bore:g} m")
 
 
-Travel = Callable[[Any], Any]
+Travel = Callable[[Scalar], Scalar]
+Volumes = Callable[[Scalar], tuple[Scalar, Scalar]]
 
 
 def areas(cycle: StirlingCylinders) -> np.ndarray:
@@ -95,7 +98,7 @@ def areas(cycle: StirlingCylinders) -> np.ndarray:
     return np.array(table[cycle.arrangement])
 
 
-def swept(cycle: StirlingCylinders, travels: tuple[Travel, Travel]) -> Callable[[Any], tuple[Any, Any]]:
+def swept(cycle: StirlingCylinders, travels: tuple[Travel, Travel]) -> Volumes:
     """Volumes of the two working spaces, clearance included, of travels that take CasADi expressions.
 
     Angle [rad] to volumes of expansion and compression space [m^3]; travels [m] of piston 1 and 2.
@@ -103,20 +106,20 @@ def swept(cycle: StirlingCylinders, travels: tuple[Travel, Travel]) -> Callable[
     rows = areas(cycle).tolist()
     clearances = (cycle.dead_hot * cycle.clearance_share_hot, cycle.dead_cold * cycle.clearance_share_cold)
 
-    def free(phi: Any) -> list[Any]:
+    def free(phi: Scalar) -> list[Scalar]:
         x, y = (travel(phi) for travel in travels)
         return [row[0] * x + row[1] * y for row in rows]
 
     base = [c - low for c, low in zip(clearances, _smallest(free), strict=True)]
 
-    def volumes(phi: Any) -> tuple[Any, Any]:
+    def volumes(phi: Scalar) -> tuple[Scalar, Scalar]:
         hot, cold = free(phi)
         return hot + base[0], cold + base[1]
 
     return volumes
 
 
-def _smallest(free: Callable[[Any], list[Any]]) -> list[float]:
+def _smallest(free: Callable[[Scalar], list[Scalar]]) -> list[float]:
     # the least of a smooth periodic curve: the best of many points, then three steps of Newton
     angle = ca.SX.sym("phi")
     found = []
@@ -133,7 +136,7 @@ def _smallest(free: Callable[[Any], list[Any]]) -> list[float]:
 
 
 def five_spaces(
-    cycle: StirlingCylinders, volumes: Callable[[Any], tuple[Any, Any]], T_h: Any = None, T_k: Any = None
+    cycle: StirlingCylinders, volumes: Callable[[Scalar], tuple[Scalar, Scalar]], T_h: Scalar = None, T_k: Scalar = None
 ) -> FiveSpaces:
     """The spaces of a cycle; temperatures of the gas in the exchangers as in the cycle where none are given [K]."""
     gas = GASES[cycle.gas]

@@ -8,7 +8,6 @@ flow is nothing at its cut. Between the cuts the order of the method holds, so t
 import dataclasses
 import math
 from collections.abc import Callable
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -18,10 +17,11 @@ from mechsym.cycle.kinds.stirling_equations import STATES, TALLIES, FiveSpaces, 
 from mechsym.cycle.kinds.stirling_march import Order, first_guess
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 
 STEPS = 32  # between two cuts
 _NEWTON, _CLOSED = 30, 1e-11
-Build = Callable[[Any], FiveSpaces]  # design (k,), symbols or numbers, to spaces
+Build = Callable[[Scalar], FiveSpaces]  # design (k,), symbols or numbers, to spaces
 
 
 @record
@@ -83,10 +83,7 @@ def turn(spaces: FiveSpaces, steps: int = STEPS) -> StirlingTurn:
 def solver(build: Build, design: np.ndarray, steps: int = STEPS) -> Callable[[np.ndarray], StirlingTurn]:
     """A function of the design to its turn, each started from the one before.
 
-    Parameters
-    ----------
-    design : ndarray, shape (k,)
-        Where it starts; whatever `build` makes of it [any]
+    design: where it starts; whatever `build` makes of it [any], shape (k,).
     """
     order, unknown = first_guess(_numbers(build, design))
     parts = _functions(build, len(design), order, steps)
@@ -99,24 +96,6 @@ def solver(build: Build, design: np.ndarray, steps: int = STEPS) -> Callable[[np
     return solve
 
 
-def figures_function(build: Build, design: np.ndarray, steps: int = STEPS) -> ca.Function:
-    """Sums of a turn as a differentiable CasADi function of the design, valid while the flows turn in the same order.
-
-    The result takes the design (k,) and gives `TALLIES` [J], the last one being the mean pressure [Pa].
-
-    Parameters
-    ----------
-    design : ndarray, shape (k,)
-        Where the turn is solved for the first time; whatever `build` makes of it [any]
-    """
-    order, unknown = first_guess(_numbers(build, design))
-    parts = _functions(build, len(design), order, steps)
-    found, _ = _newton(parts.residual, parts.slope, unknown, design)
-    solver = ca.rootfinder("periodic", "newton", parts.residual, {"abstol": 1e-10, "max_iter": _NEWTON})
-    z = ca.MX.sym("design", len(design))
-    return ca.Function("figures", [z], [parts.sums(solver(found, z), z)], ["design"], ["sums"])
-
-
 @record
 class _Solved:
     """Functions of (unknowns, design): remainder, its Jacobian, sums over the turn, nodes."""
@@ -127,7 +106,9 @@ class _Solved:
     nodes: ca.Function
 
 
-def _newton(residual: Any, slope: Any, unknown: np.ndarray, design: np.ndarray) -> tuple[np.ndarray, float]:
+def _newton(
+    residual: ca.Function, slope: ca.Function, unknown: np.ndarray, design: np.ndarray
+) -> tuple[np.ndarray, float]:
     size = np.inf
     for _ in range(_NEWTON):
         rest = np.asarray(residual(unknown, design)).ravel()
@@ -187,7 +168,7 @@ class _Basis:
         self.mass = s.mean_pressure * exchanger_capacity(s) / s.R
         self.volume = s.V_h + s.V_r + s.V_k
 
-    def kept(self, j: int, state: Any) -> Any:
+    def kept(self, j: int, state: ca.SX) -> ca.SX:
         """Temperature of a space by p^kappa, from its mass."""
         s = self.spaces
         return state[0] * s.volumes(self.phi)[j] / (s.R * state[1 + j]) / state[0] ** self.kappa
@@ -232,7 +213,7 @@ class _Basis:
         beyond = ca.vertcat(y[: 3 + j], self.kept(j, y), y[4 + j :]) if inward[j] else y
         return ca.Function("cut", [y, self.phi, self.z], [flow, beyond])
 
-    def closing(self, state: Any, start: Any, z: Any) -> Any:
+    def closing(self, state: ca.MX, start: ca.MX, z: ca.MX) -> ca.MX:
         """Both masses and the mean pressure, against what they were and should be."""
         s = self.spaces
         scale = ca.Function("scale", [self.z], [ca.vertcat(self.mass, s.mean_pressure)])(z)
@@ -243,5 +224,5 @@ class _Basis:
 def _numbers(build: Build, design: np.ndarray) -> FiveSpaces:
     found = build(ca.DM(design))
     names = [f.name for f in dataclasses.fields(FiveSpaces) if f.name != "volumes"]
-    numbers: dict[str, Any] = {name: float(getattr(found, name)) for name in names}
+    numbers: dict[str, Scalar] = {name: float(getattr(found, name)) for name in names}
     return dataclasses.replace(found, **numbers)

@@ -28,10 +28,12 @@ from typing import Any
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.pressure import ATMOSPHERE, periodic, wrapped
-from mechsym.cycle.wiebe import double_wiebe
+from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, periodic, pressure_over, wrapped
+from mechsym.cycle.wiebe import BURNT, double_burnt_at, double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import Pascal, Pure, Radian, Scalar
 
 
 @record
@@ -65,7 +67,10 @@ class TwoStrokeMarine:
     #: What is under the piston: `atmosphere` (p_back) or `scavenge` (p_s)
     crank_side: str = choice("atmosphere", "scavenge", default="atmosphere", about="what is under the piston")
     #: Absolute pressure under the piston for `crank_side = "atmosphere"` [Pa]
-    p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston")
+    p_back: float = quantity(
+        "Pa", default=ATMOSPHERE, low=0, high=1e8, about="absolute pressure under the piston",
+        only=("crank_side", "atmosphere"),
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         burnt = ("soc + duration", self.soc + self.duration)
@@ -78,20 +83,12 @@ class TwoStrokeMarine:
                 )
 
 
-def scavenging_pressure(p_s: float) -> float:
+def scavenging_pressure(p_s: Pascal) -> Pascal:
     r"""Pressure while scavenging and when the exhaust closes.
 
     .. math:: p_{evc} = 0.9749\,p_s - 0.1029\ \mathrm{bar}
 
-    Parameters
-    ----------
-    p_s : float
-        Absolute scavenge pressure [Pa]
-
-    Returns
-    -------
-    p_evc : float
-        Absolute pressure in the cylinder [Pa]
+    p_s: absolute scavenge pressure. Returns p_evc: absolute pressure in the cylinder.
 
     Notes
     -----
@@ -100,24 +97,18 @@ def scavenging_pressure(p_s: float) -> float:
     return 0.9749 * p_s - 0.1029e5
 
 
-def back_pressure(cycle: TwoStrokeMarine) -> float:
+def back_pressure(cycle: TwoStrokeMarine) -> Pascal:
     """Absolute pressure under the piston.
 
-    Returns
-    -------
-    p_back : float
-        p_back, or p_s for `crank_side = "scavenge"` [Pa]
+    Returns p_back: p_back, or p_s for `crank_side = "scavenge"`.
     """
     return cycle.p_s if cycle.crank_side == "scavenge" else cycle.p_back
 
 
-def events(cycle: TwoStrokeMarine) -> dict[str, float]:
+def events(cycle: TwoStrokeMarine) -> dict[str, Radian]:
     """Names and angles of the cycle's events.
 
-    Returns
-    -------
-    angles : dict of str to float
-        In the order of the turn, from exhaust closing, in [evc, evc + 2 pi) [rad]
+    Returns angles: in the order of the turn, from exhaust closing, in [evc, evc + 2 pi).
     """
     return {
         "exhaust closes": cycle.evc,
@@ -129,13 +120,10 @@ def events(cycle: TwoStrokeMarine) -> dict[str, float]:
     }
 
 
-def kinks(cycle: TwoStrokeMarine) -> tuple[float, ...]:
+def kinks(cycle: TwoStrokeMarine) -> tuple[Radian, ...]:
     """Crank angles where the pressure is not smooth.
 
-    Returns
-    -------
-    angles : tuple of float
-        Start of combustion, EVO, SPO and EVC, ascending in [0, 2 pi) [rad]
+    Returns angles: start of combustion, EVO, SPO and EVC, ascending in [0, 2 pi).
 
     Notes
     -----
@@ -145,28 +133,21 @@ def kinks(cycle: TwoStrokeMarine) -> tuple[float, ...]:
     return tuple(sorted(float(wrapped(a, 2 * math.pi)) for a in (cycle.evc, cycle.soc, cycle.evo, cycle.spo)))
 
 
-def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> Callable[[Any], Any]:
+def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: Pure) -> Callable[[Scalar], Scalar]:
     r"""The cycle's pressure for a given temperature ratio.
 
     .. math:: p = (1-f)\,p_{comp} + f\,\rho\,p_{comp}(0)\,(V_c/V)^{n_e}
 
     between EVC and EVO, then a straight line to p_evc at SPO, then p_evc.
 
-    Parameters
-    ----------
-    ratio : float
-        T_ref / T_comp at top dead centre, 1 without fuel [-]
-
-    Returns
-    -------
-    absolute : callable
-        ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
+    ratio: T_ref / T_comp at top dead centre, 1 without fuel. Returns absolute: callable, ndarray of crank angles, any
+    real [rad], to absolute pressure of the same shape [Pa].
     """
     v_c, p_evc = cylinder.clearance, scavenging_pressure(cycle.p_s)
     p_comp = p_evc * (float(volume(cylinder, cycle.evc)) / v_c) ** cycle.n_c
     shape = (cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
 
-    def closed(phi: Any) -> Any:
+    def closed(phi: Scalar) -> Scalar:
         v = volume(cylinder, phi) / v_c
         f = double_wiebe((phi - cycle.soc) / cycle.duration, *shape)
         compression = p_comp * v**-cycle.n_c
@@ -174,20 +155,156 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -
 
     p_evo = float(closed(cycle.evo))
 
-    def one_turn(phi: Any) -> Any:
+    def one_turn(phi: Scalar) -> Scalar:
         line = p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
         return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
 
     return periodic(one_turn, 2 * math.pi, start=cycle.evc)
 
 
-def as_diagram(cycle: TwoStrokeMarine) -> dict[str, Any]:
+def as_diagram(cycle: TwoStrokeMarine) -> dict[str, str | float]:
     """What the cycle knows of an engine whose measured diagram takes its place: fields of `Diagram`."""
     # the compression line stands between the exhaust's closing and the start of combustion, with a margin
     return {
         "working_cycle": "two-stroke",
+        "p_back": back_pressure(cycle),
         "n_c": cycle.n_c,
         "pegging": "polytropic",
         "fit_from": max(cycle.evc + math.radians(15.0), math.radians(-90.0)),
         "fit_to": min(cycle.soc - math.radians(5.0), math.radians(-15.0)),
     }
+
+
+def burnt_angles(cycle: Any, end: Pure) -> dict[str, float]:
+    """CA10, CA50 and CA90 from top dead centre [deg].
+
+    cycle: with the double Wiebe function of a two-stroke engine; end: y where burning stops, infinite where nothing
+    cuts it off.
+    """
+    shape = (cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
+    return {
+        name: math.degrees(cycle.soc + cycle.duration * double_burnt_at(share, shape, end))
+        for name, share in BURNT.items()
+    }
+
+
+_CLOSED_POINTS = 881  # of the closed period, where the highest temperature is looked for
+_AIR_BY_FUEL = 14.6  # stoichiometric, marine fuel oil
+
+
+@record
+class TwoStrokeState:
+    """The cycle closed for the wanted mean pressure."""
+
+    #: Scavenging; compression and expansion reference at TDC; exhaust opening [Pa]
+    p_evc: float
+    p_comp: float
+    p_ref: float
+    p_evo: float
+    #: Compression temperature at TDC and the rise to the expansion's reference [K]
+    T_comp: float
+    dT: float
+    mass: float  #: Trapped gas [kg]
+    excess_air: float  #: Air-fuel ratio over the stoichiometric one that the rise would need [-]
+    efficiency: float  #: Indicated work by the heat of that fuel [-]
+
+
+def solve(cycle: TwoStrokeMarine, cylinder: Chamber) -> TwoStrokeState:
+    r"""Close the cycle: the temperature rise that gives the wanted mean indicated pressure.
+
+    .. math:: p_{mi}(\rho) = p_{mi}(1) + (\rho - 1)\,[p_{mi}(2) - p_{mi}(1)],\quad \rho = T_{ref}/T_{comp}
+
+    cylinder: geometry, with the same bore and compression ratio. Returns state: pressures, temperatures and what they
+    mean for the fuel.
+
+    Raises
+    ------
+    BadInput
+        The wanted mean pressure is below that of the cycle without fuel
+
+    Notes
+    -----
+    The pressure is linear in p_ref at every angle, so two evaluations close the cycle; a third one corrects round-off.
+    """
+
+    def mean(ratio: float) -> float:
+        return mean_indicated_pressure(absolute_pressure(cycle, cylinder, ratio), 2 * math.pi, kinks(cycle), cylinder)
+
+    without_fuel, slope = mean(1.0), mean(2.0) - mean(1.0)
+    ratio = 1 + (cycle.mean_indicated_pressure - without_fuel) / slope
+    ratio += (cycle.mean_indicated_pressure - mean(ratio)) / slope
+    if ratio <= 1:
+        raise BadInput(
+            f"mean_indicated_pressure = {cycle.mean_indicated_pressure / 1e5:g} bar needs no fuel: without it there "
+            f"are {without_fuel / 1e5:.3g} bar; give more, or a lower scavenge pressure p_s"
+        )
+    return _state(cycle, cylinder, ratio)
+
+
+def _state(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> TwoStrokeState:
+    p_evc, v_evc = scavenging_pressure(cycle.p_s), float(volume(cylinder, cycle.evc))
+    squeeze = v_evc / cylinder.clearance
+    T_comp = cycle.T_evc * squeeze ** (cycle.n_c - 1)
+    dT = T_comp * (ratio - 1)
+    mass = p_evc * v_evc / (cycle.R * cycle.T_evc)
+    # T_ref = T_comp + m_f lhv / (c_v (mass + m_f)), solved for the fuel m_f
+    fuel = mass * cycle.c_v * dT / max(cycle.lhv - cycle.c_v * dT, 1.0)
+    return TwoStrokeState(
+        p_evc=p_evc,
+        p_comp=p_evc * squeeze**cycle.n_c,
+        p_ref=p_evc * squeeze**cycle.n_c * ratio,
+        p_evo=float(absolute_pressure(cycle, cylinder, ratio)(cycle.evo)),
+        T_comp=T_comp,
+        dT=dT,
+        mass=mass,
+        excess_air=mass / fuel / _AIR_BY_FUEL,
+        efficiency=cycle.mean_indicated_pressure * cylinder.displacement / (fuel * cycle.lhv),
+    )
+
+
+def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
+    """Pressure of the two-stroke marine cycle.
+
+    Returns pressure: evaluated by formulas in every phase, so to round-off.
+    """
+    state = solve(cycle, cylinder)
+    absolute = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp)
+    closed = np.linspace(cycle.evc, cycle.evo, _CLOSED_POINTS)
+    hottest = float(np.max(absolute(closed) * volume(cylinder, closed))) / (state.mass * cycle.R)
+    return pressure_over(
+        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
+        phases=events(cycle), facts=_facts(cycle, cylinder, state), doubts=_doubts(state),
+    )  # fmt: skip
+
+
+def _pressure(value: float) -> str:
+    return quantity_text(value, "Pa", 4)
+
+
+def _facts(cycle: TwoStrokeMarine, cylinder: Chamber, state: TwoStrokeState) -> tuple[str, ...]:
+    trapped = float(volume(cylinder, cycle.evc)) / cylinder.clearance
+    burnt = double_wiebe(1.0, cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
+    return (
+        f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
+        f"pressures at top dead centre, absolute: compression {_pressure(state.p_comp)}, "
+        f"expansion reference {_pressure(state.p_ref)}; when the exhaust opens {_pressure(state.p_evo)}",
+        f"temperature rise solved for the mean pressure: {state.dT:.0f} K on {state.T_comp:.0f} K; with lhv and c_v it "
+        f"means {state.excess_air:.2f} times the air needed and an indicated efficiency of {state.efficiency:.2f}",
+        f"burnt at the nominal end of combustion: {burnt:.3f}; the rest burns on, there is no step",
+        f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at "
+        f"{_pressure(state.p_evc)} absolute until the exhaust closes",
+        f"under the piston: {_pressure(back_pressure(cycle))} absolute ({cycle.crank_side})",
+    )
+
+
+def _doubts(state: TwoStrokeState) -> tuple[str, ...]:
+    found = []
+    if state.excess_air < 1.3:
+        found.append(f"the mean pressure needs {state.excess_air:.2f} times the stoichiometric air; a diesel needs 1.3")
+    if state.T_comp + state.dT > 3000:
+        found.append(f"reference temperature {state.T_comp + state.dT:.0f} K is above any flame of oil in air (3000 K)")
+    if state.efficiency > 0.65:
+        found.append(f"indicated efficiency {state.efficiency:.2f} is above what marine engines reach (0.55)")
+    if state.p_evo < state.p_evc:
+        found.append("the pressure is below the scavenge pressure when the exhaust opens")
+    return tuple(found)

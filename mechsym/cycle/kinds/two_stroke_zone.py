@@ -5,15 +5,14 @@ r"""The two-stroke compression-ignition cycle integrated: one zone, first law, h
     SPO..EVC  p = p_evc
 
 Beside the algebraic cycle of `two_stroke` it needs no exponents and no reference temperature; what it needs instead is
-a law for the heat that goes into the walls. The fuel is found for the wanted mean indicated pressure. The Wiebe
-function stops at its nominal end; what it leaves unburnt there (1 to 3 % for the sets of Shen et al.) stays unburnt.
+a law for the heat that goes into the walls, `[heat_transfer]` as for every other engine. The fuel is found for the
+wanted mean indicated pressure. The Wiebe function stops at its nominal end; what it leaves unburnt there (1 to 3 % for
+the sets of Shen et al.) stays unburnt.
 """
 
-import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
 import scipy
@@ -21,22 +20,18 @@ import scipy
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
-from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Law, Woschni
-from mechsym.cycle.kinds.two_stroke import scavenging_pressure
+from mechsym.cycle.cylinder import CylinderGas
+from mechsym.cycle.heat import Law, Woschni
+from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Pure, Scalar
 
 _TURN = 2 * math.pi
 _STOICHIOMETRIC = 14.6  # air over fuel, marine fuel oil
-_LAWS: dict[str, Callable[[float], Law]] = {
-    "none": lambda _: Adiabatic(),
-    # Annand and Ma (1971) for compression ignition: radiation of the flame 3.27e-8 W/(m^2 K^4)
-    "annand": lambda wall: Annand(wall_temperature=wall, a=0.26, radiation=3.27e-8),
-    "woschni": lambda wall: Woschni(wall_temperature=wall),
-    "hohenberg": lambda wall: Hohenberg(wall_temperature=wall),
-}
+_ASSUMED = Woschni(wall_temperature=550.0)  # of a case without [heat_transfer]
 
 
 @record
@@ -60,9 +55,7 @@ class TwoStrokeZone:
     m_d: float = quantity("-", low=0, about="Wiebe form of the share b")
     b: float = quantity("-", low=0, high=1, about="share of the second Wiebe function")
     lhv: float = quantity("J/kg", default=42.7e6, above=0, about="lower heating value of the fuel")
-    speed: float = quantity("rad/s", above=0, about="crank speed, for the heat transfer")
-    heat_transfer: str = choice(*_LAWS, default="woschni", about="law of heat transfer")
-    wall_temperature: float = quantity("K", default=550.0, above=0, about="mean wall temperature")
+    speed: float | None = quantity("rad/s", default=None, above=0, about="of older files", moved="operation.speed")
     #: `nasa` (temperature dependent) or `constant_gamma` (1.35)
     properties: str = choice("nasa", "constant_gamma", default="nasa", about="gas properties")
     p_back: float = quantity("Pa", default=ATMOSPHERE, low=0, about="absolute pressure under the piston")
@@ -83,62 +76,51 @@ class Zone:
 
     result: ClosedRun
     fuel: float  #: Fuel of a cycle [kg]
-    absolute: Callable[[Any], Any]  #: Crank angle [rad] to absolute pressure over the whole turn [Pa]
+    absolute: Callable[[Scalar], Scalar]  #: Crank angle [rad] to absolute pressure over the whole turn [Pa]
     kinks: tuple[float, ...]  #: Where it is not smooth, in [0, 2 pi) [rad]
     mean_indicated: float  #: Mean indicated pressure [Pa]
     cylinder: Chamber
+    walls: Law | None  #: Heat to the walls; None where it is assumed
 
 
-def two_stroke_zone(cycle: TwoStrokeZone, cylinder: Chamber) -> Zone:
-    """Integrate the cycle and find its fuel."""
+def two_stroke_zone(cycle: TwoStrokeZone, cylinder: Chamber, omega: float, walls: Law | None = None) -> Zone:
+    """Integrate the cycle at a speed [rad/s] and find its fuel; without a law of heat to the walls one is assumed."""
+    if not omega > 0:
+        raise BadInput(f"a cycle of kind two-stroke-zone loses heat to its walls: speed = {omega:g} rad/s must be > 0")
     events = (cycle.evc, cycle.soc, cycle.soc + cycle.duration, cycle.evo, cycle.spo)
     kinks = tuple(sorted(float(wrapped(a, _TURN)) for a in events))
-    build = partial(closed_period, cycle, cylinder)
+    build = partial(closed_period, cycle, cylinder, walls or _ASSUMED)
 
     def made(fuel: float) -> Zone:
-        result = run(build, {"omega": cycle.speed, "fuel": fuel})
+        result = run(build, {"omega": omega, "fuel": fuel})
         absolute = _absolute(cycle, result)
         mean = mean_indicated_pressure(absolute, _TURN, kinks, cylinder)
         return Zone(
-            result=result, fuel=fuel, absolute=absolute, kinks=kinks, mean_indicated=mean, cylinder=cylinder
+            result=result, fuel=fuel, absolute=absolute, kinks=kinks, mean_indicated=mean, cylinder=cylinder,
+            walls=walls,
         )  # fmt: skip
 
-    return made(_fuel(cycle, cylinder, lambda fuel: made(fuel).mean_indicated))
+    air = float(build({"omega": omega, "fuel": 0.0}).mass)
+    return made(_fuel(cycle, air, lambda fuel: made(fuel).mean_indicated))
 
 
-def two_stroke_zone_pressure(cycle: TwoStrokeZone, cylinder: Chamber) -> Pressure:
-    """Pressure of the integrated cycle.
+class ZoneGas(CylinderGas):
+    """Gas of the integrated cycle, with the heat that goes into the walls at its speed."""
 
-    Returns
-    -------
-    pressure : Pressure
-        With the fuel that gives the wanted mean pressure, heat shares and the first-law residual among its facts
-    """
-    return _pressure(cycle, two_stroke_zone(cycle, cylinder))
-
-
-def at_speed(cycle: TwoStrokeZone, cylinder: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
-    """Pressure at a speed, and figures of the fuel under the names of the command line.
-
-    Parameters
-    ----------
-    omega : float
-        Crank speed [rad/s]
-    """
-    cycle = dataclasses.replace(cycle, speed=omega)
-    zone = two_stroke_zone(cycle, cylinder)
-    found = shares(cycle, zone)
-    sfc, residual = 3.6e9 / (found["work"] * cycle.lhv), float(zone.result.residual[0])
-    return _pressure(cycle, zone), {
-        "sfc_g_kwh": sfc,
-        "efficiency": found["work"],
-        "energy_residual": residual,
-    } | found
+    def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+        """Pressure at a speed [rad/s], with the fuel for the wanted mean pressure, and the figures of that fuel."""
+        zone = two_stroke_zone(self.cycle, room, omega, self.parts.section("heat_transfer"))
+        found = shares(self.cycle, zone)
+        fuel = {
+            "sfc_g_kwh": 3.6e9 / (found["work"] * self.cycle.lhv), "efficiency": found["work"],
+            "energy_residual": float(zone.result.residual[0]), **burnt_angles(self.cycle, 1.0),
+        }  # fmt: skip
+        return _pressure(self.cycle, zone), fuel | found
 
 
-def as_diagram(cycle: TwoStrokeZone) -> dict[str, Any]:
+def as_diagram(cycle: TwoStrokeZone) -> dict[str, str | float]:
     """What the cycle knows of an engine whose measured diagram takes its place: fields of `Diagram`."""
-    return {"working_cycle": "two-stroke"}
+    return {"working_cycle": "two-stroke", "p_back": cycle.p_back}
 
 
 def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
@@ -152,19 +134,16 @@ def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     )  # fmt: skip
 
 
-def closed_period(cycle: TwoStrokeZone, cylinder: Chamber, design: Any) -> Closed:
+def closed_period(cycle: TwoStrokeZone, cylinder: Chamber, walls: Law, design: Mapping[str, Scalar]) -> Closed:
     """The closed period at a speed and an amount of fuel.
 
-    Parameters
-    ----------
-    design : mapping
-        `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols
+    design: `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols.
     """
     gas = NasaMixture() if cycle.properties == "nasa" else ConstantGamma(gamma=1.35)
     pressure, fuel = scavenging_pressure(cycle.p_s), design["fuel"]
     gas_constant = properties(gas, cycle.T_evc, 0.0).gas_constant
     return Closed(
-        chamber=cylinder, gas=gas, law=_LAWS[cycle.heat_transfer](cycle.wall_temperature), omega=design["omega"],
+        chamber=cylinder, gas=gas, law=walls, omega=design["omega"],
         closes=cycle.evc, starts=cycle.soc, duration=cycle.duration, opens=cycle.evo, pressure=pressure,
         temperature=cycle.T_evc, mass=pressure * volume(cylinder, cycle.evc) / (gas_constant * cycle.T_evc), fuel=fuel,
         heat=fuel * cycle.lhv, fuel_heat=fuel * cycle.lhv, latent_heat=0.0, fuel_entry="injected",
@@ -174,8 +153,8 @@ def closed_period(cycle: TwoStrokeZone, cylinder: Chamber, design: Any) -> Close
     )  # fmt: skip
 
 
-def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float]) -> float:
-    most = float(closed_period(cycle, cylinder, {"omega": cycle.speed, "fuel": 0.0}).mass) / _STOICHIOMETRIC
+def _fuel(cycle: TwoStrokeZone, air: float, mean: Callable[[float], float]) -> float:
+    most = air / _STOICHIOMETRIC
     wanted, least = cycle.mean_indicated_pressure, 1e-4 * most
     low, high = mean(least), mean(most)
     if not low < wanted < high:
@@ -186,26 +165,23 @@ def _fuel(cycle: TwoStrokeZone, cylinder: Chamber, mean: Callable[[float], float
     return float(scipy.optimize.brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
 
 
-def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Any], Any]:
+def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Scalar], Scalar]:
     once = np.append(np.diff(result.phi[0]) > 1e-12, True)
     nodes, p = result.phi[0, once], result.p[0, once]
     closed = scipy.interpolate.CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
     p_evo, p_evc = float(p[-1]), scavenging_pressure(cycle.p_s)
 
-    def one_turn(phi: Any) -> Any:
+    def one_turn(phi: Scalar) -> Scalar:
         line = p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
         return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
 
     return periodic(one_turn, _TURN, start=cycle.evc)
 
 
-def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, float]:
+def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, Pure]:
     """Where the fuel's energy goes.
 
-    Returns
-    -------
-    shares : dict of str to float
-        heat (walls), work (of the turn), exhaust (what is left), unburnt; of the fuel's heating value [-]
+    Returns shares: heat (walls), work (of the turn), exhaust (what is left), unburnt; of the fuel's heating value.
     """
     heat, scalars = zone.fuel * cycle.lhv, zone.result.scalars
     work = zone.mean_indicated * zone.cylinder.displacement / heat
@@ -218,7 +194,14 @@ def _facts(cycle: TwoStrokeZone, zone: Zone) -> tuple[str, ...]:
     excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
     return (
         f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
-        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({cycle.heat_transfer}, walls "
-        f"{cycle.wall_temperature:g} K, assumed), highest mean temperature {result.t.max():.0f} K",
+        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
+        f"temperature {result.t.max():.0f} K",
         f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
     )
+
+
+def _of_walls(law: Law | None) -> str:
+    if law is None:
+        return f"Woschni, walls {_ASSUMED.wall_temperature:g} K, assumed; [heat_transfer] tells it"
+    wall = getattr(law, "wall_temperature", None)
+    return type(law).__name__ + ("" if wall is None else f", walls {wall:g} K")

@@ -26,6 +26,7 @@ from mechsym.cycle.measured.smoothing import noise
 from mechsym.cycle.measured.timing import spread_error, turn_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Radian
 
 _PINNED = 1e-6
 _DEG = math.radians(1.0)
@@ -45,35 +46,32 @@ class Alignment:
     )  #: How far angles are off that were spread evenly over each turn; None where they were not [rad]
 
 
-def sound_cycles(file: str, diagram: Diagram, cylinder: Chamber) -> tuple[Recording, np.ndarray, np.ndarray]:
+def sound_cycles(file: str, diagram: Diagram, cylinder: Chamber) -> tuple[Recording, Radian[Array], Pascal[Array]]:
     """A recording and its cycles, refused where no cylinder made them.
 
-    Returns
-    -------
-    recording : Recording
-        As it stands in the file
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of the first cycle, zero as in the file [rad]
-    rows : ndarray, shape (k, n)
-        Measured pressure [Pa]
+    Returns recording: as it stands in the file; angle: evenly spaced angles of the first cycle, zero as in the file;
+    rows: measured pressure, shape (k, n).
     """
     period = period_of(diagram)
-    recording = read_diagram(file, period, diagram.angle_column, diagram.pressure_column)
+    recording = read_diagram(file, period, diagram.angle_column, diagram.pressure_column, diagram.recorded_speed)
     angle, rows = cut_cycles(recording, period)
     steps = np.abs(np.diff(recording.pressure))
     refuse_no_cylinder(file, angle, rows, cylinder, period, float(steps[steps > 0].min()))
     return recording, angle, rows
 
 
-def align(diagram: Diagram, cylinder: Chamber, recording: Recording, angle: np.ndarray, rows: np.ndarray) -> Alignment:
+def align(
+    diagram: Diagram,
+    cylinder: Chamber,
+    recording: Recording,
+    angle: Radian[Array],
+    rows: Pascal[Array],
+    shared: tuple[DeadCentre, Prior] | None = None,
+) -> Alignment:
     """Find the dead centre by the method of the case, and the charge line through it.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of the first cycle, zero as in the file [rad]
-    rows : ndarray, shape (k, n)
-        Measured pressure [Pa]
+    angle: evenly spaced angles of the first cycle, zero as in the file; rows: measured pressure, shape (k, n). shared:
+    what several records of the encoder say of this one, in place of the method of the case.
     """
     period, prior = period_of(diagram), line_prior(diagram)
     at, mean = in_one_piece(angle, rows.mean(axis=0), period)
@@ -82,18 +80,18 @@ def align(diagram: Diagram, cylinder: Chamber, recording: Recording, angle: np.n
         own, line = from_motored(at, mean, cylinder, prior, "motored record")
     else:
         own, line = from_compression(at, mean, cylinder, between(diagram), prior)
-    found = _named(diagram, cylinder, at, mean)
+    found = carried(shared[0], at, mean) if shared else _named(diagram, cylinder, at, mean)
     chosen = own if found is None else found
     _refuse_far(diagram, chosen, peak_angle(at, mean))
     phi, ordered = in_one_piece(angle - chosen.angle, rows.mean(axis=0), period, start=-math.pi - 0.5)
     if found is not None:
-        pinned = Prior(n0=prior.n0, tdc=(0.0, _PINNED))
+        pinned = dataclasses.replace(shared[1] if shared else prior, tdc=(0.0, _PINNED))
         line = joint_fit(phi, ordered, cylinder, between(diagram), noise(ordered), pinned, [0.0])
     line = dataclasses.replace(line, tdc=0.0)
     _refuse_no_line(recording.file, line, float(np.ptp(mean)))
     turns = turn_speeds(recording)
     spread = None if turns is None else spread_error(turns, phi, ordered - line.offset, cylinder, -chosen.angle)
-    if spread is not None and diagram.alignment != "given":
+    if spread is not None and diagram.alignment != "given" and not shared:
         chosen = widened(chosen, spread)
     return Alignment(
         dead_centre=chosen, fit=line, own=None if found is None else own, motored=motored, spread=spread
@@ -130,13 +128,10 @@ def _refuse_far(diagram: Diagram, found: DeadCentre, top: float) -> None:
     )
 
 
-def between(diagram: Diagram) -> tuple[float, float]:
+def between(diagram: Diagram) -> tuple[Radian, Radian]:
     """Ends of the compression line.
 
-    Returns
-    -------
-    first, last : float
-        From the dead centre [rad]
+    Returns first, last: from the dead centre.
     """
     return diagram.fit_from, diagram.fit_to
 
@@ -154,27 +149,13 @@ def motored_file(diagram: Diagram, cylinder: Chamber) -> DeadCentre:
 
 
 def in_one_piece(
-    angle: np.ndarray, values: np.ndarray, period: float, start: float | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+    angle: Radian[Array], values: Pascal[Array], period: Radian, start: Radian | None = None
+) -> tuple[Radian[Array], Pascal[Array]]:
     """The same samples ordered so that compression, combustion and expansion are in one piece.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of one period [rad]
-    values : ndarray, shape (n,) or (k, n)
-        Samples of pressure, crank angle last [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-    start : float, optional
-        Where the order begins; half a turn and 0.8 rad before the highest pressure by default [rad]
-
-    Returns
-    -------
-    angle : ndarray, shape (n,)
-        Ascending [rad]
-    values : ndarray
-        In the order of the angles [Pa]
+    angle: evenly spaced angles of one period. values: samples of pressure, crank angle last. period: 2 pi or 4 pi.
+    start: where the order begins; half a turn and 0.8 rad before the highest pressure by default. Returns angle:
+    ascending; values: in the order of the angles.
     """
     if start is None:
         start = float(angle[int(np.argmax(values))]) - math.pi - 0.8

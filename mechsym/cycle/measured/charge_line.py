@@ -15,6 +15,7 @@ import scipy
 
 from mechsym.cycle.chamber import Chamber, dvolume_dphi, volume
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pure, Radian
 
 REFERENCE = math.radians(-45.0)
 _GRID = np.linspace(-math.pi, math.pi, 181)  # cubic in between: 1e-6 of the integral
@@ -30,23 +31,14 @@ class ChargeShape:
     sharpness: float  #: Losses follow (V_c/V)^sharpness [-]
 
 
-def log_pressure(cylinder: Chamber, phi: np.ndarray, shape: ChargeShape) -> tuple[np.ndarray, np.ndarray]:
+def log_pressure(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> tuple[Pure[Array], np.ndarray]:
     r"""Logarithm of the pressure of a trapped charge, and how it changes with what it depends on.
 
     .. math:: \ln\frac{p}{p_r} = -n_0 L - \tfrac12 n_1 L^2 - k \int_{\varphi_r}^{\varphi} \left(\frac{V_c}{V}\right)^q
         d\varphi, \quad L = \ln\frac{V}{V_r}
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angle from firing TDC, within half a turn of it [rad]
-
-    Returns
-    -------
-    log_p : ndarray, shape (n,)
-        ln(p/p_r) [-]
-    slopes : ndarray, shape (n, 5)
-        Derivatives by a later dead centre [1/rad], n0, n1 [-], loss [rad], sharpness [-]
+    phi: crank angle from firing TDC, within half a turn of it. Returns slopes: derivatives by a later dead centre
+    [1/rad], n0, n1 [-], loss [rad], sharpness [-], shape (n, 5).
 
     Notes
     -----
@@ -66,20 +58,12 @@ def log_pressure(cylinder: Chamber, phi: np.ndarray, shape: ChargeShape) -> tupl
     return -shape.n0 * level - shape.n1 * level**2 / 2 - shape.loss * lost, slopes
 
 
-def mean_exponent(cylinder: Chamber, shape: ChargeShape, first: float, last: float) -> float:
+def mean_exponent(cylinder: Chamber, shape: ChargeShape, first: Radian, last: Radian) -> Pure:
     r"""The exponent of the straight line between two points of the charge's line.
 
     .. math:: n = -\frac{\ln p_2 - \ln p_1}{\ln V_2 - \ln V_1}
 
-    Parameters
-    ----------
-    first, last : float
-        Crank angles of the two points [rad]
-
-    Returns
-    -------
-    n : float
-        Losses included [-]
+    Returns n: losses included.
     """
     ends = np.array([first, last])
     drop, _ = log_pressure(cylinder, ends, shape)

@@ -6,22 +6,34 @@ measured cycles --> heat release, burn points, exponents of each --> weak cycles
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
+from mechsym.cycle.heat import Hohenberg
 from mechsym.cycle.measured.charge_line import log_pressure, mean_exponent
 from mechsym.cycle.measured.facts import weak_cycles
+from mechsym.cycle.measured.figures import CombustionFigures, combustion_figures
 from mechsym.cycle.measured.fits import Fit, fit_double_wiebe, fit_wiebe, trapped_mass
-from mechsym.cycle.measured.heat_release import Combustion, burnt_fraction, combustion, heat_release
+from mechsym.cycle.measured.heat_release import (
+    Combustion,
+    Walls,
+    burnt_fraction,
+    combustion,
+    heat_release,
+    wall_heat,
+)
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
+from mechsym.page import Shown
 from mechsym.quantities import quantity, record
+from mechsym.quantities.results import result
+from mechsym.quantities.units import Array, Pascal, Radian, RadPerSecond
 
 _DEGREE = math.radians(1.0)
 _EARLIEST = math.radians(-45.0)
 _BEFORE_COMBUSTION = math.radians(-30.0)
 _Z = 1.96
+_WALL = 430.0  # of walls: usual [K]
 
 
 @record
@@ -37,11 +49,29 @@ class Analysis:
     charge_temperature: float = quantity("K", default=330.0, above=0, about="when the inlet closes")
 
 
+@result
+class DeadCentreShift:
+    """What another dead centre changes; None where its uncertainty is not known."""
+
+    work: float | None = quantity("-")  #: Work of the cycle, relative
+    heat: float | None = quantity("-")  #: Heat released, relative
+    burn_50: float | None = quantity("rad")  #: Angle at which half is burnt
+
+    def by(self, turned: float | None) -> "DeadCentreShift":
+        """The size of the change by a dead centre that is off by some degrees, from that by one degree [-]."""
+        if turned is None:
+            return DeadCentreShift(work=None, heat=None, burn_50=None)
+        return DeadCentreShift(**{name: abs(change) * turned / _DEGREE for name, change in vars(self).items()})
+
+
 @record
-class DiagramCombustion:
+class DiagramCombustion(Shown):
     """What a measured diagram says of combustion."""
 
     measured: MeasuredCycles
+    cylinder: Chamber
+    analysis: Analysis
+    figures: CombustionFigures
     cycles: tuple[Combustion, ...]
     mean: Combustion
     weak: tuple[int, ...]  #: Cycles with less than 0.7 of the median work, from 0
@@ -51,18 +81,16 @@ class DiagramCombustion:
     line: Fit  #: Charge line of the joint fit: exponent, dead centre, pressure when the inlet closes
     mass: float  #: Trapped mass from that line [kg]
     tdc_uncertainty: float | None  #: Of the alignment [rad]
-    #: Change by one degree of later dead centre: `work`, `heat` relative [-], `burn_50` [rad]
-    per_degree: dict[str, float]
-    uncertainty: dict[str, float | None]  #: The same for the uncertainty of the dead centre
+    per_degree: DeadCentreShift  #: Change by one degree of later dead centre
+    uncertainty: DeadCentreShift  #: Change by the uncertainty of the dead centre
 
 
-def diagram_combustion(measured: MeasuredCycles, cylinder: Chamber, analysis: Analysis) -> DiagramCombustion:
+def diagram_combustion(
+    measured: MeasuredCycles, cylinder: Chamber, analysis: Analysis, omega: RadPerSecond
+) -> DiagramCombustion:
     """Take the measured cycles apart.
 
-    Returns
-    -------
-    found : DiagramCombustion
-        Cycle by cycle and for the mean
+    omega: speed of the record. Returns found: cycle by cycle and for the mean.
     """
     phi, cycles = around_compression(measured.phi, measured.cycles, measured.period)
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
@@ -77,18 +105,34 @@ def diagram_combustion(measured: MeasuredCycles, cylinder: Chamber, analysis: An
     v_closed = float(volume(cylinder, analysis.inlet_closes))
     slopes = sensitivity(phi, average, cylinder, analysis)
     spread = measured.tdc_uncertainty
+    mass = trapped_mass(line.values[2], v_closed, analysis.charge_temperature, analysis.gas_constant)
+    walls = Walls(
+        law=Hohenberg(wall_temperature=_WALL), mass=mass, gas_constant=analysis.gas_constant, omega=omega
+    )  # fmt: skip
     return DiagramCombustion(
         measured=measured,
+        cylinder=cylinder,
+        analysis=analysis,
+        figures=combustion_figures(
+            phi,
+            cycles,
+            cylinder,
+            measured.period,
+            spread or 0.0,
+            each,
+            abs(slopes.burn_50 or 0.0) / _DEGREE,
+            wall_heat(at, average[inside], cylinder, walls) if burns else None,
+        ),  # fmt: skip
         cycles=each,
         mean=_said(combustion(phi, average, cylinder, analysis.gamma, ends), burns),
         weak=weak_cycles(np.array([c.mean_indicated for c in each])) if burns else (),
         wiebe=fit_wiebe(at[burning], burnt[burning]) if burns else None,
         double_wiebe=fit_double_wiebe(at[burning], burnt[burning]) if burns else None,
         line=line,
-        mass=trapped_mass(line.values[2], v_closed, analysis.charge_temperature, analysis.gas_constant),
+        mass=mass,
         tdc_uncertainty=spread,
         per_degree=slopes,
-        uncertainty={k: None if spread is None else abs(v) * spread / _DEGREE for k, v in slopes.items()},
+        uncertainty=slopes.by(spread),
     )
 
 
@@ -113,54 +157,25 @@ def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:
     pressure = measured.level * math.exp(float(log_p[0]))
     return Fit(
         names=("n", "tdc", "pressure"),
+        units=("-", "rad", "Pa"),
         values=(mean_exponent(cylinder, fit.shape, closed, _BEFORE_COMBUSTION), 0.0, pressure),
         confidence=(_Z * exponent, measured.tdc_uncertainty or 0.0, _Z * level * pressure),
         rms=measured.scale * fit.rms,
+        unit="Pa",
     )
 
 
-def sensitivity(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, analysis: Analysis) -> dict[str, float]:
-    """What a dead centre that lies one degree later changes.
+def sensitivity(phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, analysis: Analysis) -> DeadCentreShift:
+    """What a dead centre that lies one degree later changes, by central differences.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles of one period [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure [Pa]
-
-    Returns
-    -------
-    change : dict of str to float
-        `work`, `heat` relative [-], `burn_50` [rad], by central differences
+    p: absolute pressure.
     """
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
     earlier, here, later = (
         combustion(phi + shift, p, cylinder, analysis.gamma, ends) for shift in (_DEGREE / 2, 0.0, -_DEGREE / 2)
     )
-    return {
-        "work": (later.work - earlier.work) / here.work,
-        "heat": (later.heat - earlier.heat) / here.heat if here.heat else 0.0,
-        "burn_50": later.burn_angles[1] - earlier.burn_angles[1],
-    }
-
-
-def rows(found: DiagramCombustion) -> list[dict[str, Any]]:
-    """One row for each cycle, in the units of the command line.
-
-    Returns
-    -------
-    rows : list of dict
-        cycle (from 1), mep_bar, p_max_bar, p_max_deg, heat_j, burn_10_deg, burn_50_deg, burn_90_deg, n_compression,
-        n_expansion, weak
-    """
-    table = []
-    for k, cycle in enumerate(found.cycles):
-        burn_10, burn_50, burn_90 = (math.degrees(angle) for angle in cycle.burn_angles)
-        table.append({
-            "cycle": k + 1, "mep_bar": cycle.mean_indicated / 1e5, "p_max_bar": cycle.p_max / 1e5,
-            "p_max_deg": math.degrees(cycle.phi_p_max), "heat_j": cycle.heat, "burn_10_deg": burn_10,
-            "burn_50_deg": burn_50, "burn_90_deg": burn_90, "n_compression": cycle.n_compression,
-            "n_expansion": cycle.n_expansion, "weak": k in found.weak,
-        })  # fmt: skip
-    return table
+    return DeadCentreShift(
+        work=(later.work - earlier.work) / here.work,
+        heat=(later.heat - earlier.heat) / here.heat if here.heat else 0.0,
+        burn_50=later.burn_angles[1] - earlier.burn_angles[1],
+    )

@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.measured.file import Recording
+from mechsym.quantities.units import Array, Pascal, Radian
 
 # The cut may not lie between these angles from the pressure peak
 _BEFORE, _AFTER = math.radians(-140.0), math.radians(80.0)
@@ -20,20 +21,11 @@ _CUT = math.radians(120.0)
 _FEWEST, _MOST = 720, 7200
 
 
-def cut_cycles(recording: Recording, period: float) -> tuple[np.ndarray, np.ndarray]:
+def cut_cycles(recording: Recording, period: Radian) -> tuple[Radian[Array], Pascal[Array]]:
     """Cut a recording into whole cycles.
 
-    Parameters
-    ----------
-    period : float
-        2 pi or 4 pi [rad]
-
-    Returns
-    -------
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of the first cycle, zero as in the file [rad]
-    cycles : ndarray, shape (k, n)
-        Pressure of each cycle [Pa]
+    period: 2 pi or 4 pi. Returns angle: evenly spaced angles of the first cycle, zero as in the file; cycles: pressure
+    of each cycle, shape (k, n).
 
     Notes
     -----

@@ -16,11 +16,12 @@ from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, joint_fit
 from mechsym.cycle.measured.smoothing import noise
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Pure, Radian
 
 _Z = 1.96
 _DEG = math.radians(1.0)
 _EARLIER, _BURNS = (0.0, 8.0 * _DEG), 1.4
-_ENCODER = 0.2 * _DEG  # what no line tells of: its mounting, its teeth
+ENCODER = 0.2 * _DEG  # what no line tells of: its mounting, its teeth
 THROUGH = (-60.0 * _DEG, 60.0 * _DEG)
 _LOSS_ANGLE, _STARTS = (0.6 * _DEG, 0.6 * _DEG), (-18.0, -5.0)
 _MOTORED = 0.004  # of the swing: a line without combustion leaves a tenth of it, the weakest one with it twice as much
@@ -40,86 +41,66 @@ class DeadCentre:
     loss_angle: float | None = None  #: From the motored peak to the dead centre, where there is such a peak [rad]
 
 
-def given(angle: float) -> DeadCentre:
+def given(angle: Radian) -> DeadCentre:
     """A dead centre that the case says.
 
-    Parameters
-    ----------
-    angle : float
-        Angle of the file at firing TDC [rad]
+    angle: angle of the file at firing TDC.
     """
     return DeadCentre(angle=angle, low=angle, high=angle, method="given", prior_share=None)
 
 
-def behind_peak(peak: float, loss_angle: float) -> DeadCentre:
+def behind_peak(peak: Radian, loss_angle: Radian) -> DeadCentre:
     """A dead centre behind the peak of a motored record.
 
-    Parameters
-    ----------
-    peak : float
-        Angle of the file at the peak [rad]
-    loss_angle : float
-        From the peak to the dead centre, as the case says [rad]
+    peak: angle of the file at the peak; loss_angle: from the peak to the dead centre, as the case says.
     """
     # heat and blow-by move the peak by 0.2 to 1.4 degrees, whatever a case assumes
-    return _around(peak + loss_angle, 0.3 * _DEG, "motored peak and loss angle", prior_share=1.0, loss_angle=loss_angle)
+    return interval(
+        peak + loss_angle, 0.3 * _DEG, "motored peak and loss angle", prior_share=1.0, loss_angle=loss_angle
+    )
 
 
 def from_compression(
-    angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], prior: Prior
+    angle: Radian[Array], mean: Pascal[Array], cylinder: Chamber, between: tuple[Radian, Radian], prior: Prior
 ) -> tuple[DeadCentre, JointFit]:
     """Dead centre of a fired record from its compression line.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Ascending angles of one period, compression in one piece [rad]
-    mean : ndarray, shape (n,)
-        Measured pressure of the mean cycle [Pa]
-    between : tuple of float
-        Ends of the line from the dead centre [rad]
+    angle: ascending angles of one period, compression in one piece; mean: measured pressure of the mean cycle; between:
+    ends of the line from the dead centre.
     """
     top = peak_angle(angle, mean)
-    starts, inside = [top + s * _DEG for s in _STARTS], (top - 60 * _DEG, top + 4 * _DEG)
+    inside = (top - 60 * _DEG, top + 4 * _DEG)
+    starts = [prior.tdc[0]] if prior.tdc else [top + s * _DEG for s in _STARTS]
     ends = [(between[0], between[1] - by) for by in _EARLIER if between[1] - by - between[0] > 25 * _DEG]
     fits = [joint_fit(angle, mean, cylinder, end, noise(mean), prior, starts, inside) for end in ends]
     # where an earlier end leaves far less, something burns before the end that the case names
     fit = fits[0]
     for earlier in fits[1:]:
         fit = earlier if fit.sigma > _BURNS * earlier.sigma else fit
-    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), _ENCODER)
+    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), ENCODER)
     share = 1 - (1 - fit.prior_share) * fit.covariance[0, 0] / spread**2
-    return _around(fit.tdc, spread, "compression line", prior_share=share), fit
+    return interval(fit.tdc, spread, "compression line", prior_share=share), fit
 
 
 def from_motored(
-    angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Prior, method: str
+    angle: Radian[Array], mean: Pascal[Array], cylinder: Chamber, prior: Prior, method: str
 ) -> tuple[DeadCentre, JointFit]:
     """Dead centre of a record without combustion from compression and expansion together.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Ascending angles of one period, compression in one piece [rad]
-    mean : ndarray, shape (n,)
-        Measured pressure of the mean cycle [Pa]
+    angle: ascending angles of one period, compression in one piece; mean: measured pressure of the mean cycle.
     """
     top = peak_angle(angle, mean)
-    fit = joint_fit(angle, mean, cylinder, THROUGH, noise(mean), prior, [top + _LOSS_ANGLE[0]])
-    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), _ENCODER)
+    start = prior.tdc[0] if prior.tdc else top + _LOSS_ANGLE[0]
+    fit = joint_fit(angle, mean, cylinder, THROUGH, noise(mean), prior, [start])
+    spread = math.hypot(math.sqrt(fit.covariance[0, 0]), ENCODER)
     share = 1 - (1 - fit.prior_share) * fit.covariance[0, 0] / spread**2
-    return _around(fit.tdc, spread, method, prior_share=share, loss_angle=fit.tdc - top), fit
+    return interval(fit.tdc, spread, method, prior_share=share, loss_angle=fit.tdc - top), fit
 
 
-def is_motored(angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Prior) -> bool:
+def is_motored(angle: Radian[Array], mean: Pascal[Array], cylinder: Chamber, prior: Prior) -> bool:
     """Whether one line of trapped charge goes through compression and expansion: nothing burns.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Ascending angles of one period, compression in one piece [rad]
-    mean : ndarray, shape (n,)
-        Measured pressure of the mean cycle [Pa]
+    angle: ascending angles of one period, compression in one piece; mean: measured pressure of the mean cycle.
     """
     top, sigma = peak_angle(angle, mean), noise(mean)
     pinned = Prior(n0=prior.n0, tdc=(top + _LOSS_ANGLE[0], _LOSS_ANGLE[1]))
@@ -127,15 +108,10 @@ def is_motored(angle: np.ndarray, mean: np.ndarray, cylinder: Chamber, prior: Pr
     return math.sqrt(max(fit.rms**2 - sigma**2, 0.0)) < _MOTORED * float(np.ptp(mean))
 
 
-def carried(found: DeadCentre, angle: np.ndarray, mean: np.ndarray) -> DeadCentre:
+def carried(found: DeadCentre, angle: Radian[Array], mean: Pascal[Array]) -> DeadCentre:
     """The dead centre of a motored record on the angles of a fired one of the same encoder.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Ascending angles of one period of the fired record [rad]
-    mean : ndarray, shape (n,)
-        Its measured pressure [Pa]
+    angle: ascending angles of one period of the fired record; mean: its measured pressure.
     """
     # an encoder knows whole turns: the one is taken whose dead centre lies just before the peak of combustion
     expected = peak_angle(angle, mean) - 12 * _DEG
@@ -143,31 +119,18 @@ def carried(found: DeadCentre, angle: np.ndarray, mean: np.ndarray) -> DeadCentr
     return dataclasses.replace(found, angle=found.angle + moved, low=found.low + moved, high=found.high + moved)
 
 
-def widened(found: DeadCentre, by: float) -> DeadCentre:
+def widened(found: DeadCentre, by: Radian) -> DeadCentre:
     """The same dead centre in an interval that is wider.
 
-    Parameters
-    ----------
-    by : float
-        On both sides [rad]
+    by: on both sides.
     """
     return dataclasses.replace(found, low=found.low - by, high=found.high + by)
 
 
-def peak_angle(angle: np.ndarray, mean: np.ndarray) -> float:
+def peak_angle(angle: Radian[Array], mean: Pascal[Array]) -> Radian:
     """Angle of the highest pressure, by a parabola: noise moves a single sample by degrees.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of one period [rad]
-    mean : ndarray, shape (n,)
-        Measured pressure [Pa]
-
-    Returns
-    -------
-    peak : float
-        Angle of the file [rad]
+    angle: evenly spaced angles of one period; mean: measured pressure. Returns peak: angle of the file.
     """
     at = int(np.argmax(mean))
     step = float(angle[1] - angle[0])
@@ -179,5 +142,14 @@ def peak_angle(angle: np.ndarray, mean: np.ndarray) -> float:
     return float(angle[at] - c1 / (2 * c2)) if inside else float(angle[at])
 
 
-def _around(angle: float, spread: float, method: str, **more: float | None) -> DeadCentre:
-    return DeadCentre(angle=angle, low=angle - _Z * spread, high=angle + _Z * spread, method=method, **more)
+def interval(
+    angle: Radian, spread: Radian, method: str, prior_share: Pure | None = None, loss_angle: Radian | None = None
+) -> DeadCentre:
+    """A dead centre with its 95 % interval.
+
+    spread: standard deviation; the others as in `DeadCentre`.
+    """
+    low, high = angle - _Z * spread, angle + _Z * spread
+    return DeadCentre(
+        angle=angle, low=low, high=high, method=method, prior_share=prior_share, loss_angle=loss_angle
+    )  # fmt: skip

@@ -12,6 +12,7 @@ from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Radian
 
 
 @record
@@ -29,12 +30,22 @@ class Diagram:
     #: Headers to take where several columns carry such a unit
     angle_column: str = ""
     pressure_column: str = ""
+    recorded_speed: float | None = quantity(
+        "rad/s", default=None, above=0, about="speed of a file that has times and no angles"
+    )
     #: Dead centre: `given` (tdc_offset), `motored_peak` (peak of a motored diagram plus loss_angle) or
     #: `compression_line` (a joint fit of that line, or of the file `motored`)
     alignment: str = choice("given", "motored_peak", "compression_line", default="compression_line")
     tdc_offset: float = quantity("rad", default=0.0, about="angle of the file at firing TDC")
     #: From the pressure peak of a motored engine to TDC, for `motored_peak` [rad]
-    loss_angle: float = quantity("rad", default=math.radians(0.7), low=0, high=0.1, about="motored peak to TDC")
+    loss_angle: float = quantity(
+        "rad",
+        default=math.radians(0.7),
+        low=0,
+        high=0.1,
+        about="motored peak to TDC",
+        only=("alignment", "motored_peak"),
+    )
     #: Offset: `none` (the file is absolute), `gauge` (it is above p_back), `inlet` (inlet_pressure at the bottom dead
     #: centre before compression) or `polytropic` (the compression line follows the exponent n_c) or `joint` (its joint
     #: fit with dead centre, exponent and losses)
@@ -47,7 +58,9 @@ class Diagram:
     #: Absolute pressure at the bottom dead centre before compression, and while the exhaust is pushed out; without the
     #: first the scale is checked against 0.2 to 5 bar only [Pa]
     inlet_pressure: float | None = quantity("Pa", default=None, above=0, below=20e5, about="absolute, at BDC")
-    exhaust_pressure: float = quantity("Pa", default=1.05e5, above=0, below=20e5, about="absolute, exhaust stroke")
+    exhaust_pressure: float = quantity(
+        "Pa", default=1.05e5, above=0, below=20e5, about="absolute, exhaust stroke", only=("scale", "exhaust")
+    )
     #: Where the compression line is read: after the inlet closes, before combustion starts [rad]
     fit_from: float = quantity("rad", default=math.radians(-90.0), low=-2.8, below=0, about="start of the line")
     fit_to: float = quantity("rad", default=math.radians(-15.0), low=-2.8, below=0, about="end of the line")
@@ -86,12 +99,9 @@ def line_prior(diagram: Diagram) -> Prior:
     return Prior(n0=(diagram.n_c + 0.03, Prior().n0[1]))
 
 
-def period_of(diagram: Diagram) -> float:
+def period_of(diagram: Diagram) -> Radian:
     """Period of the diagram.
 
-    Returns
-    -------
-    period : float
-        2 pi or 4 pi [rad]
+    Returns period: 2 pi or 4 pi.
     """
     return 2 * math.pi if diagram.working_cycle == "two-stroke" else 4 * math.pi

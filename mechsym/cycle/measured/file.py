@@ -17,8 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.files import read_text
+from mechsym.inputs import read_text
 from mechsym.quantities import parse, record
+from mechsym.quantities.units import Radian, RadPerSecond
 
 # Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
 _UNITS = {
@@ -28,7 +29,14 @@ _UNITS = {
 }
 _HEADER = re.compile(r"^(?P<name>.*?)(?:_(?P<plain>[A-Za-z]+)|\s*[\[(]\s*(?P<bracketed>[^\])]*?)\s*[\])])$")
 _DELIMITERS = (";", "\t", ",")
+_COMMA = re.compile(r"^[+-]?\d+,\d+([eE][+-]?\d+)?$")
+_ALIASES = {
+    "°": "deg", "degCA": "deg", "CAD": "deg", "°CA": "deg", "°KW": "deg", "DEG": "deg", "Bar": "bar", "BAR": "bar",
+}  # fmt: skip
 _COARSEST = math.radians(15.0)
+_RISING = 0.9  # share of the steps: a pressure falls in more than a third of them
+
+_BEYOND = 1e30  # no sensor reads it in any unit: a logger's mark of a value that is not there
 
 
 @record
@@ -44,26 +52,27 @@ class Recording:
     time: np.ndarray | None  #: shape (n,): Time of each sample; None when the file has no column of it [s]
 
 
-def read_diagram(path: str | Path, period: float, angle_column: str = "", pressure_column: str = "") -> Recording:
+def read_diagram(
+    path: str | Path, period: Radian, angle_column: str = "", pressure_column: str = "",
+    omega: RadPerSecond | None = None,
+) -> Recording:  # fmt: skip
     """Read a diagram file and refuse what cannot be trusted.
 
-    Parameters
-    ----------
-    path : str or Path
-        CSV file; columns divided by comma, semicolon or tab
-    period : float
-        2 pi or 4 pi: how far at least the angle must go [rad]
-    angle_column, pressure_column : str
-        Header of the column to take when several carry such a unit
+    path: CSV file; columns divided by comma, semicolon or tab. period: 2 pi or 4 pi: how far at least the angle must
+    go. angle_column, pressure_column: header of the column to take when several carry such a unit. omega: speed
+    of a file that has times and no angles.
     """
     comments, header, rows = split_table(str(path), text_of(path))
-    angle_at, angle_unit = _column(str(path), header, "rad", angle_column)
-    pressure_at, pressure_unit = _column(str(path), header, "Pa", pressure_column)
     names, clock = header[1], _clock(header[1])
+    by_time = omega is not None and clock and not any(_unit(name) in _UNITS["rad"] for name in names)
+    angle_at, angle_unit = clock[0] if by_time else _column(str(path), header, "rad", angle_column)
+    pressure_at, pressure_unit = _column(str(path), header, "Pa", pressure_column)
     lines = np.array([line for line, _ in rows])
     values = numbers_of(str(path), rows, names, (angle_at, pressure_at, *(at for at, _ in clock)))
     pressure = values[:, 1] * parse(f"1 {pressure_unit}", "Pa")
-    angle = _continuous(str(path), values[:, 0] * parse(f"1 {angle_unit}", "rad"), lines)
+    _refuse_swapped(str(path), pressure, names[pressure_at])
+    turned = omega * parse(f"1 {angle_unit}", "s") if by_time and omega else parse(f"1 {angle_unit}", "rad")
+    angle = _continuous(str(path), values[:, 0] * turned, lines)
     _check_steps(str(path), angle, lines, names[angle_at])
     _check_span(str(path), angle, period, names[angle_at])
     _check_pressure(str(path), pressure, names[pressure_at])
@@ -76,6 +85,20 @@ def read_diagram(path: str | Path, period: float, angle_column: str = "", pressu
         columns=(names[angle_at], names[pressure_at]),
         time=_rising(str(path), values[:, 2] * parse(f"1 {clock[0][1]}", "s"), lines) if clock else None,
     )
+
+
+def has_angles(path: str | Path) -> bool:
+    """Whether a file has a column of crank angles; else it has times at best."""
+    _, (_, names), _ = split_table(str(path), text_of(path))
+    return any(_unit(name) in _UNITS["rad"] for name in names)
+
+
+def _refuse_swapped(file: str, pressure: np.ndarray, name: str) -> None:
+    if np.mean(np.diff(pressure) > 0) > _RISING:
+        raise BadInput(
+            f"{file}: {name} rises from nearly every row to the next, as an angle or a time does and no pressure; are "
+            "two columns swapped? exchange their headings, or name the right ones with angle_column and pressure_column"
+        )
 
 
 def _clock(names: list[str]) -> list[tuple[int, str]]:
@@ -115,6 +138,12 @@ def split_table(file: str, text: str) -> tuple[list[str], tuple[int, list[str]],
     # one reader a line: an unbalanced quotation mark must not swallow the rows below it
     cells = [next(csv.reader([content], delimiter=delimiter)) for _, content in table]
     rows = [(line, [cell.strip() for cell in row]) for (line, _), row in zip(table, cells, strict=True)]
+    if delimiter != ",":  # a comma stands for the point where it divides no columns
+        rows = [(line, [cell.replace(",", ".") if _COMMA.match(cell) else cell for cell in row]) for line, row in rows]
+    if len(rows) > 2 and len(rows[1][1]) == len(rows[0][1]) and not any(map(_is_number, rows[1][1])):
+        # a second line of units, as loggers write it
+        named = [f"{name} [{unit.strip('[]()')}]" for name, unit in zip(rows[0][1], rows[1][1], strict=True)]
+        rows = [(rows[0][0], named), *rows[2:]]
     if all(_is_number(cell) for cell in rows[0][1]):
         raise BadInput(
             f"{file}, line {rows[0][0]}: numbers where the header should be; "
@@ -147,13 +176,14 @@ def _column(file: str, header: tuple[int, list[str]], si: str, wanted: str) -> t
     raise BadInput(
         f"{file}, line {line}: no column has the unit of a {what} ({', '.join(_UNITS[si])}); columns are "
         f"{', '.join(names)}; write the unit into the name, for example "
-        f"{'crank_angle_deg' if si == 'rad' else 'pressure_bar'}"
+        f"{'crank_angle_deg, or give the speed of a file of times' if si == 'rad' else 'pressure_bar'}"
     )
 
 
 def _unit(name: str) -> str:
     match = _HEADER.match(name)
-    return (match["plain"] or match["bracketed"] or "") if match else ""
+    unit = (match["plain"] or match["bracketed"] or "") if match else ""
+    return _ALIASES.get(unit, unit)
 
 
 def numbers_of(file: str, rows: list[tuple[int, list[str]]], names: list[str], at: tuple[int, ...]) -> np.ndarray:
@@ -171,9 +201,9 @@ def numbers_of(file: str, rows: list[tuple[int, list[str]]], names: list[str], a
                     f"{file}, line {line}: {names[column]} = {cells[column]!r} is not a number; mend the line"
                 )
             values[row, k] = float(cells[column])
-            if not math.isfinite(values[row, k]):
+            if not abs(values[row, k]) < _BEYOND:
                 raise BadInput(
-                    f"{file}, line {line}: {names[column]} = {cells[column]} is not finite; "
+                    f"{file}, line {line}: {names[column]} = {cells[column]} is not finite, or no measured value; "
                     "cut the record so that no sample is missing"
                 )
     return values

@@ -11,14 +11,17 @@ model fitted, not for what the model leaves out.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 import scipy
 
 from mechsym.cycle.wiebe import wiebe
 from mechsym.quantities import record
+from mechsym.quantities.results import Columns
+from mechsym.quantities.units import Array, Kelvin, Kilogram, Pascal, Pure, Radian, Volume
 
 _Z = 1.959963984540054  # 95 % of a normal distribution
 _DOUBLE_STARTS = ((0.3, 1.0, 0.5), (0.6, 2.0, 0.7), (0.7, 1.0, 1.5))  # b, m_p, m_d to begin with
@@ -29,32 +32,32 @@ class Fit:
     """A least-squares fit."""
 
     names: tuple[str, ...]
-    #: Their values and the half width of their 95 % confidence intervals, [units of the function that made it]
+    units: tuple[str, ...]  #: SI, of the values
+    #: Their values and the half width of their 95 % confidence intervals [units]
     values: tuple[float, ...]
     confidence: tuple[float, ...]
     rms: float  #: Root mean square of the residuals [unit of the data]
+    unit: str = "-"  #: Of the data
+
+    @property
+    def columns(self) -> Columns:
+        """`rms`, and each value with its confidence by its name."""
+        pairs = zip(self.names, self.values, self.confidence, strict=True)
+        values = {name: {"value": value, "confidence": half} for name, value, half in pairs}
+        units = {"rms": self.unit, **dict(zip(self.names, self.units, strict=True))}
+        return Columns({"rms": self.rms, **values}, units)
 
 
 def least_squares_fit(
-    residuals: Callable[[np.ndarray], np.ndarray], names: Sequence[str], start: np.ndarray, bounds: Any,
-    jacobian: Any = "3-point",
-) -> Fit:  # fmt: skip
+    residuals: Callable[[np.ndarray], np.ndarray], names: Mapping[str, str], start: np.ndarray, bounds: object
+) -> Fit:
     """Fit parameters to residuals and say how well they are known.
 
-    Parameters
-    ----------
-    start : ndarray, shape (k,)
-        Where to begin, in the parameters' own units [-]
-    jacobian : callable or str
-        Derivative of the residuals, or the name of a difference scheme
-
-    Returns
-    -------
-    fit : Fit
-        Values with confidence; a parameter that the data do not determine has infinite confidence
+    names: names of the parameters with their units; start: where to begin [units of the parameters], shape (k,).
+    Returns fit: values with confidence; a parameter that the data do not determine has infinite confidence.
     """
     found = scipy.optimize.least_squares(
-        residuals, start, jacobian, bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12
+        residuals, start, "3-point", bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12
     )
     left, freedom = found.fun, max(found.fun.size - found.x.size, 1)
     centred = left - left.mean()
@@ -62,53 +65,31 @@ def least_squares_fit(
     r = min(max(float(centred[:-1] @ centred[1:]) / power, 0.0), 0.999) if power > 0 else 0.0
     spread = np.sqrt(_variances(found.jac) * (left @ left) / freedom * (1 + r) / (1 - r))
     return Fit(
-        names=tuple(names), values=tuple(float(v) for v in found.x), rms=float(np.sqrt(np.mean(left**2))),
-        confidence=tuple(float(_Z * s) for s in spread),
+        names=tuple(names), units=tuple(names.values()), values=tuple(float(v) for v in found.x),
+        confidence=tuple(float(_Z * s) for s in spread), rms=float(np.sqrt(np.mean(left**2))),
     )  # fmt: skip
 
 
-def trapped_mass(pressure: float, v: float, temperature: float, gas_constant: float) -> float:
-    r"""Mass of gas from the compression line.
+def trapped_mass(
+    pressure: Pascal, v: Volume, temperature: Kelvin, gas_constant: Annotated[float, "J/(kg*K)"]
+) -> Kilogram:
+    """Mass of gas from the compression line.
 
     .. math:: m = p V/(R T)
 
-    Parameters
-    ----------
-    pressure : float
-        On the line, where the inlet closes [Pa]
-    v : float
-        Volume there [m^3]
-    temperature : float
-        Assumed temperature there; the mass is as uncertain as this [K]
-    gas_constant : float
-        Specific gas constant [J/(kg*K)]
-
-    Returns
-    -------
-    mass : float
-        Trapped mass [kg]
+    pressure: on the line, where the inlet closes. temperature: assumed temperature there; the mass is as uncertain as
+    this. gas_constant: specific gas constant. Returns mass: trapped mass.
     """
     return pressure * v / (gas_constant * temperature)
 
 
-def fit_wiebe(phi: np.ndarray, burnt: np.ndarray, a: float = 5.0) -> Fit:
+def fit_wiebe(phi: Radian[Array], burnt: Pure[Array], a: Pure = 5.0) -> Fit:
     r"""Single Wiebe function through a burnt fraction.
 
     .. math:: X = \frac{1 - e^{-a y^{m+1}}}{1 - e^{-a}}, \quad y = (\varphi - \varphi_s)/\Delta\varphi \le 1
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    burnt : ndarray, shape (n,)
-        Burnt fraction, 0 to 1 [-]
-    a : float
-        Completeness, which the duration cannot be told apart from [-]
-
-    Returns
-    -------
-    fit : Fit
-        `start`, `duration` [rad], `m` [-]; rms [-]
+    burnt: burnt fraction, 0 to 1; a: completeness, which the duration cannot be told apart from. Returns fit: `start`,
+    `duration` [rad], `m` [-]; rms [-].
     """
 
     def residuals(x: np.ndarray) -> np.ndarray:
@@ -118,43 +99,41 @@ def fit_wiebe(phi: np.ndarray, burnt: np.ndarray, a: float = 5.0) -> Fit:
     first, last = phi[np.argmax(burnt > 0.02)], phi[np.argmax(burnt > 0.98)]
     start = np.array([first, max(last - first, 0.05), 1.5])
     bounds = (np.array([phi[0], 0.01, 0.0]), np.array([phi[-1], phi[-1] - phi[0], 15.0]))
-    return least_squares_fit(residuals, ("start", "duration", "m"), start, bounds)
+    return least_squares_fit(residuals, {"start": "rad", "duration": "rad", "m": "-"}, start, bounds)
 
 
-def fit_double_wiebe(phi: np.ndarray, burnt: np.ndarray, a_p: float = 5.0, a_d: float = 5.0) -> Fit:
-    r"""Double Wiebe function through a burnt fraction.
+def fit_double_wiebe(phi: Radian[Array], burnt: Pure[Array], a: Pure = 5.0) -> Fit:
+    r"""Double Wiebe function through a burnt fraction; of its two parts the shorter one is p, the premixed.
 
-    .. math:: X = (1-b)\{1 - e^{-a_p y_p^{m_p+1}}\} + b\{1 - e^{-a_d y_d^{m_d+1}}\}, \; y = (\varphi-\varphi_s)/\Delta
+    .. math:: X = (1-b)\{1 - e^{-a y_p^{m_p+1}}\} + b\{1 - e^{-a y_d^{m_d+1}}\}, \; y = (\varphi-\varphi_s)/\Delta
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    burnt : ndarray, shape (n,)
-        Burnt fraction, 0 to 1 [-]
-    a_p, a_d : float
-        Completeness of both parts, which their durations cannot be told apart from [-]
-
-    Returns
-    -------
-    fit : Fit
-        `start`, `duration_p`, `duration_d` [rad], `m_p`, `m_d`, `b` [-]; rms [-]
+    burnt: burnt fraction, 0 to 1; a: completeness of both parts, which their durations cannot be told apart from.
+    Returns fit: `start`, `duration_p`, `duration_d` [rad], `m_p`, `m_d`, `b` [-]; rms [-].
     """
 
     def residuals(x: np.ndarray) -> np.ndarray:
         start, d_p, d_d, m_p, m_d, b = x
-        parts = (1 - b) * wiebe((phi - start) / d_p, a_p, m_p) + b * wiebe((phi - start) / d_d, a_d, m_d)
+        parts = (1 - b) * wiebe((phi - start) / d_p, a, m_p) + b * wiebe((phi - start) / d_d, a, m_d)
         return parts - burnt
 
     single = fit_wiebe(phi, burnt)
     start, duration, _ = single.values
     bounds = (np.array([phi[0], 0.01, 0.01, 0.0, 0.0, 0.0]), np.array([phi[-1], 6.0, 6.0, 15.0, 15.0, 1.0]))
-    names = ("start", "duration_p", "duration_d", "m_p", "m_d", "b")
+    names = dict.fromkeys(("start", "duration_p", "duration_d"), "rad") | dict.fromkeys(("m_p", "m_d", "b"), "-")
     tries = [
         least_squares_fit(residuals, names, np.array([start, 0.5 * duration, duration, m_p, m_d, b]), bounds)
         for b, m_p, m_d in _DOUBLE_STARTS
     ]
-    return min(tries, key=lambda fit: fit.rms)
+    best = min(tries, key=lambda fit: fit.rms)
+    return best if best.values[1] <= best.values[2] else _exchanged(best)
+
+
+def _exchanged(fit: Fit) -> Fit:
+    """The same double Wiebe function with its parts p and d by each other's names."""
+    start, d_p, d_d, m_p, m_d, b = fit.values
+    of_p, of_d, m_of_p, m_of_d = fit.confidence[1:5]
+    confidence = (fit.confidence[0], of_d, of_p, m_of_d, m_of_p, fit.confidence[5])
+    return replace(fit, values=(start, d_d, d_p, m_d, m_p, 1 - b), confidence=confidence)
 
 
 def _variances(jacobian: np.ndarray) -> np.ndarray:

@@ -9,12 +9,15 @@ and its highest value after top dead centre. All of it stands on the dead centre
 
 import math
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, dvolume_dphi, piston_area, volume
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.quantities import record
+from mechsym.quantities.results import quantity, result
+from mechsym.quantities.units import Array, Joule, Pascal, Pure, Radian
 
 LEVELS = (0.1, 0.5, 0.9)
 _EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
@@ -22,21 +25,19 @@ _COMPRESSION = (math.radians(-90.0), math.radians(-30.0))
 _EXPANSION = (math.radians(60.0), math.radians(110.0))
 
 
-@record
+@result
 class Combustion:
-    """What one cycle's pressure says of its combustion."""
+    """What one cycle's pressure says of its combustion; angles from firing dead centre."""
 
-    work: float  #: Net work over the period [J]
-    mean_indicated: float  #: Work over swept volume [Pa]
-    #: Peak pressure [Pa] and its crank angle [rad]
-    p_max: float
-    phi_p_max: float
-    heat: float  #: Heat released, apparent or gross [J]
-    #: Crank angles at the burnt fractions `LEVELS`; nan where combustion does not get there [rad]
-    burn_angles: tuple[float, ...]
-    #: Polytropic exponents, -90 to -30 and 60 to 110 degrees [-]
-    n_compression: float
-    n_expansion: float
+    work: float = quantity("J")  #: Net work over the period
+    mean_indicated: float = quantity("Pa")  #: Work over swept volume
+    p_max: float = quantity("Pa")  #: Peak pressure, absolute
+    phi_p_max: float = quantity("rad")  #: Where that is
+    heat: float = quantity("J")  #: Heat released, apparent or gross
+    #: Where 10, 50 and 90 % are burnt; nan where combustion does not get there
+    burn_angles: tuple[float, ...] = quantity("rad")
+    n_compression: float = quantity("-")  #: Polytropic exponent from -90 to -30 degrees
+    n_expansion: float = quantity("-")  #: Polytropic exponent from 60 to 110 degrees
 
 
 @record
@@ -50,48 +51,26 @@ class Walls:
 
 
 def heat_release(
-    phi: np.ndarray, p: np.ndarray, cylinder: Chamber, gamma: float, walls: Walls | None = None
-) -> np.ndarray:
+    phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, gamma: Pure, walls: Walls | None = None
+) -> Joule[Array]:
     r"""Cumulative heat release.
 
     .. math:: Q(\varphi) = \frac{p V - p_0 V_0}{\gamma - 1} + \int_{\varphi_0}^{\varphi} p\,dV
         + \int_{\varphi_0}^{\varphi} \frac{q A_w}{\omega}\,d\varphi
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles of the closed period, from firing TDC [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure [Pa]
-    gamma : float
-        Ratio of heat capacities [-]
-    walls : Walls, optional
-        Adds the heat that went into the walls: gross instead of apparent
-
-    Returns
-    -------
-    q : ndarray, shape (n,)
-        0 at phi[0] [J]
+    phi: ascending crank angles of the closed period, from firing TDC. p: absolute pressure. gamma: ratio of heat
+    capacities. walls: adds the heat that went into the walls: gross instead of apparent. Returns q: 0 at phi[0].
     """
     v = volume(cylinder, phi)
     q = (p * v - p[0] * v[0]) / (gamma - 1) + cumulative(phi, p * dvolume_dphi(cylinder, phi))
     return q if walls is None else q + cumulative(phi, _wall_rate(phi, p, cylinder, walls))
 
 
-def burnt_fraction(phi: np.ndarray, q: np.ndarray) -> np.ndarray:
+def burnt_fraction(phi: Radian[Array], q: Joule[Array]) -> Pure[Array]:
     """Burnt fraction from the cumulative heat release.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles, from firing TDC [rad]
-    q : ndarray, shape (n,)
-        Cumulative heat release [J]
-
-    Returns
-    -------
-    burnt : ndarray, shape (n,)
-        0 at the lowest value between 45 degrees before TDC and the highest one, 1 there, held outside [-]
+    phi: ascending crank angles, from firing TDC. Returns burnt: 0 at the lowest value between 45 degrees before TDC and
+    the highest one, 1 there, held outside.
     """
     top = int(np.argmax(q))
     first = min(int(np.searchsorted(phi, _EARLIEST)), top)
@@ -102,22 +81,11 @@ def burnt_fraction(phi: np.ndarray, q: np.ndarray) -> np.ndarray:
     return np.where(np.arange(q.size) <= bottom, 0.0, np.where(np.arange(q.size) >= top, 1.0, inside))
 
 
-def burn_angles(phi: np.ndarray, burnt: np.ndarray, levels: Sequence[float] = LEVELS) -> tuple[float, ...]:
+def burn_angles(phi: Radian[Array], burnt: Pure[Array], levels: Sequence[Pure] = LEVELS) -> tuple[Radian, ...]:
     """Crank angles at which given shares are burnt.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles [rad]
-    burnt : ndarray, shape (n,)
-        Burnt fraction [-]
-    levels : sequence of float
-        Shares [-]
-
-    Returns
-    -------
-    angles : tuple of float
-        Last crossing of each level, straight between samples; nan if there is none [rad]
+    phi: ascending crank angles; burnt: burnt fraction. Returns angles: last crossing of each level, straight between
+    samples; nan if there is none.
     """
     angles = []
     for level in levels:
@@ -130,45 +98,30 @@ def burn_angles(phi: np.ndarray, burnt: np.ndarray, levels: Sequence[float] = LE
     return tuple(angles)
 
 
-def polytropic_fit(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, first: float, last: float) -> float:
+def polytropic_fit(phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, first: Radian, last: Radian) -> Pure:
     r"""Exponent of the line log p over log V between two crank angles.
 
     .. math:: n = -d\log p/d\log V
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure; samples that are not positive are left out [Pa]
-    first, last : float
-        Ends of the piece [rad]
-
-    Returns
-    -------
-    n : float
-        Least-squares exponent [-]
+    p: absolute pressure; samples that are not positive are left out. first, last: ends of the piece. Returns n:
+    least-squares exponent.
     """
     inside = (phi >= first) & (phi <= last) & (p > 0)
     return -float(np.polyfit(np.log(volume(cylinder, phi[inside])), np.log(p[inside]), 1)[0])
 
 
 def combustion(
-    phi: np.ndarray, p: np.ndarray, cylinder: Chamber, gamma: float, closed: tuple[float, float],
+    phi: Radian[Array],
+    p: Pascal[Array],
+    cylinder: Chamber,
+    gamma: Pure,
+    closed: tuple[Radian, Radian],
     walls: Walls | None = None,
-) -> Combustion:  # fmt: skip
+) -> Combustion:
     """Work, peak, heat release, burn points and exponents of one cycle.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Evenly spaced, ascending crank angles of one period, the closed part in one piece [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure [Pa]
-    gamma : float
-        Ratio of heat capacities [-]
-    closed : tuple of float
-        Ends of the closed part [rad]
+    phi: evenly spaced, ascending crank angles of one period, the closed part in one piece; p: absolute pressure; gamma:
+    ratio of heat capacities; closed: ends of the closed part.
     """
     work = float(np.sum(p * dvolume_dphi(cylinder, phi)) * (phi[1] - phi[0]))
     inside = (phi >= closed[0]) & (phi <= closed[1])
@@ -188,22 +141,20 @@ def combustion(
     )
 
 
-def cumulative(phi: np.ndarray, rate: np.ndarray) -> np.ndarray:
+def cumulative(phi: Radian[Array], rate: Annotated[Array, "J/rad"]) -> Joule[Array]:
     """Running integral by the trapezoidal rule.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles [rad]
-    rate : ndarray, shape (n,)
-        Rate by angle [J/rad]
-
-    Returns
-    -------
-    total : ndarray, shape (n,)
-        0 at phi[0] [J]
+    phi: ascending crank angles; rate: rate by angle. Returns total: 0 at phi[0].
     """
     return np.concatenate([[0.0], np.cumsum(np.diff(phi) * (rate[1:] + rate[:-1]) / 2)])
+
+
+def wall_heat(phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, walls: Walls) -> Joule:
+    """Heat that the walls take over the angles given.
+
+    phi: ascending crank angles from firing TDC; p: absolute pressure.
+    """
+    return float(cumulative(phi, _wall_rate(phi, p, cylinder, walls))[-1])
 
 
 def _wall_rate(phi: np.ndarray, p: np.ndarray, cylinder: Chamber, walls: Walls) -> np.ndarray:

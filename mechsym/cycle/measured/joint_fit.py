@@ -10,12 +10,14 @@ of the sensor at one speed is a later dead centre: their sum is found, and the s
 
 import math
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.charge_line import REFERENCE, ChargeShape, log_pressure
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Radian
 
 _RAMP = math.radians(5.0)
 _LONGEST_STEP = math.radians(3.0)
@@ -52,30 +54,21 @@ class JointFit:
 
 
 def joint_fit(
-    phi: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], sigma: float,
-    prior: Prior, starts: Sequence[float], inside: tuple[float, float] = (-math.inf, math.inf),
-) -> JointFit:  # fmt: skip
+    phi: Radian[Array],
+    mean: Pascal[Array],
+    cylinder: Chamber,
+    between: tuple[Radian, Radian],
+    sigma: Pascal,
+    prior: Prior,
+    starts: Sequence[Radian],
+    inside: tuple[Radian, Radian] = (-math.inf, math.inf),
+) -> JointFit:
     """Fit the charge line of the mean cycle.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles on any scale [rad]
-    mean : ndarray, shape (n,)
-        Measured pressure [Pa]
-    between : tuple of float
-        Ends of the line from the dead centre; they move along with it [rad]
-    sigma : float
-        White noise of the mean cycle [Pa]
-    starts : sequence of float
-        Dead centres to begin with; where the line fits best in the end counts [rad]
-    inside : tuple of float
-        Between which angles the dead centre must lie [rad]
-
-    Returns
-    -------
-    fit : JointFit
-        With the noise that the residuals show where that is more than `sigma` [Pa]
+    phi: ascending crank angles on any scale. mean: measured pressure. between: ends of the line from the dead centre;
+    they move along with it. sigma: white noise of the mean cycle. starts: dead centres to begin with; where the line
+    fits best in the end counts. inside: between which angles the dead centre must lie. Returns fit: with the noise that
+    the residuals show where that is more than `sigma` [Pa].
     """
     swing = float(np.ptp(mean))
     floor = max(sigma / swing, 1e-5)
@@ -87,26 +80,18 @@ def joint_fit(
 
 
 def cycle_lines(
-    phi: np.ndarray, rows: np.ndarray, cylinder: Chamber, between: tuple[float, float], shape: ChargeShape,
-    drift: float,
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    phi: Radian[Array],
+    rows: Pascal[Array],
+    cylinder: Chamber,
+    between: tuple[Radian, Radian],
+    shape: ChargeShape,
+    drift: Annotated[float, "Pa/rad"],
+) -> tuple[Pascal[Array], Pascal[Array]]:
     """Offset and level of every cycle under the shape that all of them share.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending crank angles from firing TDC [rad]
-    rows : ndarray, shape (k, n)
-        Measured pressure of each cycle [Pa]
-    between : tuple of float
-        Ends of the line [rad]
-    drift : float
-        How fast the offset changes [Pa/rad]
-
-    Returns
-    -------
-    offsets, levels : ndarray, shape (k,)
-        Of each cycle, 45 degrees before TDC [Pa]
+    phi: ascending crank angles from firing TDC; rows: measured pressure of each cycle, shape (k, n); between: ends of
+    the line; drift: how fast the offset changes. Returns offsets, levels: of each cycle, 45 degrees before TDC, shape
+    (k,).
     """
     root = np.sqrt(_weights(phi, between))
     inside = root > 0
@@ -121,12 +106,22 @@ def cycle_lines(
 def pulls(fit: JointFit, prior: Prior) -> np.ndarray:
     """How far the dead centre of a fit goes with the middle of each of its priors.
 
-    Returns
-    -------
-    pulls : ndarray, shape (8,)
-        In the order of the covariance, 0 for what is free [rad by the unit of each]
+    Returns pulls: in the order of the covariance, 0 for what is free [rad by the unit of each], shape (8,).
     """
     return fit.covariance[0] * _known(prior, fit.tdc)[1] ** 2
+
+
+def information(fit: JointFit, prior: Prior) -> tuple[np.ndarray, np.ndarray]:
+    """What the samples of a fit say by themselves of dead centre, n0, n1, loss and sharpness, the rest free.
+
+    prior: of the fit, taken out again. Returns weight, pull: they say weight @ x = pull with the covariance inv(weight)
+    [by the units of the values], shape (5, 5), (5,).
+    """
+    middle, tight = (of[:5] for of in _known(prior, fit.tdc))
+    shape = fit.shape
+    values = np.array([fit.tdc, shape.n0, shape.n1, shape.loss, shape.sharpness])
+    both, before = np.linalg.inv(fit.covariance[:5, :5]), np.diag(tight**2)
+    return both - before, both @ values - before @ middle
 
 
 def _weights(phi: np.ndarray, between: tuple[float, float]) -> np.ndarray:

@@ -19,6 +19,7 @@ from mechsym.cycle.measured.joint_fit import JointFit, Prior, joint_fit, pulls
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
 from mechsym.cycle.measured.smoothing import noise
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Radian, RadPerSecond
 
 _Z, _LEVEL = 1.96, 0.975
 _FEWEST = 4
@@ -55,18 +56,10 @@ def lag_of(measured: MeasuredCycles, cylinder: Chamber, diagram: Diagram) -> Sen
     return sensor_lag(cycle_fits(phi, rows, cylinder, ends, prior), speeds, prior)
 
 
-def without_lag(found: DeadCentre, lag: SensorLag) -> tuple[float, float]:
+def without_lag(found: DeadCentre, lag: SensorLag) -> tuple[Radian, Radian]:
     """Dead centre of a record less the lag in it.
 
-    Parameters
-    ----------
-    found : DeadCentre
-        Of the mean cycle, by its own line
-
-    Returns
-    -------
-    angle, half : float
-        Angle of the file and half its 95 % interval [rad]
+    found: of the mean cycle, by its own line. Returns angle, half: angle of the file and half its 95 % interval.
     """
     return found.angle - lag.lag * lag.omega, math.hypot((found.high - found.low) / 2, lag.half * lag.omega)
 
@@ -76,40 +69,25 @@ def _differ(speeds: np.ndarray) -> bool:
 
 
 def cycle_fits(
-    phi: np.ndarray, rows: np.ndarray, cylinder: Chamber, ends: tuple[float, float], prior: Prior
-) -> list[JointFit]:  # fmt: skip
+    phi: Radian[Array], rows: Pascal[Array], cylinder: Chamber, ends: tuple[Radian, Radian], prior: Prior
+) -> list[JointFit]:
     """Charge line of every cycle by itself.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Ascending angles from the dead centre of the mean cycle, compression in one piece [rad]
-    rows : ndarray, shape (k, n)
-        Pressure of each cycle [Pa]
-    ends : tuple of float
-        Ends of the line [rad]
+    phi: ascending angles from the dead centre of the mean cycle, compression in one piece; rows: pressure of each
+    cycle, shape (k, n).
     """
     return [joint_fit(phi, row, cylinder, ends, noise(row), prior, [0.0]) for row in rows]
 
 
-def sensor_lag(fits: Sequence[JointFit], speeds: np.ndarray, prior: Prior) -> SensorLag | None:
+def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Prior) -> SensorLag | None:
     r"""Lag of the sensor from dead centres at several speeds, by weighted regression.
 
     .. math:: \tau = \sum_k b_k \varphi_k, \quad b_k = \frac{w_k (\omega_k - \bar\omega)}
         {\sum_i w_i (\omega_i - \bar\omega)^2}, \quad
         h^2 = t_{K-2}^2 s^2 + 1.96^2 \sum_j \left(\sum_k b_k g_{kj} c_j \ln\frac{\omega_k}{\bar\omega}\right)^2
 
-    Parameters
-    ----------
-    fits : sequence of JointFit
-        Line of every cycle, of one or several records of one sensor and encoder, on one scale of angles
-    speeds : ndarray, shape (k,)
-        Their speeds [rad/s]
-
-    Returns
-    -------
-    lag : SensorLag or None
-        None with fewer than four cycles or a single speed
+    fits: line of every cycle, of one or several records of one sensor and encoder, on one scale of angles; speeds:
+    their speeds, shape (k,). Returns lag: None with fewer than four cycles or a single speed.
 
     Notes
     -----

@@ -11,11 +11,13 @@ import numpy as np
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.alignment import Alignment, align, between, in_one_piece, sound_cycles
 from mechsym.cycle.measured.charge_line import ChargeShape, log_pressure
+from mechsym.cycle.measured.dead_centre import DeadCentre
 from mechsym.cycle.measured.diagram import Diagram, period_of
-from mechsym.cycle.measured.joint_fit import JointFit, cycle_lines
+from mechsym.cycle.measured.joint_fit import JointFit, Prior, cycle_lines
 from mechsym.cycle.measured.timing import cycle_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pascal, Radian
 
 _AT_BDC = math.radians(10.0)
 _EXHAUST_MIDDLE, _EXHAUST_REACH = math.radians(270.0), math.radians(30.0)
@@ -54,15 +56,20 @@ class MeasuredCycles:
         return None if found.method == "given" else (found.high - found.low) / 2
 
 
-def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
-    """Read a diagram file and make absolute pressure over the crank angle of it."""
+def measured_cycles(
+    diagram: Diagram, cylinder: Chamber, shared: tuple[DeadCentre, Prior] | None = None
+) -> MeasuredCycles:
+    """Read a diagram file and make absolute pressure over the crank angle of it.
+
+    shared: what several records of the encoder say of this one, in place of the method of the case.
+    """
     if not diagram.file:
         raise BadInput(
             "the diagram has no file; name it with --set cycle.file=FILE (or --diagram FILE of hinge, forces, cycle)"
         )
     period = period_of(diagram)
     recording, angle, raw = sound_cycles(diagram.file, diagram, cylinder)
-    found = align(diagram, cylinder, recording, angle, raw)
+    found = align(diagram, cylinder, recording, angle, raw, shared)
     # the row starts before TDC and ends behind it, whatever the file calls its angles
     phi = angle - found.dead_centre.angle
     phi = phi - period * math.ceil(phi[0] / period)
@@ -89,24 +96,13 @@ def measured_cycles(diagram: Diagram, cylinder: Chamber) -> MeasuredCycles:
     )
 
 
-def around_compression(phi: np.ndarray, values: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
+def around_compression(
+    phi: Radian[Array], values: Pascal[Array], period: Radian
+) -> tuple[Radian[Array], Pascal[Array]]:
     """The same samples ordered so that compression is in one piece.
 
-    Parameters
-    ----------
-    phi : ndarray, shape (n,)
-        Crank angles of one period [rad]
-    values : ndarray, shape (n,) or (k, n)
-        Samples of pressure, crank angle last [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-
-    Returns
-    -------
-    phi : ndarray, shape (n,)
-        Ascending from half a turn and 0.5 rad before TDC [rad]
-    values : ndarray
-        In the order of phi [Pa]
+    values: samples of pressure, crank angle last; period: 2 pi or 4 pi. Returns phi: ascending from half a turn and 0.5
+    rad before TDC; values: in the order of phi.
     """
     return in_one_piece(phi, values, period, start=-math.pi - 0.5)
 

@@ -8,6 +8,7 @@ The spline leaves out as much as the noise of the mean cycle; both are reported,
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.facts import diagram_facts
@@ -19,10 +20,7 @@ from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, peri
 def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
     """Pressure of a measured diagram.
 
-    Returns
-    -------
-    pressure : Pressure
-        Mean cycle, smooth and periodic: no kinks
+    Returns pressure: mean cycle, smooth and periodic: no kinks.
     """
     measured = measured_cycles(diagram, cylinder)
     mean = measured.cycles.mean(axis=0)
@@ -45,3 +43,11 @@ def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
             for d in diagram_doubts(diagram, cylinder, measured, phi_p_max)
         ),
     )
+
+
+class DiagramGas(CylinderGas):
+    """Gas of a measured diagram, at the speed at which it was taken."""
+
+    def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
+        """Pressure at any speed [rad/s]; of the fuel a diagram tells nothing."""
+        return diagram_pressure(self.cycle, room), {}

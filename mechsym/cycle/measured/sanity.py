@@ -12,6 +12,7 @@ import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.errors import BadInput
+from mechsym.quantities.units import Array, Pascal, Radian
 
 _DEG = math.radians(1.0)
 _NEAR = 60 * _DEG
@@ -21,20 +22,12 @@ _FLAT, _STUCK = 3 * _DEG, 20 * _DEG
 
 
 def refuse_no_cylinder(
-    file: str, angle: np.ndarray, rows: np.ndarray, cylinder: Chamber, period: float, resolution: float
+    file: str, angle: Radian[Array], rows: Pascal[Array], cylinder: Chamber, period: Radian, resolution: Pascal
 ) -> None:
     """Refuse what is no pressure of this cylinder, with the reason and the way out.
 
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Evenly spaced angles of one period [rad]
-    rows : ndarray, shape (k, n)
-        Measured pressure of each cycle [Pa]
-    period : float
-        2 pi or 4 pi [rad]
-    resolution : float
-        Smallest step between two samples of the record that are not equal [Pa]
+    angle: evenly spaced angles of one period; rows: measured pressure of each cycle, shape (k, n); period: 2 pi or 4
+    pi; resolution: smallest step between two samples of the record that are not equal.
     """
     _refuse_flat(file, angle, rows, resolution)
     mean, step = rows.mean(axis=0), float(angle[1] - angle[0])
@@ -50,15 +43,12 @@ def refuse_no_cylinder(
         )
 
 
-def motored_width(cylinder: Chamber) -> float:
+def motored_width(cylinder: Chamber) -> Radian:
     r"""Crank angle over which a motored charge is above half of its peak pressure.
 
     .. math:: \left(V(\varphi)/V_c\right)^{-1.33} = 1/2
 
-    Returns
-    -------
-    width : float
-        Both sides of the dead centre; half a turn where the compression ratio is too low for that [rad]
+    Returns width: both sides of the dead centre; half a turn where the compression ratio is too low for that.
     """
     v_c, half = float(volume(cylinder, 0.0)), 2 ** (1 / 1.33)
     if cylinder.compression_ratio <= half:

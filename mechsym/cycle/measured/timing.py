@@ -10,7 +10,9 @@ import math
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, dvolume_dphi
-from mechsym.cycle.measured.file import Recording
+from mechsym.cycle.measured.diagram import Diagram, period_of
+from mechsym.cycle.measured.file import Recording, read_diagram
+from mechsym.quantities.units import Array, Pascal, Radian, RadPerSecond
 
 _TURN = 2 * math.pi
 _STRAIGHT = math.radians(0.1)
@@ -19,20 +21,11 @@ _UNKNOWN = math.radians(1.5)  # where the speeds of the turns do not tell: usual
 _MOST = math.radians(4.0)
 
 
-def cycle_speeds(recording: Recording, start: float, period: float, count: int) -> np.ndarray | None:
+def cycle_speeds(recording: Recording, start: Radian, period: Radian, count: int) -> RadPerSecond[Array] | None:
     """Mean speed of every cycle.
 
-    Parameters
-    ----------
-    start : float
-        Angle at which the first cycle begins [rad]
-    period : float
-        2 pi or 4 pi [rad]
-
-    Returns
-    -------
-    omega : ndarray, shape (k,)
-        From the first to the last sample of each cycle; None without times [rad/s]
+    start: angle at which the first cycle begins; period: 2 pi or 4 pi. Returns omega: from the first to the last sample
+    of each cycle; None without times, shape (k,).
     """
     if recording.time is None:
         return None
@@ -41,26 +34,29 @@ def cycle_speeds(recording: Recording, start: float, period: float, count: int) 
     return (recording.angle[last] - recording.angle[first]) / (recording.time[last] - recording.time[first])
 
 
-def recorded_speed(recording: Recording) -> float | None:
+def recorded_speed(recording: Recording) -> RadPerSecond | None:
     """Mean speed of a whole record.
 
-    Returns
-    -------
-    omega : float
-        None without times [rad/s]
+    Returns omega: None without times.
     """
     if recording.time is None:
         return None
     return float((recording.angle[-1] - recording.angle[0]) / (recording.time[-1] - recording.time[0]))
 
 
-def turn_speeds(recording: Recording) -> np.ndarray | None:
+def speed_of(diagram: Diagram) -> RadPerSecond | None:
+    """Speed that the file of a diagram tells by its times; None without them."""
+    if not diagram.file:
+        return None
+    columns = diagram.angle_column, diagram.pressure_column
+    return recorded_speed(read_diagram(diagram.file, period_of(diagram), *columns, diagram.recorded_speed))
+
+
+def turn_speeds(recording: Recording) -> RadPerSecond[Array] | None:
     """Mean speed of every whole turn between two zeros of the encoder, where the angles are spread evenly over them.
 
-    Returns
-    -------
-    omega : ndarray, shape (k,)
-        None without times, with fewer than three turns, or where the angles follow the shaft inside a turn [rad/s]
+    Returns omega: None without times, with fewer than three turns, or where the angles follow the shaft inside a turn,
+    shape (k,).
     """
     if recording.time is None:
         return None
@@ -78,28 +74,22 @@ def turn_speeds(recording: Recording) -> np.ndarray | None:
     return found if kinked else None
 
 
-def spread_error(turns: np.ndarray, phi: np.ndarray, p: np.ndarray, cylinder: Chamber, zero: float) -> float:
+def spread_error(
+    turns: RadPerSecond[Array], phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, zero: Radian
+) -> Radian:
     r"""How far angles are off that were spread evenly over each turn.
 
     .. math:: \frac{\Delta\omega}{\omega} = \frac{1}{J\omega^2} \int (M - \bar M)\,d\varphi, \quad
         e = \int_{turn} \left(\frac{\Delta\omega}{\omega} - \overline{\frac{\Delta\omega}{\omega}}\right) d\varphi
 
-    Parameters
-    ----------
-    turns : ndarray, shape (k,)
-        Speed of successive turns [rad/s]
-    phi : ndarray, shape (n,)
-        Evenly spaced crank angles of one period, from firing TDC [rad]
-    p : ndarray, shape (n,)
-        Absolute pressure of the mean cycle [Pa]
-    zero : float
-        Crank angle at which a turn of the encoder begins [rad]
+    turns: speed of successive turns, shape (k,); phi: evenly spaced crank angles of one period, from firing TDC; p:
+    absolute pressure of the mean cycle; zero: crank angle at which a turn of the encoder begins.
 
     Returns
     -------
     error : float
-        Largest error over the period, from the gas torque M and the inertia J that explains by how much the speeds of
-        successive turns differ; 1.5 degrees where they cannot tell [rad]
+        Largest error over the period, from the gas torque M and the inertia J that explains by how much the speeds
+        of successive turns differ; 1.5 degrees where they cannot tell
     """
     step, count = float(phi[1] - phi[0]), round(phi.size * float(phi[1] - phi[0]) / _TURN)
     torque = p * dvolume_dphi(cylinder, phi)

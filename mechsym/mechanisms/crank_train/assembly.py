@@ -2,11 +2,10 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import casadi as ca
-import numpy as np
 
 from mechsym.mechanisms.crank_train import forces
 from mechsym.mechanisms.crank_train.forces import Instances, Outputs
@@ -14,6 +13,9 @@ from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.crank_train.throws import ThrowPart, parts
 from mechsym.mechanisms.record import LazyFunctions, Mechanism, generated
 from mechsym.quantities import record
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
 
 _STATE = ("phi", "phid", "phidd", "F")
 # the dynamics, and the torque of each section of the shaft
@@ -36,30 +38,6 @@ def build(p: CrankTrainParameters) -> Mechanism:
     return _mechanism(p, _symbols(names, len(names), len(p.throw)), _elastic)
 
 
-def build_driven(p: CrankTrainParameters) -> Mechanism:
-    """The elastic train with a torque on its first throw as a further input.
-
-    Returns
-    -------
-    mechanism : Mechanism
-        Named CasADi functions; reactions take the input too, though none of them feels it at given accelerations
-    """
-    plain = build(p)
-    made = {name: functools.partial(plain.functions.__getitem__, name) for name in plain.functions}
-    made |= {name: functools.partial(_driven, plain, name) for name in ("dynamics", "reactions")}
-    return dataclasses.replace(plain, inputs=(*plain.inputs, "M_drive"), functions=LazyFunctions(made))
-
-
-def _driven(plain: Mechanism, group: str) -> ca.Function:
-    function, torque = plain.functions[group], ca.SX.sym("M_drive")
-    inputs = [ca.SX.sym(name) for name in function.name_in()]
-    outputs = dict(zip(function.name_out(), function.call(inputs), strict=True))
-    if group == "dynamics":
-        force = outputs["generalized_force"]
-        outputs["generalized_force"] = ca.vertcat(force[0] + torque, force[1:])
-    return _function(group, [*inputs, torque], outputs)
-
-
 def build_rigid(p: CrankTrainParameters) -> Mechanism:
     """The mechanism with one coordinate for the whole shaft; shaft torques from the balance of the throws before."""
     return _mechanism(p, _symbols(("phi",), max(p.throw) + 1, len(p.throw)), _rigid)
@@ -67,7 +45,7 @@ def build_rigid(p: CrankTrainParameters) -> Mechanism:
 
 def _elastic(p: CrankTrainParameters, s: _Symbols, rows: list[ca.SX]) -> _Joined:
     mass, bias, force = rows
-    torques = ca.DM(each(p, "k")) * _sections(s.q) + ca.DM(each(p, "c")) * _sections(s.u)
+    torques = ca.vertcat(*each(p, "k")) * _sections(s.q) + ca.vertcat(*each(p, "c")) * _sections(s.u)
     ends = ca.vertcat(0, torques, 0)
     joined = force - ends[1:] + ends[:-1]
     return {"mass_matrix": ca.diag(mass), "bias": bias, "generalized_force": joined}, torques
@@ -109,7 +87,7 @@ def _throw(group: str) -> ca.Function:
 def _tables(s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
     """What gives the outputs of a group, a row each, for all parts, a column each."""
     names, n = generated("crank_throw").PARAMETERS, len(s.q)
-    letters = np.array([[*(part.letters[name] for name in names), part.shift] for part in all_parts]).T
+    letters = ca.horzcat(*(ca.vertcat(*(part.letters[name] for name in names), part.shift) for part in all_parts))
     # nothing pushes a crank that is alone
     every, nothing = ca.vertcat(*s.q, *s.u, *s.a, *s.forces, 0), 3 * n + len(s.forces)
     rows = [
@@ -141,7 +119,7 @@ def _mechanism(
         return join(p, s, _rows(p, s, all_parts, tables("dynamics")))
 
     def energy() -> Outputs:
-        found, strain = throws("energy"), ca.sum1(ca.DM(each(p, "k")) * _sections(s.q) ** 2 / 2)
+        found, strain = throws("energy"), ca.sum1(ca.vertcat(*each(p, "k")) * _sections(s.q) ** 2 / 2)
         of_shaft = {"kinetic_energy": p.I_f * s.u[-1] ** 2 / 2, "potential_energy": strain}
         return {name: sum((outputs[name] for _, outputs in found), start) for name, start in of_shaft.items()}
 
@@ -161,38 +139,41 @@ def _mechanism(
         "reactions": ([*q, *u, *a, *s.forces], reactions),
         "momentum": ([*q, *u, *a], momentum),
     }
-    makers = {name: functools.partial(_made, name, *group) for name, group in groups.items()}
+    makers = {name: functools.partial(_made, p, name, *group) for name, group in groups.items()}
     return Mechanism(
-        name="crank_train", coordinates=s.names, inputs=tuple(map(str, s.forces)),
-        parameters={f.name: getattr(p, f.name) for f in dataclasses.fields(p)}, functions=LazyFunctions(makers),
-    )  # fmt: skip
+        name="crank_train",
+        coordinates=s.names,
+        inputs=tuple(map(str, s.forces)),
+        parameters=vars(p),
+        functions=LazyFunctions(makers),
+    )
 
 
-def _made(name: str, inputs: list[ca.SX], outputs: Callable[[], Outputs]) -> ca.Function:
-    return _function(name, inputs, outputs())
+def _made(p: CrankTrainParameters, name: str, inputs: list[ca.SX], outputs: Callable[[], Outputs]) -> ca.Function:
+    made, free = outputs(), [v for v in vars(p).values() if isinstance(v, ca.SX)]
+    letters = [*inputs, *free]
+    return ca.Function(name, letters, list(made.values()), [str(v) for v in letters], list(made))
 
 
-def _function(name: str, inputs: list[ca.SX], outputs: dict[str, ca.SX]) -> ca.Function:
-    return ca.Function(name, inputs, list(outputs.values()), [str(v) for v in inputs], list(outputs))
-
-
-def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
+def listing(mechanism: Mechanism | None = None) -> "Listing":
     """Letters and units, like the stored listing of a generated mechanism.
 
-    Parameters
-    ----------
-    mechanism : Mechanism, optional
-        Of `build`; without it the letters stand for any number of throws
-
-    Returns
-    -------
-    listing : mapping
-        Keys name, about, source, coordinates, parameters, inputs, outputs, equations
+    mechanism: of `build`; without it the letters stand for any number of throws. Returns listing: keys name, about,
+    source, coordinates, parameters, inputs, outputs, equations.
     """
     coordinates = mechanism.coordinates if mechanism else ("phi1..phiN", "phi_f")
     inputs = mechanism.inputs if mechanism else ("F1..", "M")
-    names = ("x_1", "psi_1", "pin_force_x_1", "side_force_1", "main_bearing_force_x_1", "shaft_torque_1", "..")
-    outputs = names if mechanism is None else _outputs(mechanism)
+    names: Sequence[str] = (
+        "x_1",
+        "psi_1",
+        "pin_force_x_1",
+        "side_force_1",
+        "main_bearing_force_x_1",
+        "shaft_torque_1",
+        "..",
+    )
+    if mechanism is not None:
+        names = [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]
     fields = dataclasses.fields(CrankTrainParameters)
     return {
         "name": "crank_train",
@@ -201,14 +182,14 @@ def listing(mechanism: Mechanism | None = None) -> Mapping[str, Any]:
         "coordinates": dict.fromkeys(coordinates, "rad"),
         "parameters": {f.name: f.metadata.get("unit", "-") for f in fields},
         "inputs": {n: "N*m" if n == "M" else "N" for n in inputs},
-        "outputs": {name: _unit(name) for name in outputs},
-        "roles": {"rotor": [{"name": "flywheel", "angle": "phi_f", "load": "M", "drive": None, "inertia": "I_f"}]},
+        "outputs": {name: _unit(name) for name in names},
+        "roles": {
+            "rotor": [{"name": "flywheel", "angle": "phi_f", "load": "M", "drive": "M_drive", "inertia": "I_f"}],
+            "face": [{"name": "1", "travel": "x_1", "force": "F1", "fires": 0.0}],
+            "shaft": [{"name": "shaft", "discs": [], "stiffness": [], "damping": []}],
+        },
         "equations": [],
     }
-
-
-def _outputs(mechanism: Mechanism) -> list[str]:
-    return [n for group in ("kinematics", "reactions") for n in mechanism.functions[group].name_out()]
 
 
 def _unit(output: str) -> str:

@@ -1,32 +1,22 @@
 """When the cylinders of a crank train fire, and the gas forces that follow."""
 
 import math
-from collections.abc import Callable, Sequence
-
-import numpy as np
+from collections.abc import Sequence
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, dead_centre, each, local_shift
+from mechsym.quantities.units import Radian
 
 _TURN = 2 * math.pi
 # pistons that share a chamber lead or lag each other a little; a cylinder further off is a slip of the data
 _LARGEST_LEAD = math.radians(30)
 
 
-def firing_angles(order: Sequence[int], period: float) -> tuple[float, ...]:
+def firing_angles(order: Sequence[int], period: Radian) -> tuple[Radian, ...]:
     """Evenly spaced firing angles of a firing order.
 
-    Parameters
-    ----------
-    order : sequence of int
-        Cylinders 1 to n in the order in which they fire
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
-
-    Returns
-    -------
-    angles : tuple of float
-        Shaft angle at which cylinder 1, 2, .. fires [rad]
+    order: cylinders 1 to n in the order in which they fire; period: 2 pi (two-stroke) or 4 pi (four-stroke). Returns
+    angles: shaft angle at which cylinder 1, 2.. fires.
 
     Examples
     --------
@@ -40,31 +30,19 @@ def firing_angles(order: Sequence[int], period: float) -> tuple[float, ...]:
     return tuple(place[i + 1] * period / n for i in range(n))
 
 
-def crank_phases(firing: Sequence[float], bank: Sequence[float]) -> tuple[float, ...]:
+def crank_phases(firing: Sequence[Radian], bank: Sequence[Radian]) -> tuple[Radian, ...]:
     """Crank-pin angles that bring every cylinder to top dead centre when it fires.
 
-    Parameters
-    ----------
-    firing : sequence of float
-        Shaft angle at which each cylinder fires [rad]
-    bank : sequence of float
-        Angle of each cylinder axis [rad]
-
-    Returns
-    -------
-    phases : tuple of float
-        In [0, 2 pi), one a cylinder [rad]
+    firing: shaft angle at which each cylinder fires; bank: angle of each cylinder axis. Returns phases: in [0, 2 pi),
+    one a cylinder.
     """
     return tuple((b - f) % _TURN for f, b in zip(firing, bank, strict=True))
 
 
-def refuse_wrong_firing(parameters: CrankTrainParameters, period: float = _TURN) -> None:
+def refuse_wrong_firing(parameters: CrankTrainParameters, period: Radian = _TURN) -> None:
     """Refuse a cylinder that fires far from its top dead centre, with the line that could stand there.
 
-    Parameters
-    ----------
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
+    period: 2 pi (two-stroke) or 4 pi (four-stroke).
     """
     if not parameters.firing:
         raise BadInput(
@@ -82,18 +60,11 @@ def refuse_wrong_firing(parameters: CrankTrainParameters, period: float = _TURN)
             )
 
 
-def even_firing(parameters: CrankTrainParameters, period: float) -> tuple[float, ...]:
+def even_firing(parameters: CrankTrainParameters, period: Radian) -> tuple[Radian, ...]:
     """Firing angles at the cylinders' top dead centres, spaced as evenly as the cranks allow.
 
-    Parameters
-    ----------
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
-
-    Returns
-    -------
-    angles : tuple of float
-        Shaft angle at which cylinder 1, 2, .. fires; of four-stroke cylinders each may fire a turn later [rad]
+    period: 2 pi (two-stroke) or 4 pi (four-stroke). Returns angles: shaft angle at which cylinder 1, 2.. fires; of
+    four-stroke cylinders each may fire a turn later.
     """
     tops = [(top - shift) % _TURN for top, shift in zip(dead_centre(parameters), local_shift(parameters), strict=True)]
     turns = round(period / _TURN)
@@ -112,49 +83,3 @@ def _room(angle: float, others: Sequence[float], period: float) -> tuple[float, 
 
 def _line(angles: Sequence[float]) -> str:
     return "firing = [" + ", ".join(f'"{round(math.degrees(a), 6):g} deg"' for a in angles) + "]"
-
-
-def gas_forces(
-    parameters: CrankTrainParameters,
-    net_pressure: Callable[[np.ndarray], np.ndarray],
-    area: float,
-    phi: np.ndarray,
-    period: float = _TURN,
-) -> np.ndarray:
-    """Gas force on every piston at shaft angles.
-
-    Parameters
-    ----------
-    net_pressure : callable
-        p - p_back by the angle after the firing dead centre, ndarray to ndarray [Pa]
-    area : float
-        Area of a piston [m^2]
-    phi : ndarray, shape (n,)
-        Shaft angles [rad]
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
-
-    Returns
-    -------
-    F : ndarray, shape (cylinders, n)
-        Forces, positive away from the head [N]
-    """
-    refuse_wrong_firing(parameters, period)
-    return np.array([net_pressure(phi - fires) * area for fires in each(parameters, "firing")])
-
-
-def firing_gaps(parameters: CrankTrainParameters, period: float) -> tuple[float, ...]:
-    """Angles between consecutive firings.
-
-    Parameters
-    ----------
-    period : float
-        2 pi (two-stroke) or 4 pi (four-stroke) [rad]
-
-    Returns
-    -------
-    gaps : tuple of float
-        One a cylinder; all equal for even firing [rad]
-    """
-    angles = np.sort(np.mod(each(parameters, "firing"), period))
-    return tuple(float(g) for g in np.diff(angles, append=angles[0] + period))

@@ -1,7 +1,5 @@
 """Outputs of a crank train from the derived throw's: turned into the common frame and summed where they meet."""
 
-import math
-
 import casadi as ca
 
 from mechsym.mechanisms.crank_train.throws import ThrowPart
@@ -12,22 +10,15 @@ Instances = list[tuple[ThrowPart, Outputs]]  #: Parts with the outputs of the de
 
 def _common(part: ThrowPart, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
     # the part's y axis stands a quarter turn ahead in its own sense of rotation
-    c, s = math.cos(part.bank), math.sin(part.bank)
+    c, s = ca.cos(part.bank), ca.sin(part.bank)
     return c * x - part.sense * s * y, s * x + part.sense * c * y
 
 
 def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
     """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
 
-    Parameters
-    ----------
-    names : tuple of str
-        Names of the coordinates; one name stands for all throws
-
-    Returns
-    -------
-    outputs : dict of str to casadi.SX
-        `x_1`, `dx_1_dphi1`, `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, ..
+    names: names of the coordinates; one name stands for all throws. Returns outputs: `x_1`, `dx_1_dphi1`,
+    `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, .
     """
     outputs: Outputs = {}
     for part, found in throws:
@@ -68,11 +59,8 @@ def reactions(throws: Instances) -> Outputs:
 def momentum(throws: Instances) -> Outputs:
     """Rates of momentum of all moving parts in the common frame, without the flywheel.
 
-    Returns
-    -------
-    outputs : dict of str to casadi.SX
-        `momentum_rate_x`, `momentum_rate_y`, `angular_momentum_rate` about the shaft line through the origin, and
-        `rocking_rate_x`, `rocking_rate_y` about the X and the Y axis
+    Returns outputs: `momentum_rate_x`, `momentum_rate_y`, `angular_momentum_rate` about the shaft line through the
+    origin, and `rocking_rate_x`, `rocking_rate_y` about the X and the Y axis.
     """
     names = ("momentum_rate_x", "momentum_rate_y", "angular_momentum_rate", "rocking_rate_x", "rocking_rate_y")
     totals = {name: ca.SX(0) for name in names}

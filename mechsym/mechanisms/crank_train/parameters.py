@@ -8,15 +8,16 @@
         Y ------O                          throw turns the other way round (geared crank of an opposed-piston engine).
 
 One throw is derived (derivations/crank_throw.py) and instantiated; `build` has the coordinates phi1..phiN, phi_f,
-`build_driven` a torque at the free end besides, `build_rigid` the one coordinate phi. A value for all cylinders or
-throws may be given once.
+`build_rigid` the one coordinate phi. A value for all cylinders or throws may be given once.
 """
 
 import math
 
 from mechsym.errors import BadInput
-from mechsym.mechanisms.crank_throw import refuse_short_rod
+from mechsym.mechanisms.crank_throw import CrankThrowParameters
+from mechsym.mechanisms.own import require
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Radian
 
 Numbers = float | tuple[float, ...]
 _PER_CYLINDER = ("phase", "bank", "firing", "r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "z_rod")
@@ -61,8 +62,7 @@ class CrankTrainParameters:
     def __post_init__(self) -> None:
         _check_lists(self)
         for i in range(len(self.throw)):
-            r, l1, l2, offset = (each(self, name)[i] for name in ("r", "l1", "l2", "offset"))
-            refuse_short_rod(l1 + l2, r, offset)
+            require(CrankThrowParameters, {name: each(self, name)[i] for name in ("r", "l1", "l2", "offset")})
 
 
 def _check_lists(p: CrankTrainParameters) -> None:
@@ -79,42 +79,25 @@ def _check_lists(p: CrankTrainParameters) -> None:
 
 
 def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
-    """Values of one letter for every cylinder or throw.
+    """Values of one letter for every cylinder or throw [unit of the letter].
 
-    Parameters
-    ----------
-    name : str
-        A letter that is given per cylinder or per throw
-
-    Returns
-    -------
-    values : tuple of float
-        One a cylinder or one a throw
+    name: a letter that is given per cylinder or per throw.
     """
     value = getattr(parameters, name)
     count = len(parameters.throw) if name in _PER_CYLINDER else max(parameters.throw)
     return value if isinstance(value, tuple) else (value,) * count
 
 
-def local_shift(parameters: CrankTrainParameters) -> tuple[float, ...]:
+def local_shift(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
     """What turns a shaft angle into each cylinder's own crank angle (0 where its crank points to its head).
 
-    Returns
-    -------
-    shifts : tuple of float
-        phase - sense * bank, one a cylinder [rad]
+    Returns shifts: phase - sense * bank, one a cylinder.
     """
     rows = zip(parameters.throw, each(parameters, "phase"), each(parameters, "bank"), strict=True)
     return tuple(phase - each(parameters, "sense")[k - 1] * bank for k, phase, bank in rows)
 
 
-def dead_centre(parameters: CrankTrainParameters) -> tuple[float, ...]:
-    """Each cylinder's own crank angle at top dead centre, 0 without offset.
-
-    Returns
-    -------
-    angles : tuple of float
-        One a cylinder [rad]
-    """
+def dead_centre(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
+    """Each cylinder's own crank angle at top dead centre, 0 without offset."""
     lengths = (each(parameters, name) for name in ("r", "l1", "l2", "offset"))
     return tuple(math.asin(offset / (r + l1 + l2)) for r, l1, l2, offset in zip(*lengths, strict=True))

@@ -28,10 +28,7 @@ class ThrowPart:
 def parts(p: CrankTrainParameters) -> list[ThrowPart]:
     """The instances that a crank train consists of, cranks first.
 
-    Returns
-    -------
-    parts : list of ThrowPart
-        One a throw, then one a cylinder
+    Returns parts: one a throw, then one a cylinder.
     """
     nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
     found = []

@@ -10,7 +10,8 @@ import re
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -18,6 +19,9 @@ import scipy
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.jobs.export import guide_named
 from mechsym.quantities import record
+
+if TYPE_CHECKING:
+    from ezdxf.entities import Spline
 
 _POINTS = 4000  # of each spline
 _DIGITS = 1e-9  # of the length and area that the text states
@@ -58,7 +62,7 @@ def _stated(texts: Iterable[str]) -> dict[str, tuple[float, float]]:
 
 
 def _curve(
-    entity: Any, rho: "scipy.interpolate.PPoly", radius: float, stated: dict[str, tuple[float, float]]
+    entity: "Spline", rho: "scipy.interpolate.PPoly", radius: float, stated: dict[str, tuple[float, float]]
 ) -> DrawnCurve:
     layer = entity.dxf.layer
     side, turned = _LAYERS[layer.removesuffix("_2")], math.pi if layer.endswith("_2") else 0.0
@@ -122,12 +126,14 @@ def main(arguments: list[str]) -> int:
     rows, errors = measured(Path(path), guide.rho, rollers.radius)
     print(f"audit: {errors} errors")
     for row in rows:
-        print(f"{row.layer}: {row.points} points, gap {row.gap:.2g} m, deviation {row.deviation:.3g} m, length error "
-              f"{row.length_error:.2g}, area error {row.area_error:.2g}, as stated {row.stated_error:.2g}")  # fmt: skip
+        print(
+            f"{row.layer}: {row.points} points, gap {row.gap:.2g} m, deviation {row.deviation:.3g} m, length error "
+            f"{row.length_error:.2g}, area error {row.area_error:.2g}, as stated {row.stated_error:.2g}"
+        )
     return int(errors > 0 or not all(row.stated_error <= _DIGITS for row in rows))
 
 
-def _ezdxf() -> Any:
+def _ezdxf() -> ModuleType:
     try:
         import ezdxf
         import ezdxf.units

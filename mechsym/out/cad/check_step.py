@@ -6,7 +6,7 @@ Volumes come from the kernel's own adaptive integration, walls from points on it
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -14,10 +14,15 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import path as centre_path
 from mechsym.jobs.export import guide_named
-from mechsym.out.cad.check import distance, true_size
+from mechsym.out.cad.check import distance
 from mechsym.out.cad.curve import tracks_of
-from mechsym.out.cad.step import Disc, kernel
+from mechsym.out.cad.step import kernel
 from mechsym.quantities import record
+from mechsym.quantities.units import Metre, Radian
+
+if TYPE_CHECKING:
+    from OCP import TDocStd
+    from OCP.TopoDS import TopoDS_Shape
 
 _POINTS = 4000  # along each wall
 _MM = 1e-3
@@ -33,7 +38,7 @@ class StepBody:
     volume: float  #: [m^3]
     low: tuple[float, float, float]  #: corner of its box [m]
     high: tuple[float, float, float]  #: the other corner [m]
-    shape: Any
+    shape: "TopoDS_Shape"
 
 
 def read(path: Path) -> list[StepBody]:
@@ -51,7 +56,7 @@ def read(path: Path) -> list[StepBody]:
     return [_measured(name, shape) for name, shape in _named(document)]
 
 
-def _named(document: Any) -> Iterator[tuple[str, Any]]:
+def _named(document: "TDocStd.TDocStd_Document") -> "Iterator[tuple[str, TopoDS_Shape]]":
     from OCP.collections import Sequence_TDF_Label
     from OCP.TDataStd import TDataStd_Name
     from OCP.XCAFDoc import XCAFDoc_DocumentTool
@@ -64,7 +69,7 @@ def _named(document: Any) -> Iterator[tuple[str, Any]]:
         yield name.Get().ToExtString() if found else "", tool.GetShape_s(label)
 
 
-def _measured(name: str, shape: Any) -> StepBody:
+def _measured(name: str, shape: object) -> StepBody:
     from OCP.Bnd import Bnd_Box
     from OCP.BRepBndLib import BRepBndLib
     from OCP.BRepCheck import BRepCheck_Analyzer
@@ -76,35 +81,21 @@ def _measured(name: str, shape: Any) -> StepBody:
     BRepBndLib.AddOptimal_s(shape, box, False, False)
     low, high = box.CornerMin(), box.CornerMax()
     return StepBody(
-        name=name, valid=BRepCheck_Analyzer(shape).IsValid(), volume=_MM**3 * inside.Mass(),
-        low=(_MM * low.X(), _MM * low.Y(), _MM * low.Z()), high=(_MM * high.X(), _MM * high.Y(), _MM * high.Z()),
+        name=name,
+        valid=BRepCheck_Analyzer(shape).IsValid(),
+        volume=_MM**3 * inside.Mass(),
+        low=(_MM * low.X(), _MM * low.Y(), _MM * low.Z()),
+        high=(_MM * high.X(), _MM * high.Y(), _MM * high.Z()),
         shape=shape,
-    )  # fmt: skip
-
-
-def disc_volume(disc: Disc, rho: "scipy.interpolate.PPoly") -> float:
-    r"""Volume of the disc from the path alone [m^3].
-
-    .. math:: V = \pi (R^2 - r_b^2) T - n \, 2 r L w, \quad L = \oint |P'|\, d\theta
-
-    By Steiner a groove of rollers of radius r along a path of length L has the area 2 r L.
-    """
-    groove = 2 * disc.track.roller_radius * true_size(rho, 0.0)[0] * disc.depth
-    around = np.pi * (disc.radius**2 - (disc.bore / 2) ** 2) * disc.thickness
-    return float(around - len(disc.track.turned) * groove)
+    )
 
 
 def wall_deviation(
-    body: StepBody, rho: "scipy.interpolate.PPoly", radius: float, turned: tuple[float, ...]
+    body: StepBody, rho: "scipy.interpolate.PPoly", radius: Metre, turned: tuple[Radian, ...]
 ) -> tuple[int, float]:
     """How many walls of grooves the disc has, and their largest distance from the true ones [m].
 
-    Parameters
-    ----------
-    radius : float
-        Of the rollers [m]
-    turned : tuple of float
-        Angles of the tracks, that in the upper face first [rad]
+    radius: of the rollers; turned: angles of the tracks, that in the upper face first.
     """
     errors, middle = [], (body.low[2] + body.high[2]) / 2
     for points, height in _walls(body.shape):
@@ -114,7 +105,7 @@ def wall_deviation(
     return len(errors), max(errors, default=float("inf"))
 
 
-def _walls(shape: Any) -> Iterator[tuple[np.ndarray, float]]:
+def _walls(shape: object) -> Iterator[tuple[np.ndarray, float]]:
     """Points along each extruded curve of a solid, shape (n, 2), and the height of its middle [m]."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType

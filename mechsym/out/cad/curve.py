@@ -18,6 +18,8 @@ from mechsym.errors import BadInput
 from mechsym.hinge.guide import Guide, path
 from mechsym.hinge.rollers import RollerParameters, curvature, parallel
 from mechsym.quantities import record
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import Array, Metre, Radian
 
 _TURN = 2 * math.pi
 _FIRST = 12  # pieces at least, in a turn
@@ -50,19 +52,36 @@ class Groove:
     inner: CubicPath
     outer: CubicPath
     roller_radius: float  #: [m]
-    tolerance: float  #: [m]
+    tolerance: float  #: largest distance from the true profile [m]
     turned: tuple[float, ...]  #: angles by which the track of each roller is turned about the axis [rad]
 
 
-def track(guide: Guide, rollers: RollerParameters, tolerance: float, kinks: Sequence[float] = ()) -> Groove:
+@result
+class GrooveChecks:
+    """How near the drawn curves of a groove come to the exact ones."""
+
+    feasible: bool = part()
+    tolerance: float = quantity("m")  #: Largest distance from the exact curves that was asked for
+    deviation_centre: float = quantity("m")  #: Largest distance of the centre path that was seen
+    deviation_inner: float = quantity("m")  #: The same of the inner wall
+    deviation_outer: float = quantity("m")  #: The same of the outer wall
+    points_centre: int = quantity("-")  #: Ends of the pieces of the centre path
+    points_inner: int = quantity("-")  #: The same of the inner wall
+    points_outer: int = quantity("-")  #: The same of the outer wall
+
+
+@result
+class GrooveDrawings:
+    """What `mechsym guide` tells."""
+
+    written: list[str] = part()
+    checks: GrooveChecks = part()
+
+
+def track(guide: Guide, rollers: RollerParameters, tolerance: Metre, kinks: Sequence[Radian] = ()) -> Groove:
     """Centre path and walls of a guide within a tolerance.
 
-    Parameters
-    ----------
-    tolerance : float
-        Largest distance from the true curve [m]
-    kinks : sequence of float
-        Angles of the guide's shaft where the curvature jumps [rad]
+    tolerance: largest distance from the true curve; kinks: angles of the guide's shaft where the curvature jumps.
 
     Raises
     ------
@@ -109,15 +128,11 @@ def offset(rho: "scipy.interpolate.PPoly", distance: float) -> Point:
     return at
 
 
-def cubic(name: str, curve: Point, edges: np.ndarray, tolerance: float, breaks: np.ndarray = _NONE) -> CubicPath:
+def cubic(name: str, curve: Point, edges: Radian[Array], tolerance: float, breaks: Radian[Array] = _NONE) -> CubicPath:
     """A closed curve as cubic pieces within a tolerance [m].
 
-    Parameters
-    ----------
-    edges : ndarray
-        Angles that must be ends of pieces [rad]
-    breaks : ndarray
-        Angles where the formula of the curve changes, for its length and area [rad]
+    edges: angles that must be ends of pieces; breaks: angles where the formula of the curve changes, for its length and
+    area.
     """
     done, largest = [], 0.0
     left, right = edges[:-1], edges[1:]
@@ -131,8 +146,9 @@ def cubic(name: str, curve: Point, edges: np.ndarray, tolerance: float, breaks: 
             points, tangents = curve(theta)
             points[-1] = points[0]  # closed to the last digit
             length, area = _size(curve, np.unique([*theta, *(b for b in breaks if 0 < b < theta[-1])]))
-            return CubicPath(name=name, theta=theta, points=points, tangents=tangents, deviation=largest, length=length,
-                             area=area)  # fmt: skip
+            return CubicPath(
+                name=name, theta=theta, points=points, tangents=tangents, deviation=largest, length=length, area=area
+            )
         middle = (left[~good] + right[~good]) / 2
         left, right = np.concatenate([left[~good], middle]), np.concatenate([middle, right[~good]])
     raise BadInput(f"{name}: {tolerance:g} m cannot be kept near {np.degrees(left[0]):.6g} deg; allow more")

@@ -6,27 +6,33 @@ the second roller has layers of its own with the ending _2.
 
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.out.cad.curve import CubicPath, Groove, nurbs
+from mechsym.quantities.units import Metre
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.layouts import Modelspace
 
 _MM = 1e3
 _COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXES": 8, "TEXT": 7}
 
 
-def text(track: Groove, bore: float, lines: Sequence[str]) -> str:
+def text(track: Groove, bore: Metre, lines: Sequence[str]) -> str:
     """The text of a DXF file.
+
+    bore: diameter of the hole for the shaft, 0 for none.
 
     Parameters
     ----------
-    bore : float
-        Diameter of the hole for the shaft, 0 for none [m]
     lines : sequence of str
         What the drawing says: case, spring, tolerance; below it length and area of the exact curves, by which whoever
         reads the file sees that nothing was lost on the way
@@ -51,11 +57,13 @@ def text(track: Groove, bore: float, lines: Sequence[str]) -> str:
 def _sizes(track: Groove) -> list[str]:
     """A line for each curve: length and area of the exact one, in all digits that count."""
     curves = {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}
-    return [f"{layer}: exact length {_MM * c.length:.13g} mm, area {_MM**2 * c.area:.13g} mm^2"
-            for layer, c in curves.items()]  # fmt: skip
+    return [
+        f"{layer}: exact length {_MM * c.length:.13g} mm, area {_MM**2 * c.area:.13g} mm^2"
+        for layer, c in curves.items()
+    ]
 
 
-def _spline(space: Any, path: CubicPath, angle: float, layer: str) -> None:
+def _spline(space: "Modelspace", path: CubicPath, angle: float, layer: str) -> None:
     points, knots = nurbs(path)
     flat = [(x, y, 0.0) for x, y in _MM * points @ _rotation(angle)]
     spline = space.add_open_spline(flat, degree=3, knots=[float(k) for k in knots], dxfattribs={"layer": layer})
@@ -67,7 +75,7 @@ def _rotation(angle: float) -> np.ndarray:
     return np.array([[c, s], [-s, c]])
 
 
-def _frame(space: Any, track: Groove, lines: Sequence[str]) -> None:
+def _frame(space: "Modelspace", track: Groove, lines: Sequence[str]) -> None:
     reach = 1.1 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
     for ends in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))):
         space.add_line(*ends, dxfattribs={"layer": "AXES"})
@@ -77,16 +85,10 @@ def _frame(space: Any, track: Groove, lines: Sequence[str]) -> None:
         space.add_text(line, height=height, dxfattribs={"layer": "TEXT"}).set_placement(place)
 
 
-def _written(document: Any) -> str:
-    """The same text for the same drawing: no time, no random identifiers."""
-    header: Mapping[str, Any] = {
-        "$TDCREATE": 2451545.0, "$TDUPDATE": 2451545.0, "$TDUCREATE": 2451545.0, "$TDUUPDATE": 2451545.0,
-        "$FINGERPRINTGUID": "{00000000-0000-0000-0000-000000000000}",
-        "$VERSIONGUID": "{00000000-0000-0000-0000-000000000000}",
-    }  # fmt: skip
-    _ezdxf().options.write_fixed_meta_data_for_testing = True
-    for name, value in header.items():
-        document.header[name] = value
+def _written(document: "Drawing") -> str:
+    """The text of a drawing; classes are listed by name, which ezdxf takes from a set in any order."""
+    for name in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(name)
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue()
@@ -97,10 +99,11 @@ def write(track: Groove, path: Path, bore: float, lines: Sequence[str]) -> Path:
     return write_text(path, text(track, bore, lines))
 
 
-def _ezdxf() -> Any:
+def _ezdxf() -> ModuleType:
     try:
         import ezdxf
         import ezdxf.units
     except ImportError:
         raise MissingExtra("a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no time and no random identifier, from the first line on
     return ezdxf

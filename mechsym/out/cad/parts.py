@@ -5,13 +5,12 @@ rings of their outer sizes, gears cylinders of their pitch diameter; bolt holes,
 """
 
 from mechsym.errors import BadInput
-from mechsym.jobs.size import Sizing
 from mechsym.out.cad.solids import Body, Plate, Turned, tube
-from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
-from mechsym.sizing.parts.bearing_design import Choice
-from mechsym.sizing.parts.records import CrankPart
-from mechsym.sizing.slider_crank.parts import SliderForces, SliderParts
+from mechsym.sizing.bearing_design import Choice
+from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
+from mechsym.sizing.result import Sizing
+from mechsym.sizing.slider_crank import SliderForces, SliderParts
+from mechsym.sizing.wants import CrankPart
 
 _CAP_WALL = 4e-3  # of the rod's eye around its bearing, as in the section view [m]
 _GAP = 2e-3  # between the eye and the webs together, and between a web and its bearing [m]
@@ -62,13 +61,11 @@ def _hypocycloid(parts: Parts, forces: PartForces, stock: Stock) -> tuple[Body, 
             _centred(f"inner bearing{word}", places["inner"], crank.shaft / 2, planet, z.inner, side),
             _centred(f"outer bearing{word}", places["outer"], gears.pinion_bore / 2, planet, z.outer, side),
             _across(f"output shaft{word}", (0.0, crank.output / 2), (end, z.outboard + 0.02), axis, side),
-        ]  # fmt: skip
+        ]
     return tuple(found)
 
 
-def _common(
-    parts: Parts | SliderParts, forces: PartForces | SliderForces, rod: Choice, pin: float
-) -> list[Body]:  # fmt: skip
+def _common(parts: Parts | SliderParts, forces: PartForces | SliderForces, rod: Choice, pin: float) -> list[Body]:
     """Piston with rod, cylinder, the rod's eye, its bearing and the crankpin."""
     piston, cylinder, crank, bore = parts.piston, parts.cylinder, parts.crank, forces.bore / 2
     start, outside = forces.gap / 2, rod.bearing.outside / 2
@@ -109,8 +106,9 @@ def _webs(crank: CrankPart, pin: float, shaft: float, diameter: float) -> list[B
     ]  # fmt: skip
 
 
-def _across(name: str, radii: tuple[float, float], ends: tuple[float, float], place: tuple[float, float, float],
-            side: int) -> Turned:  # fmt: skip
+def _across(
+    name: str, radii: tuple[float, float], ends: tuple[float, float], place: tuple[float, float, float], side: int
+) -> Turned:
     low, high = sorted(side * end for end in ends)
     return tube(name, radii, (low, high), place, "y")
 
@@ -122,7 +120,8 @@ def _bearing(name: str, choice: Choice, place: tuple[float, float, float], start
     )
 
 
-def _centred(name: str, choice: Choice, inner: float, place: tuple[float, float, float], at: float,
-             side: int) -> Turned:  # fmt: skip
+def _centred(
+    name: str, choice: Choice, inner: float, place: tuple[float, float, float], at: float, side: int
+) -> Turned:
     b, half = choice.bearing, choice.count * choice.bearing.width / 2
     return _across(f"{name}, {b.designation}", (inner, b.outside / 2), (at - half, at + half), place, side)

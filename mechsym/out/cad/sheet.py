@@ -3,27 +3,26 @@
 import dataclasses
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
 
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
-from mechsym.hinge.springs import AirAbsolute, AirGauge, Coil
-from mechsym.jobs.guide import Workshop
-from mechsym.out.cad.curve import Groove, hermite
+from mechsym.hinge.springs.face import Spring
+from mechsym.jobs.hinge import Workshop
+from mechsym.out.cad.curve import CubicPath, Groove, hermite
 from mechsym.quantities import RPM
 from mechsym.quantities.display import quantity_text
 from mechsym.sizing.rules.bearings import equivalent_load, required_rating
 
-_SPRINGS = {
-    AirAbsolute: "air, its absolute pressure on the polytrope",
-    AirGauge: "air, its excess pressure on the polytrope",
-    Coil: "coil spring",
-}
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 _MM = 1e3
 _ALONG = 0.55  # of an arrow, where its words stand
 _EVERY = 10  # degrees between the rows of the table
@@ -50,7 +49,7 @@ def write(shop: Workshop, track: Groove, path: Path, bore: float) -> Path:
     if path.suffix not in _FORMATS:
         raise BadInput(f"--sheet {str(path)!r} has an ending that is not allowed; allowed are {', '.join(_FORMATS)}")
     buffer = io.BytesIO()
-    dates: dict[str, Any] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+    dates: dict[str, dict[str, None]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     with matplotlib.rc_context({"svg.hashsalt": "mechsym", "svg.fonttype": "path"}):
         sheet(shop, track, bore).savefig(buffer, format=path.suffix[1:], metadata=dates[path.suffix])
     return write_bytes(path, buffer.getvalue())
@@ -65,7 +64,7 @@ def sheet(shop: Workshop, track: Groove, bore: float) -> Figure:
     return figure
 
 
-def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
+def _profile(axis: "Axes", shop: Workshop, track: Groove, bore: float) -> None:
     theta = np.linspace(0, 2 * math.pi, 1441)
     axis.set_aspect("equal")
     axis.axis("off")
@@ -85,15 +84,16 @@ def _profile(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
     low, at_low, high, at_high = periodic.extremes(centre_path(shop.guide))
     for rho, angle, word, side in ((low, at_low, "smallest", "bottom"), (high, at_high, "largest", "top")):
         end = _MM * rho * np.array([math.cos(angle), math.sin(angle)])
-        axis.annotate("", end, (0, 0), arrowprops={"arrowstyle": "<->", "color": "#b5342b"})
+        axis.annotate("", (end[0], end[1]), (0, 0), arrowprops={"arrowstyle": "<->", "color": "#b5342b"})
         told = f"{word} rho {_MM * rho:.4f} mm\nat {math.degrees(angle):.3f}°"
         # along its own arrow, one above and one below, so that neither stands on the other
         turned = (math.degrees(angle) + 90) % 180 - 90
-        axis.text(*(_ALONG * end), told, rotation=turned, rotation_mode="anchor", ha="center", va=side, color="#b5342b",
+        x, y = _ALONG * end
+        axis.text(x, y, told, rotation=turned, rotation_mode="anchor", ha="center", va=side, color="#b5342b",
                   bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0}, zorder=2.5)  # fmt: skip
 
 
-def _dense(curve: Any) -> np.ndarray:
+def _dense(curve: CubicPath) -> np.ndarray:
     """Points along a cubic path, eight in each piece, shape (k, 2) [m]."""
     width = np.diff(curve.theta)[:, None]
     parts = [
@@ -103,16 +103,16 @@ def _dense(curve: Any) -> np.ndarray:
     return np.concatenate([np.stack(parts, 1).reshape(-1, 2), curve.points[-1:]])
 
 
-def _table(axis: Any, shop: Workshop) -> None:
+def _table(axis: "Axes", shop: Workshop) -> None:
     axis.axis("off")
     angles = np.arange(0, 360, _EVERY)
     rho = _MM * centre_path(shop.guide)(np.radians(angles))
     half = len(angles) // 2
-    rows = [
-        [f"{angles[i]}", f"{rho[i]:.4f}", f"{angles[i + half]}", f"{rho[i + half]:.4f}"] for i in range(half)
-    ]  # fmt: skip
+    rows = [[f"{angles[i]}", f"{rho[i]:.4f}", f"{angles[i + half]}", f"{rho[i + half]:.4f}"] for i in range(half)]
     titles = ["theta [deg]", "rho [mm]"] * 2
-    table = axis.table(cellText=rows, colLabels=titles, loc="upper center", cellLoc="center", bbox=(0, 0.33, 1, 0.67))
+    table = axis.table(
+        cellText=rows, colLabels=titles, loc="upper center", cellLoc="center", bbox=Bbox.from_bounds(0, 0.33, 1, 0.67)
+    )
     table.auto_set_font_size(False)
     table.set_fontsize(9)
     axis.text(0, 0.29, "\n".join(_notes(shop)), va="top", fontsize=9, linespacing=1.5)
@@ -134,18 +134,18 @@ def _notes(shop: Workshop) -> list[str]:
     ]
 
 
-def spring_text(spring: Any) -> str:
+def spring_text(spring: Spring) -> str:
     """A spring in words: its kind and its numbers with units."""
     fields = dataclasses.fields(spring)
     numbers = [f"{f.name} = {quantity_text(getattr(spring, f.name), f.metadata['unit'], 6)}" for f in fields]
-    return f"{_SPRINGS[type(spring)]}, {', '.join(numbers)}"
+    return f"{spring.words}, {', '.join(numbers)}"
 
 
 def _share(value: float | None) -> str:
     return "no steady motion" if value is None else f"{100 * value:.3g} %"
 
 
-def _title(axis: Any, shop: Workshop, track: Groove, bore: float) -> None:
+def _title(axis: "Axes", shop: Workshop, track: Groove, bore: float) -> None:
     axis.set_xticks([])
     axis.set_yticks([])
     g = shop.guide.parameters

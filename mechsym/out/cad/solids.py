@@ -10,6 +10,7 @@ Turned: a section in (r, z) about an axis.       Plate: the hull of two circles,
 import math
 
 from mechsym.quantities import record
+from mechsym.quantities.units import Metre
 
 Point = tuple[float, float, float]
 Circle = tuple[float, float, float]
@@ -41,13 +42,10 @@ class Plate:
 Body = Turned | Plate
 
 
-def tube(name: str, radii: tuple[float, float], ends: tuple[float, float], place: Point, axis: str) -> Turned:
+def tube(name: str, radii: tuple[Metre, Metre], ends: tuple[Metre, Metre], place: Point, axis: str) -> Turned:
     """A tube, or a rod where the inner radius is 0.
 
-    Parameters
-    ----------
-    radii, ends : tuple of float
-        Inner and outer radius, and distances of its faces from `place` [m]
+    radii, ends: inner and outer radius, and distances of its faces from `place`.
     """
     (inner, outer), (low, high) = radii, ends
     corners = ((inner, low), (outer, low), (outer, high), (inner, high))

@@ -8,7 +8,7 @@ import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from mechsym.hinge.rollers import RollerParameters
 from mechsym.out.cad.curve import CubicPath, Groove, nurbs
 from mechsym.out.cad.solids import AXES, Body, Circle, Plate, Point, Turned, tangents, tube
 from mechsym.quantities import record
+from mechsym.quantities.units import Metre
+
+if TYPE_CHECKING:
+    from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wire
 
 _MM = 1e3
 _TIME = re.compile(r"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")
@@ -36,19 +40,18 @@ class Disc:
 
 
 def guide_bodies(
-    track: Groove, count: int, bore: float, rollers: RollerParameters, thickness: float | None = None
+    track: Groove, count: int, bore: Metre, rollers: RollerParameters, thickness: Metre | None = None
 ) -> tuple[Disc | Turned, ...]:
     """The disc and its rollers where the crank stands at dead centre; a groove is as deep as a roller is wide.
 
+    count: rollers, which share the tracks; two on one track stand opposite each other. bore: diameter of the hole for
+    the shaft.
+
     Parameters
     ----------
-    count : int
-        Rollers, which share the tracks; two on one track stand opposite each other
-    bore : float
-        Diameter of the hole for the shaft [m]
     thickness : float
-        Of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a roller's width of
-        the disc is left between two grooves [m]
+        Of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a roller's width
+        of the disc is left between two grooves
     """
     tracks, width = len(track.turned), rollers.width
     usual = rollers.plane_offset + width if tracks > 1 and rollers.plane_offset > width else (tracks + 1) * width
@@ -82,7 +85,7 @@ def write(path: Path, bodies: Sequence[Disc | Body]) -> Path:
     return write_text(path, text({body.name: shape(body) for body in bodies}))
 
 
-def text(shapes: Mapping[str, Any]) -> str:
+def text(shapes: "Mapping[str, TopoDS_Shape]") -> str:
     """The text of a STEP file: no time in it, so the same bodies give the same text."""
     kernel()
     from OCP.Interface import Interface_Static
@@ -106,7 +109,7 @@ def text(shapes: Mapping[str, Any]) -> str:
     return _TIME.sub("'2000-01-01T00:00:00'", written).replace(str(file), "mechsym")
 
 
-def shape(body: Disc | Body) -> Any:
+def shape(body: Disc | Body) -> "TopoDS_Shape":
     """A body as a shape of the kernel, in millimetres."""
     kernel()
     match body:
@@ -118,7 +121,7 @@ def shape(body: Disc | Body) -> Any:
             return _plate(body)
 
 
-def _disc(disc: Disc) -> Any:
+def _disc(disc: Disc) -> "TopoDS_Shape":
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
 
     hole = disc.bore / 2
@@ -134,7 +137,7 @@ def _disc(disc: Disc) -> Any:
     return found
 
 
-def _closed(path: CubicPath, angle: float, z: float) -> Any:
+def _closed(path: CubicPath, angle: float, z: float) -> "TopoDS_Wire":
     """A closed wire of one edge: the very curve of the DXF, at a height [m]."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.collections import Array1_double, Array1_gp_Pnt, Array1_int
@@ -151,7 +154,7 @@ def _closed(path: CubicPath, angle: float, z: float) -> Any:
     return _wire([BRepBuilderAPI_MakeEdge(Geom_BSplineCurve(poles, at, times, 3)).Edge()])
 
 
-def _turned(body: Turned) -> Any:
+def _turned(body: Turned) -> "TopoDS_Shape":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
     from OCP.gp import gp_Ax1, gp_Dir
@@ -166,12 +169,12 @@ def _turned(body: Turned) -> Any:
     return BRepPrimAPI_MakeRevol(_face([polygon.Wire()]), axis).Shape()
 
 
-def _plate(body: Plate) -> Any:
+def _plate(body: Plate) -> "TopoDS_Shape":
     rings = [_hull(body.ends, body.low), *(_ring(hole, body.low) for hole in body.holes)]
     return _prism(_face(rings), (0.0, body.high - body.low, 0.0))
 
 
-def _hull(ends: tuple[Circle, Circle], y: float) -> Any:
+def _hull(ends: tuple[Circle, Circle], y: float) -> "TopoDS_Wire":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.GC import GC_MakeArcOfCircle
 
@@ -184,7 +187,7 @@ def _hull(ends: tuple[Circle, Circle], y: float) -> Any:
     return _wire([BRepBuilderAPI_MakeEdge(*curve).Edge() for curve in curves])
 
 
-def _ring(circle: Circle, y: float) -> Any:
+def _ring(circle: Circle, y: float) -> "TopoDS_Wire":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.gp import gp_Ax2, gp_Circ, gp_Dir
 
@@ -192,7 +195,7 @@ def _ring(circle: Circle, y: float) -> Any:
     return _wire([BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(_point((x, y, z)), gp_Dir(0, 1, 0)), _MM * radius)).Edge()])
 
 
-def _wire(edges: Sequence[Any]) -> Any:
+def _wire(edges: "Sequence[TopoDS_Edge]") -> "TopoDS_Wire":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeWire
 
     made = BRepBuilderAPI_MakeWire()
@@ -201,7 +204,7 @@ def _wire(edges: Sequence[Any]) -> Any:
     return made.Wire()
 
 
-def _face(wires: Sequence[Any]) -> Any:
+def _face(wires: "Sequence[TopoDS_Wire]") -> "TopoDS_Face":
     """A plane face inside its first wire and outside of the others."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.ShapeFix import ShapeFix_Face
@@ -214,14 +217,14 @@ def _face(wires: Sequence[Any]) -> Any:
     return mended.Face()
 
 
-def _prism(face: Any, way: Point) -> Any:
+def _prism(face: "TopoDS_Face", way: Point) -> "TopoDS_Shape":
     from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
     from OCP.gp import gp_Vec
 
     return BRepPrimAPI_MakePrism(face, gp_Vec(*(_MM * w for w in way))).Shape()
 
 
-def _point(place: Sequence[float]) -> Any:
+def _point(place: Sequence[float]) -> object:
     from OCP.gp import gp_Pnt
 
     return gp_Pnt(*(_MM * float(v) for v in place))

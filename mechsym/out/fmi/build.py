@@ -6,7 +6,6 @@ The token is made from the sources: the same model gives the same token and, wit
 import importlib.metadata
 import importlib.util
 import platform
-import subprocess
 import sys
 import tempfile
 import uuid
@@ -19,13 +18,17 @@ from pathlib import Path
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.native import compiler
+from mechsym.native.compiler import forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block
 from mechsym.out.fmi.describe import build_description, description, identifier
-from mechsym.out.text.c import model
+from mechsym.out.text.language_c import model
 from mechsym.quantities import record
+from mechsym.quantities.results import part, quantity, result
 
-PLATFORMS = ("linux64", "win64")
+ALLOWED = 1e-9  #: Largest difference of an FMU from the simulation, as a share
+SYSTEMS = {"linux64": "Linux", "win64": "Windows"}  #: Platforms, by the names that FMI has for them
+PLATFORMS = tuple(SYSTEMS)
 _NAMESPACE = uuid.UUID("5a1d7bb4-93b8-5b2c-9d3c-0d7e60f2a1c5")
 _OPTIONS = ("-std=c99", "-O2", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
 _FOLDERS = {2: {"linux64": "linux64", "win64": "win64"}, 3: {"linux64": "x86_64-linux", "win64": "x86_64-windows"}}
@@ -40,8 +43,29 @@ class Unit:
     version: int
     token: str
     data: bytes
+    platforms: tuple[str, ...]  #: For which there is a binary inside
     binaries: tuple[str, ...]
     missing: Mapping[str, str]  #: platform: why it has no binary
+
+
+@result
+class UnitChecks:
+    """What an FMU holds, and how near it comes to the simulation where it was compared."""
+
+    token: str = part()
+    binaries: tuple[str, ...] = part()
+    missing: Mapping[str, str] = part()  #: Platform, and why it has no binary
+    #: Of the states by its equations, largest, as a share of each state's largest value
+    difference_me: float | None = quantity("-", default=None, optional=True)
+    difference_cs: float | None = quantity("-", default=None, optional=True)  #: The same by its own integrator
+
+
+@result
+class UnitFile:
+    """What `mechsym fmu` tells."""
+
+    written: list[str] = part()
+    checks: UnitChecks = part()
 
 
 def fmu(
@@ -53,9 +77,14 @@ def fmu(
     for name in platforms:
         if name not in PLATFORMS:
             raise BadInput(f"--platforms {name!r} is not known; allowed are {', '.join(PLATFORMS)}")
-    sources = _sources(version, code or _machine(block))
+    if not code:
+        core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
+        code = {"core.h": core, "model.h": model(block), "method.h": dop853_numbers() + "\n"}
+    sources = _sources(version, code)
     token = "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(f"{k}\n{v}" for k, v in sources.items()))) + "}"
-    sources["identity.h"] = _identity(block, token, version)
+    prefix = f"#ifndef FMI2_FUNCTION_PREFIX\n#define FMI2_FUNCTION_PREFIX {identifier(block.name)}_\n#endif\n"
+    # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
+    sources["identity.h"] = f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
     main = [f"fmi{version}.c"]
     tool = f"mechsym {importlib.metadata.version('mechsym')}"
@@ -65,18 +94,13 @@ def fmu(
     binaries, missing = _binaries(block, version, sources, platforms)
     return Unit(
         name=block.name, version=version, token=token, data=_packed(files | binaries), binaries=tuple(binaries),
-        missing=missing,
+        platforms=tuple(name for name in platforms if name not in missing), missing=missing,
     )  # fmt: skip
 
 
 def write(unit: Unit, path: Path) -> Path:
     """Write an FMU to a file, under a temporary name first."""
     return write_bytes(path, unit.data)
-
-
-def _machine(block: Block) -> dict[str, str]:
-    core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
-    return {"core.h": core, "model.h": model(block), "method.h": dop853_numbers() + "\n"}
 
 
 def _sources(version: int, code: Mapping[str, str]) -> dict[str, str]:
@@ -88,17 +112,12 @@ def _sources(version: int, code: Mapping[str, str]) -> dict[str, str]:
     return texts
 
 
-def _identity(block: Block, token: str, version: int) -> str:
-    name = identifier(block.name)
-    prefix = f"#ifndef FMI{version}_FUNCTION_PREFIX\n#define FMI{version}_FUNCTION_PREFIX {name}_\n#endif\n"
-    # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
-    return f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
-
-
 def _binaries(
     block: Block, version: int, sources: Mapping[str, str], platforms: Sequence[str]
 ) -> tuple[dict[str, bytes], dict[str, str]]:
     found, missing = {}, {}
+    if platforms:
+        forecast(sum(map(len, sources.values())), len(platforms))
     for name in platforms:
         try:
             command = _compiler(name)
@@ -126,11 +145,11 @@ def _compiled(command: Sequence[str], version: int, sources: Mapping[str, str]) 
         target = Path(folder) / "unit.bin"
         # file names are given relative to the folder, so that no path of this machine gets into the binary
         words = [*command, *_OPTIONS, f"-DFMI{version}_OVERRIDE_FUNCTION_PREFIX", f"fmi{version}.c", "-o", target.name]
-        done = subprocess.run([*words, "-lm"], cwd=folder, capture_output=True, text=True, check=False)
-        if done.returncode:
-            said = [line for line in done.stderr.splitlines() if "error" in line] or ["no word"]
-            raise compiler.NoCompiler(f"{command[0]} failed on the sources: {said[0].strip()}")
-        return target.read_bytes()
+        compiler.call([*words, "-lm"], "the sources", target, Path(folder))
+        binary = target.read_bytes()
+        if not binary.startswith((b"\x7fELF", b"MZ")):
+            raise compiler.NoCompiler(f"{command[0]} made no library; name another compiler in CC")
+        return binary
 
 
 def _packed(files: Mapping[str, str | bytes]) -> bytes:

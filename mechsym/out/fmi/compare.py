@@ -9,19 +9,18 @@ import dataclasses
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import scipy
 
 from mechsym.jobs.export import named
+from mechsym.out.fmi.build import ALLOWED
 from mechsym.out.fmi.drive import Driven, driven
 from mechsym.quantities import record
 from mechsym.simulate import Problem, Settings, simulate
 
 TOLERANCE = 1e-13  # of all runs that are compared
 POINTS = 200
-ALLOWED = 1e-9  # largest difference
 _FIRST = 1e-2  # of a segment: a first step over knots of a table, chosen by its slope alone, hides what it missed
 
 
@@ -64,9 +63,11 @@ def _exchange(path: Path, t: np.ndarray, states: int) -> np.ndarray:
             # a sample may be an event itself, met a rounding error before
             while sample - now > 1e-12 * t[-1]:
                 jump = unit.next_event()
-                run = _smooth(unit, now, x, min(jump, sample) if jump is not None and jump > now else float(sample))
+                until = min(jump, sample) if jump is not None and jump > now else float(sample)
+                events = [_indicator(unit, i, (now, x, z)) for i, z in enumerate(unit.indicators(now, x))]
+                run = _solved(unit, now, x, until, events)
                 met = run.status == 1
-                x = _exact(unit, now, x, float(run.t[-1])) if met else run.y[:, -1]
+                x = np.asarray((_solved(unit, now, x, float(run.t[-1])) if met else run).y[:, -1])
                 now = float(run.t[-1])
                 if (met or now == jump) and unit.event(now, x):
                     return np.array([*rows, x])
@@ -74,16 +75,9 @@ def _exchange(path: Path, t: np.ndarray, states: int) -> np.ndarray:
     return np.array(rows)
 
 
-def _smooth(unit: Driven, now: float, x: np.ndarray, until: float) -> Any:
-    events = [_indicator(unit, i, (now, x, z)) for i, z in enumerate(unit.indicators(now, x))]
-    return _solved(unit, now, x, until, events)
-
-
-def _exact(unit: Driven, now: float, x: np.ndarray, until: float) -> np.ndarray:
-    return np.asarray(_solved(unit, now, x, until).y[:, -1])
-
-
-def _solved(unit: Driven, now: float, x: np.ndarray, until: float, events: Sequence[Any] = ()) -> Any:
+def _solved(
+    unit: Driven, now: float, x: np.ndarray, until: float, events: Sequence[Callable[..., float]] = ()
+) -> "scipy.optimize.OptimizeResult":
     return scipy.integrate.solve_ivp(
         unit.rates, (now, until), x, method="DOP853", events=events or None, rtol=TOLERANCE, atol=TOLERANCE,
         first_step=_FIRST * (until - now),

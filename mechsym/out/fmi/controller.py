@@ -18,12 +18,10 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide, closing, path
 from mechsym.hinge.setting import setting_of, with_setting
-from mechsym.hinge.springs import Coil, law
-from mechsym.hinge.thermal import AirThermal
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.out.block import Block, Curve, Port
-from mechsym.out.text.c import array, curve_tables
+from mechsym.out.text.language_c import array, curve_tables
 
 _GAIN, _RATE = 0.7, 0.1  # share of the error taken away in a period; largest change by the design's setting
 _TURNS = 20.0  # of the run that the file proposes
@@ -37,7 +35,7 @@ def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Bloc
     BadInput
         The load is a table, or the gas of the spring exchanges heat: a pascal gives no function of the angle then
     """
-    if isinstance(guide.spring, AirThermal):
+    if guide.spring.state:
         raise BadInput("the pressure controller takes springs whose force follows from the closing alone")
     made = Block(
         name=f"{name}-controller", about=f"sets the spring of {name} once in a period, from crank angle and speed",
@@ -50,7 +48,7 @@ def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Bloc
 
 
 def _letter(guide: Guide) -> tuple[str, str]:
-    return ("F0", "N") if isinstance(guide.spring, Coil) else ("p0", "Pa")
+    return guide.spring.setting
 
 
 def _inputs(wanted: Hinge) -> tuple[Port, ...]:
@@ -100,8 +98,7 @@ def _curves(wanted: Hinge, guide: Guide) -> tuple[Curve, ...]:
 def _unit_energy(wanted: Hinge, guide: Guide) -> PPoly:
     """Energy of the spring by its setting over the crank angle [J/Pa], [J/N] of a coil."""
     ratio, rho, at = guide.parameters.shaft_ratio, path(guide), setting_of(guide.spring)
-    springs = [with_setting(guide.spring, share * at) for share in (1.0, 2.0)]
-    low, high = (law(spring) for spring in springs if not isinstance(spring, AirThermal))
+    low, high = (with_setting(guide.spring, share * at) for share in (1.0, 2.0))
 
     def energy(phi: np.ndarray) -> np.ndarray:
         theta = rho.x[0] + (ratio * phi - rho.x[0]) % (rho.x[-1] - rho.x[0])
@@ -114,12 +111,14 @@ def _unit_energy(wanted: Hinge, guide: Guide) -> PPoly:
 
 def _model(made: Block, wanted: Hinge) -> str:
     sizes = {"NU": len(made.inputs), "NP": len(made.parameters), "NY": len(made.outputs)}
-    return "\n".join([
-        f"/* {made.name}: {made.about} */",
-        "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
-        f"static const double PERIOD = {wanted.period!r};",
-        array("start_p", [port.start for port in made.parameters]),
-        curve_tables(made.curves),
-        "struct stop { const char *name; };",
-        'static const struct stop stops[] = {{""}};',
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"/* {made.name}: {made.about} */",
+            "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
+            f"static const double PERIOD = {wanted.period!r};",
+            array("start_p", [port.start for port in made.parameters]),
+            curve_tables(made.curves),
+            "struct stop { const char *name; };",
+            'static const struct stop stops[] = {{""}};',
+        ]
+    )

@@ -1,14 +1,20 @@
 """One small handle on an FMU of either version, for comparisons: states, rates, indicators, events, steps."""
 
 import contextlib
+import ctypes
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.errors import BadInput, MissingExtra
+
+if TYPE_CHECKING:
+    from fmpy.fmi1 import _FMU
+    from fmpy.model_description import ModelDescription
 
 _TOLERANCE = 1e-13  # asked of co-simulation
 
@@ -16,7 +22,7 @@ _TOLERANCE = 1e-13  # asked of co-simulation
 class Driven:
     """An instance of an FMU, initialised; values in SI."""
 
-    def __init__(self, unit: Any, description: Any) -> None:
+    def __init__(self, unit: "_FMU", description: "ModelDescription") -> None:
         self.unit = unit
         self.second = description.fmiVersion.startswith("2")
         self.references = {v.name: v.valueReference for v in description.modelVariables}
@@ -28,7 +34,7 @@ class Driven:
         self.outputs = [r for r in self._with(description, "output") if r > max(self.rate_references, default=0)]
         self.indicator_count = description.numberOfEventIndicators or len(description.eventIndicators or ())
 
-    def _with(self, description: Any, causality: str) -> list[int]:
+    def _with(self, description: "ModelDescription", causality: str) -> list[int]:
         return [v.valueReference for v in description.modelVariables if v.causality == causality]
 
     def get(self, references: list[int]) -> list[float]:
@@ -73,7 +79,7 @@ class Driven:
         self.unit.enterContinuousTimeMode()
         return bool(ends)
 
-    def _update(self) -> Any:
+    def _update(self) -> tuple[bool, ...]:
         return (self.unit.newDiscreteStates if self.second else self.unit.updateDiscreteStates)()
 
     def next_event(self) -> float | None:
@@ -96,9 +102,7 @@ class Driven:
         return False
 
 
-def _pointer(values: np.ndarray) -> Any:
-    import ctypes
-
+def _pointer(values: np.ndarray) -> "ctypes._Pointer[ctypes.c_double]":
     return values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
 
 
@@ -138,7 +142,7 @@ def driven(path: Path, kind: str) -> Iterator[Driven]:
             unit.freeInstance()
 
 
-def _fmpy() -> Any:
+def _fmpy() -> ModuleType:
     try:
         import fmpy
     except ImportError:

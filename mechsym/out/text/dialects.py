@@ -1,9 +1,13 @@
-"""How each language writes an operator, a statement and a number."""
+"""How each language writes an operator, a statement and a number.
+
+Statements of a tape in a dialect: each value has one name and is written once.
+"""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from mechsym.errors import BadInput
+from mechsym.native.tape import Tape
 from mechsym.quantities import record
 
 _COMMON = {
@@ -112,3 +116,19 @@ def operation(dialect: Dialect, operator: str, operands: list[str]) -> str:
         known = ", ".join(sorted(dialect.operators))
         raise BadInput(f"operator {operator!r} has no word in {dialect.name}; it has {known}")
     return dialect.operators[operator].format(*operands)
+
+
+def statements(tape: Tape, dialect: Dialect, place: Callable[[int], str]) -> tuple[list[str], list[str]]:
+    """Statements that compute a tape, and the text of each result; `place` says where input i is read."""
+    names: list[str] = []
+    lines: list[str] = []
+    for i, (operator, operands) in enumerate(tape.nodes):
+        if operator == "input":
+            names.append(place(operands[0]))
+        elif operator == "constant":
+            names.append(number(dialect, operands[0]))
+        else:
+            names.append(f"t{i}")
+            value = operation(dialect, operator, [names[k] for k in operands])
+            lines.append(dialect.statement.format(names[-1], value))
+    return lines, [names[r] for r in tape.results]

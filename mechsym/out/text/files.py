@@ -11,9 +11,8 @@ from collections.abc import Callable, Mapping
 from mechsym.errors import BadInput
 from mechsym.out.fmi.describe import identifier
 from mechsym.out.text import language_c, language_modelica
-from mechsym.out.text.dialects import JAX, JULIA, MATLAB, Dialect, number
+from mechsym.out.text.dialects import JAX, JULIA, MATLAB, Dialect, number, statements
 from mechsym.out.text.programs import Written, told
-from mechsym.out.text.write import statements
 
 
 def files(written: Written, language: str) -> dict[str, str]:
@@ -41,8 +40,11 @@ def _functions(written: Written, dialect: Dialect, shape: Callable[[str, list[st
 
 def _result(dialect: Dialect, results: list[str]) -> list[str]:
     joined = ", ".join(results)
-    return {"julia": [f"    return [{joined}]"], "matlab": [f"    y = [{joined.replace(', ', '; ')}];"],
-            "jax": [f"    return jnp.stack(jnp.broadcast_arrays({joined}))"]}[dialect.name]  # fmt: skip
+    return {
+        "julia": [f"    return [{joined}]"],
+        "matlab": [f"    y = [{joined.replace(', ', '; ')}];"],
+        "jax": [f"    return jnp.stack(jnp.broadcast_arrays({joined}))"],
+    }[dialect.name]
 
 
 def _listed(dialect: Dialect, values: object, ends: str = "[]") -> str:
@@ -97,8 +99,10 @@ def _matlab(written: Written) -> dict[str, str]:
         choice = ", ".join(f"'{f}'" for f in written.tapes)
         lines += [f"% y = {name}(what, v); what: {choice}", "    varargout{1} = feval(what, varargin{:});", "end"]
     else:
-        lines += [f"% dx = {name}('derivative', t, x, u, p); y = {name}('outputs', t, x, u, p)",
-                  f"% [x, p] = {name}('start')"]  # fmt: skip
+        lines += [
+            f"% dx = {name}('derivative', t, x, u, p); y = {name}('outputs', t, x, u, p)",
+            f"% [x, p] = {name}('start')",
+        ]
         lines += ["    [varargout{1:max(nargout, 1)}] = feval(what, varargin{:});", "end"]
     lines += _functions(written, MATLAB, lambda f, body: [f"function y = {f}(v)", *body, "end"])
     lines += ["", "function y = pick(condition, value)", "    y = 0.0;", "    if condition, y = value; end", "end"]
@@ -150,9 +154,13 @@ def _jax(written: Written) -> dict[str, str]:
     lines += _functions(written, JAX, lambda f, body: [f"def {f}(v):", *body, ""])
     if block is not None:
         times = [[p.name for p in block.parameters].index(s) for s in block.switches]
-        lines += ["", f"x_start = jnp.array({_listed(JAX, [s.start for s in block.states])})",
-                  f"p_start = jnp.array({_listed(JAX, [p.start for p in block.parameters])})",
-                  f"switches = {times}", "curves = ["]  # fmt: skip
+        lines += [
+            "",
+            f"x_start = jnp.array({_listed(JAX, [s.start for s in block.states])})",
+            f"p_start = jnp.array({_listed(JAX, [p.start for p in block.parameters])})",
+            f"switches = {times}",
+            "curves = [",
+        ]
         for c in block.curves:
             rows = f"jnp.array({_listed(JAX, c.poly.c.T.ravel())}).reshape(-1, {len(c.poly.c)})"
             lines += [f"    ({c.state}, {c.ratio!r}, {c.periodic}, jnp.array({_listed(JAX, c.poly.x)}), {rows}),"]

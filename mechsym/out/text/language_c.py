@@ -1,11 +1,107 @@
-"""C99: one header, one file, no allocation."""
+"""C99 of tapes and of blocks: one header, one file, no allocation, no vector types, nothing but math.h.
 
+A function reads one array and writes one: `void name(const double *v, double *y)`.
+"""
+
+from collections.abc import Sequence
 from importlib import resources
 
+import casadi as ca
+
 from mechsym.native.integrators import dop853_numbers
+from mechsym.native.tape import Tape, read
+from mechsym.out.block import Block, Curve
 from mechsym.out.fmi.describe import identifier, variables
-from mechsym.out.text.c import function, model
+from mechsym.out.text.dialects import C99, number, statements
 from mechsym.out.text.programs import Written, told
+
+
+def function(tape: Tape, name: str, kind: str = "static void") -> str:
+    """A tape as a C function of one array."""
+    lines, results = statements(tape, C99, lambda i: f"v[{i}]")
+    stores = [f"    y[{i}] = {text};" for i, text in enumerate(results)]
+    unused = [] if any(op == "input" for op, _ in tape.nodes) else ["    (void)v;"]
+    return "\n".join([f"{kind} {name}(const double *v, double *y)", "{", *unused, *lines, *stores, "}", ""])
+
+
+def model(block: Block) -> str:
+    """A block as `model.h`: sizes, numbers, curves, rates and outputs with their directional derivatives."""
+    p = [port.name for port in block.parameters]
+    times = [p.index(name) for name in block.switches]
+    sizes = {
+        "NQ": len(block.states) // 2, "NX": len(block.states), "NU": len(block.inputs), "NP": len(p),
+        "NY": len(block.outputs), "NC": len(block.curves), "NS": len(times), "NK": len(block.kinks),
+        "NA": sum(len(k.angles) for k in block.kinks), "NE": len(block.stops),
+    }  # fmt: skip
+    return "\n".join(
+        [
+            f"/* {block.name}: {block.about} */".replace("  ", " "),
+            "#include <math.h>",
+            "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
+            "/* v = t, x, u, p, w (value and slope of each curve), s (switches) */",
+            "enum { VX = 1, VU = VX + NX, VP = VU + NU, VW = VP + NP, VS = VW + 2 * NC, NV = VS + NS };",
+            array("start_x", [s.start for s in block.states]),
+            array("start_p", [s.start for s in block.parameters]),
+            array("switch_time", times, "int"),
+            curve_tables(block.curves),
+            _kinks(block),
+            _stops(block),
+            *(function(read(f), f.name()) for f in (block.rates, block.observed)),
+            *(function(read(forward(f)), f"{f.name()}_forward") for f in (block.rates, block.observed)),
+        ]
+    )
+
+
+def forward(function: ca.Function) -> ca.Function:
+    """Directional derivative: the inputs of `function` and a direction of each, to the change of its output."""
+    arguments = [ca.SX.sym(function.name_in(i), function.size1_in(i)) for i in range(function.n_in())]
+    direction = [ca.SX.sym(f"d_{function.name_in(i)}", function.size1_in(i)) for i in range(function.n_in())]
+    change = ca.jtimes(function(*arguments), ca.vertcat(*arguments), ca.vertcat(*direction))
+    return ca.Function(f"{function.name()}_forward", [*arguments, *direction], [ca.densify(change)])
+
+
+def array(name: str, values: Sequence[float], kind: str = "double") -> str:
+    """A constant array [any unit]; one entry where it would be empty, which C does not allow."""
+    texts = [str(v) if kind == "int" else number(C99, v) for v in values] or ["0"]
+    rows = [", ".join(texts[i : i + 6]) for i in range(0, len(texts), 6)]
+    return f"static const {kind} {name}[{len(texts)}] = {{\n    " + ",\n    ".join(rows) + "};"
+
+
+def curve_tables(curves: Sequence[Curve]) -> str:
+    """Curves as constant tables of C, all of them in the array `curves`."""
+    lines = []
+    for i, curve in enumerate(curves):
+        lines += [array(f"breaks_{i}", curve.poly.x), array(f"rows_{i}", curve.poly.c.T.ravel())]
+    entries = [
+        f"    {{{c.state}, {len(c.poly.x) - 1}, {len(c.poly.c)}, {int(c.periodic)}, {number(C99, c.ratio)}, "
+        f"breaks_{i}, rows_{i}}}"
+        for i, c in enumerate(curves)
+    ] or ["    {0, 1, 1, 0, 0.0, start_x, start_x}"]
+    head = (
+        "/* curve: state, pieces, coefficients (highest first), periodic, argument per unit of the state */\n"
+        "struct curve { int state, pieces, terms, periodic; double ratio; const double *breaks, *rows; };\n"
+    )
+    text = ",\n".join(entries)
+    return "\n".join(lines) + f"\n{head}static const struct curve curves[] = {{\n{text}}};"
+
+
+def _kinks(block: Block) -> str:
+    q = [s.name for s in block.states]
+    rows = [(q.index(k.coordinate), k) for k in block.kinks]
+    own = [f"{{{i}, {len(k.angles)}, {number(C99, k.period)}, kinks_{n}}}" for n, (i, k) in enumerate(rows)]
+    angles = [array(f"kinks_{n}", k.angles) for n, k in enumerate(block.kinks)]
+    text = ", ".join(own) or "{0, 0, 1.0, start_x}"
+    head = "struct kinks { int state, count; double period; const double *angles; };"
+    return "\n".join([*angles, head, f"static const struct kinks kinks[] = {{{text}}};"])
+
+
+def _stops(block: Block) -> str:
+    x, sense = [s.name for s in block.states], {"falling": -1, "rising": 1, "either": 0}
+    rows = [f'{{{x.index(s.of)}, {sense[s.direction]}, {number(C99, s.level)}, "{s.name}"}}' for s in block.stops] or [
+        '{0, 0, 0.0, ""}'
+    ]
+    head = "struct stop { int state, sense; double level; const char *name; };"
+    return f"{head}\nstatic const struct stop stops[] = {{{', '.join(rows)}}};"
 
 
 def files(written: Written) -> dict[str, str]:
@@ -40,7 +136,9 @@ def _machine(written: Written, name: str) -> tuple[str, str]:
     ]
     header = [
         "/* places of the values that can be got; states, inputs and parameters can be set */",
-        "enum {", *places, "};",
+        "enum {",
+        *places,
+        "};",
         f"size_t {name}_size(void); /* bytes that a machine needs; the caller gives them, aligned for double */",
         f"void {name}_start(void *machine, double tolerance);",
         f"int {name}_set(void *machine, unsigned place, double value); /* 0: cannot be set, or no number */",
@@ -49,7 +147,7 @@ def _machine(written: Written, name: str) -> tuple[str, str]:
         f"/* exact change of {name}_get of the places `of` while the places `by` change so much; 0: no such place */",
         f"int {name}_change(const void *machine, const unsigned *of, size_t count_of,",
         "    const unsigned *by, size_t count_by, const double *so_much, double *change);",
-    ]  # fmt: skip
+    ]
     core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
     return "\n".join(header), "\n".join([model(written.block), dop853_numbers(), core, _calls(name)])
 

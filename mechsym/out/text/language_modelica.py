@@ -4,9 +4,8 @@ import re
 
 from mechsym.out.block import Block, Curve, Port
 from mechsym.out.fmi.describe import identifier
-from mechsym.out.text.dialects import MODELICA, number
+from mechsym.out.text.dialects import MODELICA, number, statements
 from mechsym.out.text.programs import Written
-from mechsym.out.text.write import statements
 
 
 def files(written: Written) -> dict[str, str]:

@@ -4,11 +4,7 @@ from collections.abc import Mapping
 
 import casadi as ca
 
-from mechsym.errors import BadInput, suggest
-from mechsym.mechanisms import listing, names
-from mechsym.mechanisms.own import is_file
-from mechsym.mechanisms.record import bind, generated
-from mechsym.mechanisms.traits import is_train
+from mechsym.mechanisms.record import bind, generated, listing
 from mechsym.native.tape import Tape, read
 from mechsym.out.block import Block
 from mechsym.quantities import record
@@ -35,22 +31,18 @@ def of_mechanism(name: str) -> Written:
     BadInput
         No such mechanism, or one that is put together from data
     """
-    if is_train(name):
-        raise BadInput(f"{name} is put together from its data; export a case of it, for example alpha-stirling")
-    if name not in names() and not is_file(name):
-        raise BadInput(f"{name!r} is no mechanism; {suggest(name, names())}")
     mechanism = bind(name, {p: ca.SX.sym(p) for p in generated(name).PARAMETERS})
-    units = {k: u for group in ("coordinates", "parameters", "inputs", "outputs") for k, u in _listed(name, group)}
+    known = listing(name)
+    units = known["coordinates"] | known["parameters"] | known["inputs"] | known["outputs"]
     groups = {group: f for group, f in mechanism.functions.items() if f.numel_out()}
     return Written(
-        name=listing(name)["name"], about=listing(name)["about"], tapes={g: read(f) for g, f in groups.items()},
+        name=known["name"],
+        about=known["about"],
+        tapes={g: read(f) for g, f in groups.items()},
         inputs={g: tuple(f.name_in()) for g, f in groups.items()},
-        outputs={g: read(f).outputs for g, f in groups.items()}, units=units,
-    )  # fmt: skip
-
-
-def _listed(name: str, group: str) -> list[tuple[str, str]]:
-    return list(listing(name)[group].items())
+        outputs={g: read(f).outputs for g, f in groups.items()},
+        units=units,
+    )
 
 
 def of_block(block: Block) -> Written:

@@ -5,6 +5,6 @@ page.html  sliders, curves, the turning guide    live.py    the page inside a re
 """
 
 from mechsym.out.web.build import page
-from mechsym.out.web.live import LiveRun, add_live, with_live
+from mechsym.out.web.live import LiveRun, with_live
 
-__all__ = ["LiveRun", "add_live", "page", "with_live"]
+__all__ = ["LiveRun", "page", "with_live"]

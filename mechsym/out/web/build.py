@@ -1,33 +1,49 @@
 """C to WebAssembly by the compiler of the extra web, and the page around it."""
 
 import base64
+import errno
 import importlib.util
 import json
 import math
-import os
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from mechsym.errors import MissingExtra
-from mechsym.native.compiler import NoCompiler
+from mechsym.files import Json
+from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
-from mechsym.out.text.c import model
+from mechsym.out.text.language_c import model
 from mechsym.quantities.display import chosen
+from mechsym.quantities.results import part, quantity, result
 from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
 
 _OPTIONS = ("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-O2", "-s", "-ffp-contract=off")
+_FULL = (errno.EAGAIN, errno.ENOMEM)  # no more processes, or no memory for one: of the system, not of the compiler
 # parameters that get a slider, with the range as shares of the start; others have a field
 _SLIDERS = {
     "p0": (0.9, 1.1), "F0": (0.8, 1.2), "load_torque": (0.5, 1.5), "drive_1": (0.5, 2.0), "k1": (0.5, 2.0),
     "gas_scale": (0.5, 1.2),
 }  # fmt: skip
+
+
+@result
+class PageChecks:
+    """The size of a page."""
+
+    bytes: int = quantity("-")  #: Of the file
+
+
+@result
+class WrittenPage:
+    """What `mechsym page` tells."""
+
+    written: list[str] = part()
+    checks: PageChecks = part()
 
 
 def page(block: Block) -> str:
@@ -36,13 +52,14 @@ def page(block: Block) -> str:
     Raises
     ------
     MissingExtra
-        There is no compiler for WebAssembly
+        There is no compiler for WebAssembly that works
     """
     room = resources.files("mechsym.out.web")
     code = base64.b64encode(webassembly(block)).decode("ascii")
     data = json.dumps(_data(block), separators=(",", ":"), sort_keys=True).replace("</", "<\\/")
     text = (room / "page.html").read_text(encoding="utf-8")
-    return text.replace("{{title}}", _escaped(block.name)).replace("{{data}}", data).replace("{{code}}", code)
+    title = block.name.replace("&", "&amp;").replace("<", "&lt;")
+    return text.replace("{{title}}", title).replace("{{data}}", data).replace("{{code}}", code)
 
 
 def webassembly(block: Block) -> bytes:
@@ -56,18 +73,25 @@ def webassembly(block: Block) -> bytes:
         "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
         "page.c": (room / "web" / "page.c").read_text(encoding="utf-8"),
     }
+    forecast(sum(map(len, sources.values())))
     with tempfile.TemporaryDirectory() as folder:
         for name, content in sources.items():
             (Path(folder) / name).write_text(content, encoding="utf-8")
         command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, "page.c", "-o", "page.wasm", "-lm"]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=dict(os.environ))
-        if done.returncode:
-            said = [line for line in done.stderr.splitlines() if "error" in line] or ["no word"]
-            raise NoCompiler(f"the compiler of the extra web failed: {said[0].strip()}")
-        return (Path(folder) / "page.wasm").read_bytes()
+        made = Path(folder) / "page.wasm"
+        try:
+            call(command, "the page", made, Path(folder))
+        except NoCompiler as error:
+            if getattr(error.__cause__, "errno", None) in _FULL:
+                raise error.__cause__ from None  # type: ignore[misc]
+            raise MissingExtra(f"the extra web makes no page: {error}") from None
+        code = made.read_bytes()
+        if not code.startswith(b"\0asm"):
+            raise MissingExtra("the extra web makes no WebAssembly; install it again")
+        return code
 
 
-def _data(block: Block) -> dict[str, Any]:
+def _data(block: Block) -> Json:
     rows = variables(block)
     speed = _shaft(block)
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
@@ -91,7 +115,8 @@ def _data(block: Block) -> dict[str, Any]:
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
         "period": _period(block),
         "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
-        "t_end": _end(block, speed.start),
+        # twenty turns from that speed, or the time of the run it was made from [s]
+        "t_end": 20 * 2 * 3.141592653589793 / speed.start if speed.start else block.t_end,
     }
 
 
@@ -122,7 +147,7 @@ def _acting(block: Block) -> list[dict[str, str]]:
     ]
 
 
-def _palette(of: Callable[[str], str]) -> dict[str, Any]:
+def _palette(of: Callable[[str], str]) -> Json:
     return {"quiet": of(QUIET), "grid": of(GRID), "series": [of(colour) for colour in SERIES]}
 
 
@@ -135,18 +160,9 @@ def _shown(block: Block) -> dict[str, tuple[float, str]]:
     return {unit: axis_unit(unit, size) for unit, size in sizes.items()}
 
 
-def _slider(port: Port, low: float, high: float) -> dict[str, Any]:
+def _slider(port: Port, low: float, high: float) -> Json:
     ends = sorted((port.start * low, port.start * high))
     return {
         "name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1],
         "about": port.about or port.name, "sets": [port.name],
     }  # fmt: skip
-
-
-def _end(block: Block, speed: float) -> float:
-    """Twenty turns from a speed, or the time of the run it was made from [s]."""
-    return 20 * 2 * 3.141592653589793 / speed if speed else block.t_end
-
-
-def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;")

@@ -2,12 +2,9 @@
 
 import html
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_text
-from mechsym.jobs.export import Ready
-from mechsym.native.compiler import NoCompiler
+from mechsym.jobs.problem import Ready
 from mechsym.out.laws import block_of
 from mechsym.out.web.build import page
 from mechsym.quantities import record
@@ -32,19 +29,13 @@ def with_live(text: str, runs: Sequence[LiveRun]) -> str:
     return "".join([head, *map(section, runs), end, tail])
 
 
-def add_live(report: Path, run: LiveRun) -> None:
-    """Add the section to the file of a report, where there is one."""
-    if report.exists():
-        write_text(report, with_live(report.read_text(encoding="utf-8"), [run]))
-
-
 def section(run: LiveRun) -> str:
     """A section in which a machine simulates; where it cannot, what is missing."""
     name = html.escape(run.name)
     title = f'<h2 id="live-{name}">Try it: {name} simulates here</h2>'
     try:
         made = page(block_of(run.name, run.about, run.ready()))
-    except (MissingExtra, NoCompiler, BadInput) as missing:
+    except (MissingExtra, BadInput) as missing:
         return f'{title}<p class="note">Not in this report: {html.escape(str(missing))}</p>\n'
     frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(made)}"'
     return f'{title}{frame} style="width:100%;height:56rem;border:0" onload="{_FIT}"></iframe>\n'

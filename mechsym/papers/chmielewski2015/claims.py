@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from mechsym.audit.bench import turn, value
-from mechsym.audit.entries import Decided, Turn
-from mechsym.audit.question import Question
-from mechsym.audit.reader import read
+from mechsym.audit.hosts.sources import Decided, Turn
+from mechsym.audit.judge.question import Question, turn, value
+from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
-from mechsym.papers.chmielewski2015 import computed, studies
+from mechsym.papers.chmielewski2015 import computed
 from mechsym.quantities import dimension
 
 _LEVER = "sin(phi0) + lam*sin(phi0)*cos(phi0)/sqrt(1 - lam**2*sin(phi0)**2)"
@@ -20,17 +19,14 @@ _STEADY = {"phi0dd": 0.0, "c1": 0.0, "F": 0.0, "k1": 0.0}
 def steady() -> Turn:
     """A turn at constant speed without twist.
 
-    Returns
-    -------
-    turn : mapping of str to callable
-        phi2 and phi0dd of the crank angle
+    Returns turn: phi2 and phi0dd of the crank angle.
     """
     return {"phi2": np.copy, "phi0dd": np.zeros_like}
 
 
 def mixed_model_effect(verdict: Decision) -> str:
     """Peak torque mismatch against the exact equation at 194 rad/s, and the energy that the start-up gains or loses."""
-    energy = studies.mixed_model_energy()
+    energy = computed.mixed_model_energy()
     worst = float(energy[np.argmax(np.abs(energy))])
     return (
         f"{_mismatch('crankshaft_flywheel')}; over the start-up of 100 s the model's energy drifts by up to "
@@ -61,8 +57,8 @@ def settles() -> Decided:
     means = []
     for backend in ("auto", "sundials"):
         result = computed.run("crankshaft_flywheel_printed", backend=backend)
-        found = computed.speeds(backend, result.t, result.columns["phi0d"], None)
-        means.append(found.mean)
+        window = computed.speeds(backend, result.t, result.columns["phi0d"], None)
+        means.append(window.mean)
     rigid = computed.rigid_speed(computed.CLAIMED_TIME)
     exact = abs(computed.run("crankshaft_flywheel").energy.residual or 0.0)
     residual = "below 1e-8" if exact < 1e-8 else f"{exact:.0e}"

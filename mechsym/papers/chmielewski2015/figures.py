@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mechsym.cases import load
@@ -13,14 +14,13 @@ from mechsym.papers.chmielewski2015.computed import (
     EXACT,
     FINEST,
     PRINTED,
+    TELLING_STEP,
     fixed,
     piston,
     rigid_speed_with_piston,
     run,
 )
-from mechsym.papers.chmielewski2015.studies import TELLING_STEP
-from mechsym.papers.drawing import panels
-from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend
+from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend, panels
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
 _FIGURES = (
@@ -36,21 +36,18 @@ _FIGURES = (
 def figures() -> dict[str, Figure]:
     """All figures with curves.
 
-    Returns
-    -------
-    figures : dict of str to Figure
-        `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs
+    Returns figures: `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs.
     """
-    found = run(EXACT, FINEST[1], FINEST[0])
-    columns = {**found.columns, **piston()}
+    result = run(EXACT, FINEST[1], FINEST[0])
+    columns = {**result.columns, **piston()}
     drawn = {"figure_5": _torque()}
-    drawn |= {f"figure_{n}": _both_spans(n, found.t, columns[key], label) for n, key, label in _FIGURES}
+    drawn |= {f"figure_{n}": _both_spans(n, result.t, columns[key], label) for n, key, label in _FIGURES}
     return drawn | {"speeds": _speeds()}
 
 
 def _torque() -> Figure:
     drive = load(CASE).need("drive")
-    figure, axes = panels(1, 2, (10, 3))
+    figure, axes = panels(10, 3, 1, 2)
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
         axis.step([0, drive.time, end], [0, drive.torque, drive.torque], where="post", color=BLUE)
         axis.set(xlabel="t [s]", xlim=(0, end))
@@ -60,7 +57,7 @@ def _torque() -> Figure:
 
 
 def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure:
-    figure, axes = panels(1, 2, (10, 3))
+    figure, axes = panels(10, 3, 1, 2)
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
         inside = t <= end
         if end > 10 and number != "9":
@@ -74,7 +71,7 @@ def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure
     return figure
 
 
-def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25, **options: Any) -> None:
+def _band(axis: Axes, t: np.ndarray, y: np.ndarray, width: float = 0.25, **options: Any) -> None:
     """Thousands of turns as the band that they fill: extremes within short stretches."""
     edges = np.searchsorted(t, np.arange(t[0], t[-1], width))
     low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
@@ -82,7 +79,7 @@ def _band(axis: Any, t: np.ndarray, y: np.ndarray, width: float = 0.25, **option
 
 
 def _speeds() -> Figure:
-    figure, (axis,) = panels(size=(8, 4.6))
+    figure, (axis,) = panels(8, 4.6)
     exact, printed = (run(model, FINEST[1], FINEST[0]) for model in (EXACT, PRINTED))
     t, y = fixed(PRINTED, TELLING_STEP, 4)
     for times, speed, color, label in (

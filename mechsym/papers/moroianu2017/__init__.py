@@ -3,7 +3,5 @@
 from mechsym.papers.sources import Source
 
 SOURCE = Source(
-    stem="001_a140ef4f7e005dde",
-    name="moroianu2017",
-    title="Moroianu (2017): The dynamic design of the marin engines",
+    stem="001_a140ef4f7e005dde", name="moroianu2017", title="Moroianu (2017): The dynamic design of the marin engines"
 )

@@ -1,19 +1,13 @@
 """What decides the claims of source 001."""
 
-from mechsym.audit.algebra import FLOATS
-from mechsym.audit.entries import Decided
+from mechsym.audit.hosts.sources import Decided
+from mechsym.audit.read.algebra import FLOATS
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
 
 
 def two_masses() -> Decided:
-    """What the two-mass rod leaves out, for the rod of source 000.
-
-    Returns
-    -------
-    decided : Decided
-        The missing inertia about the centre of mass
-    """
+    """What the two-mass rod leaves out, for the rod of source 000."""
     rod = theory("two_mass_rod")
     names = {k: letter.value for k, letter in rod.letters.items()}
     complete(rod, names, rod.results, FLOATS)

@@ -3,18 +3,18 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.papers.drawing import panels, turn_axis
-from mechsym.papers.moroianu2017.computed import FIGURES, curves
-from mechsym.style import BLUE, INK
+from mechsym.papers.moroianu2017.rows import FIGURES, curves
+from mechsym.papers.page import turn_axis
+from mechsym.style import BLUE, INK, panels
 
 
 def figures() -> dict[str, Figure]:
     """All figures with curves."""
-    one, found = curves()
+    one, chain = curves()
     drawn = {}
     for number, (field, name, unit) in FIGURES.items():
-        figure, (axis,) = panels(size=(6.4, 3.4))
-        axis.plot(np.degrees(one.phi), getattr(found, field) / 1e3, color=BLUE)
+        figure, (axis,) = panels(6.4, 3.4)
+        axis.plot(np.degrees(one.phi), getattr(chain, field) / 1e3, color=BLUE)
         axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_ylabel(f"{name} {field} [k{unit.replace('*', ' ')}]")
         axis.set_title(f"Fig. {number}, assumed data", loc="left", fontsize=10)

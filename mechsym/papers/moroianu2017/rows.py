@@ -4,30 +4,46 @@ The chain is computed with assumed data and drawn as in the source. Only the rul
 own.
 """
 
-from typing import Any
+from functools import cache
 
 import numpy as np
 
-from mechsym.forces.textbook import terskih
-from mechsym.papers.moroianu2017 import SOURCE
-from mechsym.papers.moroianu2017.computed import FIGURES, curves
-from mechsym.papers.rows import NOT_COMPUTABLE, row
+from mechsym.cases import load
+from mechsym.forces.textbook import Chain, chain, terskih
+from mechsym.forces.turn import Turn
+from mechsym.jobs.machine import turn
+from mechsym.papers.rows import NOT_COMPUTABLE, Row, row
 from mechsym.quantities import RPM
 
+CASE = "moroianu"
 _SPEEDS_RPM = (100, 500, 1000)
 _MISSING = "no mass, length, speed or diagram is printed; computed: largest value with the assumed case moroianu"
 _NO_VALUE = "no value is printed; an empirical rule that knows nothing of the rod itself"
+# number of the figure: (field of the chain, its name in the source, unit)
+FIGURES = {
+    "1": ("F_p", "pressure force", "N"), "3": ("F_it", "inertia force", "N"), "4": ("F", "total force", "N"),
+    "6": ("B", "longitudinal force", "N"), "7": ("N", "normal force", "N"), "9": ("Z_B", "radial force", "N"),
+    "10": ("T", "tangential force", "N"), "11": ("Z", "total radial force", "N"), "12": ("M", "driving moment", "N*m"),
+}  # fmt: skip
 
 
-def rows() -> list[dict[str, Any]]:
+@cache
+def curves() -> tuple[Turn, Chain]:
+    """The source's chain over a turn, with the assumed data.
+
+    Returns turn, chain: rod as two masses with its centre of mass after Terskih.
+    """
+    one = turn(load(CASE))
+    return one, chain(one, terskih(one.omega))
+
+
+def rows() -> list[Row]:
     """Every figure with curves, and the rule of Terskih."""
-    found = curves()[1]
+    chain = curves()[1]
     drawn = [
-        _row(f"Fig. {number}: {name} [{unit}]", float(np.abs(getattr(found, field)).max()), _MISSING)
+        row(f"Fig. {number}: {name} [{unit}]", None, np.abs(getattr(chain, field)).max(), NOT_COMPUTABLE, _MISSING)
         for number, (field, name, unit) in FIGURES.items()
     ]
-    return drawn + [_row(f"(3): L_m/L at {rpm} rpm", terskih(rpm * RPM), _NO_VALUE) for rpm in _SPEEDS_RPM]
-
-
-def _row(item: str, computed: float, note: str) -> dict[str, Any]:
-    return row(SOURCE.stem, item, None, computed, NOT_COMPUTABLE, note)
+    return drawn + [
+        row(f"(3): L_m/L at {rpm} rpm", None, terskih(rpm * RPM), NOT_COMPUTABLE, _NO_VALUE) for rpm in _SPEEDS_RPM
+    ]

@@ -13,10 +13,9 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, piston_force
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance
+from mechsym.cycle.compare import crossovers
 from mechsym.cycle.engine import over_speeds
-from mechsym.cycle.kinds.march import March
-from mechsym.cycle.kinds.printed import marched
-from mechsym.jobs.compare import crossovers
+from mechsym.cycle.kinds.printed import March, marched
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.quantities import RPM
 
@@ -30,10 +29,7 @@ _RECIPROCATING = 0.2947 + (0.4159 - 2 * 0.0908) + 0.050
 def errata() -> dict[str, dict[str, float]]:
     """All figures by erratum.
 
-    Returns
-    -------
-    errata : dict of str to dict
-        `E2`, `E3`, .. to name and value; units stand in the names
+    Returns errata: `E2`, `E3`, .. to name and value; units stand in the names.
     """
     functions: dict[str, Callable[[], dict[str, float]]] = {
         "E2": one_piston, "E3": unburnt_share, "E4": vapour_energy, "E5": lost_burn, "E6": averages,
@@ -45,10 +41,7 @@ def errata() -> dict[str, dict[str, float]]:
 def one_piston() -> dict[str, float]:
     """E2: volume with one piston only, as eqs. (2.60) and (2.71) print it.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Compression ratio that the printed clearance would give [-]
+    Returns figures: compression ratio that the printed clearance would give [-].
     """
     machine = _engine("nunes-slider-crank")
     room = chamber(machine.chamber, machine.motion)
@@ -58,49 +51,40 @@ def one_piston() -> dict[str, float]:
 def unburnt_share() -> dict[str, float]:
     """E3: the remainder that the thesis calls unburnt, and the share that is.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Shares of the fuel's energy over the speeds [-]
+    Returns figures: shares of the fuel's energy over the speeds [-].
     """
-    (machine, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
+    (machine, result), performance = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     fuel = result.fuel * machine.cycle.heating_value
     share = 1 - result.heat_released.sum(axis=0) / fuel
-    excess = found.unburnt - share
+    excess = performance.unburnt - share
     return {
-        "remainder_min": float(found.unburnt.min()), "remainder_max": float(found.unburnt.max()),
+        "remainder_min": float(performance.unburnt.min()), "remainder_max": float(performance.unburnt.max()),
         "unburnt_min": float(share.min()), "unburnt_max": float(share.max()),
         "excess_min": float(excess.min()), "excess_max": float(excess.max()),
         "vapour_energy": float(result.fuel * _CV * _T0 / fuel),
-        "first_law_residual": float(np.abs(found.energy_residual).max()),
+        "first_law_residual": float(np.abs(performance.energy_residual).max()),
     }  # fmt: skip
 
 
 def vapour_energy() -> dict[str, float]:
     """E4: the vapour's mass enters without its energy; the march with the latent heat less c_v T_0 instead.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Largest pressures [MPa] and relative change of the largest torque [-]
+    Returns figures: largest pressures [MPa] and relative change of the largest torque [-].
     """
     latent = {"cycle.latent_heat": f"{4e5 - _CV * _T0} J/kg"}
-    found = {}
+    figures = {}
     for name in ("slider-crank", "hypocycloid"):
         before, after = _figures(f"nunes-{name}"), _figures(f"nunes-{name}", latent)
-        found[f"p_max_mpa {name}"] = float(after.p_max.max() / 1e6)
-        found[f"torque_max_change {name}"] = float(after.torque_max.max() / before.torque_max.max() - 1)
-        found[f"torque_avg_change {name}"] = float(np.abs(after.torque_avg / before.torque_avg - 1)[199:].max())
-    return found
+        figures[f"p_max_mpa {name}"] = float(after.p_max.max() / 1e6)
+        figures[f"torque_max_change {name}"] = float(after.torque_max.max() / before.torque_max.max() - 1)
+        figures[f"torque_avg_change {name}"] = float(np.abs(after.torque_avg / before.torque_avg - 1)[199:].max())
+    return figures
 
 
 def lost_burn() -> dict[str, float]:
     """E5: burn of the last broken degree, which the grid cuts off.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Largest loss [-], period of the saw-tooth [rpm], end of burn at the published maxima [deg]
+    Returns figures: largest loss [-], period of the saw-tooth [rpm], end of burn at the published maxima [deg].
     """
     machine, result = _marched("nunes-slider-crank")
     complete = 1 - np.exp(-machine.cycle.wiebe_a)
@@ -115,29 +99,21 @@ def lost_burn() -> dict[str, float]:
 
 
 def averages() -> dict[str, float]:
-    """E6: 721 for 720 points, 6.28 for 2 pi, and how well the sum of torques gives the work.
-
-    Returns
-    -------
-    figures : dict of str to float
-        Relative differences [-]
-    """
-    (_, result), found = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
+    """E6: 721 for 720 points, 6.28 for 2 pi, and how well the sum of torques gives the work [-]."""
+    (_, result), performance = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     work = np.sum((result.p[1:] + result.p[:-1]) / 2 * np.diff(result.v)[:, None], axis=0)
-    from_torque = found.torque_avg * 721 / 720 * 4 * np.pi
+    from_torque = performance.torque_avg * 721 / 720 * 4 * np.pi
     return {
-        "points": 720 / 721 - 1, "two_pi": 6.28 / (2 * np.pi) - 1,
+        "points": 720 / 721 - 1,
+        "two_pi": 6.28 / (2 * np.pi) - 1,
         "torque_sum_against_work": float(np.abs(from_torque / work - 1)[49:].max()),
-    }  # fmt: skip
+    }
 
 
 def engine_torque() -> dict[str, float]:
     """E7: the peak torque is one piston's, the average is both's; the peak of the engine.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Largest torque of both pistons, which run in phase [N*m]
+    Returns figures: largest torque of both pistons, which run in phase [N*m].
     """
     return {
         f"torque_max {name}": float(2 * _figures(f"nunes-{name}").torque_max.max())
@@ -146,13 +122,7 @@ def engine_torque() -> dict[str, float]:
 
 
 def rod_length() -> dict[str, float]:
-    """E8: crossover speed with the rod of table 3.2 and with the rod that chapter 5 must have used.
-
-    Returns
-    -------
-    figures : dict of str to float
-        Crossover speeds [rpm]
-    """
+    """E8: crossover speed with the rod of table 3.2 and with the rod that chapter 5 must have used [rpm]."""
     other = _figures("nunes-hypocycloid")
     figures = {}
     for rod in (90, 74):
@@ -166,10 +136,7 @@ def rod_length() -> dict[str, float]:
 def reciprocating_mass() -> dict[str, float]:
     """E20: forces at 8000 rpm with the mass of the parts that the thesis itself puts on the cylinder axis.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Mass [kg], largest force and force at exhaust dead centre [N], largest reversed tooth load [N]
+    Returns figures: mass [kg], largest force and force at exhaust dead centre [N], largest reversed tooth load [N].
     """
     figures = {"mass_kg": _RECIPROCATING}
     for label, mass in (("as printed", 0.250), ("own parts", _RECIPROCATING)):
@@ -187,16 +154,13 @@ def reciprocating_mass() -> dict[str, float]:
 def back_pressure() -> dict[str, float]:
     """E23: absolute pressure taken as the net pressure on the piston.
 
-    Returns
-    -------
-    figures : dict of str to float
-        Surplus force [N], largest torques with the atmosphere on the piston's back [N*m]
+    Returns figures: surplus force [N], largest torques with the atmosphere on the piston's back [N*m].
     """
     machine = _engine("nunes-slider-crank")
     figures = {"surplus_force": 101325 * np.pi / 4 * machine.chamber.bore**2}
     for name in ("slider-crank", "hypocycloid"):
-        found = _figures(f"nunes-{name}", {"chamber.back_pressure": "101325 Pa"})
-        figures[f"torque_max {name}"] = float(found.torque_max.max())
+        performance = _figures(f"nunes-{name}", {"chamber.back_pressure": "101325 Pa"})
+        figures[f"torque_max {name}"] = float(performance.torque_max.max())
     return figures
 
 

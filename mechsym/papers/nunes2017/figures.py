@@ -5,32 +5,34 @@ The thesis's drawings were not at hand: what is drawn is what its equations give
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mechsym.cases import load
+from mechsym.cycle.chamber import Chamber, travel, volume
 from mechsym.cycle.chamber import chamber as make_chamber
-from mechsym.cycle.chamber import travel, volume
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.kinds.march import crank_torque
-from mechsym.cycle.kinds.printed import marched
+from mechsym.cycle.kinds.printed import March, crank_torque, marched
 from mechsym.jobs.cycle import engine
-from mechsym.papers.drawing import panels, turn_axis
-from mechsym.papers.nunes2017.computed import over_printed_speeds
+from mechsym.papers.nunes2017.numbers import over_printed_speeds
+from mechsym.papers.page import turn_axis
 from mechsym.quantities import RPM
-from mechsym.style import BLUE, GREEN, ORANGE, RED, legend
+from mechsym.style import BLUE, GREEN, ORANGE, RED, legend, panels
 
 _TOP_SPEED = 8000 * RPM
 _SPEEDS_RPM = (2000, 4000, 6000, 8000)
 _COLORS = (BLUE, RED, GREEN, ORANGE)
 _ENGINES = {"OPSCE": "nunes-slider-crank", "OPGHE": "nunes-hypocycloid"}
 _PERFORMANCE = (
-    ("torque_avg", "average torque [N m]"), ("power_kw", "power [kW]"), ("sfc_g_kwh", "consumption [g/kWh]"),
-    ("mep_kpa", "mean effective pressure [kPa]"), ("", "share of the fuel's energy [-]"),
+    ("torque_avg", "average torque [N m]"),
+    ("power_kw", "power [kW]"),
+    ("sfc_g_kwh", "consumption [g/kWh]"),
+    ("mep_kpa", "mean effective pressure [kPa]"),
+    ("", "share of the fuel's energy [-]"),
     ("efficiency_percent", "thermal efficiency [%]"),
-)  # fmt: skip
+)
 _SHARES = ("heat", "work", "exhaust", "unburnt")
 
 
@@ -49,17 +51,17 @@ def _kinematics(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     rate = (1e3, _TOP_SPEED, _TOP_SPEED**2)
     both = {name: [np.asarray(y) * k for y, k in zip(m, rate, strict=True)] for name, m in moved.items()}
     volumes = {name: 1e6 * volume(room, theta) for name, room in rooms.items()}
-    found = {"3.1": _over_turn("3.1", {n: m[0] for n, m in both.items()}, "piston position [mm]")}
+    drawn = {"3.1": _over_turn("3.1", {n: m[0] for n, m in both.items()}, "piston position [mm]")}
     for order, label in ((1, "piston velocity [m/s]"), (2, "piston acceleration [m/s$^2$]")):
         for k, name in enumerate(both):
             number = f"3.{2 * order + k}"
             # (2.58), (2.59), (2.69), (2.70): S counts outwards from the crank, so both are negative leaving the head
-            found[number] = _over_turn(number, {name: -both[name][order]}, f"{label} at 8000 rpm")
-    return found | {"3.6": _over_turn("3.6", volumes, "chamber volume [cm$^3$]")}
+            drawn[number] = _over_turn(number, {name: -both[name][order]}, f"{label} at 8000 rpm")
+    return drawn | {"3.6": _over_turn("3.6", volumes, "chamber volume [cm$^3$]")}
 
 
 def _over_turn(number: str, curves: Mapping[str, np.ndarray], label: str) -> Figure:
-    figure, (axis,) = panels(size=(6.4, 3.6))
+    figure, (axis,) = panels(6.4, 3.6)
     for (name, y), color, line in zip(curves.items(), (BLUE, RED), ("-", "--"), strict=False):
         axis.plot(np.linspace(0, 360, y.size), y, color=color, linestyle=line, label=name)
     _finish(axis, number, label)
@@ -68,27 +70,27 @@ def _over_turn(number: str, curves: Mapping[str, np.ndarray], label: str) -> Fig
 
 
 def _cycles(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
-    found: dict[str, Figure] = {}
+    drawn: dict[str, Figure] = {}
     for first, (name, machine) in zip((7, 10), machines.items(), strict=True):
         room = make_chamber(machine.chamber, machine.motion)
         result = marched(machine, RPM * np.array(_SPEEDS_RPM, float))
         degrees = result.theta_deg - 180.0
-        figure, (axis,) = panels(size=(6.4, 3.8))
+        figure, (axis,) = panels(6.4, 3.8)
         for k, speed in enumerate(_SPEEDS_RPM):
             axis.plot(1e6 * result.v, result.p[:, k] / 1e6, color=_COLORS[k], label=f"{speed} rpm")
         axis.set_xlabel("volume [cm$^3$]")
         _finish(axis, f"3.{first}", f"{name}: pressure [MPa]")
-        found[f"3.{first}"] = figure
-        found[f"3.{first + 1}"] = _piston_forces(f"3.{first + 1}", name, machine, room, result)
+        drawn[f"3.{first}"] = figure
+        drawn[f"3.{first + 1}"] = _piston_forces(f"3.{first + 1}", name, machine, room, result)
         torques = crank_torque(room, result)
-        found[f"3.{first + 2}"] = _over_cycle(f"3.{first + 2}", degrees, torques, f"{name}: torque of one crank [N m]")
+        drawn[f"3.{first + 2}"] = _over_cycle(f"3.{first + 2}", degrees, torques, f"{name}: torque of one crank [N m]")
     tooth = crank_torque(room, result) / (2 * machines["OPGHE"].motion.parameters["e"])
-    found["3.13"] = _over_cycle("3.13", degrees, tooth, "OPGHE: tangential tooth load [N]")
-    return found
+    drawn["3.13"] = _over_cycle("3.13", degrees, tooth, "OPGHE: tangential tooth load [N]")
+    return drawn
 
 
-def _piston_forces(number: str, name: str, machine: ClosedEngine, room: Any, result: Any) -> Figure:
-    figure, axes = panels(2, 1, (6.4, 6), sharex=True)
+def _piston_forces(number: str, name: str, machine: ClosedEngine, room: Chamber, result: March) -> Figure:
+    figure, axes = panels(6.4, 6, 2, 1, sharex=True)
     phi, degrees = np.radians(result.theta_deg - 360.0), result.theta_deg - 180.0
     mass = sum(machine.motion.parameters[m] for m in machine.motion.masses)
     for axis, speed in zip(axes, (4000, 8000), strict=True):
@@ -107,7 +109,7 @@ def _piston_forces(number: str, name: str, machine: ClosedEngine, room: Any, res
 
 
 def _over_cycle(number: str, degrees: np.ndarray, curves: np.ndarray, label: str) -> Figure:
-    figure, (axis,) = panels(size=(6.4, 3.8))
+    figure, (axis,) = panels(6.4, 3.8)
     for k, speed in enumerate(_SPEEDS_RPM):
         axis.plot(degrees, curves[:, k], color=_COLORS[k], label=f"{speed} rpm")
     _finish(axis, number, label)
@@ -118,24 +120,24 @@ def _over_cycle(number: str, degrees: np.ndarray, curves: np.ndarray, label: str
 def _maps() -> dict[str, Figure]:
     curves = over_printed_speeds()
     short, own = curves["slider_crank_74"], curves["hypocycloid"]
-    found: dict[str, Figure] = {}
+    drawn: dict[str, Figure] = {}
     for k, (key, label) in enumerate(_PERFORMANCE):
         one = partial(_over_speeds, key=key, label=label)
         a = curves["slider_crank"] if key == "" else short  # the shares were computed with the rod of 90 mm
-        found[f"5.{1 + k}"] = one(f"5.{1 + k}", {"OPSCE": a})
-        found[f"5.{7 + k}"] = one(f"5.{7 + k}", {"OPGHE": own})
-        found[f"5.{14 + k}"] = one(f"5.{14 + k}", {"OPSCE": a, "OPGHE": own})
+        drawn[f"5.{1 + k}"] = one(f"5.{1 + k}", {"OPSCE": a})
+        drawn[f"5.{7 + k}"] = one(f"5.{7 + k}", {"OPGHE": own})
+        drawn[f"5.{14 + k}"] = one(f"5.{14 + k}", {"OPSCE": a, "OPGHE": own})
     weight = "power to weight [kW/kg]"
-    return found | {"5.13": _over_speeds("5.13", {"OPGHE": own}, key="power_to_weight", label=weight)}
+    return drawn | {"5.13": _over_speeds("5.13", {"OPGHE": own}, key="power_to_weight", label=weight)}
 
 
 def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], key: str, label: str) -> Figure:
-    figure, (axis,) = panels(size=(6.4, 3.8))
-    for (name, found), line in zip(engines.items(), ("-", "--"), strict=False):
+    figure, (axis,) = panels(6.4, 3.8)
+    for (name, curves), line in zip(engines.items(), ("-", "--"), strict=False):
         for quantity, color in zip((key,) if key else _SHARES, _COLORS, strict=False):
             shade = color if key == "" or line == "-" else RED
             axis.plot(
-                found["speed_rpm"], found[quantity], line, color=shade, label=f"{name} {quantity if not key else ''}"
+                curves["speed_rpm"], curves[quantity], line, color=shade, label=f"{name} {quantity if not key else ''}"
             )
     axis.set_xlabel("speed [rpm]")
     _finish(axis, number, label)
@@ -145,7 +147,7 @@ def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], k
     return figure
 
 
-def _finish(axis: Any, number: str, label: str) -> None:
+def _finish(axis: Axes, number: str, label: str) -> None:
     axis.set_ylabel(label)
     axis.set_title(f"Fig. {number}, after the text", loc="left", fontsize=10)
     legend(axis)

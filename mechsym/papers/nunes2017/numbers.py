@@ -1,47 +1,56 @@
-"""Published numbers of the thesis that lie on curves over the speed, as data: text as printed, and where it lies."""
+"""Published numbers of the thesis that lie on curves over the speed, read from `numbers.csv`, and their verdicts."""
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+import csv
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from importlib import resources
 
-from mechsym.papers.nunes2017 import SOURCE
-from mechsym.papers.rows import NOT_REPRODUCED, REPRODUCED, SLIP, last_digit
+import numpy as np
+
+from mechsym.cases import Case, load
+from mechsym.cycle.chamber import Chamber, chamber, travel
+from mechsym.cycle.compare import crossovers
+from mechsym.cycle.engine import columns, over_speeds
+from mechsym.cycle.kinds.ideal import otto_efficiency
+from mechsym.jobs.cycle import engine, speed_range
+from mechsym.papers.rows import NOT_REPRODUCED, REPRODUCED, SLIP, OtherModels, Row, last_digit, number
+from mechsym.quantities import RPM, record
 
 
-class Item(NamedTuple):
-    """One published number.
+@record
+class Item:
+    """One published number."""
 
-    `at` is a speed in rpm, or max, min (value) or max_rpm, min_rpm (speed); `slip` is the source's slip that the
-    computation follows, `meant` what a misprinted number should say, `about` the relative tolerance where the text
-    itself says "about".
-    """
+    item: str  #: What it is, with its place and the unit
+    published: str  #: As printed
+    engine: str = "hypocycloid"
+    quantity: str = ""
+    at: float | str = ""  #: A speed [rpm], max, min (value), max_rpm, min_rpm (speed), or crossover
+    slip: str = ""  #: The source's slip that the computation follows
+    meant: str = ""  #: What a misprinted number should say
+    about: float = 0.0  #: Relative tolerance where the text itself says "about" [-]
 
-    item: str
-    published: str
-    engine: str
-    quantity: str
-    at: float | str
-    slip: str = ""
-    meant: str = ""
-    about: float = 0.0
+
+def items(table: str) -> list[Item]:
+    """Numbers of `numbers.csv`: over the `speeds`; where the torque curves cross, `crossover`; `differences`, section
+    5.2 and fig. 5.18: magnitude of (hypocycloid/slider crank - 1) in percent, rod of 90 mm."""
+    text = (resources.files("mechsym.papers.nunes2017") / "numbers.csv").read_text(encoding="utf-8")
+    lines = [line for line in csv.DictReader(text.splitlines()) if line["table"] == table]
+    names = ("item", "published", "engine", "quantity", "slip", "meant")
+    return [
+        Item(**{name: line[name] for name in names}, at=_place(line["at"]), about=float(line["about"] or 0))
+        for line in lines
+    ]
+
+
+def _place(text: str) -> float | str:
+    value = number(text)
+    return text if value is None else value
 
 
 def verdict(item: Item, computed: float) -> tuple[str, str]:
-    """Verdict on one number by its printed digits.
-
-    Parameters
-    ----------
-    item : Item
-        The number as printed, and the source's slip if there is one
-    computed : float
-        The number as computed in the unit of the print [-]
-
-    Returns
-    -------
-    verdict : str
-        `reproduced`, `reproduced with the source's slip` or `not reproduced`
-    note : str
-        The slip, or how far off; empty when rounding gives the print
-    """
+    """Verdict on one number by its printed digits, and the slip or how far off; `computed` in the print's unit [-]."""
     target = item.meant or item.published
     wanted, unit = float(target), max(last_digit(target), 2 * item.about * abs(float(target)))
     off = abs(computed - wanted) / unit
@@ -55,138 +64,152 @@ def verdict(item: Item, computed: float) -> tuple[str, str]:
     return SLIP if item.slip else REPRODUCED, "; ".join(filter(None, notes))
 
 
-def item_row(item: Item, values: Mapping[str, float | None]) -> dict[str, Any]:
+def item_row(item: Item, models: Mapping[str, float | None], agrees: str = REPRODUCED) -> Row:
     """A row for one number.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        What the `printed`, the `converged` and the `corrected` model give, in the unit of the print [-]
-
-    Returns
-    -------
-    row : dict
-        Keys source, item, published, computed, rel_error, verdict, note, converged, corrected
+    models: what the `printed`, the `converged` and the `corrected` model give, in the unit of the print; agrees: the
+    verdict where the number is reproduced.
     """
-    computed, published = values["printed"], float(item.published)
+    computed = models["printed"]
     assert computed is not None
     judged, note = verdict(item, computed)
-    return {
-        "source": SOURCE.stem,
-        "item": item.item,
-        "published": item.published,
-        "computed": computed,
-        "rel_error": computed / published - 1 if published else None,
-        "verdict": judged,
-        "note": note,
-        "converged": values.get("converged"),
-        "corrected": values.get("corrected"),
-    }
+    outcome = agrees if judged == REPRODUCED else judged
+    row = Row(item=item.item, published=item.published, computed=computed, verdict=outcome, note=note)
+    others = OtherModels(unit=row.unit, converged=models.get("converged"), corrected=models.get("corrected"))
+    return replace(row, models=others)
 
 
-_SC, _SC74, _HY = "slider_crank", "slider_crank_74", "hypocycloid"
-_ROD = "computed with a rod of 74 mm; table 3.2 says 90 mm"
-_WORK_COPIED = "the hypocycloid's value, copied"
+_ROD_74 = {"parameters.l1": "37 mm", "parameters.l2": "37 mm"}
+ENGINES: dict[str, tuple[str, Mapping[str, str]]] = {
+    "slider_crank": ("nunes-slider-crank", {}),
+    "slider_crank_74": ("nunes-slider-crank", _ROD_74),
+    "hypocycloid": ("nunes-hypocycloid", {}),
+}
+MODELS: dict[str, Mapping[str, str]] = {
+    "printed": {"cycle.method": "nunes2017_printed"},
+    "converged": {},
+    "corrected": {"cycle.vaporisation": "liquid_energy", "chamber.back_pressure": "101325 Pa"},
+}
+
+Curves = Mapping[str, np.ndarray]
 
 
-def _series(item: str, engine: str, quantity: str, texts: str, at: tuple[float, ...], slip: str = "") -> list[Item]:
-    return [
-        Item(f"{item} at {speed:g} rpm", text, engine, quantity, speed, slip)
-        for text, speed in zip(texts.split(), at, strict=True)
-    ]
+def over_printed_speeds() -> dict[str, Curves]:
+    """Performance of the three engines over the speeds by the thesis's own march.
+
+    Returns curves: `slider_crank`, `slider_crank_74` (rod of 74 mm) and `hypocycloid` to their quantities over the
+    speeds.
+    """
+    return curves_of(MODELS["printed"])
 
 
-OVER_SPEEDS: list[Item] = [
-    # section 3.4.2, opposed-piston slider crank
-    Item("OPSCE largest peak pressure [MPa]", "9.188", _SC, "p_max_mpa", "max"),
-    Item("OPSCE speed of the largest peak pressure [rpm]", "370", _SC, "p_max_mpa", "max_rpm"),
-    *_series("OPSCE peak pressure [MPa]", _SC, "p_max_mpa", "8.707 6.690", (2000, 8000)),
-    Item("OPSCE largest force on the piston [N]", "25967", _SC, "force_max", "max"),
-    Item("OPSCE speed of the largest force [rpm]", "360", _SC, "force_max", "max_rpm"),
-    *_series("OPSCE largest force [N]", _SC, "force_max", "24273 13690", (2000, 8000)),
-    Item("OPSCE largest instantaneous torque [N*m]", "276.255", _SC, "torque_max", "max"),
-    Item("OPSCE speed of the largest instantaneous torque [rpm]", "1550", _SC, "torque_max", "max_rpm"),
-    *_series("OPSCE instantaneous torque [N*m]", _SC, "torque_max", "275.731 245.032 195.075", (2000, 5400, 8000)),
-    Item("OPSCE average torque at 1550 rpm [N*m]", "35.904", _SC, "torque_avg", 1570, "belongs to 1570 rpm"),
-    *_series("OPSCE average torque [N*m]", _SC, "torque_avg", "36.284 36.908", (2000, 8000)),
-    Item("OPSCE largest average torque [N*m]", "37.138", _SC, "torque_avg", "max"),
-    Item("OPSCE speed of the largest average torque [rpm]", "5400", _SC, "torque_avg", "max_rpm"),
-    # section 3.4.3, opposed-piston geared hypocycloid
-    Item("OPGHE largest peak pressure [MPa]", "9.604", _HY, "p_max_mpa", "max"),
-    Item("OPGHE speed of the largest peak pressure [rpm]", "450", _HY, "p_max_mpa", "max_rpm"),
-    *_series("OPGHE peak pressure [MPa]", _HY, "p_max_mpa", "9.196 7.263", (2000, 8000)),
-    Item("OPGHE largest force on the piston [N]", "27140", _HY, "force_max", "max"),
-    Item("OPGHE speed of the largest force [rpm]", "440", _HY, "force_max", "max_rpm"),
-    *_series("OPGHE largest force [N]", _HY, "force_max", "25730 16337", (2000, 8000)),
-    Item("OPGHE largest instantaneous torque [N*m]", "243.6", _HY, "torque_max", "max"),
-    Item("OPGHE speed of the largest instantaneous torque [rpm]", "2560", _HY, "torque_max", "max_rpm",
-         "2560 printed for 2360, the speed of the tooth load", "2360"),
-    Item("OPGHE average torque at 2560 rpm [N*m]", "36.2", _HY, "torque_avg", 2560),
-    *_series("OPGHE instantaneous torque [N*m]", _HY, "torque_max", "243.5 212.0 193.2", (2000, 6700, 8000)),
-    *_series("OPGHE average torque [N*m]", _HY, "torque_avg", "35.9 37.0", (2000, 8000)),
-    Item("OPGHE largest average torque [N*m]", "37.1", _HY, "torque_avg", "max"),
-    Item("OPGHE speed of the largest average torque [rpm]", "6700", _HY, "torque_avg", "max_rpm"),
-    Item("OPGHE largest tooth load [N]", "9368.4", _HY, "tooth_force", "max"),
-    Item("OPGHE speed of the largest tooth load [rpm]", "2360", _HY, "tooth_force", "max_rpm"),
-    *_series("OPGHE tooth load [N]", _HY, "tooth_force", "9365.2 7432.2", (2000, 8000)),
-    # section 5.1.1
-    Item("OPSCE, ch. 5: average torque at 10 rpm, about [N*m]", "15", _SC74, "torque_avg", 10, _ROD, about=0.1),
-    *_series("OPSCE, ch. 5: average torque [N*m]", _SC74, "torque_avg", "33.4 36.9", (500, 8000), _ROD),
-    Item("OPSCE, ch. 5: power [kW]", "30.9", _SC74, "power_kw", "max", _ROD),
-    Item("OPSCE, ch. 5: power [hp]", "41.4", _SC74, "power_hp", "max", _ROD),
-    Item("OPSCE, ch. 5: consumption at 10 rpm, about [g/kWh]", "475", _SC74, "sfc_g_kwh", 10, _ROD, about=0.1),
-    *_series("OPSCE, ch. 5: consumption [g/kWh]", _SC74, "sfc_g_kwh", "218.5 184.5 185.8", (250, 5400, 8000), _ROD),
-    Item("OPSCE, ch. 5: mep at the lowest speed, about [kPa]", "600", _SC74, "mep_kpa", 10, _ROD,
-         about=0.1),
-    *_series("OPSCE, ch. 5: mep [kPa]", _SC74, "mep_kpa", "1428.8 1586.8 1575.3", (500, 5400, 8000), _ROD),
-    *_series("OPSCE, ch. 5: heat share", _SC, "heat", ".278 .192 .158 .142 .130", (500, 2000, 4000, 6000, 8000)),
-    *_series("OPSCE, ch. 5: work share", _SC, "work", ".403 .447 .449", (500, 4000, 6000)),
-    Item("OPSCE, ch. 5: work share at 2000 rpm", ".434", _SC, "work", 2000, _WORK_COPIED, ".439"),
-    Item("OPSCE, ch. 5: largest work share", ".449", _SC, "work", "max"),
-    *_series("OPSCE, ch. 5: exhaust share", _SC, "exhaust", ".176 .228 .252 .268 .281", (500, 2000, 4000, 6000, 8000)),
-    Item("OPSCE, ch. 5: largest unburnt share", ".144", _SC, "unburnt", "max"),
-    Item("OPSCE, ch. 5: speed of the largest unburnt share [rpm]", "170", _SC, "unburnt", "max_rpm"),
-    Item("OPSCE, ch. 5: smallest unburnt share", ".141", _SC, "unburnt", "min"),
-    Item("OPSCE, ch. 5: speed of the smallest unburnt share [rpm]", "7570", _SC, "unburnt", "min_rpm"),
-    *_series("OPSCE, ch. 5: efficiency [%]", _SC74, "efficiency_percent", "40.4 44.9 44.5", (500, 5400, 8000), _ROD),
-    # section 5.1.2
-    Item("OPGHE, ch. 5: average torque at the lowest speed, about [N*m]", "12.5", _HY, "torque_avg", 10, about=0.1),
-    *_series("OPGHE, ch. 5: average torque [N*m]", _HY, "torque_avg", "32.6", (500,)),
-    Item("OPGHE, ch. 5: power [kW]", "31.0", _HY, "power_kw", "max"),
-    Item("OPGHE, ch. 5: power [hp]", "41.6", _HY, "power_hp", "max"),
-    Item("OPGHE, ch. 5: consumption at 10 rpm, about [g/kWh]", "525", _HY, "sfc_g_kwh", 10, about=0.1),
-    *_series("OPGHE, ch. 5: consumption [g/kWh]", _HY, "sfc_g_kwh", "226.6 184.7 185.2", (250, 6700, 8000)),
-    Item("OPGHE, ch. 5: mep at the lowest speed, about [kPa]", "550", _HY, "mep_kpa", 10, about=0.1),
-    *_series("OPGHE, ch. 5: mep [kPa]", _HY, "mep_kpa", "1390.3 1585.3 1581.0", (500, 6700, 8000)),
-    *_series("OPGHE, ch. 5: heat share", _HY, "heat", ".292 .202 .166 .148 .135", (500, 2000, 4000, 6000, 8000)),
-    *_series("OPGHE, ch. 5: work share", _HY, "work", ".394 .434 .444 .448", (500, 2000, 4000, 6000)),
-    Item("OPGHE, ch. 5: largest work share", ".449", _HY, "work", "max"),
-    *_series("OPGHE, ch. 5: exhaust share", _HY, "exhaust", ".172 .224 .247 .263 .274", (500, 2000, 4000, 6000, 8000)),
-    *_series("OPGHE, ch. 5: efficiency [%]", _HY, "efficiency_percent", "39.31 44.82 44.70", (500, 6700, 8000)),
-    Item("OPGHE, ch. 5: power to weight [kW/kg]", "2.313", _HY, "power_to_weight", "max"),
-]  # fmt: skip
+def value(item: Item, curves: Mapping[str, Curves]) -> float:
+    """What a published number is on the curves of a model, by engine; in the unit of the print [-]."""
+    speed, y = curves[item.engine]["speed_rpm"], curves[item.engine][item.quantity]
+    if isinstance(item.at, str):
+        k = int(np.argmax(y) if item.at.startswith("max") else np.argmin(y))
+        return float(speed[k]) if item.at.endswith("_rpm") else float(y[k])
+    return float(y[int(np.argmin(np.abs(speed - item.at)))])
 
-# section 5.2: where the torque curves cross, and figures there
-CROSSOVER: list[Item] = [
-    Item("crossover speed [rpm]", "6436", _SC74, "speed_rpm", "crossover", _ROD),
-    Item("average torque at the crossover [N*m]", "37.1", _SC74, "torque_avg", "crossover", _ROD),
-    Item("power at the crossover [kW]", "25.0", _SC74, "power_kw", "crossover", _ROD),
-    Item("consumption at the crossover [g/kWh]", "184.8", _SC74, "sfc_g_kwh", "crossover", _ROD),
-    Item("mean effective pressure at the crossover [kPa]", "1583.9", _SC74, "mep_kpa", "crossover", _ROD),
-    Item("thermal efficiency at the crossover [%]", "44.78", _SC74, "efficiency_percent", "crossover", _ROD),
-    Item("speed of equal work (fig. 5.18) [rpm]", "6500", _SC, "speed_rpm", "crossover", about=0.005),
-]
 
-# section 5.2, fig. 5.18: magnitude of (hypocycloid/slider crank - 1) in percent, rod of 90 mm
-DIFFERENCES: list[Item] = [
-    Item("difference in heat at the lowest speed [%]", "2.03", _SC, "heat", 10, "2.03 printed for 2.74", "2.74"),
-    Item("largest difference in heat [%]", "4.79", _SC, "heat", "max"),
-    Item("speed of the largest difference in heat [rpm]", "1040", _SC, "heat", "max_rpm"),
-    Item("difference in heat at 8000 rpm [%]", "4.04", _SC, "heat", 8000),
-    Item("difference in work at the lowest speed [%]", "8.61", _SC, "work", 10),
-    Item("difference in work at 8000 rpm [%]", "2.9", _SC, "work", 8000, "2.9 printed for 0.29", "0.29"),
-    Item("difference in exhaust at the lowest speed [%]", "8.78", _SC, "exhaust", 10),
-    Item("smallest difference in exhaust [%]", "1.84", _SC, "exhaust", "min"),
-    Item("speed of the smallest difference in exhaust [rpm]", "2730", _SC, "exhaust", "min_rpm"),
-    Item("difference in exhaust at 8000 rpm [%]", "2.33", _SC, "exhaust", 8000),
+def curves_of(changes: Mapping[str, str]) -> dict[str, Curves]:
+    """Performance of the three engines over the speeds, with values of their cases changed."""
+    curves: dict[str, Curves] = {}
+    for name, (case, own) in ENGINES.items():
+        loaded: Case = load(case, {**own, **changes})
+        table = columns(over_speeds(engine(loaded), speed_range(loaded.need("speeds"))))
+        flat = {k: v for k, v in table.items() if k not in ("fractions", "loads")}
+        curves[name] = (
+            flat
+            | dict(table["fractions"])
+            | dict(table["loads"])
+            | {
+                "efficiency_percent": 100 * table["efficiency"],
+                "power_hp": 1.34102209 * table["power_kw"],  # eq. (2.47)
+                "power_to_weight": table["power_kw"] / 13.4066,  # section 5.1.2, engine of 13406.6 g
+            }
+        )
+    return curves
+
+
+def at_crossover(item: Item, curves: Mapping[str, Curves]) -> float:
+    """A quantity of an engine where the torque of the hypocycloid overtakes it [-]."""
+    a, b = curves[item.engine], curves["hypocycloid"]
+    crossing = crossovers(a["speed_rpm"], a["torque_avg"], b["torque_avg"])
+    # the march's saw-tooth could cross more than once; the last crossing decides who wins at high speed
+    return float(np.interp(crossing[-1], a["speed_rpm"], a[item.quantity])) if crossing.size else math.nan
+
+
+def difference(item: Item, curves: Mapping[str, Curves]) -> float:
+    """How far the hypocycloid is from an engine, at a speed or at most [-]."""
+    a, b = curves[item.engine], curves["hypocycloid"]
+    gap = {"speed_rpm": a["speed_rpm"], item.quantity: 100 * np.abs(b[item.quantity] / a[item.quantity] - 1)}
+    return value(item, {item.engine: gap})
+
+
+_TOP_SPEED = 8000 * RPM
+_G = 9.81
+# table 3.1, columns exchanged as the values demand: speed [rpm], start and duration of combustion [deg]
+_TIMINGS = np.array([
+    (1200, 352, 32), (2400, 348, 41), (3600, 350, 39), (4800, 349, 44), (6000, 346, 44), (7600, 349, 51),
+    (9200, 347, 56),
+], float)  # fmt: skip
+
+Fact = Callable[[Mapping[str, Case]], float]
+
+
+def _chamber(cases: Mapping[str, Case], name: str) -> Chamber:
+    machine = engine(cases[name])
+    return chamber(machine.chamber, machine.motion)
+
+
+def _largest(name: str, derivative: int) -> Fact:
+    def fact(cases: Mapping[str, Case]) -> float:
+        moved = travel(_chamber(cases, name).motion, np.radians(np.arange(361.0)))[derivative]
+        return float(np.abs(moved).max() * _TOP_SPEED**derivative)
+
+    return fact
+
+
+def _of_chamber(evaluate: Callable[[Chamber], float]) -> Fact:
+    return lambda cases: float(evaluate(_chamber(cases, "slider_crank")))
+
+
+def _line(column: int, power: int) -> Fact:
+    return lambda _: float(np.polyfit(_TIMINGS[:, 0], _TIMINGS[:, column], 1)[1 - power])
+
+
+def _ratio(cases: Mapping[str, Case]) -> float:
+    return 100 * (1 - _largest("hypocycloid", 2)(cases) / _largest("slider_crank", 2)(cases))
+
+
+def _fact(item: str, published: str, slip: str = "", meant: str = "") -> Item:
+    return Item(item=item, published=published, engine="slider_crank", slip=slip, meant=meant)
+
+
+_SWAPPED = "the columns of table 3.1 are exchanged"
+
+FACTS: list[tuple[Item, Fact]] = [
+    (_fact("ideal Otto efficiency at CR = 10 [%]", "60.19"), lambda _: 100 * otto_efficiency(10.0, 1.4)),
+    (_fact("ideal Otto efficiency at CR = 10, section 5.1.1 [%]", "60.2"), lambda _: 100 * otto_efficiency(10.0, 1.4)),
+    (_fact("piston area [m^2]", "0.02827", "0.02827 printed for 0.002827", "0.002827"), _of_chamber(lambda c: c.area)),
+    (_fact("displacement, table 3.2 [m^3]", "2.9405e-4"), _of_chamber(lambda c: c.displacement)),
+    (
+        _fact("displacement, section 3.1.1 [m^3]", "2.9405e-5", "exponent -5 printed for -4", "2.9405e-4"),
+        _of_chamber(lambda c: c.displacement),
+    ),
+    (_fact("clearance volume [m^3]", "3.2673e-5"), _of_chamber(lambda c: c.clearance)),
+    (_fact("bore over half-stroke", "1.154"), _of_chamber(lambda c: c.bore / c.stroke)),
+    (_fact("bore over stroke", "0.577"), _of_chamber(lambda c: c.bore / (2 * c.stroke))),
+    (_fact("start of combustion, constant of eq. (3.1) [deg]", "350.93", _SWAPPED), _line(1, 0)),
+    (_fact("start of combustion, slope of eq. (3.1) [deg/rpm]", "-0.0004", _SWAPPED), _line(1, 1)),
+    (_fact("duration of combustion, constant of eq. (3.2) [deg]", "30.663", _SWAPPED), _line(2, 0)),
+    (_fact("duration of combustion, slope of eq. (3.2) [deg/rpm]", "0.0027", _SWAPPED), _line(2, 1)),
+    (_fact("OPSCE largest piston velocity [m/s]", "22.7"), _largest("slider_crank", 1)),
+    (_fact("OPGHE largest piston velocity [m/s]", "21.8"), _largest("hypocycloid", 1)),
+    (_fact("OPSCE largest piston acceleration [m/s^2]", "23519.4"), _largest("slider_crank", 2)),
+    (_fact("OPSCE largest piston acceleration [g]", "2397.5"), lambda c: _largest("slider_crank", 2)(c) / _G),
+    (_fact("OPGHE largest piston acceleration [m/s^2]", "18247.8"), _largest("hypocycloid", 2)),
+    (_fact("OPGHE largest piston acceleration [g]", "1860.1"), lambda c: _largest("hypocycloid", 2)(c) / _G),
+    (_fact("reduction of the largest acceleration [%]", "22.4"), _ratio),
 ]

@@ -5,18 +5,16 @@ rule and data removed (None where nothing changes). The corrected engine itself 
 """
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
-from mechsym.papers.nunes2017 import gears as gearing
-from mechsym.papers.nunes2017.chapter4 import Chapter4, area_printed, chapter4
+from mechsym.papers.nunes2017 import chapter4 as gearing
+from mechsym.papers.nunes2017.chapter4 import COLUMNS, GEOMETRY, SINGLE, TWIN, Chapter4, area_printed, chapter4
 from mechsym.papers.nunes2017.numbers import Item, item_row
-from mechsym.papers.nunes2017.sizing_numbers import COLUMNS, GEOMETRY, SINGLE, TWIN
-from mechsym.papers.rows import ARITHMETIC, REPRODUCED
-from mechsym.sizing.rules import balancing, bearings, bolts, crankshaft, cylinder, masses, piston, rod
-from mechsym.sizing.rules.agma908 import interpolated
-from mechsym.sizing.rules.gear_bending import bending_geometry_factor
+from mechsym.papers.rows import ARITHMETIC, NOT_REPRODUCED, REPRODUCED, Row
+from mechsym.sizing.rules import bearings, crankshaft, cylinder, masses, piston
+from mechsym.sizing.rules.gear_bending import bending_geometry_factor, interpolated
 from mechsym.sizing.rules.gear_factors import elastic_coefficient
 from mechsym.sizing.rules.gear_geometry import Pair, pitting_geometry_factor
 from mechsym.sizing.rules.materials import need
@@ -26,46 +24,33 @@ _DIGITS = "F = 27410 N for 27140 N"
 _CODE = {"pinion": 1, "gear": 2}
 
 
-def rows() -> list[dict[str, Any]]:
-    """Chapter 4 and section 6.1, number by number.
-
-    Returns
-    -------
-    rows : list of dict
-        Keys source, item, published, computed, rel_error, verdict, note, corrected
-    """
-    given = chapter4()
-    found: list[dict[str, Any]] = []
-    for make in (_materials, _piston, _cylinder, _geometry, _factors, _crank, _rest):
-        found += [_row(*entry) for entry in make(given)]
-    return found + _widths(given) + _maraging(given)
-
-
-# an entry: item, text as printed, computed in the unit of the print, slip, meant, corrected, verdict when it agrees
-Entry = tuple[str, str, float, str, str, float | None, str]
+def rows() -> list[Row]:
+    """Chapter 4 and section 6.1, number by number."""
+    thesis = chapter4()
+    chapters = (_materials, _piston, _cylinder, _geometry, _factors, _crank, _rest, _widths, _maraging)
+    return [row for chapter in chapters for row in chapter(thesis)]
 
 
 def _entry(
-    item: str, published: str, computed: float, slip: str = "", meant: str = "", corrected: float | None = None
-) -> Entry:
-    return item, published, float(computed), slip, meant, corrected, REPRODUCED
+    item: str,
+    published: str,
+    computed: float,
+    slip: str = "",
+    meant: str = "",
+    corrected: float | None = None,
+    agrees: str = REPRODUCED,
+) -> Row:
+    values = {"printed": float(computed), "corrected": corrected}
+    return item_row(Item(item=item, published=published, slip=slip, meant=meant), values, agrees)
 
 
-def _sum(item: str, published: str, computed: float, slip: str = "", meant: str = "") -> Entry:
-    """A number that follows from others of the print alone."""
-    return item, published, float(computed), slip, meant, None, ARITHMETIC
+def _sum(item: str, published: str, computed: float, slip: str = "", meant: str = "") -> Row:
+    # a number that follows from others of the print alone
+    return _entry(item, published, computed, slip, meant, agrees=ARITHMETIC)
 
 
-def _row(
-    item: str, published: str, computed: float, slip: str, meant: str, corrected: float | None, agrees: str = REPRODUCED
-) -> dict[str, Any]:
-    values = {"printed": computed, "corrected": corrected}
-    found = item_row(Item(item, published, "hypocycloid", "", "", slip, meant), values)
-    return found | {"verdict": agrees} if found["verdict"] == REPRODUCED else found
-
-
-def _materials(given: Chapter4) -> list[Entry]:
-    wants, cylinder_of, head = given.wants, given.material("cylinder"), given.material("piston")
+def _materials(thesis: Chapter4) -> list[Row]:
+    wants, cylinder_of, head = thesis.wants, thesis.material("cylinder"), thesis.material("piston")
     return [
         _sum("allowable bending stress of Nitralloy N, eq. 4.1 [MPa]", "454.713", 0.7255 * 415 + 153.63),
         _sum("allowable hoop stress [MPa]", "52.5", need(cylinder_of, "fatigue") / wants.wall / 1e6),
@@ -73,23 +58,25 @@ def _materials(given: Chapter4) -> list[Entry]:
     ]
 
 
-def _piston(given: Chapter4) -> list[Entry]:
-    wants, part, head, B = given.wants, given.printed.parts.piston, given.material("piston"), given.bore
-    heat = piston.head_heat(given.fuel * given.top_rpm / 120 / 2, given.heating_value, wants.heat_share)
-    cap = given.bearings["HK 2516"].outside
-    gaps = (round(cylinder.tdc_gap(given.clearance, area_printed(given)), 4),
-            cylinder.tdc_gap(given.clearance, given.area))  # fmt: skip
-    length = [rod.rod_length(wants.reach, given.e, gap, part.head, cap) * 1e3 for gap in gaps]
+def _piston(thesis: Chapter4) -> list[Row]:
+    wants, part, head, B = thesis.wants, thesis.printed.parts.piston, thesis.material("piston"), thesis.bore
+    heat = piston.head_heat(thesis.fuel * thesis.top_rpm / 120 / 2, thesis.heating_value, wants.heat_share)
+    cap = thesis.bearings["HK 2516"].outside
+    gaps = (
+        round(cylinder.tdc_gap(thesis.clearance, area_printed(thesis)), 4),
+        cylinder.tdc_gap(thesis.clearance, thesis.area),
+    )
+    length = [piston.rod_length(wants.reach, thesis.e, gap, part.head, cap) * 1e3 for gap in gaps]
     hot, cold = 12.56 / (4 * np.pi), "75/1.5 = 50 MPa used; the text allows 60 MPa"
     strong, weak = need(head, "hot_ultimate") / wants.head, need(head, "fatigue") / wants.rod
     conductivity, rings = need(head, "conductivity"), int(wants.rings)
     return [
         _entry("thickness of the head, strength [mm]", "10.39",
-               piston.head_thickness_strength(given.peaks["p"], B, strong) * 1e3),
+               piston.head_thickness_strength(thesis.peaks.p, B, strong) * 1e3),
         _entry("thickness of the head, heat [mm]", "13.74",
                piston.head_thickness_heat(heat, conductivity, wants.head_dT) / hot * 1e3,
                "half the fuel flow, which eq. 4.4 does not say"),
-        _entry("diameter of the rod [mm]", "26.29", rod.rod_diameter(given.peaks["F"], weak) * 1e3, cold),
+        _entry("diameter of the rod [mm]", "26.29", piston.rod_diameter(thesis.peaks.F, weak) * 1e3, cold),
         _entry("ring, radial, least [mm]", "1.57", piston.ring_radial_thickness(B, 0.025e6, 110e6) * 1e3),
         _entry("ring, radial, largest [mm]", "2.31", piston.ring_radial_thickness(B, 0.042e6, 85e6) * 1e3),
         _entry("ring, axial [mm]", "2", piston.ring_axial_thickness(B, rings) * 1e3),
@@ -101,17 +88,17 @@ def _piston(given: Chapter4) -> list[Entry]:
     ]  # fmt: skip
 
 
-def _cylinder(given: Chapter4) -> list[Entry]:
-    wants, B, stroke = given.wants, given.bore, 4 * given.e
-    parts, hoop = given.printed.parts, need(given.material("cylinder"), "fatigue") / given.wants.wall
-    gap, wrong = (cylinder.tdc_gap(given.clearance, area) for area in (given.area, area_printed(given)))
+def _cylinder(thesis: Chapter4) -> list[Row]:
+    wants, B, stroke = thesis.wants, thesis.bore, 4 * thesis.e
+    parts, hoop = thesis.printed.parts, need(thesis.material("cylinder"), "fatigue") / thesis.wants.wall
+    gap, wrong = (cylinder.tdc_gap(thesis.clearance, area) for area in (thesis.area, area_printed(thesis)))
     height, both = parts.piston.height, 2 * stroke
     length, right = (cylinder.cylinder_length(g, height, stroke) * 1e3 for g in (wrong, gap))
-    core = [bolts.core_diameter(given.peaks["p"], B, int(wants.bolts), s * wants.bolt_stress) * 1e3 for s in (1, 0.5)]
+    core = [cylinder.core_diameter(thesis.peaks.p, B, int(wants.bolts), s * wants.bolt_stress) * 1e3 for s in (1, 0.5)]
     low, high = cylinder.flange_range(parts.cylinder.wall)
     return [
         _entry("wall of the cylinder [mm]", "7.49",
-               cylinder.wall_thickness(given.peaks["p"], B, hoop, wants.reboring) * 1e3),
+               cylinder.wall_thickness(thesis.peaks.p, B, hoop, wants.reboring) * 1e3),
         _sum("dry liner, least [mm]", "1.8", 30 * B),
         _sum("dry liner, largest [mm]", "2.1", 35 * B),
         _entry("flange, least [mm]", "9", low * 1e3),
@@ -124,30 +111,30 @@ def _cylinder(given: Chapter4) -> list[Entry]:
         _sum("bolts, least number", "4.6", 0.01e3 * B + 4),
         _sum("bolts, largest number", "5.2", 0.02e3 * B + 4),
         _entry("bolts, diameter at 70 MPa [mm]", "9.94", core[0], "the core's, taken for the nominal diameter", "",
-               float(bolts.thread_for(core[0] * 1e-3))),
+               float(cylinder.thread_for(core[0] * 1e-3))),
         _entry("bolts, diameter at 35 MPa [mm]", "14.06", core[1], "the core's, taken for the nominal diameter", "",
-               float(bolts.thread_for(core[1] * 1e-3))),
+               float(cylinder.thread_for(core[1] * 1e-3))),
         _sum("bolts, 0.75 of the flange [mm]", "9", 0.75 * parts.cylinder.flange * 1e3,
              "the flange's own range is printed"),
     ]  # fmt: skip
 
 
-def _geometry(given: Chapter4) -> list[Entry]:
-    found = []
+def _geometry(thesis: Chapter4) -> list[Row]:
+    rows = []
     for (shift, teeth), texts in GEOMETRY.items():
-        pair = Pair(kind="internal", module=2 * given.e / teeth, teeth_1=teeth, teeth_2=2 * teeth,
-                    pressure_angle=given.printed.parts.gears.pressure_angle, shift=shift)  # fmt: skip
+        pair = Pair(kind="internal", module=2 * thesis.e / teeth, teeth_1=teeth, teeth_2=2 * teeth,
+                    pressure_angle=thesis.printed.parts.gears.pressure_angle, shift=shift)  # fmt: skip
         exact = (pitting_geometry_factor(pair), bending_geometry_factor(pair, 1), bending_geometry_factor(pair, 2))
         for name, text, right in zip(("I", "J_pinion", "J_gear"), texts, exact, strict=True):
             item = f"table 4.8: {name}, x = {shift:g}, {teeth}/{2 * teeth} teeth"
-            found.append(_entry(item, text, interpolated(name, shift, teeth, 2 * teeth), "", "", float(right)))
-    return found
+            rows.append(_entry(item, text, interpolated(name, shift, teeth, 2 * teeth), "", "", float(right)))
+    return rows
 
 
-def _factors(given: Chapter4) -> list[Entry]:
+def _factors(thesis: Chapter4) -> list[Row]:
     own = "each member has a factor of its own; they belong to the mesh"
-    gears, steel = given.printed.parts.gears, given.material("gears")
-    elastic, top = elastic_coefficient(*2 * (steel.youngs_modulus, steel.poisson)), round(given.top_rpm)
+    gears, steel = thesis.printed.parts.gears, thesis.material("gears")
+    elastic, top = elastic_coefficient(*2 * (steel.youngs_modulus, steel.poisson)), round(thesis.top_rpm)
     mesh = {rpm: float(gearing.dynamic_printed(2, rpm, 196.85)) for rpm in (10, top)}  # the mesh turns at 2 omega
     apart = gears.module * (gears.teeth_ring - gears.teeth_pinion) / 2 * 1e3
     deep = [gears.module * (2.35 - 1 + sign * gears.shift) * 1e3 for sign in (-1, 1)]
@@ -166,39 +153,43 @@ def _factors(given: Chapter4) -> list[Entry]:
     return entries
 
 
-def _widths(given: Chapter4) -> list[dict[str, Any]]:
+def _widths(thesis: Chapter4) -> list[Row]:
     slips = "K_v with 200 for 196.85 and each member's own speed; external I and J; the ring's own diameter"
-    found = []
+    rows = []
     for twin, name, lines in ((False, "4.11", SINGLE), (True, "4.12", TWIN)):
         for (shift, teeth), text in lines.items():
-            computed = gearing.widths_printed(shift, teeth, given.peaks["rpm"], given.peaks["tooth"], twin)
-            pinion, ring, contact = gearing.widths_corrected(shift, teeth, given.peaks["rpm"], given.peaks["tooth"])
+            computed = gearing.widths_printed(shift, teeth, thesis.peaks.rpm, thesis.peaks.tooth, twin)
+            pinion, ring, contact = gearing.widths_corrected(shift, teeth, thesis.peaks.rpm, thesis.peaks.tooth)
             right = [(1 if twin else 2) * 1e3 * b for b in (pinion, ring, contact, contact)]
             for column, published, b, better in zip(COLUMNS, text.split(), computed, right, strict=True):
                 item = f"table {name}: face width, {column}, x = {shift:g}, {teeth}/{2 * teeth} teeth [mm]"
-                found.append(_row(item, published, b * 1e3, slips, "", better))
-    return found
+                rows.append(_entry(item, published, b * 1e3, slips, "", better))
+    return rows
 
 
-def _crank(given: Chapter4) -> list[Entry]:
-    swapped, R, F, part = 27410.0, given.peaks["F"] / 2, given.peaks["F"], given.printed.parts.crank
-    arm, span, steel = 0.043, 0.086, given.material("crankshaft")  # distances as printed beside eq. 4.31 [m]
+def _crank(thesis: Chapter4) -> list[Row]:
+    swapped, R, F, part = 27410.0, thesis.peaks.F / 2, thesis.peaks.F, thesis.printed.parts.crank
+    arm, span, steel = 0.043, 0.086, thesis.material("crankshaft")  # distances as printed beside eq. 4.31 [m]
     bending = need(steel, "gear_bending")
     width = crankshaft.web_width(part.pin)
-    shafts = [masses.cylinder_mass(steel.density, d, length)
-              for d, length in ((part.pin, part.pin_length), (part.shaft, part.shaft_length))]  # fmt: skip
-    webs = masses.area_and_centre(*masses.web_outline(part.pin, part.shaft, given.e))[0] * part.web * steel.density
-    stress = [crankshaft.web_stress(force / 2, arm, part.pin_length, part.web, w) / 1e6
-              for force, w in ((swapped, part.web_width), (F, width))]  # fmt: skip
-    shear = need(given.material("shaft"), "ultimate_shear") / given.wants.shaft_static
-    output = [crankshaft.shaft_diameter(share * given.peaks["T"], shear) * 1e3 for share in (1, 2)]
+    shafts = [
+        masses.cylinder_mass(steel.density, d, length)
+        for d, length in ((part.pin, part.pin_length), (part.shaft, part.shaft_length))
+    ]
+    webs = masses.area_and_centre(*masses.web_outline(part.pin, part.shaft, thesis.e))[0] * part.web * steel.density
+    stress = [
+        crankshaft.web_stress(force / 2, arm, part.pin_length, part.web, w) / 1e6
+        for force, w in ((swapped, part.web_width), (F, width))
+    ]
+    shear = need(thesis.material("shaft"), "ultimate_shear") / thesis.wants.shaft_static
+    output = [crankshaft.shaft_diameter(share * thesis.peaks.T, shear) * 1e3 for share in (1, 2)]
     return [
         _entry("load of a main bearing [N]", "13705", crankshaft.bearing_reaction(swapped, arm, span), _DIGITS, "", R),
         _entry("diameter of the crankpin [mm]", "23.63",
                crankshaft.crankpin_diameter(swapped / 2, arm, bending) * 1e3, _DIGITS, "",
                crankshaft.crankpin_diameter(R, arm, bending) * 1e3),
-        _sum("crank web, least thickness [mm]", "13.2", 0.22e3 * given.bore),
-        _sum("crank web, largest thickness [mm]", "19.2", 0.32e3 * given.bore),
+        _sum("crank web, least thickness [mm]", "13.2", 0.22e3 * thesis.bore),
+        _sum("crank web, largest thickness [mm]", "19.2", 0.32e3 * thesis.bore),
         _entry("width of the web, eq. 4.33 [mm]", "40.82", width * 1e3),
         _entry("stress of the web [MPa]", "118.074", stress[0],
                f"{_DIGITS}; width 65 mm for the 40.82 mm of eq. 4.33", "", stress[1]),
@@ -208,9 +199,9 @@ def _crank(given: Chapter4) -> list[Entry]:
     ]  # fmt: skip
 
 
-def _rest(given: Chapter4) -> list[Entry]:
-    of, e, part = given.printed.masses, given.e, given.printed.parts.crank
-    rating, density = given.bearings["HK 2516"].C, given.material("crankshaft").density
+def _rest(thesis: Chapter4) -> list[Row]:
+    of, e, part = thesis.printed.masses, thesis.e, thesis.printed.parts.crank
+    rating, density = thesis.bearings["HK 2516"].C, thesis.material("crankshaft").density
     moving = [(mass, e) for mass in (0.0908, 0.014, 0.014, of.pinion)]  # shaft and two HN 1516 as printed
     parts = {"piston": (of.piston, 2), "cylinder": (of.cylinder, 1), "pinion": (of.pinion, 4), "ring": (of.ring, 4),
              "crankshaft": (of.crankshaft, 2), "output": (of.output_set, 2), "support": (of.support_set, 2),
@@ -220,16 +211,16 @@ def _rest(given: Chapter4) -> list[Entry]:
     unit = "g.mm, not g.mm/s2"
     return [
         _entry("mass of a shaft [g]", "90.8", masses.cylinder_mass(density, part.shaft, part.shaft_length) * 1e3),
-        _sum("unbalance of the moving parts [g.mm]", "2783", balancing.unbalance(moving) * 1e6, unit),
+        _sum("unbalance of the moving parts [g.mm]", "2783", masses.unbalance(moving) * 1e6, unit),
         _sum("balance of the output shaft set [g.mm]", "-2781",
-             balancing.unbalance([(of.output_set, -0.00381)]) * 1e6,
+             masses.unbalance([(of.output_set, -0.00381)]) * 1e6,
                unit),
         _sum("balance of the support shaft set [g.mm]", "2783",
-             -balancing.unbalance([(of.support_set, -0.00406)]) * 1e6,
+             -masses.unbalance([(of.support_set, -0.00406)]) * 1e6,
                unit),
         _entry("dynamic rating of two HK 2516 [kN]", "30.2", 2 * rating / 1e3,
                "ratings added; ISO 281: i^(7/9)", "", bearings.set_rating(rating, 2, "drawn-cup") / 1e3),
-        _entry("load of a 6013 M [N]", "13570", given.peaks["F"] / 2),
+        _entry("load of a 6013 M [N]", "13570", thesis.peaks.F / 2),
         _sum("mass of the engine [g]", "13406.6", masses.roll_up(parts) * 1e3),
         _sum("moving mass on the cylinder axis, chapter 3 [g]", "250",
              (of.piston + of.crankshaft - 2 * 0.0908 + 2 * 0.025) * 1e3,
@@ -237,20 +228,20 @@ def _rest(given: Chapter4) -> list[Entry]:
     ]  # fmt: skip
 
 
-def _maraging(given: Chapter4) -> list[dict[str, Any]]:
-    old, new = given.material("gears"), given.materials["maraging-350"]
+def _maraging(thesis: Chapter4) -> list[Row]:
+    old, new = thesis.material("gears"), thesis.materials["maraging-350"]
     bend, press = (need(new, key) / need(old, key) for key in ("gear_bending", "gear_contact"))
     limits = {"bending": need(new, "gear_bending"), "contact": need(new, "gear_contact")}
-    peaks = given.peaks
+    peaks = thesis.peaks
 
-    def ratio(shifts: tuple[float, ...], widths: Callable[..., tuple[float, ...]], **more: Any) -> float:
-        return min(max(widths(s, 26, peaks["rpm"], peaks["tooth"], **more)) for s in shifts)
+    def ratio(shifts: tuple[float, ...], widths: Callable[..., tuple[float, ...]], **more: dict[str, float]) -> float:
+        return min(max(widths(s, 26, peaks.rpm, peaks.tooth, **more)) for s in shifts)
 
     def softer(s: float, teeth: int, rpm: np.ndarray, tooth: np.ndarray) -> tuple[float, ...]:
         a, b, c, d = gearing.widths_printed(s, teeth, rpm, tooth, True)
         return a / bend, b / bend, c / press**2, d / press**2
 
-    before = max(gearing.widths_printed(0.5, 26, peaks["rpm"], peaks["tooth"], True))
+    before = max(gearing.widths_printed(0.5, 26, peaks.rpm, peaks.tooth, True))
     shifts = (0.0, 0.25, 0.5)
     corrected = ratio(shifts, gearing.widths_corrected, limits=limits) / ratio(shifts, gearing.widths_corrected)
     numbers = [
@@ -260,17 +251,16 @@ def _maraging(given: Chapter4) -> list[dict[str, Any]]:
         _sum("maraging 350: 342 ksi [MPa]", "2340", 342 * 6.894757),
     ]
     claim = "maraging 350: face width over Nitralloy's, 'reduced in at least half'"
-    return [_row(*entry) for entry in numbers] + [
+    return numbers + [
         _at_most(f"{claim}, the chosen pair", "0.5", ratio((0.5,), softer) / before, corrected),
         _at_most(f"{claim}, shift chosen anew", "0.5", ratio(shifts, softer) / before, corrected),
     ]
 
 
-def _at_most(item: str, published: str, computed: float, corrected: float) -> dict[str, Any]:
-    """A claimed bound, which is kept or not."""
-    kept = computed <= float(published)
-    note = "kept: bending governs, with x = 0.25" if kept else "bending of the ring governs and gains only 54 %"
-    return _row(item, published, computed, "", "", corrected) | {
-        "verdict": "reproduced" if kept else "not reproduced",
-        "note": f"{note}; with the contact of the internal pair bending always governs and the claim fails",
-    }
+def _at_most(item: str, published: str, computed: float, corrected: float) -> Row:
+    # a claimed bound, which is kept or not
+    holds = computed <= float(published)
+    note = "kept: bending governs, with x = 0.25" if holds else "bending of the ring governs and gains only 54 %"
+    note = f"{note}; with the contact of the internal pair bending always governs and the claim fails"
+    verdict = REPRODUCED if holds else NOT_REPRODUCED
+    return replace(_entry(item, published, computed, corrected=corrected), verdict=verdict, note=note)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mechsym.audit.entries import Decided
+from mechsym.audit.hosts.sources import Decided
 from mechsym.audit.verdict import Decision
-from mechsym.papers.prymak import computed
+from mechsym.papers.prymak import rows
 
 _TURN = np.linspace(0, 2 * np.pi, 361)
 
@@ -12,14 +12,14 @@ _TURN = np.linspace(0, 2 * np.pi, 361)
 def root_effect(verdict: Decision) -> str:
     """What the printed root gives for equal masses."""
     # two journals on each axis carry half the sum each
-    along, across = computed.inertia_resultant(_TURN)
+    along, across = rows.inertia_resultant(_TURN)
     printed, right = np.sqrt(2 * ((along / 2) ** 2 + (across / 2) ** 2)), np.hypot(along, across)
     return f"with equal masses the printed root gives {np.mean(printed / right):.3f} of the resultant 4 m r omega^2"
 
 
 def constant_size() -> Decided:
     """The size of the resultant over a turn."""
-    size = np.hypot(*computed.inertia_resultant(_TURN))
+    size = np.hypot(*rows.inertia_resultant(_TURN))
     change = float(np.ptp(size) / np.mean(size))
     supported = change < 1e-12
     size_of_change = "less than 1e-12" if supported else f"{change:.2g}"
@@ -27,14 +27,8 @@ def constant_size() -> Decided:
 
 
 def along_the_rod() -> Decided:
-    """The share of the resultant that is across a rod.
-
-    Returns
-    -------
-    decided : Decided
-        All of it, at some angle
-    """
-    along, across = computed.inertia_resultant(_TURN)
+    """The share of the resultant that is across a rod."""
+    along, across = rows.inertia_resultant(_TURN)
     share = float(np.max(np.abs(across) / np.hypot(along, across)))
     return Decided(
         supported=share < 1e-9,
@@ -43,13 +37,7 @@ def along_the_rod() -> Decided:
 
 
 def no_side_force() -> Decided:
-    """Who carries the force across the cylinder.
-
-    Returns
-    -------
-    decided : Decided
-        The slider's guide, not the piston
-    """
+    """Who carries the force across the cylinder."""
     return Decided(
         supported=True,
         note="the guides of the sliders take X_a and X_b instead of the cylinders; their size needs a closing rule, "

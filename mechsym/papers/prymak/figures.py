@@ -3,16 +3,16 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from mechsym.papers.drawing import panels, turn_axis
-from mechsym.papers.prymak.computed import MASS, RADIUS, SPEED, inertia_resultant
-from mechsym.style import BLUE, GREEN, INK, RED, legend
+from mechsym.papers.page import turn_axis
+from mechsym.papers.prymak.rows import MASS, RADIUS, SPEED, inertia_resultant
+from mechsym.style import BLUE, GREEN, INK, RED, legend, panels
 
 
 def figures() -> dict[str, Figure]:
     """The only figure with forces that no data are needed for."""
     alpha = np.linspace(0, 2 * np.pi, 721)
     x, y = inertia_resultant(alpha) / (MASS * RADIUS * SPEED**2)
-    figure, (left, right) = panels(1, 2, (9.5, 4.2))
+    figure, (left, right) = panels(9.5, 4.2, 1, 2)
     left.plot(x, y, color=GREEN, label="end of the resultant")
     k = 80
     for at, color, label in (((x[k], 0), BLUE, "rod a"), ((0, y[k]), RED, "rod b"), ((x[k], y[k]), GREEN, "resultant")):

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from mechsym.audit.bench import turn, value
-from mechsym.audit.entries import Decided, Turn
-from mechsym.audit.question import Question
-from mechsym.audit.reader import read
+from mechsym.audit.hosts.sources import Decided, Turn
+from mechsym.audit.judge.question import Question, turn, value
+from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
@@ -24,10 +23,7 @@ def gas_force() -> Turn:
 def loads() -> Turn:
     """Piston force and load torque over a turn, at 89 rpm.
 
-    Returns
-    -------
-    turn : mapping of str to callable
-        F and M_r of the crank angle, M_h = 0
+    Returns turn: F and M_r of the crank angle, M_h = 0.
     """
     engines = computed.engines()
     load = engines.hinges[0].load_torque
@@ -54,8 +50,8 @@ def hinge_torque_effect(verdict: Decision) -> str:
 
 
 def _inertia_peak(omega: float) -> float:
-    found = next(h for h in computed.engines().hinges if h.omega == omega)
-    return float(np.max(np.abs(found.inertia_part(_TURN))))
+    hinge = next(h for h in computed.engines().hinges if h.omega == omega)
+    return float(np.max(np.abs(hinge.inertia_part(_TURN))))
 
 
 def integral_vanishes() -> Decided:
@@ -74,13 +70,7 @@ def _small(value: float, limit: float) -> str:
 
 
 def about_twice() -> Decided:
-    """The ratio of the largest torques.
-
-    Returns
-    -------
-    decided : Decided
-        About twice means between 1.5 and 2.5
-    """
+    """The ratio of the largest torques."""
     slow, fast = computed.engines().hinges
     ratio = computed.peak(fast) / computed.peak(slow)
     return Decided(
@@ -102,22 +92,16 @@ def proportional_to_square() -> Decided:
 
 
 def proportional_to_pressure() -> Decided:
-    """The torque of one guide at two pressures.
-
-    Returns
-    -------
-    decided : Decided
-        True for the printed spring law, not for a real one
-    """
+    """The torque of one guide at two pressures."""
     from mechsym.hinge.guide import crank_torque, refit
     from mechsym.hinge.setting import with_setting
-    from mechsym.hinge.springs import AirAbsolute
+    from mechsym.hinge.springs.air import AirAbsolute
 
     cut = computed.engines().cut
     doubled = crank_torque(refit(cut, with_setting(cut.spring, 2 * computed.PRESSURES[0])), _TURN)
     once = crank_torque(cut, _TURN)
     error = float(np.max(np.abs(doubled - 2 * once)) / np.max(np.abs(once)))
-    real = AirAbsolute(A=cut.spring.A, H=cut.spring.H, p0=cut.spring.p0, n=cut.spring.n, pa=101325.0)  # type: ignore[union-attr]
+    real = AirAbsolute(A=cut.spring.A, H=cut.spring.H, p0=cut.spring.p0, n=cut.spring.n, pa=101325.0)  # type: ignore[attr-defined]
     first, second = (crank_torque(refit(cut, with_setting(real, p)), _TURN) for p in (real.p0, 2 * real.p0))
     away = float(np.max(np.abs(second - 2 * first)) / np.max(np.abs(first)))
     return Decided(
@@ -129,13 +113,7 @@ def proportional_to_pressure() -> Decided:
 
 
 def pressure_ratio() -> Decided:
-    """What 9.5 MPa leave of the torque needed at 142 rpm.
-
-    Returns
-    -------
-    decided : Decided
-        Visually the same means a tenth of the rms or less
-    """
+    """What 9.5 MPa leave of the torque needed at 142 rpm."""
     paper, best = computed.retuned(computed.PRESSURES[1]), computed.best_pressure()
     return Decided(
         supported=paper.torque_error < 0.1,
@@ -147,13 +125,7 @@ def pressure_ratio() -> Decided:
 
 
 def almost_constant() -> Decided:
-    """The ripple of the speed with the guide of 89 rpm at 142 rpm.
-
-    Returns
-    -------
-    decided : Decided
-        Almost constant means a flywheel's usual 2 per cent
-    """
+    """The ripple of the speed with the guide of 89 rpm at 142 rpm."""
     from mechsym.hinge.retune import retune
 
     paper = computed.retuned(computed.PRESSURES[1])

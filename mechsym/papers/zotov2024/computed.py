@@ -11,18 +11,66 @@ import numpy as np
 
 from mechsym import cases, periodic
 from mechsym.cases import Case
+from mechsym.errors import BadInput
 from mechsym.hinge import guide
-from mechsym.hinge.balance import balance
-from mechsym.hinge.guide import Guide
+from mechsym.hinge.balance import Balance, balance
+from mechsym.hinge.choices import GuideParameters, Limits
+from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.retune import Retuning, at_setting, retune
-from mechsym.hinge.springs import AirGauge
+from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.springs.air import AirGauge
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.machine import machine
 from mechsym.machine.record import Machine, gas_of
-from mechsym.papers.zotov2024.family import Member, family
-from mechsym.papers.zotov2024.hinge_printed import hinge_torque_printed, load_torque_printed
+from mechsym.papers.zotov2024.equations_printed import hinge_torque_printed, load_torque_printed
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
+
+# letter: (speed index, H [m], rho0 [m])
+_CURVES = {"a": (0, 1.0, 0.8), "b": (1, 1.0, 0.8), "c": (0, 0.4, 0.3), "d": (1, 0.4, 0.3)}
+_LEVELS = {"1": 3e6, "2": 5e6, "3": 8e6}  # [Pa]
+
+
+@record
+class Member:
+    """One guide of the family."""
+
+    label: str  #: Letter and number in Fig. 5, `a1` to `d3`
+    start: str  #: `as_printed` with the paper's law, or `placed` with the case's law
+    guide: Guide
+    verdict: Verdict  #: Spring pressure, pressure angle, roller reaction, and whether it can be built
+
+
+def family(
+    balances: tuple[Balance, Balance],
+    spring: Spring,
+    parameters: GuideParameters,
+    rollers: RollerParameters,
+    limits: Limits,
+) -> tuple[Member, ...]:
+    """All twelve guides, as printed and placed.
+
+    balances: torque at the lower and at the higher speed; spring: area, polytropic index and law of the placed guides;
+    parameters: arrangement and z_margin of the placed guides. Returns members: 24 members, by label, as printed before
+    placed.
+    """
+    if not spring.gas:
+        raise BadInput("spring.law = coil has no p0; the guides of Fig. 5 need air_absolute or air_gauge")
+    members = []
+    for letter, (speed, H, rho0) in _CURVES.items():
+        for number, p0 in _LEVELS.items():
+            printed = GuideParameters(arrangement="two_tracks", start="as_printed", rho0=rho0)
+            placed = dataclasses.replace(parameters, start="placed", rho0=rho0)
+            gauge = AirGauge(A=spring.A, H=H, p0=p0, n=spring.n)  # type: ignore[attr-defined]
+            filled = dataclasses.replace(spring, H=H, p0=p0)  # type: ignore[call-arg]
+            for chosen, air in ((printed, gauge), (placed, filled)):
+                guide = cut(balances[speed], air, chosen)
+                verdict = judge(guide, rollers, limits)
+                members.append(Member(label=letter + number, start=chosen.start, guide=guide, verdict=verdict))
+    return tuple(members)
+
 
 CASES = ("zotov-89", "zotov-142")
 PRESSURES = (5e6, 9.5e6)  # Fig. 6 [Pa]
@@ -65,57 +113,35 @@ def _printed_guide(case: Case, wanted: Hinge) -> Guide:
 
 
 def peak(wanted: Hinge) -> float:
-    """Largest size of a hinge torque.
-
-    Returns
-    -------
-    peak : float
-        max |M_h| [N*m]
-    """
+    """Largest size of a hinge torque [N*m]."""
     return max(abs(wanted.torque_min), abs(wanted.torque_max))
 
 
 def retuned(pressure: float) -> Retuning:
     """The guide of 89 rpm with another pressure at 142 rpm.
 
-    Parameters
-    ----------
-    pressure : float
-        Excess pressure p0 [Pa]
+    pressure: excess pressure p0 [Pa].
     """
-    found = engines()
-    return at_setting(found.cut, found.hinges[1], pressure)
+    both = engines()
+    return at_setting(both.cut, both.hinges[1], pressure)
 
 
 def best_pressure() -> Retuning:
     """The pressure with which that guide comes nearest to the torque needed at 142 rpm.
 
-    Returns
-    -------
-    retuned : Retuning
-        By least squares of the torque
+    Returns retuned: by least squares of the torque.
     """
-    found = engines()
-    return retune(found.cut, found.hinges[1], "least_squares_torque")
+    both = engines()
+    return retune(both.cut, both.hinges[1], "least_squares_torque")
 
 
 def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
-    """Hinge torque exactly as equation (8) prints it, with M_r by (5).
+    """Hinge torque exactly as equation (8) prints it, with M_r by (5) [N*m].
 
-    Parameters
-    ----------
-    index : int
-        0 for 89 rpm, 1 for 142 rpm
-    phi : ndarray, shape (n,)
-        Crank angles [rad]
-
-    Returns
-    -------
-    M_h : ndarray, shape (n,)
-        Torque on the crank [N*m]
+    index: 0 for 89 rpm, 1 for 142 rpm; phi: crank angles [rad].
     """
-    found = engines()
-    engine, p, even = found.machines[index], found.cases[index].need("parameters"), even_angles(2 * np.pi)
+    both = engines()
+    engine, p, even = both.machines[index], both.cases[index].need("parameters"), even_angles(2 * np.pi)
     force = gas_of(engine).force
     return hinge_torque_printed(p, engine.omega, force(phi), load_torque_printed(p, force(even), even), phi)
 
@@ -123,9 +149,9 @@ def printed_torque(index: int, phi: np.ndarray) -> np.ndarray:
 @cache
 def guides() -> tuple[Member, ...]:
     """The twelve guides of Fig. 5, as printed and placed."""
-    found = engines()
-    case = found.cases[0]
-    slow, fast = (balance(h, "whole_cycle") for h in found.hinges)
+    both = engines()
+    case = both.cases[0]
+    slow, fast = (balance(h, "whole_cycle") for h in both.hinges)
     settings = (case.need(k) for k in ("spring", "guide", "rollers", "limits"))
     return family((slow, fast), *settings)
 
@@ -133,10 +159,7 @@ def guides() -> tuple[Member, ...]:
 def longest_stretch(cut: Guide) -> float:
     """By how much the spring in a guide is longer than its free height.
 
-    Returns
-    -------
-    stretch : float
-        0 when the guide presses it everywhere [m]
+    Returns stretch: 0 when the guide presses it everywhere [m].
     """
     if cut.rho is None:
         return float("nan")
@@ -145,33 +168,17 @@ def longest_stretch(cut: Guide) -> float:
 
 
 def departure(cut: Guide) -> float:
-    """How far a guide is from a circle: largest minus smallest distance over their mean.
+    """How far a guide is from a circle: largest minus smallest distance over their mean [-].
 
-    Parameters
-    ----------
-    cut : Guide
-        A guide that could be cut
-
-    Returns
-    -------
-    departure : float
-        0 for a circle [-]
+    cut: a guide that could be cut.
     """
     rho = distances(cut)
     return float(np.ptp(rho) / ((rho.max() + rho.min()) / 2))
 
 
 def distances(cut: Guide) -> np.ndarray:
-    """Distances of the roller centres from the axis around a turn.
+    """Distances of the roller centres from the axis around a turn [m].
 
-    Parameters
-    ----------
-    cut : Guide
-        A guide that could be cut
-
-    Returns
-    -------
-    rho : ndarray, shape (n,)
-        At even angles, both ends included [m]
+    cut: a guide that could be cut.
     """
     return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from mechsym.hinge import guide
 from mechsym.hinge.setting import with_setting
 from mechsym.machine.record import gas_of
-from mechsym.papers.drawing import panels, turn_axis
+from mechsym.papers.page import turn_axis
 from mechsym.papers.zotov2024.computed import (
     PRESSURES,
     Engines,
@@ -16,7 +16,7 @@ from mechsym.papers.zotov2024.computed import (
     guides,
     printed_torque,
 )
-from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend
+from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend, panels
 
 _PHI = np.linspace(0, 2 * np.pi, 1441)
 _DEG = np.degrees(_PHI)
@@ -25,18 +25,13 @@ _LINES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))
 
 def figures() -> dict[str, Figure]:
     """All figures with curves."""
-    found = engines()
-    return {
-        "figure_3": _forces(found),
-        "figure_4": _torques(found),
-        "figure_5": _guides(),
-        "figure_6": _fit(found),
-    }
+    both = engines()
+    return {"figure_3": _forces(both), "figure_4": _torques(both), "figure_5": _guides(), "figure_6": _fit(both)}
 
 
-def _forces(found: Engines) -> Figure:
-    figure, (axis,) = panels()
-    for engine, (color, line), name in zip(found.machines, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
+def _forces(both: Engines) -> Figure:
+    figure, (axis,) = panels(7.2, 4.2)
+    for engine, (color, line), name in zip(both.machines, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
         axis.plot(_DEG, gas_of(engine).force(_PHI) / 1e3, color=color, linestyle=line, label=name)
     axis.set_ylabel("force on the piston [kN]")
     axis.set_title("Fig. 3, stated cycle")
@@ -45,10 +40,10 @@ def _forces(found: Engines) -> Figure:
     return figure
 
 
-def _torques(found: Engines) -> Figure:
-    figure, axes = panels(1, 2, (10, 4), sharey=True)
+def _torques(both: Engines) -> Figure:
+    figure, axes = panels(10, 4, 1, 2, sharey=True)
     for index, (axis, name) in enumerate(zip(axes, ("a: 89 rpm", "b: 142 rpm"), strict=True)):
-        axis.plot(_DEG, found.hinges[index].torque(_PHI) / 1e3, color=BLUE, label="exact equation")
+        axis.plot(_DEG, both.hinges[index].torque(_PHI) / 1e3, color=BLUE, label="exact equation")
         axis.plot(_DEG, printed_torque(index, _PHI) / 1e3, color=RED, ls="--", label="(8) as printed")
         axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_title(f"Fig. 4 {name}, stated cycle")
@@ -61,7 +56,7 @@ def _torques(found: Engines) -> Figure:
 def _guides() -> Figure:
     cut = {m.label: m.guide for m in guides() if m.start == "as_printed"}
     about = {"a": "89 rpm, H = 1 m", "b": "142 rpm, H = 1 m", "c": "89 rpm, H = 0.4 m", "d": "142 rpm, H = 0.4 m"}
-    figure, axes = panels(2, 2, (9, 8.6))
+    figure, axes = panels(9, 8.6, 2, 2)
     theta = np.linspace(0, 2 * np.pi, 1441)
     for axis, (letter, words) in zip(axes, about.items(), strict=True):
         for number, p0, (color, line) in zip("123", (3, 5, 8), _LINES, strict=True):
@@ -77,13 +72,13 @@ def _guides() -> Figure:
     return figure
 
 
-def _fit(found: Engines) -> Figure:
-    cut, best = found.cut, best_pressure().setting
-    figure, (axis,) = panels()
+def _fit(both: Engines) -> Figure:
+    cut, best = both.cut, best_pressure().setting
+    figure, (axis,) = panels(7.2, 4.2)
     curves = (
-        ("1: wanted at 89 rpm", found.hinges[0].torque(_PHI), GREY, "-"),
+        ("1: wanted at 89 rpm", both.hinges[0].torque(_PHI), GREY, "-"),
         ("2: same guide, p0 times 1.9", _torque_at(cut, PRESSURES[1]), RED, "--"),
-        ("3: wanted at 142 rpm", found.hinges[1].torque(_PHI), BLUE, "-"),
+        ("3: wanted at 142 rpm", both.hinges[1].torque(_PHI), BLUE, "-"),
         (f"not in the source: p0 times {best / PRESSURES[0]:.2f}", _torque_at(cut, best), GREEN, ":"),
     )
     for name, torque, color, line in curves:

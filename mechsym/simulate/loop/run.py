@@ -1,19 +1,35 @@
-"""Running a loop: one smooth piece after another, from valve or combustion event to event, with its audits."""
+"""Running a loop: one smooth piece after another, from valve or combustion event to event, with its audits.
 
+`simulate_loop` makes a run as any other of it: labelled columns, energy audit, the run at a tighter tolerance beside
+it; `summary` and `series` are what the command line tells of a loop that runs by itself.
+"""
+
+import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import field, replace
 from typing import Any
 
 import numpy as np
 import scipy
 
+from mechsym.errors import BadInput
+from mechsym.mechanisms.record import velocities
 from mechsym.page import Shown
-from mechsym.quantities import record
-from mechsym.simulate.audit import energies
-from mechsym.simulate.loop.events import CYCLE, CylinderCycle, first_state, gap, ledger, pass_event
-from mechsym.simulate.loop.knocking import EndGas
+from mechsym.quantities import RPM, record, results
+from mechsym.quantities.results import Columns, part, quantity
+from mechsym.quantities.units import Pure, Radian, RadPerSecond, Second
+from mechsym.simulate.audit import energies, energy_audit
+from mechsym.simulate.equations import through_buffer
+from mechsym.simulate.loop.events import CYCLE, CylinderCycle, EndGas, first_state, gap, ledger, pass_event
 from mechsym.simulate.loop.system import WORKS, Loop, right_side
+from mechsym.simulate.result import Event, Result
+from mechsym.simulate.run import checked, tighter
+from mechsym.simulate.settings import FALLBACK, Settings
+from mechsym.simulate.speed import last_period, speeds
 
+_ROLES = {"gas": "drive", "load": "load"}
+_LOOPS = ("auto", FALLBACK)  # the names under which this integrator goes
+_LOOKS = 2881  # at two turns: every quarter of a degree
 _PASSED = 1e-9  # events closer than this are one [rad]
 _STALL = 0.05  # of the first speed: a shaft as slow as that has stopped
 
@@ -36,57 +52,56 @@ class LoopResult(Shown):
     energy: np.ndarray  #: shape (2, n): Kinetic and potential energy [J]
     energy_residual: float  #: (work of pistons and load - taken by dampers - change of energy)/work of the pistons [-]
     steps: int
-
-
-@record
-class LoopRun:
-    """Where a run starts, where it ends, and how exactly it is done."""
-
-    omega: float  #: Speed of every coordinate at the start [rad/s]
-    angle: float  #: Value of every coordinate there [rad]
-    cycles: float  #: Engine cycles of two turns to run [-]
-    t_end: float  #: Time at which it ends if that comes first [s]
-    tolerance: float  #: Relative tolerance of the integration [-]
+    #: Ascending times [s] to states (m, n): coordinates, velocities, and more
+    dense: Callable[[np.ndarray], np.ndarray] = field(repr=False, compare=False)
 
 
 def run_loop(
-    loop: Loop, omega: float, cycles: float, points: int = 360, tolerance: float = 1e-9, angle: float = 0.0,
-    t_end: float = np.inf,
-) -> LoopResult:  # fmt: skip
+    loop: Loop,
+    omega: RadPerSecond,
+    cycles: Pure,
+    points: int = 360,
+    tolerance: Pure = 1e-9,
+    angle: Radian = 0.0,
+    t_end: Second = np.inf,
+) -> LoopResult:
     """Run a loop over a number of engine cycles.
 
-    Parameters
-    ----------
-    omega : float
-        Speed of every coordinate at the start [rad/s]
-    cycles : float
-        Engine cycles of two turns to run [-]
-    tolerance : float
-        Relative tolerance of the integration [-]
-    angle : float
-        Value of every coordinate at the start [rad]
-    t_end : float
-        Time at which the run ends if that comes first [s]
-
-    Returns
-    -------
-    result : LoopResult
-        Motion, pressures, cycle by cycle work, audits
+    omega: speed of every coordinate at the start; cycles: engine cycles of two turns to run; tolerance: relative
+    tolerance of the integration; angle: value of every coordinate at the start; t_end: time at which the run ends if
+    that comes first. Returns result: motion, pressures, cycle by cycle work, audits.
     """
-    function, books = right_side(loop), ledger(loop)
-    asked = LoopRun(omega=omega, angle=angle, cycles=cycles, t_end=t_end, tolerance=tolerance)
+    function, books, n = right_side(loop), ledger(loop), len(loop.mechanism.coordinates)
     gases, y = first_state(loop, omega, angle)
-    t, grid, steps = 0.0, 2 * np.pi / omega / points, 0
+    t, grid, steps, last = 0.0, 2 * np.pi / omega / points, 0, angle + cycles * CYCLE
+    size = np.array([*[1.0] * n, *[omega] * n, *[300.0, 100.0, 100.0] * len(gases), *[100.0] * len(WORKS)])
     samples: list[tuple[float, np.ndarray, np.ndarray]] = []
+    pieces: list[Any] = []
     done: list[CylinderCycle] = []
     end_gas = EndGas(loop)
-    verdict = ("done", f"{cycles:g} cycles", "turns")
-    while y[0] - angle < cycles * CYCLE - _PASSED:
-        held = np.concatenate([(g.phase, g.start, g.duration, g.dead_centre) for g in gases])
-        piece = _advance(loop, function, held, (t, y), (gases, asked))
-        if not piece.success or piece.t[-1] < t_end and not any(found.size for found in piece.t_events):
-            verdict = ("failed", piece.message, "failure")
+    status, reason, end = "done", f"{cycles:g} cycles", "turns"
+    y_now, held = y.copy(), np.zeros(4 * len(gases))
+    rates = through_buffer(function, y_now, held)
+
+    def f(s: float, z: np.ndarray) -> np.ndarray:
+        y_now[:] = z
+        return rates()
+
+    while y[0] < last - _PASSED:
+        held[:] = [v for g in gases for v in (g.phase, g.start, g.duration, g.dead_centre)]
+        events: list[Any] = [lambda s, z, k=k, g=g: gap(loop, g, k, z) for k, g in enumerate(gases)]
+        events += [lambda s, z: z[0] - last, lambda s, z: _STALL * omega - z[n]]
+        for event in events:
+            event.terminal, event.direction = True, 1.0
+        with np.errstate(invalid="ignore", over="ignore"):  # a try may reach where no gas is; the step is shortened
+            piece = scipy.integrate.solve_ivp(
+                f, (t, min(t + 3 * CYCLE / omega, t_end)), y, method="DOP853", events=events, rtol=tolerance,
+                atol=1e-3 * tolerance * size, dense_output=True,
+            )  # fmt: skip
+        if not piece.success or piece.t[-1] < t_end and not any(times.size for times in piece.t_events):
+            status, reason, end = "failed", piece.message, "failure"
             break
+        pieces.append(piece)
         for s in np.arange(np.ceil(t / grid), np.ceil(piece.t[-1] / grid)) * grid:
             z = piece.sol(s)
             samples.append((s, z, np.asarray(function(z, held)[1]).ravel()))
@@ -94,10 +109,10 @@ def run_loop(
         t, y, steps = float(piece.t[-1]), piece.y[:, -1].copy(), steps + piece.t.size - 1
         if piece.t_events[-1].size:
             why = f"the shaft fell to {_STALL:g} of its first speed at t = {t:.4g} s"
-            verdict = ("stalled", why, "stall")
+            status, reason, end = "stalled", why, "stall"
             break
         if t >= t_end:
-            verdict = ("done", f"{t_end:g} s", "t_end")
+            status, reason, end = "done", f"{t_end:g} s", "t_end"
             break
         for k, gas in enumerate(gases):
             if gap(loop, gas, k, y) > -_PASSED:
@@ -105,54 +120,136 @@ def run_loop(
                 end_gas.event(k, gas, gases[k], y, float(function(y, held)[1][k]))
                 y, done = after, done + ([replace(cycle, knock=end_gas.share[k])] if cycle else [])
     samples.append((t, y, np.asarray(function(y, held)[1]).ravel()))
-    return _result(loop, verdict, samples, done, steps)
-
-
-def _advance(loop: Loop, function: Any, held: np.ndarray, now: Any, limits: Any) -> Any:
-    gases, asked = limits
-    (t, y), omega = now, asked.omega
-    n, last = len(loop.mechanism.coordinates), asked.angle + asked.cycles * CYCLE
-    events: list[Any] = [lambda s, z, k=k, g=g: gap(loop, g, k, z) for k, g in enumerate(gases)]
-    events += [lambda s, z: z[0] - last, lambda s, z: _STALL * omega - z[n]]
-    for event in events:
-        event.terminal, event.direction = True, 1.0
-    size = np.array([*[1.0] * n, *[omega] * n, *[300.0, 100.0, 100.0] * len(gases), *[100.0] * len(WORKS)])
-    with np.errstate(invalid="ignore", over="ignore"):  # a trial may reach where no gas is; then the step is shortened
-        return scipy.integrate.solve_ivp(
-            _fast(function, held), (t, min(t + 3 * CYCLE / omega, asked.t_end)), y, method="DOP853", events=events,
-            rtol=asked.tolerance, atol=1e-3 * asked.tolerance * size, dense_output=True,
-        )  # fmt: skip
-
-
-def _fast(function: Any, held: np.ndarray) -> Callable[[float, np.ndarray], np.ndarray]:
-    buffer: Any
-    buffer, call = function.buffer()
-    y_now, held_now, out = np.zeros(function.size1_in(0)), np.array(held, float), np.zeros(function.size1_out(0))
-    buffer.set_arg(0, y_now.data)
-    buffer.set_arg(1, held_now.data)
-    buffer.set_res(0, out.data)
-
-    # the default argument keeps the buffer alive as long as the function; without it casadi reads freed memory
-    def f(t: float, y: np.ndarray, _alive: Any = buffer) -> np.ndarray:
-        y_now[:] = y
-        call()
-        return out.copy()
-
-    return f
-
-
-def _result(
-    loop: Loop, verdict: tuple[str, str, str], samples: Any, done: list[CylinderCycle], steps: int
-) -> LoopResult:
-    n = len(loop.mechanism.coordinates)
-    t, states, p = (np.array(column) for column in zip(*samples, strict=True))
+    times, states, p = (np.array(column) for column in zip(*samples, strict=True))
     q, u, works = states[:, :n], states[:, n : 2 * n], states[:, -len(WORKS) :]
-    found = energies(loop.mechanism, q.T, u.T)
-    assert found is not None  # a mechanism with pistons has energies
-    energy = np.array(found)
-    gas, load, loss = works[-1]
+    energy = np.array(energies(loop.mechanism, q.T, u.T))
+    gas_work, load_work, loss = works[-1]
     change = float(np.diff(energy.sum(axis=0)[[0, -1]])[0])
     return LoopResult(
-        status=verdict[0], reason=verdict[1], end=verdict[2], t=t, q=q, u=u, p=p, cycles=tuple(done), works=works,
-        energy=energy, energy_residual=float((gas + load - loss - change) / abs(gas)), steps=steps,
+        status=status, reason=reason, end=end, t=times, q=q, u=u, p=p, cycles=tuple(done), works=works, energy=energy,
+        energy_residual=float((gas_work + load_work - loss - change) / abs(gas_work)), steps=steps,
+        dense=lambda wanted: _dense(pieces, wanted),
     )  # fmt: skip
+
+
+def _dense(pieces: list[Any], t: np.ndarray) -> np.ndarray:
+    """States at times by the solution of each piece; where two meet, by the later."""
+    starts = np.array([piece.t[0] for piece in pieces])
+    of = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
+    return np.hstack([pieces[k].sol(t[of == k]) for k in np.unique(of)])
+
+
+def simulate_loop(
+    loop: Loop, omega: RadPerSecond, turns: Pure, settings: Settings, angle: Radian = 0.0, t_end: Second = np.inf
+) -> Result:
+    """Run a loop and say how far the result can be trusted.
+
+    omega: speed of every coordinate at the start; turns: turns of the first coordinate to run; angle: value of every
+    coordinate at the start; t_end: time at which the run ends if that comes first. Returns result: columns of the
+    motion, works, energies, and pressures `p_1`, `p_2`, .
+
+    Raises
+    ------
+    BadInput
+        Another backend than the one that takes gas in the loop
+    """
+    if settings.backend not in _LOOPS:
+        raise BadInput(f"backend {settings.backend!r} does not take gas in the loop; use {' or '.join(_LOOPS)}")
+
+    def once(asked: Settings) -> Result:
+        begin = time.perf_counter()
+        run = run_loop(loop, omega, turns / 2, tolerance=asked.tolerance, angle=angle, t_end=t_end)
+        return _as_any_run(loop, run, time.perf_counter() - begin)
+
+    result = once(settings)
+    if result.status == "failed" or settings.check == "none":
+        return result
+    return checked(loop.mechanism, result, once(tighter(settings)), settings)
+
+
+def _as_any_run(loop: Loop, run: LoopResult, wall_s: float) -> Result:
+    names = (*loop.mechanism.coordinates, *velocities(loop.mechanism))
+    n = len(loop.mechanism.coordinates)
+    columns = dict(zip(names, np.hstack([run.q, run.u]).T, strict=True))
+    units = dict(zip(names, ("rad",) * n + ("rad/s",) * n, strict=True))
+    balance = dict(zip((*WORKS, "kinetic_energy", "potential_energy"), [*run.works.T, *run.energy], strict=True))
+    pressures = {f"p_{k}": p for k, p in enumerate(run.p.T, 1)}
+    failed = run.end == "failure"
+    state = {name: float(columns[name][-1]) for name in names}
+    return Result(
+        status="failed" if failed else "unchecked",
+        reason=run.reason if failed else "the tolerance was not checked",
+        t=run.t,
+        columns=columns | balance | pressures,
+        units=units | dict.fromkeys(balance, "J") | dict.fromkeys(pressures, "Pa"),
+        end=run.end,
+        event=Event(name="stall", t=float(run.t[-1]), state=state) if run.end == "stall" else None,
+        energy=energy_audit(_ROLES, columns | balance),
+        tolerance_difference=None,
+        steps=run.steps,
+        wall_s=wall_s,
+        dense=None if failed else lambda t: dict(zip(names, run.dense(t), strict=False)),
+    )
+
+
+@results.result
+class LoopCycleNumbers:
+    """One cycle of a cylinder in motion."""
+
+    cylinder: int = quantity("-")  #: From 1
+    t_s: float = quantity("s")  #: When it ended
+    speed_rpm: float = quantity("rpm")  #: Mean speed of the crank in it
+    work: float = quantity("J")  #: Work of the gas
+    wall_heat: float = quantity("J")  #: Heat to the walls
+    energy_residual: float = quantity("-")  #: What the first law leaves open
+    knock: float = quantity("-")  #: Integral of the ignition delay; from 1 on it knocks
+
+
+@results.result
+class LoopNumbers:
+    """What a run of cycle and mechanism together did; speeds of the loaded shaft over the last two turns."""
+
+    status: str = part()
+    reason: str = part()
+    t_end: float = quantity("s")  #: When it ended
+    speed_mean_rpm: float = quantity("rpm")  #: Mean speed
+    speed_min_rpm: float = quantity("rpm")  #: Least speed
+    speed_max_rpm: float = quantity("rpm")  #: Largest speed
+    speed_ripple: float | None = quantity("-")  #: (max - min) / mean; None where it does not turn
+    p_max_mpa: float = quantity("MPa")  #: Largest pressure in any cylinder, absolute
+    cycles: tuple[LoopCycleNumbers, ...] = part()
+    energy_residual: float = quantity("-")  #: Of the whole run
+
+
+def summary(loop: Loop, result: LoopResult) -> LoopNumbers:
+    """What a loop did, in numbers."""
+    k, n = loop.mechanism.coordinates.index(loop.load_coordinate), len(loop.mechanism.coordinates)
+    since = last_period(result.t, result.q[:, k], result.u[:, k], CYCLE)
+
+    def motion(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        states = result.dense(t)
+        return states[[k]], states[[n + k]]
+
+    (shaft,) = speeds(motion, np.linspace(since, result.t[-1], _LOOKS))
+    rows = []
+    for c in result.cycles:
+        rows.append(
+            LoopCycleNumbers(
+                cylinder=c.cylinder + 1, t_s=c.time, speed_rpm=c.speed / RPM, work=c.work, wall_heat=c.wall_heat,
+                energy_residual=c.residual, knock=c.knock,
+            )
+        )  # fmt: skip
+    return LoopNumbers(
+        status=result.status, reason=result.reason, t_end=float(result.t[-1]), speed_mean_rpm=shaft.mean / RPM,
+        speed_min_rpm=shaft.min / RPM, speed_max_rpm=shaft.max / RPM, speed_ripple=shaft.ripple,
+        p_max_mpa=float(result.p.max()) / 1e6, cycles=tuple(rows), energy_residual=result.energy_residual,
+    )  # fmt: skip
+
+
+def series(loop: Loop, result: LoopResult) -> Columns:
+    """Time series of a loop: `t`, coordinates, velocities, pressures `p_1`, `p_2`, .."""
+    columns = {"t": (result.t, "s")}
+    for k, name in enumerate(loop.mechanism.coordinates):
+        columns |= {name: (result.q[:, k], "rad"), f"{name}d": (result.u[:, k], "rad/s")}
+    columns |= {f"p_{k + 1}": (result.p[:, k], "Pa") for k in range(result.p.shape[1])}
+    return Columns({n: v for n, (v, _) in columns.items()}, {n: unit for n, (_, unit) in columns.items()})

@@ -10,7 +10,6 @@ decided when the inlet closes, from the speed that the crank has just then.
 """
 
 import dataclasses
-from typing import Any
 
 import casadi as ca
 
@@ -20,6 +19,7 @@ from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, load_torque
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 from mechsym.simulate.equations import power
 
 OPEN = len(PHASES)  # number of the fourth phase
@@ -73,7 +73,7 @@ def right_side(loop: Loop) -> ca.Function:
     count = len(loop.cylinders)
     y, held = ca.SX.sym("y", 2 * n + 3 * count + len(WORKS)), ca.SX.sym("held", 4 * count)
     q, u = y[:n], y[n : 2 * n]
-    inputs: dict[str, Any] = {name: ca.SX(0) for name in loop.mechanism.inputs}
+    inputs: dict[str, ca.SX] = {name: ca.SX(0) for name in loop.mechanism.inputs}
     slopes, pressures, piston_power = [], [], 0
     for k, cylinder in enumerate(loop.cylinders):
         i = q_names.index(cylinder.coordinate)
@@ -94,13 +94,14 @@ def right_side(loop: Loop) -> ca.Function:
     return ca.Function("loop", [y, held], [rate, ca.vertcat(*pressures)])
 
 
-def _gas(engine: ClosedEngine, omega: Any, phi: Any, t: Any, held: Any) -> tuple[Any, tuple[Any, ...]]:
+def _gas(engine: ClosedEngine, omega: Scalar, phi: Scalar, t: Scalar, held: ca.SX) -> tuple[Scalar, tuple[Scalar, ...]]:
     closed = closed_period(engine, {"omega": omega})
     closed = dataclasses.replace(closed, starts=held[1], duration=held[2])
-    p, slopes = engine.cycle.intake_pressure, (0.0, 0.0, 0.0)
+    p: Scalar = engine.cycle.intake_pressure
+    slopes: tuple[Scalar, ...] = (0.0, 0.0, 0.0)
     for number, phase in enumerate(PHASES):
         here = held[0] == number
         p = ca.if_else(here, pressure(closed, phase, phi, t), p)
-        found = rates(closed, phase, phi, t)
-        slopes = tuple(ca.if_else(here, a, b) for a, b in zip(found, slopes, strict=True))
+        there = rates(closed, phase, phi, t)
+        slopes = tuple(ca.if_else(here, a, b) for a, b in zip(there, slopes, strict=True))
     return p, slopes

@@ -1,23 +1,36 @@
-"""All checks of the hypocycloid engine, and the speeds at which they hold."""
+"""All checks of the hypocycloid engine, the speeds at which they hold, and its rows."""
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from mechsym.sizing.checks import Check, at_least, at_most, unsafe
-from mechsym.sizing.hypocycloid.engine import bending_moment, crank_loads, cylinder_loads, seats, spans, tooth_loads
-from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
-from mechsym.sizing.parts.bearing_design import Choice, check_bearing
-from mechsym.sizing.parts.crank_design import check_crank, check_output
-from mechsym.sizing.parts.gear_checks import check_gears
-from mechsym.sizing.parts.piston_design import check_cylinder, check_piston
-from mechsym.sizing.parts.records import GearPart
-from mechsym.sizing.rounding import at_speed
+from mechsym.quantities.units import Array, Kilogram, Pure, Watt
+from mechsym.sizing.bearing_design import Choice, check_bearing
+from mechsym.sizing.checks import Check, at_least, at_most, at_speed, unsafe
+from mechsym.sizing.crank_design import check_crank, check_output
+from mechsym.sizing.gear_design import check_gears
+from mechsym.sizing.hypocycloid.engine import (
+    PartForces,
+    Parts,
+    Stock,
+    bending_moment,
+    chosen,
+    crank_loads,
+    cylinder_loads,
+    seats,
+    shaft,
+    spans,
+    tooth_loads,
+)
+from mechsym.sizing.hypocycloid.masses import Moving, PrintedMasses, part_masses
+from mechsym.sizing.piston_design import check_cylinder, check_piston
+from mechsym.sizing.rows import SizeRow, fact, size_rows
 from mechsym.sizing.rules.fatigue import endurance_limit
-from mechsym.sizing.rules.materials import get
-from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor
-from mechsym.sizing.wants import Wants
+from mechsym.sizing.rules.masses import power_to_weight
+from mechsym.sizing.rules.turning_shaft import Section, fatigue_factor, inner_slope
+from mechsym.sizing.wants import GearPart, Wants
 
 _PLAY = 1e-6  # what a pitch radius may be off [m]
 
@@ -25,13 +38,11 @@ _PLAY = 1e-6  # what a pitch radius may be off [m]
 def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of the engine.
 
-    Returns
-    -------
-    checks : list of Check
-        From the piston to the bearings
+    Returns checks: from the piston to the bearings.
     """
-    used = {place: get(dict(stock.materials), getattr(wants, place))
-            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
+    used = {
+        place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")
+    }
     cylinder = cylinder_loads(forces)
     crank = crank_loads(parts, forces, wants, stock)
     teeth = tooth_loads(parts, forces, wants, stock)
@@ -68,12 +79,9 @@ def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choic
 def check_pinion_shaft(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
     """Shaft under the pinion: bending between two journals, and the tooth's torque.
 
-    Returns
-    -------
-    checks : list of Check
-        One, or none when the pinion has no bore
+    Returns checks: one, or none when the pinion has no bore.
     """
-    d, material = parts.gears.pinion_bore, get(dict(stock.materials), wants.crankshaft)
+    d, material = parts.gears.pinion_bore, stock.material(wants.crankshaft)
     if d <= 0:
         return []
     M_x, M_y = bending_moment(parts, forces, stock)(spans(parts, stock).gear)
@@ -88,13 +96,10 @@ def check_pinion_shaft(parts: Parts, forces: PartForces, wants: Wants, stock: St
     ]  # fmt: skip
 
 
-def holding(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> np.ndarray:
+def holding(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> Pure[Array]:
     """Speeds at which every check holds by itself.
 
-    Returns
-    -------
-    held : ndarray, shape (k,)
-        Whether all factors are reached at each speed [-]
+    Returns held: whether all factors are reached at each speed, shape (k,).
     """
     arrays = ("omega", "dp_max", "net", "rod", "tooth", "radial", "torque", "spin")
     held = []
@@ -104,13 +109,10 @@ def holding(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> np.
     return np.array(held)
 
 
-def fastest_run(held: np.ndarray) -> tuple[int, int]:
+def fastest_run(held: Pure[Array]) -> tuple[int, int]:
     """First and last index of the last run of true values.
 
-    Parameters
-    ----------
-    held : ndarray, shape (k,)
-        True at least once [-]
+    held: True at least once, shape (k,).
 
     Examples
     --------
@@ -119,3 +121,67 @@ def fastest_run(held: np.ndarray) -> tuple[int, int]:
     """
     edges = np.flatnonzero(np.diff(np.concatenate([[0], held.astype(int), [0]])))
     return int(edges[-2]), int(edges[-1]) - 1
+
+
+def part_rows(parts: Parts, rule: str) -> list[SizeRow]:
+    """Every size of every part."""
+    return [
+        row for field in dataclasses.fields(parts) for row in size_rows(field.name, getattr(parts, field.name), rule)
+    ]
+
+
+def mass_rows(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> list[SizeRow]:
+    """The mass of one of each part."""
+    return [
+        fact(part, "mass of one", m, "kg", "mass model", note=f"{n} in the engine")
+        for part, (m, n) in part_masses(parts, printed, wants, stock).items()
+    ]
+
+
+def engine_rows(
+    parts: Parts,
+    forces: PartForces,
+    moving: Moving,
+    mass: Kilogram,
+    power: Watt,
+    wants: Wants,
+    stock: Stock,
+    reciprocating: Kilogram,
+) -> list[SizeRow]:
+    """The headline figures.
+
+    mass: of the whole engine; power: at the highest speed; reciprocating: mass on the cylinder axis that the case
+    gives.
+    """
+    steel = stock.material(wants.crankshaft)
+    slope = inner_slope(shaft(parts, stock), steel.youngs_modulus, bending_moment(parts, forces, stock))
+    return [
+        fact("engine", "moving mass on the cylinder axis", moving.axis, "kg", "mass model",
+             note=f"the case has {reciprocating:.3f} kg"),
+        fact("engine", "largest force on a piston rod", float(np.abs(forces.rod).max()), "N", "force chain"),
+        fact("engine", "largest tooth load of a crank", float(np.abs(forces.tooth).max()), "N", "force chain"),
+        fact("engine", "slope at the inner journal", float(slope.max()), "rad", "beam, not rated",
+             "Shigley table 7-2", "0.0008 to 0.0012 are usual for rollers under a steady load"),
+        fact("engine", "mass without belt", mass, "kg", "mass roll-up", "ch. 5.1.2"),
+        fact("engine", "power at the highest speed", power, "W", "cycle", "eq. 2.46"),
+        fact("engine", "power to weight", power_to_weight(power, mass), "W/kg", "mass roll-up", "fig. 5.13"),
+    ]  # fmt: skip
+
+
+def nearest_rows(
+    parts: Parts, forces: PartForces, wants: Wants, stock: Stock, power: Callable[[float], float]
+) -> list[SizeRow]:
+    """Speeds at which these parts may run at full load, when they may not at all.
+
+    power: crank speed [rad/s] -> power of the engine [W].
+    """
+    held = holding(parts, forces, wants, stock)
+    if not held.any():
+        return []
+    low, high = fastest_run(held)
+    at = "full load only inside this range; the nearest engine that holds"
+    return [
+        fact("engine", "lowest speed at full load", forces.omega[low], "rad/s", "all checks", note=at),
+        fact("engine", "highest speed", forces.omega[high], "rad/s", "all checks", note=at),
+        fact("engine", "power at that speed", power(forces.omega[high]), "W", "cycle", note=at),
+    ]

@@ -1,20 +1,94 @@
-"""The hypocycloid engine as a whole: axial places and loads on every part.
+"""The hypocycloid engine as a whole: its parts, the stock they are chosen from, axial places, loads on every part.
 
-Forces come from outside as arrays over speed and angle (`parts.PartForces`).
+Forces come from outside as arrays over speed and angle (`PartForces`).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
-from mechsym.sizing.hypocycloid.parts import PartForces, Parts, Stock, chosen
-from mechsym.sizing.loads import Spans, side_loads, tooth_share_one_end
-from mechsym.sizing.parts.bearing_design import Seat
-from mechsym.sizing.parts.crank_design import CrankLoads
-from mechsym.sizing.parts.gear_design import ToothLoads
-from mechsym.sizing.parts.piston_design import CylinderLoads
-from mechsym.sizing.rules.shaft_beam import Shaft, moment, outer_shares
-from mechsym.sizing.wants import Wants
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+from mechsym.quantities.units import Metre
+from mechsym.sizing.bearing_design import Choice, Seat
+from mechsym.sizing.crank_design import CrankLoads
+from mechsym.sizing.gear_design import ToothLoads
+from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
+from mechsym.sizing.piston_design import CylinderLoads
+from mechsym.sizing.rules.bearings import Bearing
+from mechsym.sizing.rules.materials import Material, get
+from mechsym.sizing.rules.turning_shaft import Shaft, moment, outer_shares
+from mechsym.sizing.wants import BearingPart, CrankPart, CylinderPart, GearPart, PistonPart, Wants
+
+
+@record
+class Parts:
+    """Everything that is sized."""
+
+    piston: PistonPart
+    cylinder: CylinderPart
+    gears: GearPart
+    crank: CrankPart
+    bearings: BearingPart
+
+
+@record
+class PartForces:
+    """Forces of one crank over the speeds; arrays of shape (k, n) over a period of 4 pi."""
+
+    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
+    omega: np.ndarray
+    theta: np.ndarray
+    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
+    #: Net force on the crankpin with all reciprocating mass, and with the piston's side only [N]
+    net: np.ndarray
+    rod: np.ndarray
+    #: Tangential and separating load of all gears of the crank [N]
+    tooth: np.ndarray
+    radial: np.ndarray
+    torque: np.ndarray  #: Torque of the crank [N*m]
+    spin: np.ndarray  #: shape (k,): Centrifugal force of the masses at the planet's centre [N]
+    #: Throw, bore, stroke of one piston, distance of the heads [m], heat through a head [W]
+    e: float
+    bore: float
+    stroke: float
+    gap: float
+    head_heat: float
+
+    @cached_property
+    def side(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Forces on one side of the planet: on the crankpin, from the teeth, from the masses; each (2, k, n) [N]."""
+        return side_vectors(self.net, self.tooth, self.radial, self.spin, self.theta)
+
+
+@record
+class Stock:
+    """What a design may choose from."""
+
+    materials: Mapping[str, Material]
+    bearings: Mapping[str, Bearing]
+
+    def material(self, key: str) -> Material:
+        """A material by its key."""
+        return get(self.materials, key)
+
+    def bearing(self, designation: str) -> Bearing:
+        """A bearing by its designation."""
+        if designation not in self.bearings:
+            raise BadInput(f"bearing {designation!r} is not known; there are {', '.join(sorted(self.bearings))}")
+        return self.bearings[designation]
+
+
+def chosen(part: BearingPart, stock: Stock) -> dict[str, Choice]:
+    """The bearings of each place."""
+    counts = {"rod": part.rod_count, "inner": part.inner_count, "outer": part.outer_count}
+    return {
+        place: Choice(bearing=stock.bearing(getattr(part, place)), count=round(counts.get(place, 1)),
+                      ring_off=place == "inner" and part.ring_off == "yes")
+        for place in ("rod", "inner", "outer", "main", "outboard")
+    }  # fmt: skip
+
 
 _GAP = 2e-3  # between web, bearings and housing, as in the source's sizes [m]
 _END_WALL = 5e-3  # carrier between shaft end and outboard bearing, assumed [m]
@@ -32,13 +106,10 @@ _SEATS = {
 def spans(parts: Parts, stock: Stock) -> Spans:
     """Axial places of one side; with the source's sizes they give its 43 mm and its 77 mm of shaft.
 
-    Returns
-    -------
-    spans : Spans
-        From the middle of the crankpin
+    Returns spans: from the middle of the crankpin.
     """
     places = chosen(parts.bearings, stock)
-    width = {name: choice.count * choice.bearing.width for name, choice in places.items()}
+    width = {name: choice.stack for name, choice in places.items()}
     stack = max(width["inner"], width["main"])
     inner = parts.crank.pin_length / 2 + parts.crank.web + _GAP + stack / 2
     gear = inner + stack / 2 + parts.gears.face / 2
@@ -47,26 +118,17 @@ def spans(parts: Parts, stock: Stock) -> Spans:
     return Spans(inner=inner, gear=gear, outer=outer, outboard=end + _END_WALL + width["outboard"] / 2)
 
 
-def shaft_length(parts: Parts, stock: Stock) -> float:
-    """Length of the shaft from web to end.
-
-    Returns
-    -------
-    length : float
-        Length [m]
-    """
+def shaft_length(parts: Parts, stock: Stock) -> Metre:
+    """Length of the shaft from web to end."""
     choice = chosen(parts.bearings, stock)["outer"]
-    end = spans(parts, stock).outer + choice.count * choice.bearing.width / 2 + _GAP
+    end = spans(parts, stock).outer + choice.stack / 2 + _GAP
     return end - parts.crank.pin_length / 2 - parts.crank.web
 
 
 def shaft(parts: Parts, stock: Stock) -> Shaft:
     """Half the crankshaft as a beam.
 
-    Returns
-    -------
-    shaft : Shaft
-        The seat of the inner journal lies symmetrically about it
+    Returns shaft: the seat of the inner journal lies symmetrically about it.
     """
     z, crank = spans(parts, stock), parts.crank
     seat_end = 2 * z.inner - crank.pin_length / 2 - crank.web
@@ -78,10 +140,7 @@ def shaft(parts: Parts, stock: Stock) -> Shaft:
 def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[float], np.ndarray]:
     """Bending moment along the crankshaft.
 
-    Returns
-    -------
-    moment : callable
-        Distance from the middle of the crankpin [m] -> moment (2, k, n) [N*m]
+    Returns moment: distance from the middle of the crankpin [m] -> moment (2, k, n) [N*m].
     """
     force, teeth, centrifugal = forces.side
     z, shares = spans(parts, stock), outer_shares(shaft(parts, stock))
@@ -91,10 +150,7 @@ def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[
 def tooth_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> ToothLoads:
     """Tooth loads of the harder loaded pair.
 
-    Returns
-    -------
-    loads : ToothLoads
-        Half of the crank's tooth load, or what one driving end makes of it
+    Returns loads: half of the crank's tooth load, or what one driving end makes of it.
     """
     one_end = wants.take_off == "one_end"
     share = tooth_share_one_end(spans(parts, stock), wants.stiffness_ratio) if one_end else 0.5
@@ -105,28 +161,29 @@ def seats(parts: Parts, forces: PartForces, stock: Stock, wanted: Sequence[str] 
     """Loads and speeds of the bearings at the places that are wanted."""
     places = [place for place in (_SEATS[key][1] for key in wanted) if place]
     loads = side_loads(forces.side, spans(parts, stock), outer_shares(shaft(parts, stock)), places)
-    found = {}
+    loaded = {}
     for key in wanted:
         name, place, turns = _SEATS[key]
         load = loads[place] if place else np.abs(forces.rod)
-        found[key] = Seat(name=name, omega=forces.omega, load=load, turning=turns * forces.omega)
-    return found
+        loaded[key] = Seat(name=name, omega=forces.omega, load=load, turning=turns * forces.omega)
+    return loaded
 
 
 def crank_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> CrankLoads:
     """Loads of crankpin, web and shafts.
 
-    Returns
-    -------
-    loads : CrankLoads
-        The output shaft carries both cranks' torque: its own and, through the belt, the other one's
+    Returns loads: the output shaft carries both cranks' torque: its own and, through the belt, the other one's.
     """
     pair = tooth_loads(parts, forces, wants, stock)
     return CrankLoads(
-        omega=forces.omega, moment=bending_moment(parts, forces, stock), turn=-forces.theta,
-        along_web=forces.net * np.cos(forces.theta), shaft_torque=forces.e * pair.tooth,
-        output_torque=2 * forces.torque, arm=spans(parts, stock).inner,
-    )  # fmt: skip
+        omega=forces.omega,
+        moment=bending_moment(parts, forces, stock),
+        turn=-forces.theta,
+        along_web=forces.net * np.cos(forces.theta),
+        shaft_torque=forces.e * pair.tooth,
+        output_torque=2 * forces.torque,
+        arm=spans(parts, stock).inner,
+    )
 
 
 def cylinder_loads(forces: PartForces) -> CylinderLoads:

@@ -1,20 +1,29 @@
-"""Masses of the hypocycloid engine's parts, and how they move.
+"""Masses of the hypocycloid engine's parts, how they move, and the forces that they make with the gas.
 
 The crankshaft is reckoned from its sizes; the other parts start from the printed part (its mass stands for what the
 source drew and does not print) and change by the volume that the sizes change. A web's mass is split between the
 crankpin on the cylinder axis and the shaft at the planet's centre, so that its centre stays where it is.
 """
 
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
+from mechsym import mechanisms
+from mechsym.mechanisms.amounts import amount
+from mechsym.mechanisms.record import curves, evaluate
+from mechsym.mechanisms.roles import PartRoles
 from mechsym.quantities import record
-from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.parts import Parts, Stock, chosen
-from mechsym.sizing.parts.bearing_design import mass as bearing_mass
-from mechsym.sizing.parts.records import MassPart, PistonPart
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import Kilogram
+from mechsym.sizing.bearing_design import mass as bearing_mass
+from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
+from mechsym.sizing.pressures import Pressures
 from mechsym.sizing.rules.masses import area_and_centre, cylinder_mass, roll_up, web_outline
-from mechsym.sizing.rules.materials import get
-from mechsym.sizing.wants import Wants
+from mechsym.sizing.wants import MassPart, PistonPart, Wants
 
 _SUPPORT_SHAFT = 0.020  # free length of the support shaft, assumed: the source prints none [m]
 
@@ -25,8 +34,8 @@ class PrintedMasses:
 
     parts: Parts
     masses: MassPart
-    bore: float  #: Bore, throw [m]
-    e: float  #: Bore, throw [m]
+    bore: float  #: of the cylinder [m]
+    e: float  #: Throw of the crank [m]
 
 
 @record
@@ -43,10 +52,7 @@ class Moving:
 def moving_printed(printed: PrintedMasses, stock: Stock) -> Moving:
     """Moving masses from the printed masses (errata E20).
 
-    Returns
-    -------
-    moving : Moving
-        0.579 kg on the cylinder axis; the source's dynamics use 0.250 kg
+    Returns moving: 0.579 kg on the cylinder axis; the source's dynamics use 0.250 kg.
     """
     m, places = printed.masses, chosen(printed.parts.bearings, stock)
     density = 6675.0  # the source's Nitralloy N, from which its 90.8 g of shaft follow
@@ -54,18 +60,17 @@ def moving_printed(printed: PrintedMasses, stock: Stock) -> Moving:
     rod = m.piston + bearing_mass(places["rod"])
     journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
     return Moving(
-        rod=rod, axis=rod + m.crankshaft - 2 * shaft, planet=2 * (shaft + m.pinion),
+        rod=rod,
+        axis=rod + m.crankshaft - 2 * shaft,
+        planet=2 * (shaft + m.pinion),
         unbalance=(shaft + m.pinion + journals) * printed.e,
-    )  # fmt: skip
+    )
 
 
 def moving(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> Moving:
     """Moving masses of sized parts.
 
-    Returns
-    -------
-    moving : Moving
-        Masses that the dynamics must use
+    Returns moving: masses that the dynamics must use.
     """
     part = part_masses(parts, printed, wants, stock)
     pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
@@ -74,23 +79,23 @@ def moving(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> 
     planet_side = shaft + part["pinion"][0] + web * outward
     journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
     return Moving(
-        rod=rod, axis=rod + pin + 2 * web * (1 - outward), planet=2 * planet_side,
+        rod=rod,
+        axis=rod + pin + 2 * web * (1 - outward),
+        planet=2 * planet_side,
         unbalance=(planet_side + journals) * printed.e,
-    )  # fmt: skip
+    )
 
 
 def part_masses(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
     """Mass and number of every part of the engine.
 
-    Returns
-    -------
-    masses : dict of str to (float, int)
-        Part to mass [kg] and number [-]
+    Returns masses: part to mass [kg] and number [-].
     """
     ref, base, rho = printed.masses, printed.parts, _densities(wants, stock)
     pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
     places = chosen(parts.bearings, stock)
-    pinion = ref.pinion * _pinion_volume(parts) / _pinion_volume(base) * rho["gears"] / _density(stock, "nitralloy-n")
+    printed_density = stock.material("nitralloy-n").density
+    pinion = ref.pinion * _pinion_volume(parts) / _pinion_volume(base) * rho["gears"] / printed_density
     planet_side = shaft + pinion + web * outward
     journals = bearing_mass(places["inner"]) + bearing_mass(places["outer"])
     balance = (planet_side + journals) * printed.e / moving_printed(printed, stock).unbalance
@@ -109,24 +114,15 @@ def part_masses(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock
     }
 
 
-def total_mass(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> float:
-    """Mass of the engine without belt drive.
-
-    Returns
-    -------
-    m : float
-        Mass [kg]
-    """
+def total_mass(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> Kilogram:
+    """Mass of the engine without belt drive."""
     return roll_up(part_masses(parts, printed, wants, stock))
 
 
-def total_mass_printed(printed: PrintedMasses, stock: Stock) -> float:
+def total_mass_printed(printed: PrintedMasses, stock: Stock) -> Kilogram:
     """Mass of the engine from the printed masses.
 
-    Returns
-    -------
-    m : float
-        13.4066 kg with the source's numbers [kg]
+    Returns m: 13.4066 kg with the source's numbers.
     """
     m, places = printed.masses, chosen(printed.parts.bearings, stock)
     counts = {"piston": 2, "cylinder": 1, "pinion": 4, "ring": 4, "crankshaft": 2, "output_set": 2, "support_set": 2,
@@ -179,9 +175,71 @@ def _ring_volume(parts: Parts) -> float:
 
 
 def _densities(wants: Wants, stock: Stock) -> dict[str, float]:
-    return {place: _density(stock, getattr(wants, place))
-            for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")}  # fmt: skip
+    places = ("piston", "cylinder", "gears", "crankshaft", "shaft")
+    return {place: stock.material(getattr(wants, place)).density for place in places}
 
 
-def _density(stock: Stock, key: str) -> float:
-    return get(dict(stock.materials), key).density
+@record
+class PlanetDrive:
+    """A mechanism with a planet on its crank pin, and the letters of its masses."""
+
+    name: str
+    parameters: Record  #: The mechanism's record
+    roles: PartRoles
+
+    def size(self, text: Any) -> float:
+        """A size that a role gives [unit]."""
+        return float(amount(text, dataclasses.asdict(self.parameters)))
+
+    @property
+    def e(self) -> float:
+        """Throw of the crank [m]."""
+        return next(self.size(role.throw) for role in self.roles.bearings if role.throw is not None)
+
+    @property
+    def moving(self) -> float:
+        """Mass that the case gives to what moves along the cylinder [kg]."""
+        return sum(map(self.size, self.roles.pistons[0].masses))
+
+
+def hypocycloid_forces(gas: Pressures, drive: PlanetDrive) -> Callable[[Moving], PartForces]:
+    """Moving masses -> forces over the speeds."""
+    roles, e = drive.roles, drive.e
+    (planet,), (axis, *others) = (teeth.planet for teeth in roles.teeth), roles.pistons[0].masses
+    unbalance = str(roles.rotors[0].unbalance)
+
+    def forces_of(moving: Moving) -> PartForces:
+        letters = {str(planet): moving.planet, axis: moving.axis, unbalance: -moving.planet * e}
+        masses = dataclasses.replace(drive.parameters, **letters, **dict.fromkeys(others, 0.0))
+        out = _reactions(dataclasses.replace(drive, parameters=masses), gas)
+        share = moving.rod / moving.axis
+        return PartForces(
+            omega=gas.omega, theta=gas.theta, dp_max=gas.dp_max, net=out["pin"],
+            rod=gas.net - share * (gas.net - out["pin"]), tooth=out["tooth"],
+            radial=out["radial"], torque=out["torque"],
+            spin=moving.planet * e * gas.omega**2, e=e,
+            bore=gas.bore, stroke=gas.stroke, head_heat=gas.head_heat, gap=gas.gap,
+        )  # fmt: skip
+
+    return forces_of
+
+
+def _reactions(drive: PlanetDrive, gas: Pressures) -> dict[str, np.ndarray]:
+    # at constant speed each is a part that follows the net force and one that follows the speed squared, so one turn of
+    # each says all of every speed; only the radial force has a sign of its own: the teeth push apart on both flanks
+    one, roles = np.ones(gas.theta.size), drive.roles
+    mechanism, teeth, piston = mechanisms.build(drive.name, drive.parameters), roles.teeth[0], roles.pistons[0]
+    q = mechanism.coordinates[0]
+    pushed, turning = (
+        evaluate(mechanism, "reactions", **{q: gas.theta, f"{q}d": speed * one, piston.force: force * one})
+        for speed, force in ((0.0, 1.0), (1.0, 0.0))
+    )
+    square = gas.omega[:, None] ** 2
+
+    def over_speeds(name: str) -> np.ndarray:
+        return np.asarray(pushed[name] * gas.net + turning[name] * square)
+
+    pin = over_speeds(next(role.reactions[0] for role in roles.bearings if role.at == "piston_pins"))
+    tooth, slope = over_speeds(teeth.force), curves(mechanism, gas.theta)[f"d{piston.travel}_d{q}"]
+    radial = np.abs(tooth) * math.tan(drive.size(teeth.flank))
+    return {"pin": pin, "tooth": tooth, "torque": pin * slope, "radial": radial}

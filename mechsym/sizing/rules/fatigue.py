@@ -4,11 +4,12 @@ Source: Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 6 and 
 charts in R. L. Norton, Machine Design, appendix.
 """
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.quantities.units import Array, Metre, NewtonMetre, Pascal, Pure, Scalar
 from mechsym.sizing.checks import require
 
 # k_a = a * (S_ut/MPa)^b
@@ -18,24 +19,14 @@ _BENDING = {1.2: (0.97098, -0.21796), 1.5: (0.93836, -0.25759), 2.0: (0.90879, -
 _TORSION = {1.2: (0.83425, -0.21649), 1.33: (0.84897, -0.23161), 2.0: (0.86331, -0.23865)}
 
 
-def endurance_limit(S_ut: float, d: float, surface: str) -> float:
+def endurance_limit(S_ut: Pascal, d: Metre, surface: str) -> Pascal:
     r"""Endurance limit of a steel shaft in rotating bending.
 
     .. math:: S_e = k_a k_b \min(0.5\,S_{ut}, 700\,\mathrm{MPa}), \quad k_a = a (S_{ut}/\mathrm{MPa})^b
 
     with k_b = (d/7.62 mm)^-0.107 up to 51 mm, 1.51 (d/mm)^-0.157 above, and at most 1.
 
-    Parameters
-    ----------
-    S_ut : float
-        Ultimate strength, up to 2400 MPa [Pa]
-    d : float
-        Diameter, up to 254 mm [m]
-
-    Returns
-    -------
-    S_e : float
-        Endurance limit [Pa]
+    S_ut: ultimate strength, up to 2400 MPa; d: diameter, up to 254 mm.
 
     Notes
     -----
@@ -58,22 +49,13 @@ def endurance_limit(S_ut: float, d: float, surface: str) -> float:
     return min(1.0, a * (S_ut / 1e6) ** b) * min(1.0, size) * min(0.5 * S_ut, 700e6)
 
 
-def fillet_factor_bending(r: float, d: float, D: float) -> float:
-    r"""Stress concentration of a shoulder fillet in bending.
+def fillet_factor_bending(r: Metre, d: Metre, D: Metre) -> Pure:
+    """Stress concentration of a shoulder fillet in bending.
 
     .. math:: K_t = A (r/d)^b
 
-    Parameters
-    ----------
-    r : float
-        Radius of the fillet, 0.01 to 0.3 of d [m]
-    d, D : float
-        Smaller and larger diameter [m]
-
-    Returns
-    -------
-    K_t : float
-        Factor; used for K_f, which is on the safe side [-]
+    r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_t: factor; used for K_f,
+    which is on the safe side.
 
     Notes
     -----
@@ -87,22 +69,12 @@ def fillet_factor_bending(r: float, d: float, D: float) -> float:
     return _fillet(r, d, D, _BENDING)
 
 
-def fillet_factor_torsion(r: float, d: float, D: float) -> float:
-    r"""Stress concentration of a shoulder fillet in torsion.
+def fillet_factor_torsion(r: Metre, d: Metre, D: Metre) -> Pure:
+    """Stress concentration of a shoulder fillet in torsion.
 
     .. math:: K_{ts} = A (r/d)^b
 
-    Parameters
-    ----------
-    r : float
-        Radius of the fillet, 0.01 to 0.3 of d [m]
-    d, D : float
-        Smaller and larger diameter [m]
-
-    Returns
-    -------
-    K_ts : float
-        Factor; used for K_fs [-]
+    r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_ts: factor; used for K_fs.
 
     Notes
     -----
@@ -116,20 +88,13 @@ def fillet_factor_torsion(r: float, d: float, D: float) -> float:
     return _fillet(r, d, D, _TORSION)
 
 
-def stress_cycle(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def stress_cycle(stress: Pascal[Array]) -> tuple[Pascal[Array], Pascal[Array]]:
     r"""Amplitude and mean of a stress history.
 
     .. math:: \sigma_a = \tfrac12(\sigma_{max} - \sigma_{min}), \qquad \sigma_m = \tfrac12(\sigma_{max} + \sigma_{min})
 
-    Parameters
-    ----------
-    stress : ndarray, shape (..., n)
-        Signed stress over a period [Pa]
-
-    Returns
-    -------
-    amplitude, mean : ndarray, shape (...)
-        Of the largest cycle in the history [Pa]
+    stress: signed stress over a period, shape (..., n). Returns amplitude, mean: of the largest cycle in the history,
+    shape (...).
 
     Notes
     -----
@@ -145,24 +110,13 @@ def stress_cycle(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return (high - low) / 2, (high + low) / 2
 
 
-def goodman_factor(sigma_a: Any, sigma_m: Any, S_e: float, S_ut: float) -> Any:
+def goodman_factor(sigma_a: Pascal[Scalar], sigma_m: Pascal[Scalar], S_e: Pascal, S_ut: Pascal) -> Pure[Scalar]:
     r"""Fatigue safety factor on the modified Goodman line.
 
     .. math:: \frac1n = \frac{\sigma_a}{S_e} + \frac{\sigma_m}{S_{ut}}
 
-    Parameters
-    ----------
-    sigma_a, sigma_m : float or ndarray
-        Amplitude and mean of the equivalent stress, notches included; a mean of compression counts as 0 [Pa]
-    S_e : float
-        Endurance limit [Pa]
-    S_ut : float
-        Ultimate strength [Pa]
-
-    Returns
-    -------
-    n : float or ndarray
-        Safety factor against load, both parts growing alike [-]
+    sigma_a, sigma_m: amplitude and mean of the equivalent stress, notches included; a mean of compression counts as 0.
+    S_e: endurance limit. S_ut: ultimate strength. Returns n: safety factor against load, both parts growing alike.
 
     Notes
     -----
@@ -183,28 +137,20 @@ def goodman_factor(sigma_a: Any, sigma_m: Any, S_e: float, S_ut: float) -> Any:
 
 
 def shaft_diameter_goodman(
-    moments: tuple[float, float, float, float], S_e: float, S_ut: float, n: float, K_f: float = 1.0, K_fs: float = 1.0
-) -> float:
+    moments: tuple[NewtonMetre, NewtonMetre, NewtonMetre, NewtonMetre],
+    S_e: Pascal,
+    S_ut: Pascal,
+    n: Pure,
+    K_f: Pure = 1.0,
+    K_fs: Pure = 1.0,
+) -> Metre:
     r"""Diameter of a shaft in bending and torsion for a wanted fatigue factor.
 
     .. math:: d = \left[\frac{16 n}{\pi}\left(\frac{\sqrt{4 (K_f M_a)^2 + 3 (K_{fs} T_a)^2}}{S_e}
               + \frac{\sqrt{4 (K_f M_m)^2 + 3 (K_{fs} T_m)^2}}{S_{ut}}\right)\right]^{1/3}
 
-    Parameters
-    ----------
-    moments : tuple of float
-        M_a, M_m, T_a, T_m: amplitude and mean of bending moment and torque [N*m]
-    S_e, S_ut : float
-        Endurance limit and ultimate strength [Pa]
-    n : float
-        Wanted safety factor [-]
-    K_f, K_fs : float
-        Notch factors in bending and torsion [-]
-
-    Returns
-    -------
-    d : float
-        Diameter [m]
+    moments: M_a, M_m, T_a, T_m: amplitude and mean of bending moment and torque. S_e, S_ut: endurance limit and
+    ultimate strength. n: wanted safety factor. K_f, K_fs: notch factors in bending and torsion.
 
     Notes
     -----
@@ -225,7 +171,7 @@ def shaft_diameter_goodman(
     return (16 * n / np.pi * (A / S_e + B / S_ut)) ** (1 / 3)
 
 
-def _fillet(r, d, D, chart):
+def _fillet(r: Metre, d: Metre, D: Metre, chart: Mapping[Pure, tuple[Pure, Pure]]) -> Pure:
     require("diameter d", d, "m", above=0)
     require("ratio D/d", D / d, "-", above=1, hint="without a shoulder there is no fillet")
     require("ratio r/d", r / d, "-", low=0.01, high=0.3, hint="the chart ends there")

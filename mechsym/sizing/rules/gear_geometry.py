@@ -7,12 +7,18 @@
     x shift of the pinion, -x of the gear: long addendum on the pinion, short addendum on the gear
 
 All lengths inside are in modules. Source: AGMA 908-B89, sections 4 and 5.
+
+What makes a spur pair impossible: undercut, pointed tips, and the interferences of an internal pair.
+
+All lengths are in modules. Source: AGMA 908-B89, section 7; internal pairs as in Elements of Metric Gear Technology
+(SDP/SI), eqs. 5-3 to 5-7.
 """
 
 import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
+from mechsym.quantities.units import Pure, Radian, Scalar
 from mechsym.sizing.checks import require
 
 
@@ -40,21 +46,14 @@ class Pair:
             )
 
 
-def action_line(pair: Pair) -> tuple[float, float, float]:
+def action_line(pair: Pair) -> tuple[Pure, Pure, Pure]:
     r"""Ends of contact on the line of action, as radii of curvature of the pinion's flank.
 
     .. math:: \rho_{end} = \sqrt{R_{a1}^2 - R_{b1}^2}, \qquad
               \rho_{start} = \pm\left(C\sin\varphi - \sqrt{R_{a2}^2 - R_{b2}^2}\right)
 
-    Parameters
-    ----------
-    pair : Pair
-        The pair; the upper sign is for an external, the lower for an internal one
-
-    Returns
-    -------
-    start, end, pitch : float
-        Where the gear's tip and the pinion's tip end contact, and the base pitch, in modules [-]
+    pair: the pair; the upper sign is for an external, the lower for an internal one. Returns start, end, pitch: where
+    the gear's tip and the pinion's tip end contact, and the base pitch, in modules.
 
     Notes
     -----
@@ -74,15 +73,12 @@ def action_line(pair: Pair) -> tuple[float, float, float]:
     return start, end, np.pi * np.cos(phi)
 
 
-def contact_ratio(pair: Pair) -> float:
+def contact_ratio(pair: Pair) -> Pure:
     r"""Transverse contact ratio.
 
     .. math:: m_p = (\rho_{end} - \rho_{start}) / p_b
 
-    Returns
-    -------
-    m_p : float
-        Mean number of tooth pairs in contact [-]
+    Returns m_p: mean number of tooth pairs in contact.
 
     Notes
     -----
@@ -98,21 +94,13 @@ def contact_ratio(pair: Pair) -> float:
     return (end - start) / pitch
 
 
-def pitting_geometry_factor(pair: Pair) -> float:
+def pitting_geometry_factor(pair: Pair) -> Pure:
     r"""Geometry factor for pitting resistance, at the lowest point of single tooth contact of the pinion.
 
     .. math:: I = \frac{\cos\varphi}{\left(\frac{1}{\rho_1} \pm \frac{1}{\rho_2}\right) d_1}, \qquad
               \rho_1 = \rho_{end} - p_b, \quad \rho_2 = C\sin\varphi \mp \rho_1
 
-    Parameters
-    ----------
-    pair : Pair
-        The pair; upper signs for an external, lower for an internal one
-
-    Returns
-    -------
-    I : float
-        Geometry factor [-]
+    pair: the pair; upper signs for an external, lower for an internal one.
 
     Raises
     ------
@@ -140,15 +128,10 @@ def pitting_geometry_factor(pair: Pair) -> float:
     return np.cos(phi) / ((1 / rho_1 + sign / rho_2) * pair.teeth_1)
 
 
-def tooth_thickness(pair: Pair, member: int) -> float:
+def tooth_thickness(pair: Pair, member: int) -> Pure:
     r"""Tooth thickness on the pitch circle, in modules.
 
     .. math:: s = \pi/2 \pm 2 x \tan\varphi - \Delta s
-
-    Returns
-    -------
-    s : float
-        Thickness [-]
 
     Notes
     -----
@@ -164,8 +147,102 @@ def tooth_thickness(pair: Pair, member: int) -> float:
     return np.pi / 2 + 2 * shift * np.tan(pair.pressure_angle) - pair.thinning
 
 
-def _flank(radius, base):
+def _flank(radius: Pure, base: Pure) -> Pure:
     require(
         "tip radius", radius, "-", low=base, hint="the tip lies inside the base circle: take more teeth or less shift"
     )
     return float(np.sqrt(radius**2 - base**2))
+
+
+def top_land(pair: Pair) -> Pure:
+    r"""Thickness of the pinion's tooth at its tip, in modules.
+
+    .. math:: s_a = 2 R_a\left(\frac{s}{2R} + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_a\right)
+
+    Returns s_a: top land of the pinion.
+
+    Notes
+    -----
+    Source: involute geometry. AGMA 908-B89 calls a tooth below 0.3 pointed.
+
+    Examples
+    --------
+    >>> pair = Pair(kind="external", module=1e-3, teeth_1=17, teeth_2=35, pressure_angle=0.4363323129985824, shift=0.5)
+    >>> top_land(pair) < 0.3  # table A.4 marks it T
+    True
+    """
+    phi, R = pair.pressure_angle, pair.teeth_1 / 2
+    tip = R + 1 + pair.shift
+    phi_a = np.arccos(R * np.cos(phi) / tip)
+    return float(2 * tip * (tooth_thickness(pair, 1) / (2 * R) + _inv(phi) - _inv(phi_a)))
+
+
+def undercut_shift(pair: Pair) -> Pure:
+    r"""Shift that a rack-cut pinion needs to keep its involute down to the base circle.
+
+    .. math:: x_{min} = h_a - \rho_a (1 - \sin\varphi) - \tfrac12 z \sin^2\varphi
+
+    pair: the pair; h_a is the tool's addendum (whole depth - 1). Returns x_min: smallest shift of the pinion without
+    undercut.
+
+    Notes
+    -----
+    Source: rack generation (AGMA 908-B89, section 7). Valid: teeth cut by a rack or hob.
+
+    Examples
+    --------
+    >>> pair = Pair(kind="external", module=1e-3, teeth_1=12, teeth_2=26, pressure_angle=0.4363323129985824)
+    >>> undercut_shift(pair) > 0  # table A.2 marks 12 teeth U
+    True
+    """
+    phi = pair.pressure_angle
+    straight = pair.whole_depth - 1 - pair.tip_radius * (1 - np.sin(phi))
+    return float(straight - pair.teeth_1 / 2 * np.sin(phi) ** 2)
+
+
+def interference_margins(pair: Pair) -> dict[str, float]:
+    r"""Margins against the three interferences of an internal pair; all must be positive.
+
+    .. math::
+        \text{involute} &= \rho_{start}, \qquad
+        \text{tip} = \tfrac{z_1}{z_2}\theta_1 + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_{a2} - \theta_2 \\
+        \text{base} &= R_{a2} - R_{b2}
+
+    Returns
+    -------
+    margins : dict of str to float
+        `involute` (contact begins outside the pinion's base circle) and `base` (the ring's inner circle outside its
+        base circle) in modules [-], `tip` (the tips pass each other, fouling) [rad]
+
+    Raises
+    ------
+    BadInput
+        External pair
+
+    Notes
+    -----
+    Source: Elements of Metric Gear Technology (SDP/SI), eqs. 5-3 to 5-7; the base circle: Nunes (2017), ch. 4.4.3.
+
+    Examples
+    --------
+    >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824, shift=0.5)
+    >>> all(margin > 0 for margin in interference_margins(pair).values())
+    True
+    """
+    if pair.kind != "internal":
+        raise BadInput("interference_margins is for internal pairs; an external pair wants undercut_shift")
+    phi = pair.pressure_angle
+    R_1, R_2 = pair.teeth_1 / 2, pair.teeth_2 / 2
+    a, tip_1, tip_2 = R_2 - R_1, R_1 + 1 + pair.shift, R_2 - 1 + pair.shift
+    base_1, base_2 = R_1 * np.cos(phi), R_2 * np.cos(phi)
+    margins = {"involute": float(action_line(pair)[0]) if tip_2 > base_2 else tip_2 - base_2, "base": tip_2 - base_2}
+    if tip_1 + a <= tip_2 or tip_2 <= base_2:
+        return margins | {"tip": 0.0 if tip_2 <= base_2 else np.pi}
+    theta_1 = np.arccos((tip_2**2 - tip_1**2 - a**2) / (2 * a * tip_1)) + _inv(np.arccos(base_1 / tip_1)) - _inv(phi)
+    theta_2 = np.arccos((a**2 + tip_2**2 - tip_1**2) / (2 * a * tip_2))
+    tip = pair.teeth_1 / pair.teeth_2 * theta_1 + _inv(phi) - _inv(np.arccos(base_2 / tip_2)) - theta_2
+    return margins | {"tip": float(tip)}
+
+
+def _inv(angle: Radian[Scalar]) -> Radian[Scalar]:
+    return np.tan(angle) - angle

@@ -7,11 +7,12 @@ Source: Nunes (2017), eqs. 2.76 to 2.79 and 4.26 (AGMA 2101-C95, 2001-D04). Exte
 I (`gear_geometry.py`) and J. AGMA gives no J for internal teeth; an external tooth of the same thickness is safe.
 """
 
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Metre, MetrePerSecond, Newton, Pascal, Pure, RadPerSecond, Scalar
 from mechsym.sizing.checks import require
 
 
@@ -27,22 +28,13 @@ class LoadFactors:
     C_f: float = quantity("-", default=1.0, low=1, about="surface condition, pitting only")
 
 
-def mesh_speed(d: float, omega: Any) -> Any:
+def mesh_speed(d: Metre, omega: RadPerSecond[Scalar]) -> MetrePerSecond[Scalar]:
     r"""Pitch line velocity of a hypocycloid's planet relative to its carrier.
 
     .. math:: v = \tfrac12 d\,(2\omega) = d\,\omega
 
-    Parameters
-    ----------
-    d : float
-        Pitch diameter of the planet [m]
-    omega : float or ndarray
-        Crank speed; the planet turns by -omega, the carrier by omega [rad/s]
-
-    Returns
-    -------
-    v : float or ndarray
-        Velocity, the same for planet and ring [m/s]
+    d: pitch diameter of the planet. omega: crank speed; the planet turns by -omega, the carrier by omega. Returns v:
+    velocity, the same for planet and ring.
 
     Notes
     -----
@@ -57,92 +49,13 @@ def mesh_speed(d: float, omega: Any) -> Any:
     return d * np.abs(omega)
 
 
-def bending_stress(F_t: float, b: float, m: float, J: float, factors: LoadFactors) -> float:
-    r"""Bending stress number at the tooth root.
-
-    .. math:: \sigma_F = F_t K_o K_v K_s \frac{1}{b\,m}\frac{K_m K_B}{J}
-
-    Parameters
-    ----------
-    F_t : float
-        Tangential load [N]
-    b : float
-        Face width [m]
-    m : float
-        Module [m]
-    J : float
-        Geometry factor of the member [-]
-
-    Returns
-    -------
-    sigma_F : float
-        Stress [Pa]
-
-    Notes
-    -----
-    Source: Nunes (2017), eq. 2.76 (AGMA 2101-C95).
-
-    Examples
-    --------
-    >>> round(bending_stress(9368.4, 0.052, 0.001, 0.5385, LoadFactors()) / 1e6, 1)
-    334.6
-    """
-    return face_width_bending(F_t, m, J, 1.0, factors) / _width(b)
-
-
-def contact_stress(F_t: float, b: float, d: float, I: float, Z_E: float, factors: LoadFactors) -> float:
-    r"""Contact stress number on the tooth flank.
-
-    .. math:: \sigma_H = Z_E\sqrt{F_t K_o K_v K_s \frac{K_m}{d\,b}\frac{C_f}{I}}
-
-    Parameters
-    ----------
-    F_t : float
-        Tangential load [N]
-    b : float
-        Face width [m]
-    d : float
-        Pitch diameter of the pinion [m]
-    I : float
-        Geometry factor of the pair [-]
-    Z_E : float
-        Elastic coefficient [Pa^0.5]
-
-    Returns
-    -------
-    sigma_H : float
-        Stress [Pa]
-
-    Notes
-    -----
-    Source: Nunes (2017), eq. 2.78 (AGMA 2101-C95). Print: the source puts the ring's diameter for the ring.
-
-    Examples
-    --------
-    >>> round(contact_stress(9368.4 / 2, 0.039, 0.026, 0.1278, 187030.0, LoadFactors()) / 1e6)
-    1124
-    """
-    return np.sqrt(face_width_contact(F_t, d, I, Z_E, 1.0, factors) / _width(b))
-
-
-def bending_limit(sigma_FP: float, Y_N: float = 1.0, S_F: float = 1.0, K_T: float = 1.0, K_R: float = 1.0) -> float:
+def bending_limit(sigma_FP: Pascal, Y_N: Pure = 1.0, S_F: Pure = 1.0, K_T: Pure = 1.0, K_R: Pure = 1.0) -> Pascal:
     r"""Bending stress number that a tooth may have.
 
     .. math:: \sigma_F \le \frac{\sigma_{FP} Y_N}{S_F K_T K_R}
 
-    Parameters
-    ----------
-    sigma_FP : float
-        Allowable bending stress number of the material [Pa]
-    Y_N, K_T, K_R : float
-        Stress cycle, temperature and reliability factor [-]
-    S_F : float
-        Safety factor [-]
-
-    Returns
-    -------
-    limit : float
-        Limit [Pa]
+    sigma_FP: allowable bending stress number of the material; Y_N, K_T, K_R: stress cycle, temperature and reliability
+    factor; S_F: safety factor.
 
     Notes
     -----
@@ -159,25 +72,14 @@ def bending_limit(sigma_FP: float, Y_N: float = 1.0, S_F: float = 1.0, K_T: floa
 
 
 def contact_limit(
-    sigma_HP: float, Z_N: float = 1.0, S_H: float = 1.0, C_H: float = 1.0, K_T: float = 1.0, K_R: float = 1.0
-) -> float:
+    sigma_HP: Pascal, Z_N: Pure = 1.0, S_H: Pure = 1.0, C_H: Pure = 1.0, K_T: Pure = 1.0, K_R: Pure = 1.0
+) -> Pascal:
     r"""Contact stress number that a flank may have.
 
     .. math:: \sigma_H \le \frac{\sigma_{HP} Z_N C_H}{S_H K_T K_R}
 
-    Parameters
-    ----------
-    sigma_HP : float
-        Allowable contact stress number of the material [Pa]
-    Z_N, C_H, K_T, K_R : float
-        Stress cycle, hardness ratio, temperature and reliability factor [-]
-    S_H : float
-        Safety factor against the stress; against the load it is S_H^2 [-]
-
-    Returns
-    -------
-    limit : float
-        Limit [Pa]
+    sigma_HP: allowable contact stress number of the material. Z_N, C_H, K_T, K_R: stress cycle, hardness ratio,
+    temperature and reliability factor. S_H: safety factor against the stress; against the load it is S_H^2.
 
     Notes
     -----
@@ -193,26 +95,12 @@ def contact_limit(
     return sigma_HP * Z_N * C_H / (S_H * K_T * K_R)
 
 
-def face_width_bending(F_t: float, m: float, J: float, limit: float, factors: LoadFactors) -> float:
+def face_width_bending(F_t: Newton, m: Metre, J: Pure, limit: Pascal, factors: LoadFactors) -> Metre:
     r"""Face width that keeps the bending stress at its limit.
 
     .. math:: b = F_t K_o K_v K_s \frac{K_m K_B}{m\,J\,\sigma_F}
 
-    Parameters
-    ----------
-    F_t : float
-        Tangential load [N]
-    m : float
-        Module [m]
-    J : float
-        Geometry factor of the member [-]
-    limit : float
-        From `bending_limit` [Pa]
-
-    Returns
-    -------
-    b : float
-        Face width [m]
+    F_t: tangential load; m: module; J: geometry factor of the member.
 
     Notes
     -----
@@ -230,28 +118,14 @@ def face_width_bending(F_t: float, m: float, J: float, limit: float, factors: Lo
     return F_t * factors.K_o * factors.K_v * factors.K_s * factors.K_m * factors.K_B / (m * J * limit)
 
 
-def face_width_contact(F_t: float, d: float, I: float, Z_E: float, limit: float, factors: LoadFactors) -> float:
+def face_width_contact(
+    F_t: Newton, d: Metre, I: Pure, Z_E: Annotated[float, "Pa^0.5"], limit: Pascal, factors: LoadFactors
+) -> Metre:
     r"""Face width that keeps the contact stress at its limit.
 
     .. math:: b = F_t K_o K_v K_s \frac{K_m C_f}{d\,I}\left(\frac{Z_E}{\sigma_H}\right)^2
 
-    Parameters
-    ----------
-    F_t : float
-        Tangential load [N]
-    d : float
-        Pitch diameter of the pinion [m]
-    I : float
-        Geometry factor of the pair [-]
-    Z_E : float
-        Elastic coefficient [Pa^0.5]
-    limit : float
-        From `contact_limit` [Pa]
-
-    Returns
-    -------
-    b : float
-        Face width [m]
+    F_t: tangential load; d: pitch diameter of the pinion; I: geometry factor of the pair; Z_E: elastic coefficient.
 
     Notes
     -----
@@ -267,8 +141,3 @@ def face_width_contact(F_t: float, d: float, I: float, Z_E: float, limit: float,
     require("geometry factor I", I, "-", above=0, below=1)
     require("Z_E and limit", [Z_E, limit], "-", above=0)
     return F_t * factors.K_o * factors.K_v * factors.K_s * factors.K_m * factors.C_f / (d * I) * (Z_E / limit) ** 2
-
-
-def _width(b):
-    require("face width b", b, "m", above=0)
-    return b

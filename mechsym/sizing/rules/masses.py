@@ -1,34 +1,27 @@
 """Masses: volumes of simple bodies, roll-up of an engine, power to weight.
 
 Source: Nunes (2017), ch. 4.2, 4.10 and 5.1.2.
+
+Balance: mass moments of a rotor, and the shaking force that counterweights leave in a slider crank.
+
+Source: Nunes (2017), ch. 4.6.1; slider cranks: Taylor, The Internal-Combustion Engine, vol. 2, ch. 8.
 """
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Annotated
 
 import numpy as np
 
+from mechsym.quantities.units import Area, Array, Kilogram, Metre, Scalar, Watt
 from mechsym.sizing.checks import require
 
 
-def cylinder_mass(density: float, d: float, length: float, bore: float = 0.0) -> float:
+def cylinder_mass(density: Annotated[float, "kg/m^3"], d: Metre, length: Metre, bore: Metre = 0.0) -> Kilogram:
     r"""Mass of a round bar or tube.
 
     .. math:: m = \rho\,\tfrac{\pi}{4}(d^2 - d_i^2)\,l
 
-    Parameters
-    ----------
-    density : float
-        Density [kg/m^3]
-    d, length : float
-        Outer diameter and length [m]
-    bore : float
-        Inner diameter [m]
-
-    Returns
-    -------
-    m : float
-        Mass [kg]
+    d, length: outer diameter and length; bore: inner diameter.
 
     Notes
     -----
@@ -44,22 +37,13 @@ def cylinder_mass(density: float, d: float, length: float, bore: float = 0.0) ->
     return density * np.pi / 4 * (d**2 - bore**2) * length
 
 
-def web_outline(d_1: float, d_2: float, e: float, points: int = 256) -> tuple[np.ndarray, np.ndarray]:
+def web_outline(d_1: Metre, d_2: Metre, e: Metre, points: int = 256) -> tuple[Metre[Array], Metre[Array]]:
     r"""Outline of the leanest crank web: two circles and their outer tangents.
 
     .. math:: \sin\beta = (R_1 - R_2)/e
 
-    Parameters
-    ----------
-    d_1, d_2 : float
-        Diameters of the circles around crankpin and shaft [m]
-    e : float
-        Distance of their centres [m]
-
-    Returns
-    -------
-    x, y : ndarray, shape (points,)
-        Points, the crankpin at the origin, the shaft at (e, 0) [m]
+    d_1, d_2: diameters of the circles around crankpin and shaft; e: distance of their centres. Returns x, y: points,
+    the crankpin at the origin, the shaft at (e, 0), shape (points,).
 
     Notes
     -----
@@ -80,22 +64,12 @@ def web_outline(d_1: float, d_2: float, e: float, points: int = 256) -> tuple[np
     return x, np.concatenate([d_1 / 2 * np.sin(far), d_2 / 2 * np.sin(near)])
 
 
-def area_and_centre(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+def area_and_centre(x: Metre[Array], y: Metre[Array]) -> tuple[Area, Metre]:
     r"""Area of a polygon and where its centre lies along x.
 
     .. math:: A = \tfrac12\sum (x_i y_{i+1} - x_{i+1} y_i)
 
-    Parameters
-    ----------
-    x, y : ndarray, shape (n,)
-        Corners in order [m]
-
-    Returns
-    -------
-    area : float
-        Area [m^2]
-    centre : float
-        x of the centre [m]
+    x, y: corners in order.
 
     Notes
     -----
@@ -114,20 +88,12 @@ def area_and_centre(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return abs(area), float(((x + u) * cross).sum() / (6 * area))
 
 
-def roll_up(parts: Mapping[str, tuple[float, int]]) -> float:
+def roll_up(parts: Mapping[str, tuple[float, int]]) -> Kilogram:
     r"""Mass of an assembly.
 
     .. math:: m = \sum n_i m_i
 
-    Parameters
-    ----------
-    parts : mapping of str to (float, int)
-        Part to its mass [kg] and how many there are [-]
-
-    Returns
-    -------
-    m : float
-        Mass [kg]
+    parts: part to its mass [kg] and how many there are [-].
 
     Notes
     -----
@@ -142,22 +108,12 @@ def roll_up(parts: Mapping[str, tuple[float, int]]) -> float:
     return float(sum(mass * count for mass, count in parts.values()))
 
 
-def power_to_weight(power: Any, mass: float) -> Any:
-    r"""Power per mass.
+def power_to_weight(power: Watt[Scalar], mass: Kilogram) -> Annotated[Scalar, "W/kg"]:
+    """Power per mass.
 
     .. math:: P/m
 
-    Parameters
-    ----------
-    power : float or ndarray
-        Power [W]
-    mass : float
-        Mass [kg]
-
-    Returns
-    -------
-    ratio : float or ndarray
-        Power to weight [W/kg]
+    Returns ratio: power to weight.
 
     Notes
     -----
@@ -170,3 +126,27 @@ def power_to_weight(power: Any, mass: float) -> Any:
     """
     require("mass", mass, "kg", above=0)
     return power / mass
+
+
+def unbalance(parts: Sequence[tuple[float, float]]) -> Annotated[float, "kg*m"]:
+    r"""Static unbalance of parts on one line through the axis.
+
+    .. math:: U = \sum m_i b_i
+
+    parts: mass [kg] and signed distance of its centre from the axis [m].
+
+    Notes
+    -----
+    Source: Nunes (2017), eq. 4.37. Print: "g.mm/s2" is g.mm; the force is U omega^2, and the acceleration that the
+    parts share is the centripetal one, not an angular acceleration.
+
+    Examples
+    --------
+    Table 4.15: shaft, two needle bearings and pinion at 13 mm, the output shaft set at -3.81 mm.
+
+    >>> moving = [(0.0908, 0.013), (0.014, 0.013), (0.014, 0.013), (0.0953, 0.013)]
+    >>> f"{unbalance(moving) * 1e6:.1f} {unbalance([(0.7298, -0.00381)]) * 1e6:.1f}"
+    '2783.3 -2780.5'
+    """
+    require("masses", [mass for mass, _ in parts], "kg", low=0)
+    return float(sum(mass * distance for mass, distance in parts))

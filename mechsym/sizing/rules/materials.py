@@ -6,12 +6,13 @@ Source: Nunes (2017), tables 4.1 to 4.5 and chapter 6.1; see `materials.toml` fo
 import dataclasses
 import difflib
 import tomllib
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from mechsym.errors import BadInput
-from mechsym.files import read_text
+from mechsym.files import Json
+from mechsym.inputs import read_text
 from mechsym.quantities import parse, quantity, record
 
 
@@ -40,10 +41,7 @@ class Material:
 def load(extra: str | Path | None = None) -> dict[str, Material]:
     """The built-in materials, and those of a TOML file of the same form.
 
-    Parameters
-    ----------
-    extra : str or Path, optional
-        File with more materials; a key that exists already is replaced
+    extra: file with more materials; a key that exists already is replaced.
 
     Raises
     ------
@@ -56,13 +54,13 @@ def load(extra: str | Path | None = None) -> dict[str, Material]:
     1250000000.0
     """
     text = (resources.files("mechsym.sizing.rules") / "materials.toml").read_text(encoding="utf-8")
-    found = _tables(text, "materials.toml")
+    tables = _tables(text, "materials.toml")
     if extra is not None:
-        found |= _tables(read_text(extra, "materials", "name an existing TOML file"), str(extra))
-    return found
+        tables |= _tables(read_text(extra, "materials", "name an existing TOML file"), str(extra))
+    return tables
 
 
-def get(materials: dict[str, Material], key: str) -> Material:
+def get(materials: Mapping[str, Material], key: str) -> Material:
     """One material by its key."""
     if key not in materials:
         near = difflib.get_close_matches(key, materials, n=1)
@@ -74,10 +72,7 @@ def get(materials: dict[str, Material], key: str) -> Material:
 def need(material: Material, field: str) -> float:
     """A property that a rule cannot do without.
 
-    Returns
-    -------
-    value : float
-        Its value [SI]
+    Returns value: its value [SI].
 
     Raises
     ------
@@ -103,11 +98,11 @@ def _tables(text: str, file: str) -> dict[str, Material]:
     return {key: _material(key, table, file) for key, table in tables.items()}
 
 
-def _material(key: str, table: Any, file: str) -> Material:
+def _material(key: str, table: object, file: str) -> Material:
     if not isinstance(table, dict):
         raise BadInput(f"{file}: {key!r} is no material; write a section [{key}] with ultimate, youngs_modulus, ...")
     fields = {f.name: f for f in dataclasses.fields(Material)}
-    values: dict[str, Any] = {"name": table.get("name", key)}
+    values: Json = {"name": table.get("name", key)}
     for name, value in table.items():
         if name == "name":
             continue

@@ -1,4 +1,4 @@
-"""Piston head and rings of a piston without skirt (the hypocycloid's rod moves straight).
+"""Piston head and rings of a piston without skirt (the hypocycloid's rod moves straight), and its rod.
 
         |<------- B ------->|
         +-------------------+   ---
@@ -9,32 +9,23 @@
         +--+----|   |----+--+   ---
                 |   |  rod
 
-Source: Nunes (2017), ch. 4.2, after Khurmi and Gupta (2005).
+Source: Nunes (2017), ch. 4.2, after Khurmi and Gupta (2005); buckling after Shigley, ch. 4.
 """
+
+from typing import Annotated
 
 import numpy as np
 
+from mechsym.quantities.units import Kelvin, MassFlow, Metre, Newton, Pascal, Pure, Watt
 from mechsym.sizing.checks import require
 
 
-def head_thickness_strength(p: float, B: float, sigma_t: float) -> float:
+def head_thickness_strength(p: Pascal, B: Metre, sigma_t: Pascal) -> Metre:
     r"""Thickness of a piston head that bears the gas pressure (Grashof).
 
     .. math:: t_H = \sqrt{\frac{3 p B^2}{16 \sigma_t}}
 
-    Parameters
-    ----------
-    p : float
-        Largest pressure on the head [Pa]
-    B : float
-        Bore [m]
-    sigma_t : float
-        Allowable bending stress at the head's temperature [Pa]
-
-    Returns
-    -------
-    t_H : float
-        Thickness [m]
+    p: largest pressure on the head; B: bore; sigma_t: allowable bending stress at the head's temperature.
 
     Notes
     -----
@@ -51,24 +42,12 @@ def head_thickness_strength(p: float, B: float, sigma_t: float) -> float:
     return np.sqrt(3 * p * B**2 / (16 * sigma_t))
 
 
-def head_stress(p: float, B: float, t_H: float) -> float:
+def head_stress(p: Pascal, B: Metre, t_H: Metre) -> Pascal:
     r"""Bending stress of a piston head of given thickness, the inverse of Grashof's formula.
 
     .. math:: \sigma = \frac{3 p B^2}{16\,t_H^2}
 
-    Parameters
-    ----------
-    p : float
-        Pressure on the head [Pa]
-    B : float
-        Bore [m]
-    t_H : float
-        Thickness [m]
-
-    Returns
-    -------
-    sigma : float
-        Stress [Pa]
+    B: bore.
 
     Notes
     -----
@@ -84,24 +63,13 @@ def head_stress(p: float, B: float, t_H: float) -> float:
     return 3 * p * B**2 / (16 * t_H**2)
 
 
-def head_heat(fuel_flow: float, heating_value: float, share: float = 0.05) -> float:
+def head_heat(fuel_flow: MassFlow, heating_value: Annotated[float, "J/kg"], share: Pure = 0.05) -> Watt:
     r"""Heat that flows through one piston head.
 
     .. math:: H = C\,\dot m_f\,H_u
 
-    Parameters
-    ----------
-    fuel_flow : float
-        Fuel burnt for this piston: half the cylinder's in an opposed-piston engine [kg/s]
-    heating_value : float
-        Heating value of the fuel [J/kg]
-    share : float
-        Share C of the heat that goes through the head [-]
-
-    Returns
-    -------
-    H : float
-        Heat flow [W]
+    fuel_flow: fuel burnt for this piston: half the cylinder's in an opposed-piston engine. heating_value: heating value
+    of the fuel. share: share C of the heat that goes through the head. Returns H: heat flow.
 
     Notes
     -----
@@ -118,24 +86,13 @@ def head_heat(fuel_flow: float, heating_value: float, share: float = 0.05) -> fl
     return share * fuel_flow * heating_value
 
 
-def head_thickness_heat(H: float, k: float, dT: float) -> float:
+def head_thickness_heat(H: Watt, k: Annotated[float, "W/(m*K)"], dT: Kelvin) -> Metre:
     r"""Thickness of a piston head that conducts the heat to its edge.
 
     .. math:: t_H = \frac{H}{4\pi k\,\Delta T}
 
-    Parameters
-    ----------
-    H : float
-        Heat flow through the head [W]
-    k : float
-        Thermal conductivity [W/(m*K)]
-    dT : float
-        Temperature of the middle above the edge, 75 K for aluminium [K]
-
-    Returns
-    -------
-    t_H : float
-        Thickness [m]
+    H: heat flow through the head; k: thermal conductivity; dT: temperature of the middle above the edge, 75 K for
+    aluminium.
 
     Notes
     -----
@@ -152,24 +109,13 @@ def head_thickness_heat(H: float, k: float, dT: float) -> float:
     return H / (4 * np.pi * k * dT)
 
 
-def ring_radial_thickness(B: float, p_w: float, sigma_t: float) -> float:
+def ring_radial_thickness(B: Metre, p_w: Pascal, sigma_t: Pascal) -> Metre:
     r"""Radial thickness of a compression ring.
 
     .. math:: t_1 = B\sqrt{3 p_w/\sigma_t}
 
-    Parameters
-    ----------
-    B : float
-        Bore [m]
-    p_w : float
-        Pressure of the ring on the wall, 0.025 to 0.042 MPa [Pa]
-    sigma_t : float
-        Allowable bending stress, 85 to 110 MPa for cast iron [Pa]
-
-    Returns
-    -------
-    t_1 : float
-        Radial thickness [m]
+    B: bore; p_w: pressure of the ring on the wall, 0.025 to 0.042 MPa; sigma_t: allowable bending stress, 85 to 110 MPa
+    for cast iron.
 
     Notes
     -----
@@ -185,22 +131,12 @@ def ring_radial_thickness(B: float, p_w: float, sigma_t: float) -> float:
     return B * np.sqrt(3 * p_w / sigma_t)
 
 
-def ring_axial_thickness(B: float, n_rings: int) -> float:
-    r"""Axial thickness of a ring.
+def ring_axial_thickness(B: Metre, n_rings: int) -> Metre:
+    """Axial thickness of a ring.
 
     .. math:: t_2 = B/(10 n)
 
-    Parameters
-    ----------
-    B : float
-        Bore [m]
-    n_rings : int
-        Number of rings [-]
-
-    Returns
-    -------
-    t_2 : float
-        Axial thickness [m]
+    B: bore.
 
     Notes
     -----
@@ -215,22 +151,12 @@ def ring_axial_thickness(B: float, n_rings: int) -> float:
     return B / (10 * n_rings)
 
 
-def barrel_thickness(B: float, t_1: float) -> float:
+def barrel_thickness(B: Metre, t_1: Metre) -> Metre:
     r"""Largest thickness of the piston barrel.
 
     .. math:: t_3 = 0.03 B + t_1 + 4.9\,\mathrm{mm}
 
-    Parameters
-    ----------
-    B : float
-        Bore [m]
-    t_1 : float
-        Radial thickness of the rings [m]
-
-    Returns
-    -------
-    t_3 : float
-        Thickness [m]
+    B: bore; t_1: radial thickness of the rings.
 
     Notes
     -----
@@ -246,24 +172,12 @@ def barrel_thickness(B: float, t_1: float) -> float:
     return 0.03 * B + t_1 + 4.9e-3
 
 
-def head_height(b_1: float, b_2: float, t_2: float, n_rings: int) -> float:
-    r"""Height of the piston head.
+def head_height(b_1: Metre, b_2: Metre, t_2: Metre, n_rings: int) -> Metre:
+    """Height of the piston head.
 
     .. math:: L_{piston} = b_1 + n (t_2 + b_2)
 
-    Parameters
-    ----------
-    b_1, b_2 : float
-        Top land (t_H to 1.2 t_H) and the other lands (0.75 t_2 to t_2) [m]
-    t_2 : float
-        Axial thickness of a ring [m]
-    n_rings : int
-        Number of rings [-]
-
-    Returns
-    -------
-    L_piston : float
-        Height [m]
+    b_1, b_2: top land (t_H to 1.2 t_H) and the other lands (0.75 t_2 to t_2); t_2: axial thickness of a ring.
 
     Notes
     -----
@@ -276,3 +190,79 @@ def head_height(b_1: float, b_2: float, t_2: float, n_rings: int) -> float:
     """
     require("lands and ring", [b_1, b_2, t_2], "m", above=0)
     return b_1 + n_rings * (t_2 + b_2)
+
+
+def rod_diameter(F: Newton, sigma: Pascal) -> Metre:
+    r"""Diameter of a straight round rod under axial load.
+
+    .. math:: d_r = \sqrt{\frac{4 F}{\pi\sigma}}
+
+    F: largest axial load; sigma: allowable stress.
+
+    Notes
+    -----
+    Source: Nunes (2017), eq. 4.5. Print: the text allows 60 MPa (24.00 mm); the printed 26.29 mm needs 75/1.5 = 50 MPa.
+    Valid: short rod, loaded along its axis; a long one buckles first (`rod_buckling_load`).
+
+    Examples
+    --------
+    >>> f"{rod_diameter(27140.0, 50e6) * 1e3:.2f}"
+    '26.29'
+    """
+    require("load F", F, "N", low=0)
+    require("allowable stress", sigma, "Pa", above=0)
+    return np.sqrt(4 * F / (np.pi * sigma))
+
+
+def rod_buckling_load(d: Metre, length: Metre, E: Pascal, yield_strength: Pascal) -> Newton:
+    r"""Load at which a round rod between hinges buckles (Euler, or Johnson below the tangent point).
+
+    .. math:: F = \begin{cases}\pi^2 E I/l^2 & l/i \ge \sqrt{2\pi^2 E/R_e}\\
+              A R_e\left(1 - \frac{R_e (l/i)^2}{4\pi^2 E}\right) & \text{shorter}\end{cases}
+
+    d: diameter; E: modulus of elasticity; yield_strength: yield strength R_e. Returns F: buckling load.
+
+    Notes
+    -----
+    Source: Shigley, eqs. 4-42 and 4-43 (Euler and J. B. Johnson columns). Valid: straight round rod, ends free to turn,
+    load along its axis.
+
+    Examples
+    --------
+    >>> f"{rod_buckling_load(0.0265, 0.0834, 71e9, 207e6) / 1e3:.0f}"
+    '113'
+    """
+    require("diameter and length", [d, length], "m", above=0)
+    area, slenderness = np.pi * d**2 / 4, length / (d / 4)
+    if slenderness**2 >= 2 * np.pi**2 * E / yield_strength:
+        return np.pi**2 * E * area / slenderness**2
+    return area * yield_strength * (1 - yield_strength * slenderness**2 / (4 * np.pi**2 * E))
+
+
+def rod_length(reach: Metre, e: Metre, d_TDC: Metre, t_H: Metre, ID_cap: Metre) -> Metre:
+    r"""Length of the rod between the piston head and the cap.
+
+    .. math:: L_{rod} = reach - 2 e - \tfrac12 d_{TDC} - t_H - \tfrac12 ID_{cap}
+
+    reach: crank axis to the engine's plane of symmetry, 145 mm in the source. e: throw of the hypocycloid's crank, a
+    quarter of the piston's stroke: S/4 = 2 e of the source's S. d_TDC: distance between the two piston heads at top
+    dead centre. t_H: thickness of the head. ID_cap: inner diameter of the rod's cap.
+
+    Raises
+    ------
+    BadInput
+        The rod has no length left
+
+    Notes
+    -----
+    Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm (`cylinder.tdc_gap`).
+    Valid: the opposed pistons of the thesis, each at its top dead centre.
+
+    Examples
+    --------
+    >>> [f"{rod_length(0.145, 0.013, gap, 0.01375, 0.032) * 1e3:.1f}" for gap in (0.0012, 0.01156)]
+    ['88.6', '83.5']
+    """
+    length = reach - 2 * e - d_TDC / 2 - t_H - ID_cap / 2
+    require("rod length", length, "m", above=0, hint="the crank axis must stand further from the middle of the engine")
+    return length

@@ -1,0 +1,274 @@
+"""From the text of a formula to a tree. Text is never executed; what is not arithmetic is refused with a reason."""
+
+import ast
+import re
+import warnings
+from collections.abc import Container, Iterable, Mapping
+from dataclasses import field
+
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.spelling import bracketed, from_greek, resolve, to_latex, to_python, unprogrammed
+from mechsym.audit.read.tree import FUNCTIONS, MEANINGS, MODULES, Node, check, check_size, meaning
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_NUMBER = (
+    re.compile(r"\\(?:tag|eqno|leqno)\*?\s*\{?\s*\(?([0-9A-Za-z][\w.\-']*)\)?\s*\}?"),
+    re.compile(r"(?:\\qquad|\\quad|\\hfill|\s{2,}|[.,;]\s+)\s*\(([0-9]+(?:[.\-][0-9]+)*[a-z]?)\)\s*\.?\s*\$*\s*$"),
+)
+_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+_SILENT = re.compile(r"\\(?:nonumber|notag|displaystyle|textstyle|centering)\b")
+_ALMOST = re.compile(r"\\approx|\\simeq|\\cong|\\sim\b|\\doteq|≈|≃|≅|~=")
+_EQUALS = re.compile(r"\\equiv|≡|(?<=\w) *:=|\\coloneqq|\\triangleq")
+_ORDER = re.compile(
+    r"[+-]\s*(?:\\mathcal\s*\{\s*O\s*\}|\\mathcal\s+O|O|o)\s*(?:\\left)?\s*\(\s*(?:\\lambda|λ|lam(?:bda)?)"
+    r"\s*(?:\^|\*\*)?\s*\{?\s*(\d*)\s*\}?\s*(?:\\right)?\s*\)"
+)
+_AND_SO_ON = re.compile(r"[+-]\s*(?:\\l?dots[cb]?\b|\\cdots\b|\.\.\.|…)(?!\s*\w)")
+_ZERO = re.compile(r"\$*\s*0\s*\.?\s*\$*")
+
+
+@record
+class Statement:
+    """What an equation says."""
+
+    left: str  #: Empty where the text is an expression alone
+    right: tuple[str, ...]  #: Several where it says a = b = c
+    claim: str = ""  #: `approx` or `lam^k` where the print says so
+    number: str = ""
+    label: str = ""
+    note: str = ""
+
+
+def statement(text: str) -> Statement:
+    """Take an equation apart; number, label and what only says that it goes on are set aside."""
+    label = _LABEL.search(text)
+    text, number, claim = _SILENT.sub(" ", _LABEL.sub(" ", text)), "", ""
+    for pattern in _NUMBER:
+        margin = pattern.search(text)
+        if margin is not None and text[: margin.start()].strip(" $"):
+            text, number = text[: margin.start()] + text[margin.end() :], margin[1]
+            break
+    if _ALMOST.search(text):
+        text, claim = _ALMOST.sub("=", text), "approx"
+    if order := _ORDER.search(text):
+        text, claim = _ORDER.sub("", text), f"lam^{int(order[1] or 1) - 1}"
+    if _AND_SO_ON.search(text):
+        text, claim = _AND_SO_ON.sub("", text), claim or "approx"
+    text = text if re.search(r"\([^()]*:=", text) else _EQUALS.sub("=", text)
+    parts = [p.strip() for p in re.split(r"(?<![=<>!])=(?!=)(?![^{]*\})", text)]
+    note = ""
+    if len(parts) > 2 and _ZERO.fullmatch(parts[-1]):
+        parts.pop()
+        note = 'the trailing "= 0" was left out: with it the equation would say that the quantity vanishes'
+    if len(parts) == 2 and _ZERO.fullmatch(parts[1]):
+        raise BadInput("the right side is 0; solve the equation for the quantity: 'name = expression'")
+    if len(parts) > 1 and not all(parts):
+        raise BadInput("one side of the equals sign is empty; write 'name = expression'")
+    left = parts[0] if len(parts) > 1 else ""
+    right = tuple(p.rstrip(" .,;") for p in (parts[1:] if left else parts))
+    return Statement(left=left, right=right, claim=claim, number=number, label=label[1] if label else "", note=note)
+
+
+MAX_TEXT = 6000
+CONSTANTS = ("pi",)
+_ALIASES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "fabs": "abs",
+    "tg": "tan",
+    "ctg": "cot",
+    "ln": "log",
+    "Abs": "abs",
+}
+#: Names of constants and functions: no letter of an author can have one
+RESERVED = (*CONSTANTS, *FUNCTIONS, *_ALIASES, *MEANINGS)
+# two operands without a sign between them: 2r, (a)b, r sin(phi); not the words of Python
+_PRODUCT = re.compile(
+    r"(?<![\w.])\d+(?:\.\d+)?\s*[A-Za-z(]|\)\s*[A-Za-z0-9(]|"
+    r"\b(?!(?:if|else|for|in|and|or|not|is)\b)\w+\s+(?!(?:if|else|for|in|and|or|not|is)\b)[\w(]"
+)
+
+
+@record
+class Formula:
+    """A formula as printed, in its author's letters."""
+
+    tree: Node
+    letters: Mapping[str, Node] = field(default_factory=dict)  #: Author's letter to its expression in known letters
+    latex: bool = False  #: Whether it was written in LaTeX
+    spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX for it
+    note: str = ""
+
+
+def joined(*notes: str) -> str:
+    """Notes one behind the other, without those that are empty."""
+    return "; ".join(n for n in notes if n)
+
+
+class UnknownLetter(BadInput):
+    """A letter that nothing tells of; `short` without the list of those that are known."""
+
+    def __init__(self, short: str, more: str = "") -> None:
+        super().__init__(short + more)
+        self.short = short
+
+
+class AnyLetter:
+    """Every letter, for what is only looked at."""
+
+    def __contains__(self, letter: object) -> bool:
+        return True
+
+
+def read(
+    text: str, known: Iterable[str], letters: Mapping[str, str] | None = None, more: Container[str] = ()
+) -> Formula:
+    """Read a formula, in Python or LaTeX, an expression or `name = expression`; `letters` are its author's."""
+    known = [*known, *CONSTANTS]
+    own = {key: read_expression(value, known, more)[0] for key, value in _author_letters(letters or {}).items()}
+    said = statement(text)
+    if len(said.right) > 1:
+        raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
+    body = said.right[0]
+    tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)], more)
+    hidden = [k for k, meant in own.items() if k in known and not (isinstance(meant, ast.Name) and meant.id == k)]
+    note = joined(said.note, *(f"{k} means {to_python(own[k])} here, not the theory's {k}" for k in hidden))
+    return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
+
+
+def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) -> tuple[Node, dict[str, str]]:
+    """Read an expression: the tree, and known letters to the LaTeX that was written for them."""
+    known = list(known)
+    if len(text) > MAX_TEXT:
+        raise BadInput(f"the formula has {len(text)} characters; at most {MAX_TEXT} are read")
+    if not text.strip():
+        raise BadInput("the formula is empty; write an expression such as r*sin(phi)")
+    tree, spelled = read_latex(text) if is_latex(text) else (_read_python(text), {})
+    check(tree)
+    meant = {}
+    for written in trees.letters(tree):
+        letter = resolve(written, known)
+        if letter is None and written not in more:
+            there = f"; letters are {', '.join(known)}; name others with --letters 'R=r1+r2'"
+            raise UnknownLetter(f"unknown letter {written[:40]!r}", there)
+        meant[written] = letter or written
+    tree = trees.substitute(tree, lambda n: trees.name(meant[n.id]) if isinstance(n, ast.Name) else None)
+    return tree, {meant[plain]: latex for plain, latex in spelled.items() if plain in meant}
+
+
+def write(formula: Formula, tree: Node | None = None) -> str:
+    """A formula, or another tree in its letters, in its author's form."""
+    tree = formula.tree if tree is None else tree
+    return to_latex(tree, formula.spelled) if formula.latex else to_python(tree)
+
+
+def is_latex(text: str) -> bool:
+    """Whether a text has a backslash, a brace or a dollar sign."""
+    return any(mark in text for mark in "\\{}$")
+
+
+def letter_pairs(text: str) -> dict[str, str]:
+    """The value of `--letters`: `R=r1+r2, L=l1+l2`, by commas or semicolons."""
+    pairs: dict[str, str] = {}
+    for part in filter(None, (p.strip() for p in re.split(r"[,;]", text))):
+        key, sign, value = part.partition("=")
+        if not sign or not key.strip() or not value.strip():
+            raise BadInput(
+                f"--letters {part!r} is not LETTER=EXPRESSION; write for example --letters 'R=r1+r2,L=l1+l2'"
+            )
+        if pairs.setdefault(key.strip(), value.strip()) != value.strip():
+            raise BadInput(
+                f"--letters gives {key.strip()} two meanings, {pairs[key.strip()]} and {value.strip()}; keep one"
+            )
+    return pairs
+
+
+def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
+    meanings = {}
+    for written, value in letters.items():
+        # \\text{stroke length} is one letter, and so is E^*
+        if re.fullmatch(r"[^\W\d_]+(?: +[^\W\d_]+)+", written):
+            tree: Node = trees.name(written.replace(" ", ""))
+        elif is_latex(written) or written.endswith("^*"):
+            tree = read_latex(written)[0]
+        else:
+            tree = _read_python(written)
+        if not isinstance(tree, ast.Name):
+            raise BadInput(f"{written!r} is not a letter; write for example R=r1+r2")
+        if tree.id in RESERVED:
+            raise BadInput(f"--letters {written!r} cannot be a letter: {tree.id} has its meaning already; name another")
+        meanings[tree.id] = value
+    return meanings
+
+
+def _read_python(text: str) -> Node:
+    source = from_greek(bracketed(unprogrammed(text))).replace("^", "**")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)  # of 2if: what is no formula is refused below
+            tree = ast.parse(source.strip(), mode="eval").body
+    except (SyntaxError, ValueError) as error:
+        reason = getattr(error, "msg", None) or "not an expression"
+        told = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"
+        raise BadInput(f"{told}; {_hint(source)}") from None
+    except (RecursionError, MemoryError):
+        raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
+    check_size(tree)
+    return trees.substitute(tree, _tidy)
+
+
+def _near(source: str, error: Exception) -> str:
+    if not isinstance(error, SyntaxError) or error.offset is None or (error.lineno or 1) > 1:
+        return ""
+    at = min(max(error.offset - 1, 0), len(source))
+    return f" near {source[max(0, at - 8) : at + 8]!r}"
+
+
+def _hint(source: str) -> str:
+    missing = _PRODUCT.search(source)
+    if missing is None:
+        return "write letters, numbers, + - * / ^, functions, and brackets in pairs, as in r*sin(phi)"
+    before, after = source[: missing.end() - 1].rstrip()[-12:], source[missing.end() - 1 :][:12]
+    return f"a * is missing between {before!r} and {after!r}: write products with *, as in 2*r"
+
+
+def _tidy(node: Node) -> Node | None:
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.UAdd):
+        return trees.substitute(node.operand, _tidy)
+    if isinstance(node, ast.Attribute) and node.attr.lower() == "pi" and ast.unparse(node.value) in MODULES:
+        return trees.name("pi")
+    if not isinstance(node, ast.Call):
+        return None
+    function = _function(node)
+    if node.keywords:
+        raise BadInput(f"{function}() takes no named arguments here")
+    arguments = [trees.substitute(a, _tidy) for a in node.args]
+    several = meaning(function, arguments)
+    if several is not None:
+        return several
+    if len(arguments) != 1:
+        raise BadInput(f"{function} takes one argument, not {len(arguments)}; write {function}(a)")
+    plain = _ALIASES.get(function, function)
+    plain = plain if plain in FUNCTIONS else plain.lower()
+    if plain not in FUNCTIONS:
+        there = ", ".join([*FUNCTIONS, *MEANINGS])
+        raise BadInput(
+            f"{function[:40]!r} is not a known function; a * is missing behind it if it is a letter; there are {there}"
+        )
+    return trees.call(plain, arguments[0])
+
+
+def _function(node: ast.Call) -> str:
+    if isinstance(node.func, ast.Name):
+        return node.func.id
+    if isinstance(node.func, ast.Attribute):
+        module = ast.unparse(node.func.value)
+        if module.split(".")[0] in MODULES:
+            return node.func.attr
+        raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; write sin, np.sin or math.sin")
+    after = ast.unparse(node.func)[:40]
+    after = after if isinstance(node.func, ast.Call | ast.Constant) else f"({after})"
+    raise BadInput(f"a * is missing behind {after!r}: write {after}*(..)")

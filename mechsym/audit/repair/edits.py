@@ -1,0 +1,171 @@
+"""Single edits of a printed formula: what an author, a typesetter or a scanner most often gets wrong."""
+
+import ast
+from collections.abc import Iterator
+from fractions import Fraction
+from math import gcd
+
+from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, number, replace, value_of, walk
+from mechsym.quantities import record
+
+# the simplest slip first; kinds of one rank compete by length
+RANKS = {
+    "sign": 0, "factor": 1, "argument": 1, "number": 1, "unit": 2, "letter": 3, "sine and cosine": 3, "power": 4,
+    "bracket": 5, "squares": 5, "degrees": 5, "left out": 6, "put back": 6, "root": 7, "inverted": 8, "everywhere": 9,
+}  # fmt: skip
+
+
+@record
+class Edit:
+    """One change of a formula."""
+
+    kind: str
+    path: Path
+    new: Node
+    about: str = ""  #: What was changed, where the whole formula is given anew
+
+
+@record
+class Spot:
+    """A node with what surrounds it."""
+
+    path: Path
+    node: Node
+    parent: Node | None
+
+
+def places(tree: Node) -> Iterator[Spot]:
+    """Every node with its parent, a node before its operands."""
+    waiting = [Spot(path=(), node=tree, parent=None)]
+    while waiting:
+        place = waiting.pop()
+        yield place
+        below = [Spot(path=(*place.path, s), node=c, parent=place.node) for s, c in children(place.node)]
+        waiting += reversed(below)
+
+
+def apply(tree: Node, edit: Edit) -> Node:
+    """The formula after an edit."""
+    return replace(tree, edit.path, edit.new)
+
+
+def without_double_signs(tree: Node) -> Node:
+    """The same formula with `a - -b*c` written `a + b*c`."""
+    for step, child in children(tree):
+        below = without_double_signs(child)
+        if below is not child:
+            tree = replace(tree, (step,), below)
+    if not is_operation(tree, ast.Add, ast.Sub):
+        return tree
+    positive = _without_leading_sign(tree.right)
+    if positive is None:
+        return tree
+    return binary(ast.Sub if is_operation(tree, ast.Add) else ast.Add, tree.left, positive)
+
+
+def _without_leading_sign(node: Node) -> Node | None:
+    if isinstance(node, ast.UnaryOp):
+        return node.operand
+    if is_operation(node, ast.Mult, ast.Div):
+        left = _without_leading_sign(node.left)
+        return None if left is None else binary(type(node.op), left, node.right)
+    return None
+
+
+def is_term(place: Spot) -> bool:
+    """Whether a node is the top of a sum, or no part of one."""
+    return place.parent is None or not is_operation(place.parent, ast.Add, ast.Sub)
+
+
+def is_product(place: Spot) -> bool:
+    """Whether a node is the top of a product or of a divisor: a factor here could not be put further up."""
+    parent, step = place.parent, place.path[-1:]
+    if parent is None or step == ("argument",):
+        return True
+    if isinstance(parent, ast.UnaryOp) or is_operation(parent, ast.Mult) or is_exponent(place):
+        return False
+    return not (is_operation(parent, ast.Div) and step == ("left",))
+
+
+def is_exponent(place: Spot) -> bool:
+    """Whether a node is an exponent."""
+    return place.parent is not None and is_operation(place.parent, ast.Pow) and place.path[-1] == "right"
+
+
+def scaled(node: Node, factor: Fraction) -> Node:
+    """An expression times a number, the number merged with one that is there already."""
+    if factor == 1:
+        return node
+    own = value_of(node)
+    if own is not None:
+        return number(own * factor, decimal=isinstance(node, ast.Constant) and isinstance(node.value, float))
+    if is_operation(node, ast.Mult, ast.Div) and _leading_number(node) is not None:
+        left = scaled(node.left, factor)
+        if value_of(left) == 1 and isinstance(node.op, ast.Mult):
+            return node.right
+        return binary(type(node.op), left, node.right)
+    if is_operation(node, ast.Div) and (below := value_of(node.right)) is not None:
+        divisor = below / factor
+        if divisor == 1:
+            return node.left
+        if divisor.denominator == 1:
+            return binary(ast.Div, node.left, number(divisor))
+    if factor.numerator == 1:
+        return binary(ast.Div, node, number(factor.denominator))
+    return _led_by(number(factor), node)
+
+
+def _led_by(factor: Node, node: Node) -> Node:
+    # 2*a*b, not 2*(a*b)
+    if is_operation(node, ast.Mult, ast.Div):
+        return binary(type(node.op), _led_by(factor, node.left), node.right)
+    return binary(ast.Mult, factor, node)
+
+
+def _leading_number(node: Node) -> Fraction | None:
+    while is_operation(node, ast.Mult, ast.Div) and value_of(node) is None:
+        node = node.left
+    return value_of(node)
+
+
+def tidy(tree: Node, printed: Node) -> Node:
+    """A formula whose parts that its author did not print are written plainly."""
+    return _tidy(tree, {id(node) for _, node in walk(printed)})
+
+
+def _tidy(node: Node, printed: set[int]) -> Node:
+    if id(node) in printed:
+        return node
+    for step, child in children(node):
+        below = _tidy(child, printed)
+        if below is not child:
+            node = replace(node, (step,), below)
+    if not isinstance(node, ast.BinOp):
+        return node
+    left, right = value_of(node.left), value_of(node.right)
+    if is_operation(node, ast.Add, ast.Sub):
+        # x + 0, (x - 1) + 1
+        last, added_up = value_of(node.right), isinstance(node.op, ast.Add)
+        if last is None:
+            return node.right if added_up and value_of(node.left) == 0 else node
+        added = last if added_up else -last
+        base = node.left
+        if is_operation(base, ast.Add, ast.Sub):
+            inner = value_of(base.right)
+            if inner is not None:
+                added += inner if isinstance(base.op, ast.Add) else -inner
+                base = base.left
+        elif (whole := value_of(base)) is not None:
+            return number(whole + added)
+        if not added:
+            return base
+        return binary(ast.Add if added > 0 else ast.Sub, base, number(abs(added)))
+    if right == 1 and is_operation(node, ast.Mult, ast.Div, ast.Pow):
+        return node.left
+    if left == 1 and is_operation(node, ast.Mult):
+        return node.right
+    if left is not None and right is not None and is_operation(node, ast.Mult):
+        return number(left * right, decimal=True)
+    if is_operation(node, ast.Div) and left is not None and right and left.denominator == right.denominator == 1:
+        return node if gcd(int(left), int(right)) == 1 else number(left / right)
+    return node

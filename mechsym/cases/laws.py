@@ -1,0 +1,305 @@
+r"""Values of a case by the laws of its machine: speeds, timing at speed, fire, load, shaft, firing order, run, links.
+
+.. math:: c_m = S\omega/\pi, \qquad \varphi + \varphi'\omega, \qquad 1 - \mathrm{e}^{-a}, \qquad M/k, \qquad h/T
+
+Of the links of a user's own mechanism, what a bar of their length can weigh and hold: l is the largest distance of two
+joints of the link, c its centre of mass, R the reach from its pivot, b from the middle of its joints to the farthest of
+what it may be made of. A zero leaves the part away and is never doubted; a link that turns with a coordinate may carry
+a flywheel. A piston, with one joint, is held against the longest link.
+
+.. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
+    \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R
+"""
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+from mechsym.cycle.kinds import four_stroke, kind_of
+from mechsym.files import Json
+from mechsym.machine.loads import Load, PropellerLoad, TableLoad
+from mechsym.mechanisms.proportions import Proportions
+from mechsym.mechanisms.shaft import ElasticShaft
+from mechsym.plausible import Doubt, inputs, piston_speed, proportion, proportions
+from mechsym.quantities.records import Record
+from mechsym.quantities.units import NewtonMetre
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
+
+Records = Mapping[str, Any]  # of a case, by section
+# charge pressure by the cycle's name for it, and how many times as much drives the piston at full load
+_DRIVING = (("intake_pressure", 10.0), ("p_s", 10.0), ("mean_pressure", 1.0), ("p_delivery", 1.0))
+_ALL_WAYS = 12  # firing orders of more cylinders are too many to try
+_STEEL = 7850.0  # its density [kg/m^3]
+_BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
+_LATE = 0.9  # of a run, from when on a drive has no time to show what it does
+
+
+def value(sections: Records, section: str, name: str) -> float:
+    """A number of a section, 0 where it is not given [SI]."""
+    return getattr(sections.get(section), name, None) or 0.0
+
+
+def fired(sections: Records) -> bool:
+    """Whether fuel burns in the machine of a case; one without a cycle is taken for an engine."""
+    return "cycle" not in sections or kind_of(sections["cycle"]).fired
+
+
+def driven(sections: Records) -> bool:
+    """Whether the gas of a case takes work."""
+    return "cycle" in sections and kind_of(sections["cycle"]).driven
+
+
+def by_law(sections: Records) -> tuple[Doubt, ...]:
+    """Doubts that need no size of the mechanism."""
+    return (*_timing(sections), *_burning(sections), *_compressing(sections), *_power(sections), *_run(sections))
+
+
+def by_speed(sections: Records, sizes: Proportions) -> tuple[Doubt, ...]:
+    """Mean piston speeds at the speeds of a case; the rod of an engine, since presses and pumps have longer ones."""
+    burns, engine = fired(sections), "cycle" in sections
+    omega = getattr(sections.get("operation"), "speed", None)
+    doubts = proportions(sizes.stroke, sizes.rod_ratio if engine else None, omega, burns)
+    for section, name in (("speeds", "highest"), ("codesign", "full_speed"), ("codesign", "speeds")):
+        given = value(sections, section, name)
+        fastest = max(given) if isinstance(given, tuple) else given
+        if fastest:
+            doubts += piston_speed(f"mean piston speed at {section}.{name}", sizes.stroke, fastest, burns)
+    return doubts
+
+
+def by_twist(sections: Records, shaft: ElasticShaft, stroke: float, area: float | None) -> tuple[Doubt, ...]:
+    """Twist of the softest section under the torque that drives, and the stiffest by a solid shaft of steel.
+
+    stroke, area: of a piston; the area is None where it is not known [m, m^2].
+    """
+    stiffness = [k for k in shaft.k if k > 0]
+    if not stiffness:
+        return ()
+    given = ((share * value(sections, "cycle", name), name) for name, share in _DRIVING)
+    pressure = next((p for p, _ in given if p), 0.0)
+    torque = max(abs(value(sections, "drive", "torque")), pressure * (area or 0.0) * stroke / 2)
+    what = f"twist of the softest section under {torque:.3g} N*m"
+    doubts = proportion("shaft_twist", what, torque / min(stiffness))
+    if area:
+        solid = 80e9 * math.pi / 32 * (4 * area / math.pi) ** 1.5  # G pi d^4 / (32 l), both the bore
+        doubts += proportion("shaft_stiffness", "stiffest section / solid shaft of the bore", max(stiffness) / solid)
+    return doubts
+
+
+def by_firing(sections: Records, parameters: object) -> tuple[Doubt, ...]:
+    """Largest angle without a firing, by the least that cylinders reach which may fire a turn later."""
+    section, angles = "parameters", getattr(parameters, "firing", ())
+    if "faces" in sections:
+        section, angles = "faces", sections["faces"].firing
+    cycle = sections.get("cycle")
+    if cycle is None or not isinstance(angles, tuple) or not 1 < len(angles) <= _ALL_WAYS or not four_stroke(cycle):
+        return ()
+    later = itertools.product((0.0, 2 * math.pi), repeat=len(angles) - 1)
+    best = min(_gap([angles[0], *(a + b for a, b in zip(angles[1:], turns, strict=True))]) for turns in later)
+    what = f"{section}.firing: largest angle without a firing / the least with these cranks"
+    return proportion("firing_gap", what, _gap(angles) / best)
+
+
+def _gap(angles: Sequence[float]) -> float:
+    period = 4 * math.pi
+    ranked = sorted(a % period for a in angles)
+    return max(b - a for a, b in itertools.pairwise([*ranked, ranked[0] + period]))
+
+
+def load_torques(sections: Records) -> Iterator[tuple[str, NewtonMetre]]:
+    """Torques that a load takes at the speed of operation, or of its table the one that tells most."""
+    load: Load | None = sections.get("load")
+    if isinstance(load, TableLoad):
+        yield "load.torques", min(load.torques) if min(load.torques) < 0 else max(load.torques)
+    elif load is not None and load.torque is not None:
+        there = value(sections, "operation", "speed")
+        share = (there / load.speed) ** 2 if isinstance(load, PropellerLoad) and load.speed and there else 1.0
+        yield "load.torque" + " at operation.speed" * (share != 1.0), load.torque * share
+
+
+def _timing(sections: Records) -> Iterator[Doubt]:
+    """Angles that are straight lines over the speed, at the speeds of the case."""
+    cycle = sections.get("cycle")
+    keys = ("speeds.highest", "operation.speed")  # of two that are alike the last is told
+    at = {value(sections, *key.split(".")): key for key in keys}
+    for name in ("ignition", "duration"):
+        slope = getattr(cycle, f"{name}_slope", 0.0)
+        for omega, key in at.items() if slope else ():
+            angle = getattr(cycle, name) + slope * omega
+            for doubt in inputs({f"cycle.{name}": angle}, refusing=False):
+                yield replace(doubt, quantity=f"cycle.{name} + {name}_slope * {key}, rad")
+
+
+def _burning(sections: Records) -> Iterator[Doubt]:
+    """Share of the fuel that has burnt when the duration ends, and what a kilogram of air burns."""
+    cycle: Any = sections.get("cycle")
+    burnt = "share of the fuel burnt after cycle.duration"
+    if hasattr(cycle, "wiebe_a"):
+        yield from proportion("burnt_fraction", burnt, 1 - math.exp(-cycle.wiebe_a))
+    elif hasattr(cycle, "a_p"):
+        left = (1 - cycle.b) * math.exp(-cycle.a_p) + cycle.b * math.exp(-cycle.a_d)
+        yield from proportion("burnt_fraction", burnt, 1 - left)
+    if hasattr(cycle, "stoichiometric_ratio"):
+        what = "cycle.heating_value / cycle.stoichiometric_ratio"
+        yield from proportion("fuel_heat", what, cycle.heating_value / cycle.stoichiometric_ratio)
+
+
+def _compressing(sections: Records) -> Iterator[Doubt]:
+    if value(sections, "cycle", "p_suction"):
+        what = "cycle.p_delivery / cycle.p_suction"
+        ratio = value(sections, "cycle", "p_delivery") / value(sections, "cycle", "p_suction")
+        yield from proportion("pressure_ratio", what, ratio)
+
+
+def _power(sections: Records) -> Iterator[Doubt]:
+    """Whether a load takes what the gas gives, or gives what it takes."""
+    cycle = sections.get("cycle")
+    if cycle is not None and kind_of(cycle).measured:  # of an engine, or motored
+        return
+    for name, torque in load_torques(sections):
+        yield from proportion("driven_load" if driven(sections) else "braking_load", name, torque)
+
+
+def _starts(start: Record | None) -> Iterator[Doubt]:
+    """Angles of a start, as those of any machine."""
+    for field in dataclasses.fields(start) if start is not None else ():
+        angle = getattr(start, field.name)
+        if field.metadata.get("unit") == "rad" and isinstance(angle, float):
+            for doubt in inputs({"simulation.phi_start": angle}, refusing=False):
+                yield replace(doubt, quantity=f"start.{field.name}")
+
+
+def _run(sections: Records) -> Iterator[Doubt]:
+    """Spacing of the results, claims and drives by the length of a run."""
+    simulation, drive = sections.get("simulation"), sections.get("drive")
+    start, usual = value(sections, "simulation", "speed_start"), value(sections, "operation", "speed")
+    if start and usual:
+        yield from proportion("start_speed", "simulation.speed_start / operation.speed", abs(start / usual))
+    yield from _starts(sections.get("start"))
+    end = getattr(simulation, "t_end", None)
+    if simulation is None or not end:
+        return
+    if turning := abs(start or usual):
+        yield from proportion("short_run", "turns of the run at the speed of its start", end * turning / math.tau)
+    if simulation.output_step:
+        what = "simulation.output_step / simulation.t_end"
+        yield from proportion("sampling", what, simulation.output_step / end)
+    if claim := value(sections, "startup", "claim_time"):
+        yield from proportion("window", "startup.claim_time / simulation.t_end", claim / end)
+    if drive is not None and drive.time >= _LATE * end:
+        why = "the run ends before the drive is switched on, or right behind: next to nothing happens in it"
+        yield Doubt(code="drive_start", quantity="drive.time", value=drive.time, usual=f"below {end:g} s", why=why)
+
+
+_WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan", "atan", "atan2", "exp", "log")}
+
+
+def by_links(
+    listing: "Listing", letters: Mapping[str, float], inputs: Mapping[str, float], speed: float | None
+) -> tuple[Doubt, ...]:
+    """What is out of proportion to a link, of each kind the worst.
+
+    listing: as stored of the declaration. letters, inputs: values of the parameters and of steady inputs [SI].
+    speed: of the first coordinate, where the case has one [rad/s].
+    """
+    links, units = listing.get("links", ()), listing["parameters"]
+
+    def far(doubt: Doubt) -> float:
+        return abs(math.log(doubt.value)) if doubt.value > 0 else math.inf
+
+    worst: dict[str, Doubt] = {}
+    of_links = (doubt for link in links for doubt in _of(link, letters, speed))
+    forces = [abs(given) for name, given in inputs.items() if listing["inputs"].get(name) == "N"]
+    together = (*_masses(links, letters, units), *_stress(links, letters, max(forces, default=0.0)))
+    for doubt in (*of_links, *together):
+        if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
+            worst[doubt.code] = doubt
+    return tuple(worst.values())
+
+
+def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
+    """Mass of all links with two joints and more [kg].
+
+    listing: as stored of the declaration. letters: values of the parameters [SI].
+    """
+    return sum(_number(link["mass"], letters) for link in listing.get("links", ()))
+
+
+def _length(link: Json, letters: Mapping[str, float]) -> float:
+    points = [_point(pair, letters) for pair in link["points"]]
+    return max(math.dist(p, q) for p, q in combinations(points, 2))
+
+
+def _masses(links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str]) -> Iterator[Doubt]:
+    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it."""
+    lengths = [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
+    longest = max([_length(link, letters) for link in links] or lengths, default=0.0)
+    for name, unit in units.items() if longest > 0 else ():
+        if unit == "kg" and letters[name] > 0:
+            what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
+            yield from proportion("link_density", what, letters[name] / longest**3)
+
+
+def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float) -> Iterator[Doubt]:
+    """A force by the section of the stoutest link, as a bar of steel of its mass and length has it."""
+    lengths = [(_number(link["mass"], letters), _length(link, letters)) for link in links]
+    section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
+    if section > 0:
+        what = "largest force of [inputs] / section of the stoutest link"
+        yield from proportion("link_stress", what, force / section)
+
+
+def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
+    """Springs and dampers of a declaration with the sign of what drives.
+
+    listing: as stored of it. letters: values of the parameters [SI].
+    """
+    for kind, texts in (("spring", listing.get("springs", ())), ("damper", listing.get("dampers", ()))):
+        for text in texts:
+            yield from proportion(f"{kind}_sign", f"{kind} {text}", _number(text, letters))
+
+
+def _of(link: Json, letters: Mapping[str, float], speed: float | None) -> Iterator[Doubt]:
+    name = link["name"]
+    points = [_point(pair, letters) for pair in link["points"]]
+    length, mass = _length(link, letters), _number(link["mass"], letters)
+    inertia = 0.0 if link["turns"] else _number(link["inertia"], letters)
+    if length <= 0:
+        return
+    if mass > 0:
+        yield from proportion("link_density", f"mass of {name} / (distance of its joints)^3", mass / length**3)
+        middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
+        away = math.dist(_point(link["centre"], letters), middle)
+        yield from proportion(
+            "link_centre", f"centre of {name} from the middle of its joints / their distance", away / length
+        )
+        if inertia:
+            about = f"inertia of {name} / (mass * (distance of its joints)^2)"
+            # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
+            reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)
+            most = (reach**2 - away**2) / length**2
+            yield from proportion("link_inertia", about, inertia / (mass * length**2), most)
+    elif inertia and link["pivot"]:  # about its bearing in the frame no mass is needed
+        yield from proportion("link_density", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
+    elif inertia:
+        why = "what has no mass has no inertia: give it a mass, or leave its inertia away"
+        yield Doubt(code="massless", quantity=f"inertia of {name}", value=inertia, usual="0 without a mass", why=why)
+    if link["turns"] and link["pivot"] and speed:
+        pivot = _point(link["pivot"], letters)
+        reach = max(math.dist(pivot, p) for p in points)
+        yield from proportion("point_speed", f"speed of the outermost joint of {name}", abs(speed) * reach)
+
+
+def _point(pair: Sequence[str], letters: Mapping[str, float]) -> tuple[float, float]:
+    return _number(pair[0], letters), _number(pair[1], letters)
+
+
+def _number(text: str, letters: Mapping[str, float]) -> float:
+    """Value of an expression that the derivation has written, in its letters."""
+    return float(eval(text, {"__builtins__": {}}, {**_WORDS, **letters}))

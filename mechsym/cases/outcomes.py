@@ -1,0 +1,194 @@
+"""Doubts of what a case gives: its gas, its motion, a run of it, its forces, its cycle."""
+
+import math
+from collections.abc import Callable
+from dataclasses import asdict
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cases.laws import fired, linked
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import pistons_of, travel_of
+from mechsym.errors import BadInput
+from mechsym.files import Json
+from mechsym.forces.result import Forces
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import Mechanism
+from mechsym.plausible import PROPORTIONS, Doubt, moving_mass, piston_speed, proportion, proportions, results
+from mechsym.quantities.units import Pure, RadPerSecond, Second
+from mechsym.simulate.result import RunNumbers
+
+# what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
+_LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
+            ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
+PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
+
+
+def of_gas(case: Case, found: Gas | None) -> tuple[Doubt, ...]:
+    """Peak pressure, mean pressure and temperature of the gas that drives a machine; none without gas."""
+    if found is None:
+        return ()
+    pressure = found.pressure
+    told = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}
+    told |= {} if pressure.t_max is None else {"t_max_k": pressure.t_max}
+    return results(told) + of_limits(case, told)
+
+
+def of_limits(case: Case, columns: Json) -> tuple[Doubt, ...]:
+    """Where the gas goes beyond what `[gas_limits]` of the case allows.
+
+    columns: mapping of str to float or ndarray, any of `p_max_mpa`, `p_max_bar`, `t_max_k` and `knock`, and rows of
+    cycles in `cycles` [MPa, bar, K, -].
+    """
+    limits, doubts = case.sections.get("gas_limits"), []
+    for name, key, unit in _LIMITED if limits is not None else ():
+        rows = [row[name] for row in columns.get("cycles", ()) if name in row]
+        values = np.asarray(np.append(columns.get(name, ()), rows), float)
+        limit = getattr(limits, key)
+        if limit is None or not np.any(values[np.isfinite(values)] > limit / unit):
+            continue
+        why = f"gas_limits.{key} of the case; change the design, or the limit"
+        worst = float(np.nanmax(values))
+        doubts.append(
+            Doubt(code=f"limit_{key}", quantity=name, value=worst, usual=f"at most {limit / unit:g}", why=why)
+        )
+    return tuple(doubts)
+
+
+def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...]:
+    r"""A mechanism that says no stroke, by the travel of its pistons: speed, stroke, and the mass that the crank feels.
+
+    .. math:: I(\varphi) \approx I_0 + m \sum_i x_i'(\varphi)^2
+
+    turning: gives the mechanism with one coordinate; asked where there is something to judge.
+    """
+    bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
+    bore = next(filter(None, bores), None)
+    if bore is None or "operation" not in case.sections:
+        return ()
+    if plan_of(case.mechanism).proportions(case.need("parameters")) is not None:
+        return ()
+    try:
+        inertia, x, dx = _motion_of(case, turning(case))
+    except BadInput:  # one that cannot turn is refused by the command itself
+        return ()
+    if not np.isfinite(x).all():  # a loop is open
+        return ()
+    stroke, area, omega = float(np.ptp(x, axis=1).max()), math.pi / 4 * bore**2, case.need("operation").speed
+    found = proportions(stroke, None, omega, fired(case.sections))
+    found += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
+    squares = (dx**2).sum(axis=0)
+    columns = np.stack([np.ones(inertia.size), squares], axis=1)
+    least, mass = (float(v) for v in np.linalg.lstsq(columns, inertia)[0])
+    # beams and rods move with the pistons, and are judged by themselves
+    mass -= linked(plan_of(case.mechanism).listing(None), asdict(case.need("parameters"))) / len(x)
+    # the squares of many pistons add up to nearly a constant, which tells nothing of one
+    if mass > 0 and np.ptp(squares) > 0.1 * squares.mean():
+        found += moving_mass("mass that the crank feels with a piston", mass, area, bore, stroke)
+    work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
+    return found + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
+                    if least > 0 and omega else ())  # fmt: skip
+
+
+def _motion_of(case: Case, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Inertia that the crank feels, travels and slopes of the pistons over a turn [kg*m^2, m, m/rad]."""
+    phi = np.linspace(0.0, math.tau, 361)[None, :-1]
+    travels = [travel_of(mechanism, piston.travel)(phi) for piston in pistons_of(case.mechanism)]
+    dynamics = mechanism.functions["dynamics"]
+    inertia = dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]
+    x, dx = (np.array([np.asarray(travel[k]).ravel() for travel in travels]) for k in (0, 1))
+    return np.asarray(inertia).ravel(), x, dx
+
+
+def of_run(
+    case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
+) -> tuple[Doubt, ...]:
+    """Doubts of a run in time.
+
+    gas: that drives it; length: how long it ran; fastest: highest speed of the crank in it.
+    """
+    wanted, found = case.sections.get("simulation"), of_gas(case, gas)
+    sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
+    if sizes is not None:
+        # refused before a run, doubted as the outcome of one
+        speed = min(abs(fastest), PISTON_SPEED * math.pi / sizes.stroke)
+        found += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
+    found += _motion(case, run) if run is not None else ()
+    if wanted is None or wanted.window is None or not length > 0:
+        return found
+    return found + proportion("window", "simulation.window / length of the run", wanted.window / length)
+
+
+def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
+    """Sense of rotation in a run, whether the drive drives, and how many turns lie between two results."""
+    wanted, work = case.sections.get("simulation"), run.energy.work
+    if run.rate != "rad/s":
+        return ()
+    found: tuple[Doubt, ...] = ()
+    if wanted is not None and wanted.output_step:
+        fastest = max(abs(run.speed_min), abs(run.speed_max))
+        what = "simulation.output_step in turns of the run"
+        found += proportion("aliasing", what, wanted.output_step * fastest / math.tau)
+    driven = "drive" in work or "cycle" in case.sections  # what swings by itself goes either way
+    if driven and (getattr(wanted, "speed_start", None) or 0.0) >= 0:
+        found += proportion("backwards", "mean speed at the end of the run", run.speed_mean)
+    return found + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
+
+
+def of_forces(case: Case, found: Forces) -> tuple[Doubt, ...]:
+    """Doubts of the forces of a turn: its gas, and pins, bearings and guides by the largest gas force."""
+    pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
+    largest = max((float(np.hypot(x, y).max()) for x, y in _vectors(found)), default=0.0)
+    largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
+    doubts = of_gas(case, found.turn.gas) + _driven(case, found)
+    if found.turn.gas is None or not max(pushes, default=0.0) > 0:
+        return doubts
+    beyond = _inertia(case, found, max(pushes))
+    # one slip is told once
+    return doubts + (beyond or proportion("force_ratio", "largest bearing force / gas force", largest / max(pushes)))
+
+
+def _inertia(case: Case, found: Forces, push: float) -> tuple[Doubt, ...]:
+    r"""Largest inertia of what goes to and fro by the largest gas force.
+
+    .. math:: m\,\tfrac S2\,\omega^2 / F
+    """
+    sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
+    told = any(doubt.code in ("reciprocating_mass", "piston_speed") for doubt in case.doubts)  # one slip is told once
+    if told or sizes is None or not fired(case.sections):
+        return ()
+    mass = max((part.mass for part in sizes.moving), default=0.0)
+    force = mass * sizes.stroke / 2 * found.turn.omega**2
+    return proportion("inertia_force", "inertia of the reciprocating mass / gas force", force / push)
+
+
+def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
+    """Whether the gas of a Stirling engine takes work: then its cold piston leads."""
+    travel = {f"F{i}": f"dx_{i}_dphi" for i in range(1, len(found.turn.inputs) + 1)}
+    if "cycle" not in case.sections or not kind_of(case.need("cycle")).shared:
+        return ()
+    turn = found.turn
+    work = sum(float(np.mean(turn.inputs[name] * turn.kinematics[dx])) for name, dx in travel.items())
+    return proportion("driven", "work of the gas in a turn", work * turn.period)
+
+
+def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:
+    return [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
+
+
+def of_cycle(case: Case, columns: Json, bound: Pure | None) -> tuple[Doubt, ...]:
+    r"""Efficiency by the bound of its cycle.
+
+    .. math:: \eta \le 1 - \varepsilon^{1 - \gamma} \text{ (Otto)}, \qquad \eta \le 1 - T_c/T_e \text{ (Carnot)}
+
+    columns: with `efficiency`; nan where no fuel is known [-]. bound: of its gas, None where it has none.
+    """
+    best = float(np.nanmax(np.append(columns["efficiency"], -np.inf)))
+    beyond = of_limits(case, columns)
+    if "work_j" in columns:  # a Stirling engine whose cold piston leads is none
+        beyond += proportion("driven", "work of the gas in a turn", float(np.min(columns["work_j"])))
+    return beyond + (
+        proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
+    )

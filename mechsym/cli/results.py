@@ -1,0 +1,89 @@
+"""What the commands tell: each number of their JSON with unit and meaning, from the fields of the results."""
+
+import functools
+import re
+from collections.abc import Mapping
+
+from mechsym.errors import BadInput, suggest
+from mechsym.files import Json
+from mechsym.quantities import load
+from mechsym.quantities.results import declared, leaves
+
+#: Command: the results that it may give, each "module:class"
+RESULTS = {
+    "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
+    "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
+    "compare": ("mechsym.cycle.compare:EngineComparison",),
+    "cycle": (
+        "mechsym.cycle.columns:CycleColumns",
+        "mechsym.jobs.measured:MeasuredDiagram",
+        "mechsym.jobs.indicated:TorquePressure",
+        "mechsym.simulate.loop.run:LoopNumbers",
+    ),
+    "eval": ("mechsym.mechanisms.state:MechanismState",),
+    "identify": ("mechsym.optimise.identify:Identified",),
+    "optimise": ("mechsym.optimise.result:Optimised",),
+    "study": ("mechsym.sweep.numbers:StudyNumbers",),
+    "sweep": ("mechsym.sweep.numbers:SweepNumbers",),
+    "simulate": ("mechsym.torsion.finished:FinishedRun",),
+    "hinge": ("mechsym.hinge.summary:HingeNumbers",),
+    "codesign": ("mechsym.codesign.summary:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
+    "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
+    "forces": ("mechsym.jobs.forces:ForceReport",),
+    "fmu": ("mechsym.out.fmi.build:UnitFile",),
+    "guide": ("mechsym.out.cad.curve:GrooveDrawings",),
+    "page": ("mechsym.out.web.build:WrittenPage",),
+    "report": ("mechsym.report.numbers:ReportNumbers",),
+    "reproduce": ("mechsym.papers.rows:ReproducedNumber",),
+    "size": ("mechsym.sizing.rows:SizeRow",),
+}
+#: Sections whose values may stand among the numbers of a command, each under its dotted key
+KEYS = {"cycle": ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction_pressure")}
+
+
+def units_by_path(value: object, command: str) -> dict[str, str]:
+    """Unit of each number that a command tells by its path, `speeds.phi.mean`; of plain values as they are declared."""
+    declared_units = {row["path"]: row["unit"] for row in rows(command)} if command in RESULTS else {}
+    return {
+        leaf.path: unit for leaf in leaves(value) if (unit := leaf.unit or _declared_unit(leaf.path, declared_units))
+    }
+
+
+def _declared_unit(path: str, units: Mapping[str, str]) -> str:
+    """Unit of a path by the list of a command; a column inside a group has that of its name."""
+    bare = re.sub(r"\[\d+\]", "", path)
+    listed = next((unit for name, unit in units.items() if _pattern(name).fullmatch(bare)), "")
+    return units.get(bare.rpartition(".")[2], "") if listed.startswith("of its ") else listed
+
+
+@functools.cache
+def _pattern(name: str) -> re.Pattern[str]:
+    return re.compile(re.escape(name.replace("[]", "")).replace(r"\*", "[^.]+"))
+
+
+def rows(command: str | None = None) -> list[Json]:
+    """Rows of `mechsym sections --results`: `command`, `path`, `unit`, `about`.
+
+    Raises
+    ------
+    BadInput
+        No command of that name tells numbers
+    """
+    if command is not None and command not in RESULTS:
+        raise BadInput(f"command {command!r} has no list of results; {suggest(command, list(RESULTS))}")
+    wanted = RESULTS if command is None else {command: RESULTS[command]}
+    found = {
+        (name, number.path): number
+        for name, kinds in wanted.items()
+        for kind in kinds
+        for number in declared(load(kind))
+    }
+    listed = [
+        {"command": name, "path": path, "unit": number.unit, "about": number.about}
+        for (name, path), number in found.items()
+    ]
+    over = "The value that --over runs over; 'mechsym sections' tells it"
+    return listed + [
+        {"command": name, "path": f"{section}.*", "unit": "of its key", "about": over}
+        for name in wanted for section in KEYS.get(name, ())
+    ]  # fmt: skip

@@ -1,0 +1,161 @@
+r"""How much inertia has to turn, whatever the guide: a lower bound with its proof, by a few operating points at a time.
+
+.. math:: (\max_\varphi I_t + \epsilon)\,q \ge \min_{a} \frac{\mathrm{ptp}(\sum_i a_i Y_i)
+          - |\sum_i a_i|\,\mathrm{ptp}(I_h)/2 - |\sum_i a_i/\omega_i^2|\,\mathrm{ptp}(V)}{\sum_i |a_i|},
+          \qquad Y = \frac{W}{\omega^2}, \quad q = \delta (1 + \delta/2)
+
+I_t = I + J + I_h turns: engine, flywheel, rollers. The missing work is w = W + omega^2 I_h / 2 + V + sum_j p_j S_j: the
+energy of a gas spring is affine in its excess pressure p, V is what the outside pressure adds. Of r + 1 points some
+combination a, of mixed signs since pressures are positive, holds none of the r shapes S_j; so whatever they are,
+ptp(sum a_i w_i / omega_i^2) is at least the numerator. With f = u^2 - 1 a motion of ripple delta has w = g - I_t
+omega^2 f/2, and f spans at most 2 q: u_low <= 1 <= u_high and u_high - u_low <= delta, since mean(u^2) = 1 under a load
+with the square of the speed and mean(1/u) = 1 under a constant one. So ptp(w) <= q omega^2 (max I_t + epsilon), with
+epsilon = 0 under a constant load. Under the other g' = -M f, of mean 0, swings by at most q M P/2 in a period P:
+epsilon = M P / (2 omega^2), pi M / omega^2 over a turn.
+
+The least a is half of a game: for weights lambda, mu on the angles, each of sum 1, ptp(y) >= nu . y with nu = lambda -
+mu, and what is left is linear in |a|, least at a single point. So any weights prove a bound; a linear programme finds
+good ones. For given weights nu . g = -M int T f, T the sum of nu beyond an angle: at most q M int |T - mean T|, so
+epsilon shrinks by the share 2/P of that integral.
+"""
+
+import itertools
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import scipy
+
+from mechsym.codesign.points import Point
+from mechsym.errors import BadInput
+from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Array, Pure, Radian
+
+_SUBSETS = 2000  # of points that are looked at; any subset proves a bound
+
+
+@record
+class Terms:
+    """What the rollers and the pressure outside take from the proof: of the design that it is about."""
+
+    rollers: float = quantity("kg*m^2", default=0.0, low=0, about="largest less smallest inertia of the rollers, I_h")
+    ambient: float = quantity("J", default=0.0, low=0, about="the same of the energy V that the pressure outside adds")
+
+
+@record
+class Proof:
+    """The least total inertia of any guides with so many springs, and the points that prove it."""
+
+    springs: int
+    total_inertia: float = quantity("kg*m^2", low=0, about="max over the turn of I + J + I_h is at least this")
+    points: tuple[int, ...]  #: places of the points; empty where there are too few to prove anything
+
+
+def swing_per_inertia(ripple: Pure, by: str = "mean") -> Pure:
+    r"""Most of ptp(I_t (u^2 - 1)/2) by the largest I_t that a ripple leaves.
+
+    .. math:: q = \delta (1 + \delta/2) \;\text{by the mean}, \qquad q = \delta / (1 - \delta/2)^2 \;\text{by mid-range}
+
+    ripple: (max - min) by the mean in time, or by (max + min)/2 of the speed; by: `mean` of the speed in time, or the
+    `mid-range` of its extremes. Returns q: (u_high^2 - u_low^2)/2 at most.
+    """
+    if by not in ("mean", "mid-range"):
+        raise BadInput(f"by = {by!r} is not an option; options are mean, mid-range")
+    return ripple * (1 + ripple / 2) if by == "mean" else ripple / (1 - ripple / 2) ** 2
+
+
+def proofs(points: Sequence[Point], phi: Radian[Array], q: Pure, terms: Terms, springs: int) -> tuple[Proof, ...]:
+    """The best bound on total inertia for 1 to some springs.
+
+    phi: any ascending angles of a period: works are looked at there. q: see `swing_per_inertia`.
+    """
+    omega, period = np.array([p.omega for p in points]), points[0].period
+    lag = np.array([abs(p.load_torque) * period / 2 if p.law == "propeller" else 0.0 for p in points])
+    facts = _Facts(
+        works=np.array([p.work(phi) for p in points]) / omega[:, None] ** 2,
+        sides=np.column_stack([np.full(omega.size, terms.rollers / 2), terms.ambient / omega**2]),
+        lag=q * lag / omega**2,
+        share=np.diff(phi, append=phi[0] + period) / period,
+    )
+    return tuple(_best(facts, r, q) for r in range(1, springs + 1))
+
+
+@record
+class _Facts:
+    """What the proof knows of some points."""
+
+    works: np.ndarray  #: shape (k, n), W / omega^2 [kg*m^2]
+    sides: np.ndarray  #: shape (k, 2), what rollers and pressure outside may add, of either sign [kg*m^2]
+    lag: np.ndarray  #: shape (k,), q epsilon [kg*m^2]
+    share: np.ndarray  #: shape (n,), from each angle to the next by the period [-]
+
+    def at(self, subset: Sequence[int]) -> "_Facts":
+        rows = list(subset)
+        return _Facts(works=self.works[rows], sides=self.sides[rows], lag=self.lag[rows], share=self.share)
+
+
+def _best(facts: _Facts, springs: int, q: float) -> Proof:
+    """The subset of points that proves most; those that promise most are tried first."""
+    best, chosen = 0.0, tuple[int, ...]()
+    hopes = [(_hope(facts.at(s)), s) for s in _subsets(len(facts.works), springs + 1)]
+    for hope, subset in sorted(hopes, reverse=True):
+        if hope <= best:
+            break
+        value = _value(facts.at(subset), best)
+        if value > best:
+            best, chosen = value, subset
+    return Proof(springs=springs, total_inertia=best / q, points=chosen)
+
+
+def _subsets(count: int, size: int) -> list[tuple[int, ...]]:
+    """Places of so many of `count` points; of very many points only some are taken, the ends among them."""
+    kept = count
+    while kept > size and math.comb(kept, size) > _SUBSETS:
+        kept -= 1
+    places = np.unique(np.linspace(0, count - 1, kept).round().astype(int)).tolist()
+    return list(itertools.combinations(places, size))
+
+
+def _hope(facts: _Facts) -> float:
+    """No less than the subset proves: the left side at the combination that holds least of the works."""
+    a = np.linalg.svd(facts.works - facts.works.mean(axis=1, keepdims=True), full_matrices=False)[0][:, -1]
+    if np.all(a >= 0) or np.all(a <= 0):
+        return np.inf
+    a = a / np.abs(a).sum()
+    return float(np.ptp(a @ facts.works) - np.abs(a @ facts.sides).sum())
+
+
+def _value(facts: _Facts, enough: float) -> float:
+    """The least left side [kg*m^2] over all combinations of mixed signs; given up where it is not above `enough`."""
+    least = np.inf
+    for rest in itertools.product((1.0, -1.0), repeat=len(facts.works) - 1):
+        signs = np.array([1.0, *rest])
+        if signs.min() > 0:
+            continue
+        # -|x| is the smaller of x and -x
+        for side in itertools.product(*((1.0, -1.0) if column.any() else (0.0,) for column in facts.sides.T)):
+            offset = signs * (facts.sides @ np.array(side))
+            least = min(least, _proven(signs[:, None] * facts.works, offset, facts))
+            if least <= enough:
+                return least
+    return least
+
+
+def _proven(works: np.ndarray, offset: np.ndarray, facts: _Facts) -> float:
+    """What the best weights prove [kg*m^2]; the solver only finds them, their sums are seen to here."""
+    count, n = works.shape
+    scale = float(np.ptp(works, axis=1).max()) or 1.0
+    rows = np.hstack([-works / scale, works / scale, np.ones((count, 1))])
+    sums = np.zeros((2, 2 * n + 1))
+    sums[0, :n] = sums[1, n : 2 * n] = 1.0
+    found = scipy.optimize.linprog(
+        np.append(np.zeros(2 * n), -1.0), A_ub=rows, b_ub=offset / scale, A_eq=sums, b_eq=np.ones(2),
+        bounds=[(0.0, None)] * (2 * n) + [(None, None)], method="highs-ds",
+    )  # fmt: skip
+    if found.x is None:
+        return -np.inf
+    up, down = (np.maximum(part, 0.0) for part in (found.x[:n], found.x[n : 2 * n]))
+    nu = up / up.sum() - down / down.sum()
+    beyond = nu.sum() - np.cumsum(nu)
+    lag = facts.lag * 2 * float(facts.share @ np.abs(beyond - facts.share @ beyond))
+    return float(np.min(works @ nu + offset - lag))

@@ -1,0 +1,136 @@
+"""Case -> balance: what shakes the frame, and the counterweights and balancer shafts that leave the least of it."""
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cases.needs import require
+from mechsym.files import write_quantities, write_text
+from mechsym.forces import balance as physics
+from mechsym.forces.balance import BalancedEngine, Shaken, Weight, amplitudes, length
+from mechsym.forces.mains import MainShaft
+from mechsym.forces.shaking import orders, roll_moment
+from mechsym.jobs.machine import turn
+from mechsym.quantities.results import part, quantity, result
+from mechsym.quantities.units import KilogramMetre
+
+_ROUNDING = 1e-9  # of the largest value of a curve: an amplitude that is not larger is 0
+
+
+@result
+class ShakenNumbers:
+    """What shakes the frame, and what its main bearings carry."""
+
+    force: Mapping[str, float] = quantity("N")  #: Largest value of each whole order
+    couple: Mapping[str, float] = quantity("N*m")  #: The same of the couple about the shaft's middle
+    force_max: float = quantity("N")  #: Of all orders together
+    couple_max: float = quantity("N*m")  #: Likewise
+    #: Largest load of a main bearing; null where the places of the bearings are not known
+    main_bearing_max: float | None = quantity("N")
+
+
+@result
+class WeightNumbers:
+    """A weight on the crankshaft or on a balancer shaft."""
+
+    order: int = quantity("-")  #: Its speed over the crank's, negative against it
+    z: float = quantity("m")  #: Place along the shaft
+    unbalance: float = quantity("kg*m")  #: Mass times radius
+    angle_deg: float = quantity("deg")  #: Where it stands at crank angle 0, from the reference axis
+
+
+@result
+class BalanceOfEngine:
+    """Forces and couples on the frame before and after."""
+
+    case: str = part()
+    speed_rpm: float = quantity("rpm")  #: Of the crank
+    before: ShakenNumbers = part()
+    after: ShakenNumbers = part()
+    counterweights: tuple[WeightNumbers, ...] = part()
+    shafts: tuple[WeightNumbers, ...] = part()  #: Weights of the balancer shafts, two a shaft
+
+
+def balance(
+    case: Case,
+    weights: str = "ends",
+    shafts: Sequence[int] = (),
+    least: str = "frame",
+    largest: KilogramMetre | None = None,
+) -> BalancedEngine:
+    """Counterweights and balancer shafts of a case at its speed of operation; arguments as in `forces.balance`.
+
+    Examples
+    --------
+    >>> from mechsym import cases
+    >>> one = balance(cases.load("zotov-89"))
+    >>> round(one.counterweights[0].unbalance, 1)
+    186.6
+    """
+    require(case, "balance")
+    return physics.balance(turn(case), weights, shafts, least, largest, case.sections.get("shaft") or MainShaft())
+
+
+def numbers(case: Case, one: BalancedEngine) -> BalanceOfEngine:
+    """A balance in numbers."""
+    return BalanceOfEngine(
+        case=case.name,
+        speed_rpm=one.turn.omega * 30 / math.pi,
+        before=_shaken(one, one.before),
+        after=_shaken(one, one.after),
+        counterweights=tuple(map(_weight, one.counterweights)),
+        shafts=tuple(map(_weight, one.shafts)),
+    )
+
+
+def _shaken(one: BalancedEngine, shaken: Shaken) -> ShakenNumbers:
+    least = shaken.rounding * one.turn.omega**2
+    force = amplitudes(shaken.force, one.turn, least)
+    couple = amplitudes(shaken.couple, one.turn, least * length(one.turn))
+    return ShakenNumbers(
+        force={str(k): value for k, value in force.items()},
+        couple={str(k): value for k, value in couple.items()},
+        force_max=_largest(shaken.force, least),
+        couple_max=_largest(shaken.couple, least * length(one.turn)),
+        main_bearing_max=max((float(journal.load.max()) for journal in shaken.journals), default=None),
+    )
+
+
+def _largest(values: np.ndarray, least: float) -> float:
+    size = float(np.abs(values).max())
+    return size if size > least else 0.0
+
+
+def _weight(one: Weight) -> WeightNumbers:
+    return WeightNumbers(order=one.order, z=one.z, unbalance=one.unbalance, angle_deg=math.degrees(one.angle))
+
+
+def write(one: BalancedEngine, told: BalanceOfEngine, folder: Path, about: str) -> list[Path]:
+    """Write the page, its picture, and the spectra that an engine's mounts feel, by order."""
+    from mechsym.forces.plots import balance_orders
+    from mechsym.page import page
+    from mechsym.style import svg
+
+    curves = {
+        f"{name}_{axis}_{when}": values
+        for when, shaken in (("before", one.before), ("after", one.after))
+        for name, both in (("force", shaken.force), ("couple", shaken.couple))
+        for axis, values in (("x", both.real), ("y", both.imag))
+    }
+    if (roll := roll_moment(one.turn)) is not None:
+        curves["roll"] = roll
+    spectra = {name: orders(values, one.turn.period) for name, values in curves.items()}
+    columns = {"order": next(iter(spectra.values())).order}
+    for name, spectrum in spectra.items():
+        least = _ROUNDING * float(np.abs(curves[name.replace("_after", "_before")]).max())
+        columns[name] = np.where(np.abs(spectrum.amplitude) > least, spectrum.amplitude, 0.0)
+    units = {name: "N" if name.startswith("force") else "N*m" for name in curves} | {"order": "-"}
+    picture = svg(balance_orders(one))
+    return [
+        write_text(folder / "report.html", page("balance.html", numbers=told, picture=picture, about=about)),
+        write_quantities(folder / "mounts.csv", columns, units),
+        write_text(folder / "orders.svg", picture),
+    ]

@@ -1,0 +1,113 @@
+"""Speed of shafts over a stretch of a motion: mean, extremes of the dense solution, and the ripple.
+
+Output samples say where a speed is about to turn; what it is there says the solution between them.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy
+
+from mechsym.quantities import record
+from mechsym.quantities.units import Array, Pure, Radian, Second
+
+#: ascending times (n,) [s] to coordinates and velocities (k, n) [rad, rad/s], up to where the motion ends
+Dense = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+_SURE = 1e-10  # of the largest speed: what a finer look may still add to an extreme
+_LOOKS = 8  # at most; a smooth extreme needs two, one at a kink of the torque six
+_FINER = 64  # parts of a bracket in the next look
+_MOST = 4  # peaks of nearly one height that are followed
+
+
+@record
+class Speed:
+    """Speed of a coordinate over a stretch."""
+
+    mean: float  #: Advance by time; negative of a shaft that turns backwards [rad/s]
+    min: float  #: Least, with its sign [rad/s]
+    max: float  #: Greatest, with its sign [rad/s]
+
+    @property
+    def ripple(self) -> Pure | None:
+        r"""Speed ripple, the one definition of the package.
+
+        .. math:: \delta = \frac{\omega_\max - \omega_\min}{|\omega_\mathrm{mean}|}
+
+        Returns delta: ripple; None where nothing advances.
+        """
+        return (self.max - self.min) / abs(self.mean) if self.mean else None
+
+
+def speeds(dense: Dense, t: Second[Array]) -> list[Speed]:
+    """Speed of each coordinate over the times of a grid.
+
+    t: from the start of the stretch to its end, as fine as the motion is smooth.
+    """
+    q, u = dense(t)
+    end = q.shape[1] - 1
+    mean = (q[:, end] - q[:, 0]) / (t[end] - t[0])
+    low, high = np.split(_greatest(lambda times: _signed(dense(times)[1]), t, _signed(u)), 2)
+    return [Speed(mean=float(m), min=float(-a), max=float(b)) for m, a, b in zip(mean, low, high, strict=True)]
+
+
+def _signed(u: np.ndarray) -> np.ndarray:
+    """Values of which the greatest are wanted: least speeds first, then greatest."""
+    return np.vstack([-u, u])
+
+
+def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Greatest of each row (k,): where it may be more than was seen at times t, it is looked at more finely."""
+    greatest = rows.max(axis=1)
+    for _ in range(_LOOKS):
+        t, brackets = t[: rows.shape[1]], []
+        for k, row in enumerate(rows):
+            gain = _gains(t, row)
+            may = np.flatnonzero((gain > 0) & (row[1:-1] + gain >= greatest[k])) + 1
+            if gain[may - 1].max(initial=0.0) <= _SURE * np.abs(row).max():
+                greatest[k] = max(greatest[k], (row[may] + gain[may - 1]).max(initial=-np.inf))
+                continue
+            brackets += [(t[i - 1], t[i + 1]) for i in may[np.argsort(-row[may])][:_MOST]]
+        if not brackets:
+            break
+        t = np.unique(np.concatenate([np.linspace(a, b, _FINER + 1) for a, b in brackets]))
+        rows = values(t)
+        greatest = np.maximum(greatest, rows.max(axis=1))
+    return greatest
+
+
+def _gains(t: np.ndarray, row: np.ndarray) -> np.ndarray:
+    """What a parabola through each sample and its neighbours adds to it; 0 where that sample is no peak."""
+    h, d = np.diff(t), np.diff(row) / np.diff(t)
+    bend = np.diff(d) / (h[1:] + h[:-1])
+    slope = (d[:-1] * h[1:] + d[1:] * h[:-1]) / (h[1:] + h[:-1])
+    even = np.abs(h[1:] - h[:-1]) < 0.5 * (h[1:] + h[:-1])  # not across the gap between two brackets
+    peak = (d[:-1] >= 0) & (d[1:] <= 0) & (bend < 0) & even
+    return np.where(peak, slope**2 / (-4 * np.where(peak, bend, -1.0)), 0.0)
+
+
+def before_last_period(q: np.ndarray, period: float) -> int | None:
+    """The sample before the last period [rad] of a coordinate q [rad], either way it turns; None in a shorter run."""
+    before = np.flatnonzero(np.abs(q - q[-1]) >= period * (1 - 1e-9))
+    return int(before[-1]) if len(before) and before[-1] < len(q) - 1 else None
+
+
+def last_period(t: Second[Array], q: np.ndarray, u: np.ndarray, period: Radian, end: Radian | None = None) -> Second:
+    """When the last period of a coordinate began.
+
+    t: times of samples as close as the motion is smooth. q, u: coordinate and its velocity there [rad, rad/s]. period:
+    a turn, or two for a four-stroke engine. end: where the last period ends; None is the last sample. Returns t: the
+    start of a run that is shorter.
+    """
+    end = q[-1] if end is None else end
+    i = before_last_period(np.append(q, end), period)
+    if i is None or i == len(t) - 1:
+        return float(t[0 if i is None else i])
+    wanted, a, b = end + np.copysign(period, q[i] - end), q[i], q[i + 1]
+    if (wanted - a) * (b - a) <= 0:  # the sample itself, to rounding
+        return float(t[i])
+    if u[i] * u[i + 1] <= 0 or u[i] * (b - a) <= 0:  # it swings there
+        return float(t[i] + (wanted - a) / (b - a) * (t[i + 1] - t[i]))
+    way = np.sign(b - a)
+    inverse = scipy.interpolate.CubicHermiteSpline(way * np.array([a, b]), t[i : i + 2], way / u[i : i + 2])
+    return float(np.clip(inverse(way * wanted), t[i], t[i + 1]))

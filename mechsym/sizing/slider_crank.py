@@ -1,0 +1,253 @@
+"""Sizing of a slider crank with the same rules: piston, rod, cylinder, crankshaft, bearings, to a fixed point.
+
+The source sizes no slider crank; what a rule needs and no source gives is assumed here and said so. Torque leaves at
+one end; a third of the rod counts as reciprocating; counterweights balance the rotating masses.
+"""
+
+import itertools
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from mechsym.mechanisms.amounts import amount
+from mechsym.mechanisms.record import Mechanism, curves
+from mechsym.mechanisms.roles import PartRoles
+from mechsym.quantities import record
+from mechsym.quantities.units import Kilogram
+from mechsym.sizing.bearing_design import Choice, Seat, check_bearing, choices, mass, seat_diameter
+from mechsym.sizing.checks import Check, at_most, at_speed, round_up, unsafe, weakest
+from mechsym.sizing.crank_design import CrankLoads, check_crank, check_output, size_output
+from mechsym.sizing.hypocycloid.engine import Stock
+from mechsym.sizing.piston_design import CylinderLoads, check_cylinder, check_piston, size_cylinder, size_piston
+from mechsym.sizing.pressures import Pressures
+from mechsym.sizing.rules.crankshaft import slider_crank_chain
+from mechsym.sizing.rules.fatigue import endurance_limit, goodman_factor, stress_cycle
+from mechsym.sizing.rules.masses import cylinder_mass
+from mechsym.sizing.rules.materials import Material
+from mechsym.sizing.rules.piston import rod_buckling_load
+from mechsym.sizing.wants import CrankPart, CylinderPart, PistonPart, Wants
+
+_ROUNDS = 40
+_GAP = 2e-3  # between web and bearing, as in the hypocycloid [m]
+_AXIAL = 0.85  # endurance limit in tension and compression over that in bending (Shigley, eq. 6-26)
+_ROD_ENDS = 1.6  # mass of a rod over that of its shank, assumed
+
+
+@record
+class SliderForces:
+    """Forces of one slider crank; arrays of shape (k, n) over a period of 4 pi."""
+
+    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
+    omega: np.ndarray
+    theta: np.ndarray
+    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
+    net: np.ndarray  #: Force on the piston pin, reciprocating mass included [N]
+    torque: np.ndarray  #: Torque of the crank [N*m]
+    #: Crank radius, rod length, bore, stroke, distance of the heads [m], heat through a head [W]
+    r: float
+    l: float
+    bore: float
+    stroke: float
+    gap: float
+    head_heat: float
+
+    @cached_property
+    def chain(self) -> dict[str, np.ndarray]:
+        """Forces along the rod and at the crank by name, shape (k, n) [N]."""
+        return slider_crank_chain(self.net, self.theta, self.r, self.l)
+
+
+@record
+class SliderParts:
+    """Parts of one slider crank."""
+
+    piston: PistonPart  #: Piston; `rod` is the diameter of the connecting rod's shank
+    cylinder: CylinderPart
+    crank: CrankPart
+    #: Bearings of the crankpin and of one side of the crankshaft
+    rod_bearing: Choice
+    main_bearing: Choice
+
+
+@record
+class SliderDesign:
+    """A sized slider crank."""
+
+    parts: SliderParts
+    reciprocating: float  #: Mass that the loads were computed with [kg]
+    forces: SliderForces
+    checks: list[Check]
+    rounds: int
+    converged: bool
+
+
+def slider_crank_forces(gas: Pressures, mechanism: Mechanism, roles: PartRoles) -> Callable[[float], SliderForces]:
+    """Reciprocating mass [kg] -> forces over the speeds."""
+    moved, q, x = curves(mechanism, gas.theta), mechanism.coordinates[0], roles.pistons[0].travel
+    r, l = (float(amount(size, mechanism.parameters)) for size in (roles.rods[0].throw, roles.rods[0].length))
+
+    def forces_of(mass: float) -> SliderForces:
+        force = gas.net - mass * moved[f"d2{x}_d{q}2"] * gas.omega[:, None] ** 2
+        return SliderForces(
+            omega=gas.omega, theta=gas.theta, dp_max=gas.dp_max, net=force, torque=force * moved[f"d{x}_d{q}"],
+            r=r, l=l, bore=gas.bore, stroke=gas.stroke, head_heat=gas.head_heat, gap=gas.gap,
+        )  # fmt: skip
+
+    return forces_of
+
+
+def size_slider_crank(
+    forces_of: Callable[[float], SliderForces], start: Kilogram, wants: Wants, stock: Stock
+) -> SliderDesign:
+    """Iterate loads and sizes to a fixed point.
+
+    forces_of: reciprocating mass [kg] -> forces; start: mass to begin with. Returns design: its checks tell whether it
+    holds.
+    """
+    forces = forces_of(start)
+    m, parts = start, size(forces, wants, stock)
+    rounds, converged = 1, False
+    while not converged and rounds < _ROUNDS:
+        rounds += 1
+        m = reciprocating_mass(parts, forces, wants, stock)
+        forces = forces_of(m)
+        sized = size(forces, wants, stock)
+        converged, parts = sized == parts, sized
+    checks = check_all(parts, forces, wants, stock)
+    return SliderDesign(parts=parts, reciprocating=m, forces=forces, rounds=rounds, converged=converged, checks=checks)
+
+
+def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
+    """One round: every part for the forces.
+
+    Returns parts: sizes; of the bearings the lightest that hold, or the strongest there are.
+    """
+    loads = _cylinder_loads(forces)
+    material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
+    steel = stock.material(wants.crankshaft)
+    piston = replace(size_piston(loads, wants, material["piston"], forces.l), rod_length=forces.l)
+    piston = replace(piston, rod=_rod_diameter(loads, wants, steel, forces.l))
+    cylinder = size_cylinder(loads, wants, material["cylinder"], piston.height)
+    rod_seat, main_seat = _seats(forces)
+    rods = _ranked(stock, wants, rod_seat, (0.02, 0.06))
+    mains = _ranked(stock, wants, main_seat, (0.015, 0.06))
+    best, least = None, -np.inf
+    for rod_bearing, main_bearing in itertools.product(rods, mains):
+        pin, shaft = seat_diameter(rod_bearing), seat_diameter(main_bearing)
+        crank = CrankPart(
+            pin=pin,
+            pin_length=rod_bearing.stack + 2e-3,
+            web=forces.bore / 4,
+            web_width=min(pin, shaft) + 4e-3,
+            shaft=shaft,
+            shaft_length=main_bearing.stack,
+            output=shaft,
+        )
+        trial = SliderParts(
+            piston=piston, cylinder=cylinder, crank=crank, rod_bearing=rod_bearing, main_bearing=main_bearing
+        )
+        share = weakest(check_crank(crank, _loads(trial, forces), wants, steel))
+        if share > least:
+            best, least = trial, share
+        if share >= 1 - 1e-9:
+            break
+    assert best is not None
+    output = size_output(_loads(best, forces), wants, material["shaft"], 5e-3)
+    return replace(best, crank=replace(best.crank, output=output))
+
+
+def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> list[Check]:
+    """Every check of a slider crank.
+
+    Returns checks: from the piston to the bearings.
+    """
+    used = {place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "crankshaft", "shaft")}
+    cylinder, crank = _cylinder_loads(forces), _loads(parts, forces)
+    rod_seat, main_seat = _seats(forces)
+    piston = [c for c in check_piston(parts.piston, cylinder, wants, used["piston"]) if c.component != "piston rod"]
+    return [
+        *piston,
+        *_check_rod(parts.piston.rod, cylinder, wants, used["crankshaft"], forces.l),
+        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *check_crank(parts.crank, crank, wants, used["crankshaft"]),
+        *check_output(parts.crank.output, crank, wants, used["shaft"]),
+        *check_bearing(parts.rod_bearing, rod_seat, wants),
+        *check_bearing(parts.main_bearing, main_seat, wants),
+    ]
+
+
+def reciprocating_mass(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> Kilogram:
+    """Mass that goes up and down with the piston.
+
+    Returns m: piston head and barrel, a steel piston pin of a quarter of the bore (assumed), a third of the rod.
+    """
+    light = stock.material(wants.piston).density
+    steel = stock.material(wants.crankshaft).density
+    piston, B = parts.piston, forces.bore
+    head = cylinder_mass(light, B, piston.head)
+    barrel = cylinder_mass(light, B, piston.height - piston.head, B - 2 * piston.barrel)
+    pin = cylinder_mass(steel, B / 4, 0.8 * B, B / 8)
+    return head + barrel + pin + _ROD_ENDS * cylinder_mass(steel, piston.rod, forces.l) / 3
+
+
+def _cylinder_loads(forces: SliderForces) -> CylinderLoads:
+    return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.chain["rod"], head_heat=forces.head_heat,
+                         bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
+
+
+def _loads(parts: SliderParts, forces: SliderForces) -> CrankLoads:
+    arm = parts.crank.pin_length / 2 + parts.crank.web + _GAP + parts.main_bearing.stack / 2
+    half = np.array([-forces.net, forces.chain["side"]]) / 2
+    return CrankLoads(
+        omega=forces.omega, moment=lambda z: half * (arm - z), turn=forces.theta, along_web=forces.chain["radial"],
+        shaft_torque=forces.torque, output_torque=2 * forces.torque, arm=arm,
+    )  # fmt: skip
+
+
+def _seats(forces: SliderForces) -> tuple[Seat, Seat]:
+    """Of the bearings of the crankpin, and of those beside it, which share the load."""
+    load = np.abs(forces.chain["rod"])
+    return (
+        Seat(name="rod bearing", omega=forces.omega, load=load, turning=forces.omega),
+        Seat(name="main bearing", omega=forces.omega, load=load / 2, turning=forces.omega),
+    )
+
+
+def _ranked(stock: Stock, wants: Wants, seat: Seat, shaft: tuple[float, float]) -> list[Choice]:
+    """Bearings that hold, the lightest first; when none does, the one that comes nearest."""
+    options = [c for c in choices(stock.bearings.values(), shaft, 0.1, most=2) if mass(c) < 0.8]
+    holding = [c for c in options if not unsafe(check_bearing(c, seat, wants))]
+    return holding or [max(options, key=lambda c: weakest(check_bearing(c, seat, wants)))]
+
+
+def _rod_factor(d: float, loads: CylinderLoads, material: Material) -> np.ndarray:
+    amplitude, mean = stress_cycle(loads.rod / (np.pi * d**2 / 4))
+    S_e = _AXIAL * endurance_limit(material.ultimate, d, "machined")
+    return goodman_factor(amplitude, np.abs(mean), S_e, material.ultimate)
+
+
+def _rod_diameter(loads: CylinderLoads, wants: Wants, material: Material, length: float) -> float:
+    d = 6e-3
+    peak, strength = np.abs(loads.rod).max(), material.yield_strength or material.ultimate
+    while (
+        _rod_factor(d, loads, material).min() < wants.rod
+        or rod_buckling_load(d, length, material.youngs_modulus, strength) < wants.rod * peak
+    ):
+        d = round_up(d + 1e-5)
+    return d
+
+
+def _check_rod(d: float, loads: CylinderLoads, wants: Wants, material: Material, length: float) -> list[Check]:
+    factor = _rod_factor(d, loads, material)
+    k, peak = int(np.argmin(factor)), float(np.abs(loads.rod).max())
+    strength = material.yield_strength or material.ultimate
+    buckling = rod_buckling_load(d, length, material.youngs_modulus, strength)
+    return [
+        Check(component="connecting rod", quantity="fatigue factor", value=float(factor[k]), limit=1.0, unit="-",
+              safety_factor=float(factor[k]), wanted=wants.rod, rule="Goodman", source="Shigley eq. 6-46",
+              note=at_speed(loads.omega, k)),
+        at_most("connecting rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
+                source="Shigley eq. 4-42"),
+    ]  # fmt: skip

@@ -1,0 +1,121 @@
+"""Links of own mechanisms by the law of their bodies: slips are told, the shipped mechanisms are left in peace."""
+
+from pathlib import Path
+
+import pytest
+
+from mechsym import cases
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
+#: case, letter, value: code of the doubt
+SLIPS = {
+    ("watt-six-bar", "m2", "1 t"): "link_density",
+    ("watt-six-bar", "I3", 4.0): "link_inertia",
+    ("watt-six-bar", "I5", 5e-8): "link_inertia",
+    ("watt-six-bar", "g", 9810.0): "gravity",
+    ("whitworth", "I_rocker", "40 kg*m^2"): "link_inertia",
+    ("whitworth", "r", "60 m"): "point_speed",
+    ("radial-engine", "mr", "1 t"): "link_density",
+    ("walking-leg", "J", 0.1): "link_inertia",
+    ("radial-engine", "mp", 800.0): "link_density",
+    ("atkinson", "I_rocker", 5.0): "link_density",
+    ("atkinson", "m_link", 0.0): "massless",
+}
+
+
+def doubts(name, values):
+    return {d.code for d in cases.load(str(EXAMPLES / f"{name}.toml"), values).doubts}
+
+
+@pytest.mark.parametrize("slip", SLIPS, ids=str)
+def test_a_slip_is_doubted_by_the_law_of_a_link(slip):
+    name, letter, value = slip
+    assert SLIPS[slip] in doubts(name, {f"parameters.{letter}": value}) - doubts(name, {})
+
+
+@pytest.mark.parametrize("case", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_shipped_mechanisms_are_left_in_peace(case):
+    told = {d.code for d in cases.load(str(case)).doubts}
+    assert not told & {"link_density", "link_inertia", "link_centre", "point_speed", "gravity", "massless"}
+
+
+DECLARED = """from mechsym.derive import Mechanism, output
+
+
+def bar():
+    m = Mechanism("bar")
+    phi = m.coordinates("phi")
+    r, l, u = m.parameters("r l u", "m")
+    mass, I, J = m.parameters("mass", "kg"), m.parameters("I", "kg*m^2"), m.parameters("J", "kg*m^2")
+    crank = m.link("crank", turns=phi, inertia=J)
+    rod = m.link("rod", mass=mass, centre=(u, 0), inertia=I)
+    slide = m.link("slide", mass=mass / 2)
+    m.pin("A", m.frame, crank)
+    m.pin("B", crank.at(r), rod)
+    m.pin("C", rod.at(l), slide)
+    m.slider("G", m.frame.line(), slide)
+    output(m, rod.angle)
+    return m
+"""
+BAR = {"r": 0.1, "l": 0.35, "u": 0.15, "mass": 1.0, "I": 0.012, "J": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("values", "speed", "codes"),
+    [
+        ({}, 300.0, set()),
+        ({"I": 0.0, "J": 0.0}, 300.0, set()),  # a model without inertia
+        ({"u": -0.1}, 300.0, set()),  # with a counterweight
+        ({"u": 10.5}, 300.0, {"link_centre"}),
+        ({"mass": 1000.0}, 300.0, {"link_density", "link_inertia"}),
+        ({"I": 12.0}, 300.0, {"link_inertia"}),
+        ({"u": 0.175, "I": 0.35**2 / 4}, 300.0, set()),  # all its mass at both ends
+        ({"u": 0.175, "I": 0.35**2 / 3}, 300.0, {"link_inertia"}),  # that of a bar about its end
+        ({}, 300_000 * 3.14159 / 30, {"point_speed"}),
+    ],
+)
+def test_a_rod_of_a_ton_a_centre_far_off_and_a_crank_that_bursts_are_told(tmp_path, values, speed, codes):
+    (tmp_path / "bar.py").write_text(DECLARED)
+    numbers = "".join(f"{letter} = {value!r}\n" for letter, value in (BAR | values).items())
+    case = tmp_path / "bar.toml"
+    case.write_text(f'mechanism = "./bar.py"\nabout = "bar"\n[parameters]\n{numbers}[operation]\nspeed = {speed!r}\n')
+    told = {d.code for d in cases.load(str(case)).doubts}
+    assert {c for c in told if c.startswith(("link", "point"))} == codes
+
+
+@pytest.mark.parametrize(
+    ("element", "value", "codes"),
+    [
+        ("damper", -0.1, {"damper_sign"}),
+        ("damper", 0.0, set()),
+        ("damper", 0.1, set()),
+        ("spring", -5.0, {"spring_sign"}),
+        ("spring", 5.0, set()),
+    ],
+)
+def test_a_spring_or_damper_that_drives_is_told(tmp_path, element, value, codes):
+    unit = {"damper": "N*m*s/rad", "spring": "N*m/rad"}[element]
+    said = f"c = m.parameters('c', '{unit}')\n    m.{element}(c, stretch=phi)\n    crank = m.link("
+    (tmp_path / "bar.py").write_text(DECLARED.replace("crank = m.link(", said))
+    numbers = "".join(f"{letter} = {number!r}\n" for letter, number in (BAR | {"c": value}).items())
+    case = tmp_path / "bar.toml"
+    case.write_text(f'mechanism = "./bar.py"\nabout = "bar"\n[parameters]\n{numbers}')
+    assert {d.code for d in cases.load(str(case)).doubts} == codes
+
+
+# two bars of a kilogram in all and 0.35 m: 364 mm^2 of steel
+@pytest.mark.parametrize(("force", "told"), [(0.5 * 5e8 * 3.64e-4, False), (2 * 5e8 * 3.64e-4, True)])
+def test_a_force_that_no_bar_of_the_links_mass_holds_is_told(tmp_path, force, told):
+    pushed = DECLARED.replace(
+        "    output(m", '    F = m.inputs("F", "N")\n    m.force(F, along=slide.at().x)\n    output(m'
+    )
+    (tmp_path / "bar.py").write_text(pushed)
+    numbers = "".join(f"{letter} = {number!r}\n" for letter, number in BAR.items())
+    case = tmp_path / "bar.toml"
+    case.write_text(f'mechanism = "./bar.py"\nabout = "bar"\n[parameters]\n{numbers}[inputs]\nF = {force!r}\n')
+    assert ("link_stress" in {d.code for d in cases.load(str(case)).doubts}) == told
+
+
+@pytest.mark.parametrize(("mass", "told"), [(0.12, False), (80.0, True)])
+def test_pistons_without_links_are_held_against_the_letters_of_their_mechanism(mass, told):
+    assert ("link_density" in doubts("swash-plate", {"parameters.m_p": mass})) == told

@@ -1,0 +1,106 @@
+"""Every command on every case gives what is on record, and the records hold what they must.
+
+`make records` writes tests/recorded anew, `make records ONLY="hinge zotov-89/*"` a part of it: what a change of results
+looks like then stands in its difference.
+"""
+
+import contextlib
+import json
+
+import pytest
+from matrix import unitless
+from matrix.compare import Scales, differences
+from matrix.entries import CASES, ROOT, entries, words
+from matrix.files import kept, read
+from matrix.record import answer, record
+
+from mechsym.cli import results
+
+RECORDED = ROOT / "tests/recorded"
+#: Entries of the fast suite: a command each, and each kind of mechanism and gas
+QUICK = {
+    "alpha-stirling/cycle", "balandin/check", "chmielewski/eval", "generator/cycle-diagram", "moroianu/forces",
+    "nunes-hypocycloid/sweep", "nunes-slider-crank/cycle", "opposed-pistons/flywheel", "zotov-89/hinge",
+    "zotov-89/sweep-guides", "v-twin/simulate", "none/audit-formula", "none/no-unit", "none/new-v-8", "none/sections",
+}  # fmt: skip
+ENTRIES = [entry for entry in entries() if not entry.heavy]
+RECORDS = {entry.name: read(RECORDED, entry) for entry in ENTRIES if kept(RECORDED, entry).exists()}
+
+
+@pytest.mark.parametrize(
+    "entry", [pytest.param(e, id=e.name, marks=[] if e.name in QUICK else pytest.mark.slow) for e in ENTRIES]
+)
+def test_a_command_gives_what_is_on_record(entry, prepared):
+    now = json.loads(json.dumps(record(entry, prepared)))
+    assert [*differences(RECORDS[entry.name], now, scales=Scales(now, entry.line.split()[0]))] == [], (
+        "if this is wanted: make records"
+    )
+
+
+def test_every_entry_is_on_record_and_nothing_else():
+    assert {path.relative_to(RECORDED).with_suffix("").as_posix() for path in RECORDED.glob("*/*.json")} == set(RECORDS)
+    assert RECORDS.keys() == {entry.name for entry in ENTRIES} >= QUICK
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_check_says_what_is_refused(case):
+    """What `check` finds lacking is refused with exit status 2, and everything else runs."""
+    commands = RECORDS[f"{case}/check"]["json"]["commands"]
+    runs = {name: RECORDS[f"{case}/{name}"]["exit"] for name in commands if f"{case}/{name}" in RECORDS}
+    assert {name for name, code in runs.items() if code == 2} == {name for name in runs if commands[name]}
+    assert set(runs.values()) <= {0, 1, 2}
+
+
+@pytest.mark.parametrize(
+    "entry", [pytest.param(e, id=e.name, marks=[pytest.mark.slow, *[pytest.mark.heavy] * runs])
+              for e in entries() if e.heavy and e.case
+              for runs in [not RECORDS[f"{e.case}/check"]["json"]["commands"][e.line.split()[0]]]],
+)  # fmt: skip
+def test_check_says_it_of_heavy_commands(entry, prepared):
+    """Their refusals are looked at by the slow suite, their runs by the heavy one."""
+    missing = RECORDS[f"{entry.case}/check"]["json"]["commands"][entry.line.split()[0]]
+    with contextlib.chdir(prepared):
+        code, out, err = answer(words(entry, prepared))
+    if entry.command == "identify" and code == 2 and not missing:
+        assert "friction.viscous" in err or "trace" in err  # of another machine than the case's
+        return
+    assert (code == 2) == bool(missing), (code, out, err)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_nothing_reads_is_told_by_every_command(case):
+    told = {
+        name: _unused(one["json"]) for name, one in RECORDS.items() if name.startswith(f"{case}/") and "json" in one
+    }
+    wanted = told.pop(f"{case}/check")
+    assert [name for name, doubts in told.items() if doubts is not None and not wanted <= doubts] == []
+
+
+def _unused(found):
+    doubts = found.get("doubts") if isinstance(found, dict) else None
+    return {d["quantity"] for d in doubts if d["code"] == "unused"} if isinstance(doubts, list) else None
+
+
+@pytest.mark.parametrize("command", sorted({entry.line.split()[0] for entry in ENTRIES} - unitless.WITHOUT))
+def test_every_number_has_unit_and_meaning(command):
+    """Each number of each --json is one that `mechsym sections --results` lists."""
+    rows = results.rows(command) if command in results.RESULTS else []
+    assert [row for row in rows if not row["unit"] or not row["about"]] == []
+    told = {(e.name, path) for e in ENTRIES if e.line.split()[0] == command and e.name in RECORDS
+            for path in unitless.numbers(RECORDS[e.name].get("json"))}  # fmt: skip
+    unknown = sorted({path for _, path in told if not unitless.listed(path, rows)})
+    assert unknown == []
+
+
+#: Heavy commands, each on a case that it does not take long for
+HEAVY = ("chmielewski/fmu", "chmielewski/identify", "generator/page", "generator/report", "none/study",
+         "nunes-hypocycloid/optimise",
+         "zotov-89/codesign", "zotov-89/report")  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("entry", [pytest.param(e, id=e.name) for e in entries() if e.name in HEAVY])
+def test_every_number_of_a_heavy_command_has_unit_and_meaning(entry, prepared):
+    now, rows = record(entry, prepared), results.rows(entry.line.split()[0])
+    assert now["exit"] in (0, 1)
+    assert [path for path in sorted({*unitless.numbers(now["json"])}) if not unitless.listed(path, rows)] == []

@@ -1,0 +1,102 @@
+"""Least and greatest speed are those of the motion, wherever results were asked for: closed forms, finer sampling."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy
+from click.testing import CliRunner
+from simulated import shaft
+
+from mechsym.cli import mechsym
+from mechsym.machine.loads import ConstantLoad
+from mechsym.simulate import Part, Problem, Settings, simulate
+from mechsym.simulate.angle import ReducedMachine, tabulate
+from mechsym.simulate.problem import FormulaForce, Kinks, Periodic
+from mechsym.simulate.result import last_period, speed_ripple, speeds_over, summary
+from mechsym.simulate.steady import steady_state
+
+ATKINSON = Path(__file__).parents[2] / "examples" / "mechanisms" / "atkinson.toml"
+
+
+def turning(speed=10.0, output=0.5, **changes):
+    """A shaft without load."""
+    values = {"mechanism": shaft(), "parts": (), "q0": (0.0,), "u0": (speed,), "t_end": 4.0, "output": output}
+    return Problem(**(values | changes))
+
+
+@pytest.mark.parametrize("backend", ["auto", "scipy-dop853", "scipy-rk45"])
+def test_rotor_driven_by_a_sine_in_time(backend):
+    # I u' = A cos(w t): u = u0 + A/(I w) sin(w t), sampled twice in a cycle where the sine is nought
+    amplitude, frequency = 6.0, 2 * np.pi
+    import casadi as ca
+
+    force = FormulaForce(function=lambda t, q, u: amplitude * ca.cos(frequency * t))
+    result = simulate(
+        turning(parts=(Part(name="drive", input="M", value=force),)),
+        Settings(tolerance=1e-11, backend=backend, check="none"),
+    )
+    assert np.ptp(result.columns["phid"]) < 1e-8
+    found = speeds_over(result, ("phi",), 0.0)["phi"]
+    swing = amplitude / (3.0 * frequency)
+    assert (found.min, found.max) == pytest.approx((10.0 - swing, 10.0 + swing), abs=1e-9)
+    assert found.ripple == pytest.approx(2 * swing / 10.0, rel=1e-8)
+
+
+@pytest.mark.parametrize("backend", ["auto", "scipy-dop853"])
+def test_extremes_at_kinks_of_a_torque(backend):
+    # torque of +- A over half a turn each: the energy is a triangle, its corners lie at the kinks
+    torque, kinks, output = 20.0, (0.7, 0.7 + np.pi), 0.4711
+    square = Periodic(
+        coordinate="phi", period=2 * np.pi, kinks=kinks,
+        value=lambda phi: np.where((np.asarray(phi) - 0.7) % (2 * np.pi) < np.pi, torque, -torque),
+    )  # fmt: skip
+    result = simulate(
+        turning(
+            parts=(Part(name="drive", input="M", value=square),), output=output,
+            kinks=(Kinks(coordinate="phi", angles=kinks, period=2 * np.pi),),
+        ),
+        Settings(tolerance=1e-11, backend=backend, check="none"),
+    )  # fmt: skip
+    found = speeds_over(result, ("phi",), last_period(result, "phi"))["phi"]
+    start = 10.0**2 - 2 * torque * 0.7 / 3.0  # at the first kink, where the energy is least
+    assert found.min == pytest.approx(np.sqrt(start), rel=1e-9)
+    assert found.max == pytest.approx(np.sqrt(start + 2 * torque * np.pi / 3.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_shaft_that_turns_backwards_has_the_ripple_of_one_that_turns_forwards(way):
+    # a weight on the rim: I u^2/2 = I u0^2/2 - w (1 - cos phi), so the period and the extremes are closed forms
+    result = simulate(turning(way * 10.0, mechanism=shaft(3.0, 20.0)), Settings(tolerance=1e-11))
+    slowest = np.sqrt(10.0**2 - 4 * 20.0 / 3.0)
+    duration = scipy.integrate.quad(lambda a: 1 / np.sqrt(100.0 - 40.0 / 3.0 * (1 - np.cos(a))), 0, 2 * np.pi)[0]
+    assert result.t[-1] - last_period(result, "phi") == pytest.approx(duration, rel=1e-8)
+    assert speed_ripple(result, "phi") == pytest.approx((10.0 - slowest) / (2 * np.pi / duration), rel=1e-8)
+    told = summary(result, ("phi",), None)
+    assert np.sign(told.speed_mean) == way and told.window == pytest.approx(duration, rel=1e-8)
+    assert (told.speed_min, told.speed_max) == pytest.approx(
+        (slowest, 10.0) if way > 0 else (-10.0, -slowest), rel=1e-9
+    )
+
+
+def test_steady_motion_over_the_angle():
+    # no load and a torque A sin(phi - 1): the energy swings by A about its middle; mean by quadrature
+    middle, swing, inertia = 150.0, 12.0, 3.0
+    panels = tabulate(ReducedMachine(
+        inertia=lambda phi: np.full_like(phi, inertia), torque=lambda phi: swing * np.sin(phi - 1.0),
+        load=ConstantLoad(torque=0.0),
+    ))  # fmt: skip
+    low, high = (np.sqrt(2 * (middle + side * swing) / inertia) for side in (-1.0, 1.0))
+    slow = scipy.integrate.quad(lambda a: 1 / np.sqrt(2 * (middle - swing * np.cos(a)) / inertia), 0, 2 * np.pi)[0]
+    mean = 2 * np.pi / slow
+    assert steady_state(panels, mean).speed_ripple == pytest.approx((high - low) / mean, rel=1e-10)
+
+
+def test_the_command_says_the_same_however_rarely_results_are_asked_for():
+    told = []
+    for step in ("10 ms", "0.1 ms"):  # 36 degrees, and 100 times as many
+        asked = ["simulate", str(ATKINSON), "--set", f"simulation.output_step={step}", "--json"]
+        told.append(json.loads(CliRunner().invoke(mechsym, asked).output))
+    for key in ("speed_mean", "speed_min", "speed_max"):
+        assert told[0][key] == pytest.approx(told[1][key], rel=1e-8)
