@@ -10,6 +10,7 @@ from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
 from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.findings import of_design
 from mechsym.hinge.limits import ALL_KEPT
 from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
@@ -20,6 +21,7 @@ from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
 from mechsym.mechanisms.drawing import Shapes, extent_of
 from mechsym.mechanisms.drawn_parts import turned
+from mechsym.page import Finding, ranked
 from mechsym.periodic import even_angles
 from mechsym.plausible import sifted
 from mechsym.quantities import quantity, record
@@ -60,6 +62,8 @@ class Answer:
     bars: tuple[Bar, ...] = ()
     curves: tuple[Plotted, ...] = ()
     doubts: tuple[str, ...] = ()
+    #: tells what has to be known first, the worst first; it runs the machine without a combustion
+    findings: Callable[[], tuple[Finding, ...]] = tuple
     #: makes the drawing of mechanism and guide over the crank angle [rad]; it costs more than all of the rest
     drawn: Callable[[], Callable[[float], Shapes] | None] = lambda: None
     turns: int = 1  #: of the crank in a cycle
@@ -84,7 +88,7 @@ def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
     return Answer(
         good=design.target.met, words=words, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
-        curves=_curves(design), drawn=functools.partial(_drawing, design),
+        curves=_curves(design), findings=lambda: ranked(of_design(design)), drawn=functools.partial(_drawing, design),
         turns=round(design.hinge.period / (2 * math.pi)), ratio=design.guide.parameters.shaft_ratio,
     )  # fmt: skip
 

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
+from mechsym.app.told import pretty_words
 from mechsym.files import Json
+from mechsym.page import Finding
 from mechsym.style import DARK, QUIET
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
@@ -73,9 +75,15 @@ def run_table(found: Run, pinned: Run | None = None) -> str:
     state = {0: "done", 1: "done: infeasible, or a check failed", 2: "refused", 3: "done, with doubts"}
     words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
     said = f"<p class='mechsym-note'>{state.get(found.status, 'failed')}</p>"
+    return findings(found.findings) + said + words + table(found.rows, pinned.rows if pinned else ())
+
+
+def findings(found: Sequence[Finding]) -> str:
+    """What has to be known first, each in its colour."""
     colours = {"no": "text-red-7", "open": "text-orange-9"}
-    first = "".join(f"<p class='text-lg {colours.get(f.mark, '')}'>{html.escape(f.line)}</p>" for f in found.findings)
-    return first + said + words + table(found.rows, pinned.rows if pinned else ())
+    return "".join(
+        f"<p class='text-lg {colours.get(f.mark, '')}'>{html.escape(pretty_words(f.line))}</p>" for f in found
+    )
 
 
 def chart(curves: list[tuple[Plotted, str]]) -> Json:

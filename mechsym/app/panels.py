@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mechsym.app import commands
 from mechsym.app.answers import Answer, Plotted, hinge_answer, moving
 from mechsym.app.commands import Run
-from mechsym.app.markup import bars, chart, frame, run_table, table
+from mechsym.app.markup import bars, chart, findings, frame, run_table, table
 
 if TYPE_CHECKING:
     from nicegui.element import Element
@@ -70,6 +70,7 @@ class HingePanel(Panel):
         self.answer: Answer | None = None
         self.pinned: Answer | None = None
         self.verdict = ui.label("designing the hinge ..").classes("text-lg").props('data-verdict="1"')
+        self.first = ui.html("", sanitize=False).props('data-findings="1"')
         self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
         with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2"):
             self.rows, self.bars = ui.html("", sanitize=False), ui.html("", sanitize=False)
@@ -85,7 +86,12 @@ class HingePanel(Panel):
         if answer is None:
             return
         self._show(answer)
-        await asyncio.sleep(_PICTURE)
+        await asyncio.sleep(_REST)
+        if newest():
+            # the verdict above has said the first of them
+            others = [one for one in await run.io_bound(answer.findings) if one.words not in answer.words]
+            self.first.set_content(findings(others))
+        await asyncio.sleep(_PICTURE - _REST)
         if newest():
             picture = await run.io_bound(moving, answer, "mechanism and guide, to scale")
             self.stage.set_content("" if picture is None else frame(picture, "mechanism and guide", answer.turns))

@@ -99,7 +99,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
 
             files = write(for_report(case, settings, found), numbers, report, out)
             bar.update(1)
-    emit(report, as_json, lambda: _text(numbers, found.peers, more), files=files)
+    emit(report, as_json, lambda: _text(numbers, found.peers, more), files=files, findings=found.view.findings())
     if not numbers.feasible:
         sys.exit(1)
 

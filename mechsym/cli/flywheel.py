@@ -37,7 +37,7 @@ def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides:
     found = size(case_of(case, pairs(overrides)), _share(ripple))
     files = _write(out, found) if out else []
     result = tell(found)
-    emit(found, as_json, lambda: _text(result), files=files)
+    emit(found, as_json, lambda: _text(result), files=files, findings=found.findings)
     if found.inertia is None:
         raise click.exceptions.Exit(1)
 
@@ -59,7 +59,7 @@ def _text(result: Json) -> str:
         f"without a further flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
     ]
     if result["inertia"] is None:
-        return "\n".join([*lines, f"no flywheel gives {100 * result['ripple_wanted']:.4g} %: {result['reason']}"])
+        return "\n".join(lines)
     turning = f"the {figure(result['inertia_kept'])} kg*m^2 that turn"
     lines.append(
         f"no flywheel is needed: {turning} keep {100 * result['ripple_wanted']:.4g} %"
@@ -68,19 +68,9 @@ def _text(result: Json) -> str:
         f"(rule of thumb: {figure(result['estimate'])} kg*m^2)"
     )
     if check["speed_ripple"] is not None:
-        lines.append(
-            f"run in time: ripple {100 * check['speed_ripple']:.5g} %, {check['status']}, "
-            f"energy residual {ratio_text(check['energy_residual'], 1)}"
-        )
-    if result["twists"]:
-        lines.append(_TWISTS)
+        residual = ratio_text(check["energy_residual"], 1)
+        lines.append(f"run in time: ripple {100 * check['speed_ripple']:.5g} %, energy residual {residual}")
     return "\n".join(lines)
-
-
-_TWISTS = (
-    "all of this on a rigid shaft; 'mechsym simulate' lets the shaft of this case twist, and its ripple is that of the "
-    "flywheel at its end, to which the vibration of the sections adds"
-)
 
 
 def _write(out: Path, found: "FlywheelDesign") -> list[Path]:

@@ -51,6 +51,7 @@ def forces(
     from mechsym.jobs.forces import forces as run
     from mechsym.jobs.forces import told, write
     from mechsym.jobs.gas import measured
+    from mechsym.page import ranked
     from mechsym.torsion import train
     from mechsym.torsion.findings import criticals
 
@@ -61,10 +62,10 @@ def forces(
     report = tell(numbers)
     doubts = of_forces(loaded, found) + (train.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts
-    report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out)]
+    findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
+    report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out, findings)]
     beside = {"doubts": doubts, "files": report["files"]}
-    emit(numbers, as_json, lambda: _text(report, found), beside=beside, files=report["files"],
-         findings=[*found.view.findings(), *criticals(numbers.vibration)])  # fmt: skip
+    emit(numbers, as_json, lambda: _text(report, found), beside=beside, files=report["files"], findings=findings)
     ctx.exit(1 if found.unbalanced else 0)
 
 

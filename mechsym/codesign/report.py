@@ -7,11 +7,12 @@ import numpy as np
 
 from mechsym.codesign import plots
 from mechsym.codesign.contact_block import fine_path
+from mechsym.codesign.findings import of_codesign
 from mechsym.codesign.result import CoDesignResult
 from mechsym.codesign.summary import CoDesignNumbers, bound_words, prices
 from mechsym.codesign.task import Track
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.page import Grid, grid, page
+from mechsym.page import Grid, grid, page, ranked, title_mark
 from mechsym.quantities.display import ratio_text
 from mechsym.style import svg
 
@@ -57,8 +58,10 @@ def _table(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -> P
 
 def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, str]) -> str:
     """The page as text."""
+    findings = ranked(of_codesign(result))
     return page(
-        "codesign.html", result=result, numbers=numbers, figures=pictures, sizes=_SIZES,
+        "codesign.html", result=result, numbers=numbers, findings=findings,
+        mark=title_mark(findings), figures=pictures, sizes=_SIZES,
         points=_points(result, numbers), prices=prices(numbers), bound=bound_words(numbers), **_first_page(result),
     )  # fmt: skip
 

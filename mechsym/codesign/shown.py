@@ -1,6 +1,7 @@
 """What of a co-design is worth seeing."""
 
 from mechsym.codesign import plots
+from mechsym.codesign.findings import of_codesign
 from mechsym.codesign.report import point_columns
 from mechsym.codesign.result import CoDesignResult
 from mechsym.page import Card, Picture, View, shows
@@ -33,4 +34,5 @@ def codesign_view(found: CoDesignResult) -> View:
         Picture(name="works", see="Works that the points want: nearly one curve.", draw=lambda: plots.works(found)),
         Picture(name="losses", see="What friction and heat take.", draw=lambda: plots.losses(found)),
     )  # fmt: skip
-    return View(title=f"Co-design of {found.name}", cards=cards, pictures=drawn, columns=lambda: point_columns(found))
+    return View(title=f"Co-design of {found.name}", cards=cards, pictures=drawn, columns=lambda: point_columns(found),
+                findings=lambda: of_codesign(found))  # fmt: skip

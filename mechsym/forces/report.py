@@ -1,7 +1,7 @@
 """Files of a force analysis: one HTML page that opens offline, tables, summary, pictures."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +11,16 @@ from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import quantities
 from mechsym.mechanisms import plots as plots_mechanism
 from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.page import page
+from mechsym.page import Finding, page, title_mark
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
 
-def write(result: Forces, numbers: Json, folder: Path, about: str) -> list[Path]:
+def write(result: Forces, numbers: Json, folder: Path, about: str, findings: Sequence[Finding] = ()) -> list[Path]:
     """Write page, tables, summary and pictures.
 
-    folder: where to write; made when missing. about: what the page says of the machine.
+    folder: where to write; made when missing. about: what the page says of the machine. findings: what has to be known
+    before its numbers.
     """
     shapes = drawing_of(result)
     pictures = {picture.name: picture.draw() for picture in result.view.pictures}
@@ -27,7 +28,7 @@ def write(result: Forces, numbers: Json, folder: Path, about: str) -> list[Path]
         pictures["mechanism"] = plots_mechanism.figure_of(shapes, 0.8)
     figures = {name: svg(figure) for name, figure in pictures.items()}
     files = [
-        write_text(folder / "report.html", html(result, numbers, figures, about)),
+        write_text(folder / "report.html", html(result, numbers, figures, about, findings)),
         write_quantities(folder / "forces.csv", result.columns, result.columns.units),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
     ]
@@ -42,7 +43,7 @@ def write(result: Forces, numbers: Json, folder: Path, about: str) -> list[Path]
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 
-def html(result: Forces, numbers: Json, figures: dict[str, str], about: str) -> str:
+def html(result: Forces, numbers: Json, figures: dict[str, str], about: str, findings: Sequence[Finding] = ()) -> str:
     """The page as text."""
     rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
     see = {picture.name: picture.see for picture in result.view.pictures}
@@ -51,6 +52,7 @@ def html(result: Forces, numbers: Json, figures: dict[str, str], about: str) -> 
         "forces.html", numbers=numbers, figures=figures, about=about, see=see, rows=rows,
         cards=result.view.cards, several=any(row["of"] for row in rows), largest=largest,
         heaviest=largest / result.turn.omega**2, closing=numbers.get(numbers["mechanism"]),
+        findings=findings, mark=title_mark(findings),
     )  # fmt: skip
 
 

@@ -14,6 +14,8 @@ from mechsym.errors import BadInput
 from mechsym.hinge.trials import Trial, run
 from mechsym.jobs.machine import load, machine
 from mechsym.machine import ConstantLoad, Machine, settle
+from mechsym.page.finding import LOOK_AT, NOT_MET, Finding
+from mechsym.quantities.display import figure
 from mechsym.quantities.results import computed, part, quantity, result
 from mechsym.quantities.units import Inertia, Pure
 from mechsym.simulate import Settings
@@ -64,6 +66,23 @@ class FlywheelDesign:
             energy_residual=energy.residual,
             status=self.trial.result.status,
         )
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What has to be known before its numbers."""
+        found = []
+        if self.inertia is None:
+            words = f"no flywheel gives {figure(100 * self.ripple_wanted, 4)} %: {self.reason}"
+            found.append(Finding(rank=NOT_MET, words=words, value=self.ripple_wanted))
+        elif self.check.status != "converged":
+            found.append(Finding(rank=NOT_MET, words=f"the run in time does not prove it: it is {self.check.status}"))
+        return (*found, *([Finding(rank=LOOK_AT, words=_TWISTS)] if self.twists else []))
+
+
+_TWISTS = (
+    "all of this is on a rigid shaft; 'mechsym simulate' lets the shaft of this case twist, and its ripple is that of "
+    "the flywheel at its end, to which the vibration of the sections adds"
+)
 
 
 def flywheel(case: Case, ripple: Pure, turns: Pure = TURNS) -> FlywheelDesign:

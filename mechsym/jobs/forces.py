@@ -21,6 +21,7 @@ from mechsym.forces.turn import Turn
 from mechsym.jobs.gas import of
 from mechsym.jobs.machine import fitted_law, turn
 from mechsym.mechanisms import listing
+from mechsym.page import Finding
 from mechsym.quantities.results import part, quantity
 from mechsym.quantities.results import result as result_record
 from mechsym.quantities.units import RadPerSecond
@@ -100,12 +101,13 @@ def _law(case: Case, speeds: Sequence[float]) -> FrictionLaw:
     return FrictionLaw(law="chen_flynn", misfit=found.misfit, **dataclasses.asdict(found.law))
 
 
-def write(case: Case, found: Forces, numbers: Json, folder: Path) -> list[Path]:
+def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
     """Write page, tables, summary and pictures.
 
-    folder: where to write; made when missing.
+    folder: where to write; made when missing. findings: what has to be known first.
     """
-    return report.write(found, numbers, folder, case.about or listing(case.mechanism)["about"] or case.name)
+    about = case.about or listing(case.mechanism)["about"] or case.name
+    return report.write(found, numbers, folder, about, findings)
 
 
 def vibration(case: Case, one: Turn | None = None) -> TrainVibration | None:

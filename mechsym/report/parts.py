@@ -44,6 +44,7 @@ from mechsym.torsion import train
 from mechsym.torsion.findings import criticals
 from mechsym.torsion.shown import span
 
+_GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
 _LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}
 
 
@@ -67,6 +68,9 @@ def _friction(found: Forces) -> str:
         return f"Friction is {NO_PLACE}"
     power, share = quantity_text(sum(found.losses.places.values()), "W", 4), found.losses.mechanical_efficiency
     told = "" if share is None else f": mechanical efficiency {figure(100 * share, 3)} %"
+    if share is not None and not half(found):
+        brake = quantity_text(share * found.losses.indicated_power, "W", 4)
+        return f"{_GIVES} {brake} at its shaft (brake), friction takes {power}{told}"
     of = " of one piston" if half(found) else ""
     whole = AUXILIARIES in found.losses.places
     what = "Friction, that of auxiliaries included," if whole else "Friction of bearings and guides"
@@ -145,7 +149,7 @@ def _cycle(case: Case) -> ReportPart:
     verdict = f"The gas {'takes' if power < 0 else 'gives'} {gas_power} (indicated) {at}"
     if rubs:
         shaft = quantity_text(1e3 * float(found["brake_power_kw"][0]), "W", 4)
-        verdict = f"The engine gives {shaft} at its shaft (brake), {gas_power} in its cylinders (indicated), {at}"
+        verdict = f"{_GIVES} {shaft} at its shaft (brake), {gas_power} in its cylinders (indicated), {at}"
     told = CycleFigures({k: v for k, v in found.items() if rubs or k not in AFTER_FRICTION})
     facts = () if acting is None else tuple(acting.pressure.facts)
     return ReportPart(
@@ -346,7 +350,8 @@ def answer(case: Case, parts: Sequence[ReportPart]) -> FirstPage:
     made = [p for p in parts if p.view is not None]
     return FirstPage(
         findings=ranked(one for p in parts for one in p.findings),
-        verdicts=tuple(("" if p.state == DONE else "no", _verdict(p)) for p in parts if p.state != LEFT_OUT),
+        verdicts=tuple(("" if p.state == DONE else "no", _verdict(p)) for p in sorted(
+            (p for p in parts if p.state != LEFT_OUT), key=lambda p: not p.verdict.startswith(_GIVES))),
         cards=tuple(card for p in made for card in _cards(p)),
         limits=tuple(text for p in made for text in p.limits),
         decide=(*(text for p in made for text in p.decide), *told),

@@ -9,15 +9,16 @@ from mechsym.torsion.finished import FinishedRun
 from mechsym.torsion.train import TrainVibration, critical_words
 
 NEAR = 0.1  #: A critical speed so close to the speed of operation is told before any figure [-]
+ON = 0.02  #: One so close to it is run at [-]
 DRIFT = 1e-4  #: Change of the mean speed from one period to the next beyond which a run has not settled [-]
 _PLANNED = ("turns", "t_end")
 
 
 def criticals(train: TrainVibration | None) -> Iterator[Finding]:
-    """Orders that are critical at the speed of operation or near it; one beyond the rigid shaft's torque is not met."""
+    """Orders critical near the speed of operation; one at it, or beyond the rigid shaft's torque, is not met."""
     for one in train.criticals if train else ():
         if abs(one.away) <= NEAR:
-            worse = train is not None and one.torque > train.torque_rigid
+            worse = abs(one.away) <= ON or (train is not None and one.torque > train.torque_rigid)
             yield Finding(rank=NOT_MET if worse else LOOK_AT, words=critical_words(one), value=one.away)
 
 
