@@ -6,6 +6,7 @@ import csv
 import dataclasses
 import errno
 import hashlib
+import io
 import json
 import math
 import os
@@ -13,14 +14,17 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, MissingExtra
 from mechsym.quantities.display import heading
 from mechsym.transaction import SUMMARY as SUMMARY
 from mechsym.transaction import Transaction, hidden, missing, remove_empty, sweep_up, sync_folder
+
+if TYPE_CHECKING:
+    import xarray
 
 # what another place or name mends; any other failure (disk full, device broken) is the system's
 _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
@@ -219,8 +223,6 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[object] | np.ndarray]) 
 
     columns: column name to values; all of one length.
     """
-    import io
-
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(columns)
@@ -238,6 +240,31 @@ def write_quantities(
     known = units or getattr(columns, "units", {})
     headed = (heading(name, values, asked=True, unit=known.get(name)) for name, values in columns.items())
     return write_csv(path, dict(headed))
+
+
+def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
+    """Write a data set of xarray as netCDF.
+
+    Raises
+    ------
+    MissingExtra
+        xarray or h5netcdf is not installed
+    """
+    try:
+        import h5netcdf  # type: ignore[import-untyped,unused-ignore]
+        from xarray.backends import H5NetCDFStore
+    except ImportError as error:
+        raise without_netcdf(error) from None
+    # not to the disk at once: where that fails HDF5 goes on without a word, or takes the process with it
+    content = io.BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        data.dump_to_store(H5NetCDFStore(file))
+    return write_bytes(path, content.getvalue())
+
+
+def without_netcdf(error: ImportError) -> MissingExtra:
+    """What is said where a library of netCDF is not installed."""
+    return MissingExtra(f"netCDF needs xarray and h5netcdf ({error}); install them with pip install 'mechsym[netcdf]'")
 
 
 _FLOATS = (float, np.floating)

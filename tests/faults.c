@@ -14,7 +14,7 @@
 
 enum { ONCE, FULL, KILL, INTERRUPT }; /* FULL: from the n-th call on there is no space left on the disk */
 static long count, wanted;
-static int armed, does, fired, watching;
+static int armed, does, fired, watching, store; /* store: in SQLite, which is not to be forked in */
 static void (*before)(long, int); /* told of each call before it, and of the files that are open for writing */
 static char kind[16], watched[65536];
 
@@ -32,9 +32,10 @@ static int fails(const char *what, int error)
     ++count;
     if (before) {
         armed = 0; /* what is done there does not count */
-        before(count, watching);
+        before(count, watching + store);
         armed = 1;
     }
+    store = 0;
     if (does == FULL && fired) {
         errno = ENOSPC;
         return error == ENOSPC;
@@ -59,6 +60,7 @@ int faults_ask(const char *what) { return fails(what, EAGAIN); }
 
 static int counts(const char *path)
 {
+    store = strstr(path, ".db") != NULL;
     return strncmp(path, "/dev/", 5) && strncmp(path, "/proc/", 6) && !strstr(path, ".pyc");
 }
 
@@ -71,6 +73,7 @@ static int opened(int file, int flags, const char *path)
 {
     if (file >= 0 && file < (int) sizeof watched)
         watching += watched[file] = WRITES(flags) && counts(path);
+    store = 0;
     return file;
 }
 #define OPEN(name) int name(const char *path, int flags, ...) { MODE(flags) REAL(int, name, const char *, int, ...); \

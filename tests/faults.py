@@ -6,7 +6,8 @@ folder is counted, those of SQLite too, and so is each process that starts, each
 allocated. The n-th of them fails once (`once`), or from it on the disk is full (`full`), or the process is killed
 (`kill`) or interrupted (`interrupt`) there. Afterwards the folder holds the old set whole or the new one, summaries
 tell of the files that are there, no point of a sweep is lost, the next run leaves no temporary file, and the exit
-status is the documented one. A process forks where the fault is to come: what was computed until there is shared.
+status is the documented one. A process forks where the fault is to come: what was computed until there is shared. None
+forks inside SQLite, whose locks belong to one process; one that does not end in time is killed and told as a hang.
 """
 
 import argparse
@@ -17,68 +18,31 @@ import importlib
 import io
 import itertools
 import json
+import math
 import os
-import re
+import select
 import shutil
 import signal
-import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import traceback
 from collections import Counter
 from pathlib import Path
 
-from mechsym import files
+sys.path.insert(0, str(Path(__file__).parent))
+
+from fault_places import COLD, COMMANDS, Place, alike, mixed  # noqa: E402
 
 ROOT = Path(__file__).parents[1]
 SOURCE = Path(__file__).with_name("faults.c")
 DOES = ("once", "full", "kill", "interrupt")
-WRONG = ("mixtures", "losses", "others")  # of what is wrong
-#: words of a command, with {} for the value that an earlier run has otherwise: its two values
-COMMANDS = {
-    "audit": ("audit --formula {} --against hypocycloid.x --out run", ("2*e*(1-cos(theta))", "2*e*(1-sin(theta))")),
-    "balance": ("balance opposed-pistons --set operation.speed={} --out run", ("2000rpm", "2100rpm")),
-    "compare": ("compare nunes-slider-crank nunes-hypocycloid --speeds {} --out run", ("2000,4000", "2000,5000")),
-    "cycle": ("cycle zotov-89 --set operation.speed={} --out run", ("80rpm", "89rpm")),
-    "derive": ("derive ./v_twin.py --out run", ("", "")),
-    "export-others": ("export zotov-89 --set parameters.r1={} --to modelica,matlab --out run", ("0.3", "0.31")),
-    "export": ("export zotov-89 --set parameters.r1={} --to c,julia --out run", ("0.3", "0.31")),
-    "flywheel": ("flywheel zotov-89 --ripple {} --out run", ("3%", "2%")),
-    "fmu": ("fmu chmielewski --set parameters.k1={} --platforms none --out run.fmu", ("8000", "9000")),
-    "forces": ("forces zotov-89 --set operation.speed={} --out run", ("80rpm", "89rpm")),
-    "guide": ("guide zotov-89 --set spring.p0={} --sheet run.svg", ("8MPa", "8.1MPa")),
-    "hinge": ("hinge zotov-89 --set spring.p0={} --set trials.turns=4 --out run", ("8MPa", "8.1MPa")),
-    "new": ("new engine {} --kind inline --bore 86mm --stroke 86mm --out run", ("mine", "yours")),
-    "new-mechanism": ("new mechanism {} --out run", ("press", "lever")),
-    "page": ("page chmielewski --set parameters.k1={} --out run.html", ("8000", "9000")),
-    "report": ("report chmielewski --set parameters.k1={} --out run.html", ("8000", "9000")),
-    "reproduce": ("reproduce prymak --out run", ("", "")),
-    "simulate": ("simulate zotov-89 --set simulation.turns={} --out run", ("1", "2")),
-    "size": ("size nunes-slider-crank --set operation.speed={} --out run", ("2000rpm", "2100rpm")),
-    "study": ("study {}.toml --jobs 1 --out run", ("first", "second")),
-    "sweep": ("sweep zotov-89 --of cycle --over spring.p0={} --jobs 1 --out run", ("8,8.1MPa", "8.2,8.3MPa")),
-    "optimise": ("optimise nunes-hypocycloid --set operation.speed={} --out run", ("3000rpm", "3100rpm")),
-    "identify": ("identify chmielewski --trace trace.csv --free {} --out run", ("I2", "k1")),
-    "codesign": ("codesign zotov-89 --ripple {} --speeds 89 --losses none --out run", ("5%", "6%")),
-}
-#: the same with nothing in the cache, where what is compiled and derived is kept
-COLD = {
-    "eval": ("eval ./v_twin.py --case v-twin.toml", ("", "")),
-    "flywheel-cold": COMMANDS["flywheel"],
-    "simulate-cold": ("simulate chmielewski --set t_end={} --set simulation.window=1 --out run", ("2", "3")),
-}
-STUDY = """title = "Two"
-case = "zotov-89"
-of = "cycle"
-[[sweep]]
-name = "pressure"
-over = ["spring.p0=VALUE"]
-[[sweep]]
-name = "speed"
-over = ["operation.speed=80,89rpm"]
-"""
+WRONG = ("mixtures", "losses", "hangs", "others")  # of what is wrong
+SLACK = 0.05  # to judge what was left, and to begin again [s]
+LIMIT = 180  # for what goes on after a fault; the slowest command takes seconds [s]
+HUNG = "hangs"  # in the place of an exit status
 
 
 class Faults:
@@ -144,97 +108,6 @@ def patched(faults):
         failing(owner, name, "solver", MemoryError)
 
 
-class Place:
-    """A folder with what a command reads and leaves, its cache and its temporary files."""
-
-    def __init__(self, folder, cold):
-        self.folder, self.cold = folder, cold
-        folder.mkdir()
-        for name in ("v_twin.py", "v-twin.toml"):
-            shutil.copy(ROOT / "examples/mechanisms" / name, folder)
-        (folder / "tmp").mkdir()
-        for name, value in (("first", "8,8.1MPa"), ("second", "8.2,8.3MPa")):
-            (folder / f"{name}.toml").write_text(STUDY.replace("VALUE", value))
-
-    def keep(self, name):
-        """Keep the folder as it is under a name."""
-        kept = self.folder.with_name(f"{self.folder.name}-{name}")
-        shutil.rmtree(kept, ignore_errors=True)
-        shutil.copytree(self.folder, kept)
-
-    def back(self, name):
-        """The folder as it was kept."""
-        for path in self.folder.iterdir():
-            shutil.rmtree(path) if path.is_dir() else path.unlink()
-        shutil.copytree(self.folder.with_name(f"{self.folder.name}-{name}"), self.folder, dirs_exist_ok=True)
-
-    def results(self):
-        """Files that a command has left, by name; of a store of points nothing, see `points`."""
-        return {p.relative_to(self.folder).as_posix(): lasting(p) for p in sorted(self.folder.rglob("*"))
-                if p.is_file() and p.relative_to(self.folder).parts[0].startswith(("run", "trace"))
-                and not p.name.startswith(".") and ".db" not in p.name}  # fmt: skip
-
-    def points(self):
-        """Finished points of all stores."""
-        rows = set()
-        for store in self.folder.glob("run/**/*.db"):
-            with (
-                contextlib.closing(sqlite3.connect(store)) as connection,
-                contextlib.suppress(sqlite3.OperationalError),
-            ):
-                rows |= set(connection.execute("select i, row from point").fetchall())
-        return rows
-
-    def hidden(self):
-        return [p.name for p in self.folder.rglob(".*") if p.is_file()] + [
-            p.name for p in self.folder.rglob(".*") if p.is_dir()
-        ]
-
-    def unsound(self):
-        """Files of the cache whose name tells of another content; what is still being built is hidden."""
-        cache = self.folder / "cache"
-        every = [p for p in cache.rglob("*") if p.suffix in (".so", ".json")]
-        kept = [p for p in every if not any(part.startswith(".") for part in p.relative_to(cache).parts)]
-        return [p.name for p in kept if not files.digest(p.read_bytes()).startswith(p.stem.rpartition("-")[2])]
-
-
-def lasting(path):
-    """What is in a file; of a summary the numbers that do not differ from run to run."""
-    if path.name != "summary.json":
-        return path.read_bytes()
-    from matrix.record import rounded
-
-    return json.dumps(rounded(json.loads(path.read_bytes())), sort_keys=True).encode()
-
-
-_NUMBER = re.compile(rb"-?\d+\.?\d*(?:e[-+]?\d+)?")
-
-
-def alike(one, other):
-    """Whether two sets of files tell the same, their numbers but for round-off: another way computed them."""
-    if one.keys() != other.keys():
-        return False
-    for name, text in one.items():
-        a, b = (_NUMBER.sub(b"#", _HASH.sub(b"", t)) for t in (text, other[name]))
-        x, y = (list(map(float, _NUMBER.findall(_HASH.sub(b"", t)))) for t in (text, other[name]))
-        if a != b or any(abs(u - v) > 1e-6 * max(abs(u), abs(v), 1e-3) for u, v in zip(x, y, strict=True)):
-            return False
-    return True
-
-
-_HASH = re.compile(rb"[0-9a-f]{16,}")
-
-
-def mixed(folder):
-    """Files of which a summary tells otherwise."""
-    wrong = []
-    for summary in Path(folder).glob("run/**/summary.json"):
-        listed = json.loads(summary.read_bytes()).get("run", {}).get("files", {})
-        wrong += [n for n, said in listed.items() if not (summary.parent / n).is_file()
-                  or files.digest((summary.parent / n).read_bytes()) != said]  # fmt: skip
-    return wrong
-
-
 class Command:
     """A command in its place, run whole or to a fault."""
 
@@ -246,11 +119,12 @@ class Command:
     def words(self, value):
         return [part.replace("{}", value) for part in self.text.split()]
 
-    def forked(self, work, at_end=None):
+    def forked(self, work, at_end=None, limit=LIMIT):
         """What a process says at the end of its `work`, or of what it goes on with; how it ended if it was killed."""
         reading, writing = os.pipe()
         child = os.fork()
         if child == 0:
+            os.setpgid(0, 0)
             signal.set_wakeup_fd(-1)  # that of the first process would tell it too
             os.close(reading)
             self.at_end = lambda status, said: tell_all(
@@ -259,14 +133,18 @@ class Command:
             work()
             return None
         os.close(writing)
-        with os.fdopen(reading, "rb") as pipe:
-            said = pipe.read()
+        said = heard(reading, limit)
+        if said is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(child, signal.SIGKILL)
         _, ended = os.waitpid(child, 0)
+        if said is None:
+            return [HUNG, f"does not end in {limit} s", ""]
         return json.loads(said) if said else [os.waitstatus_to_exitcode(ended), "", ""]
 
-    def run(self, value, tell=None, at_end=None):
+    def run(self, value, tell=None, at_end=None, limit=LIMIT):
         """Run it in a process of its own: exit status, what it said, kind of the call that failed."""
-        return self.forked(lambda: self.whole(value, tell), at_end)
+        return self.forked(lambda: self.whole(value, tell), at_end, limit)
 
     def whole(self, value, tell):
         """Run it in this process, which ends."""
@@ -285,6 +163,17 @@ class Command:
         self.faults.library.faults_rest()
         self.at_end(status, errors.getvalue()[-3000:])
         os._exit(0)
+
+
+def heard(pipe, limit):
+    """All that comes out of a pipe until it is closed; None where that takes longer."""
+    said, until = b"", time.monotonic() + limit
+    with os.fdopen(pipe, "rb", buffering=0) as stream:
+        while select.select([stream], [], [], max(0.0, until - time.monotonic()))[0]:
+            if not (more := stream.read(65536)):
+                return said
+            said += more
+    return None
 
 
 def tell_all(pipe, value):
@@ -336,37 +225,51 @@ def exit_status():
 
 
 def calls(command, value):
-    """Of each call in turn whether a file or a temporary folder is in use."""
+    """Of each call in turn whether a process may fork there, and when: nothing is half written, no other thread at it.
+
+    The last row is the end.
+    """
     seen, temporary = [], command.place.folder / "tmp"
-    return command.run(
-        value, lambda count, watching: seen.append(watching > 0 or any(temporary.iterdir())), lambda *_: seen
-    )
+
+    def tell(count, watching):
+        may = watching == 0 and not any(temporary.iterdir()) and is_first_thread()
+        seen.append((may, time.monotonic()))
+
+    return command.run(value, tell, lambda *_: [*seen, (False, time.monotonic())])
+
+
+def is_first_thread():
+    return threading.get_native_id() == os.getpid()
 
 
 def series(command, value, state, asked, judge, new):
-    """All faults of a command in turn, by one process that forks at each; rows of number, does, kind, why."""
+    """All faults of a command in turn, by one process that forks at each; rows: calls, number, does, kind, why."""
     place = command.place
-    seen = calls(command, value)
+    *seen, (_, end) = calls(command, value)
     place.back(state)
-    # a process can go on from where the folder was as it is kept, and no file half written
-    ready = [1] + [n for n, watching in enumerate(seen, 1) if not watching and n > 1]
+    kinds = asked.does.split(",")
+    # a process can go on from where the folder was as it is kept
+    ready = [1] + [n for n, (may, _) in enumerate(seen, 1) if may and n > 1]
     after = dict(zip(ready, [*ready[1:], len(seen) + 1], strict=True))
+    # every n-th, where all of them from there to the end would take too long
+    took = sum((last - n) * (end - seen[n - 1][1] + SLACK) for n, last in after.items())
+    every = max(asked.every, math.ceil(len(kinds) * took / asked.most))
     rows, began = [], time.monotonic()
 
     def tell(count, watching):
-        if count not in after:
+        if count not in after or not is_first_thread():
             return
-        wanted = [n for n in range(count, after[count]) if n % asked.every == 0]
+        wanted = [n for n in range(count, after[count]) if n % every == every // 2]
         if not wanted:
             return
         place.keep("here")
-        for n, what in itertools.product(wanted, asked.does.split(",")):
+        for n, what in itertools.product(wanted, kinds):
             if time.monotonic() - began < asked.most:
                 answer = command.forked(lambda n=n, what=what: faulty(n, what))
                 if answer is None:
                     return  # in the child, which goes on to its fault
                 status, said, kind = answer
-                if kind or what == "kill":
+                if kind or what == "kill" or status == HUNG:
                     rows.append((n, what, kind, judge(status, said, kind, what)))
                 place.back("here")
 
@@ -374,16 +277,19 @@ def series(command, value, state, asked, judge, new):
         command.faults.tell(None)
         command.faults.want(n, what)
 
-    *rows, (status, said) = command.run(value, tell, lambda *ended: [*rows, ended])
+    answer = command.run(value, tell, lambda *ended: [*rows, ended], asked.most + 3 * LIMIT)
+    if answer[0] == HUNG:
+        return [(len(seen), 0, "none", "", f"{HUNG}: {answer[1]}")]
+    *rows, (status, said) = answer
     now = place.results()
     if now != new:
         other = [name for name in {*now, *new} if now.get(name) != new.get(name)]
         rows.append((0, "none", "", f"a mixture: without a fault other {other}, exit {status} {said[-100:]}"))
-    return rows
+    return [(len(seen), *row) for row in rows]
 
 
 def faults_of(name, scratch, asked):
-    """Rows of state of the folder, number, what it does, kind of call, what is wrong (empty: nothing)."""
+    """Rows of state of the folder, calls, number, what it does, kind of call, what is wrong (empty: nothing)."""
     faults = Faults()
     place = Place(scratch / name, name in COLD)
     command = Command(name, faults, place)
@@ -423,8 +329,10 @@ def judged(command, answer, sets, old_points, usual):
     whole = "new" if now == new else "old" if now == old else ""
     if not whole and (place.cold or kind in ("fork", "compile", "solver")) and alike(now, new):
         whole = "new"
+    if status == HUNG:
+        return f"{HUNG}: {said}"
     if "Traceback" in said:
-        return f"traceback: {said.strip().splitlines()[-1][:200]}"
+        return f"traceback: {said.strip()[-300:]}"
     if unsound := place.unsound():
         return f"a loss: the cache holds {unsound[0]}"
     if old_points - place.points():
@@ -461,7 +369,9 @@ def judged(command, answer, sets, old_points, usual):
         if "exists; choose another" in said:  # a part of it is there, and `new` writes over nothing
             return ""
         if again != usual or place.results() != new:
-            return f"a loss: the next run ends with {again} {said[-200:]}"
+            now = place.results()
+            other = sorted(name for name in {*now, *new} if now.get(name) != new.get(name))
+            return f"a loss: the next run ends with {again}, other {', '.join(other)} {said[-200:]}"
     return ""
 
 
@@ -476,7 +386,6 @@ def main(arguments=None):
         with tempfile.TemporaryDirectory() as folder:
             return preloaded(folder, "-m", "tests.faults", *(sys.argv[1:] if arguments is None else arguments))
     del os.environ["LD_PRELOAD"]  # not for the compilers that are called
-    sys.path.insert(0, str(Path(__file__).parent))
     from matrix.__main__ import WARM
 
     for module in (*WARM, "sympy", "mechsym.derive.files", "mechsym.out.fmi", "mechsym.out.web", "sqlite3"):
@@ -489,17 +398,19 @@ def main(arguments=None):
         os.environ["MPLCONFIGDIR"] = str(scratch / "matplotlib")
         patched(Faults())
         TRACE = traced(scratch)
-        print(f"{'command':14} {' '.join([f'{d:>9}' for d in DOES] + [f'{k:>8}' for k in WRONG])}  time/s", flush=True)
+        print(f"{'command':14} {'calls':>6} {' '.join([f'{d:>9}' for d in DOES] + [f'{k:>8}' for k in WRONG])}  time/s",
+              flush=True)  # fmt: skip
         for name in asked.names:
             began = time.monotonic()
             rows = list(faults_of(name, scratch, asked))
-            counts = Counter(what for _, _, what, _, _ in rows)
+            counts = Counter(what for _, _, _, what, *_ in rows)
+            every = sum(dict(row[:2] for row in rows).values())
             wrong = Counter(next((k for k in WRONG if k[:-2] in why), "others") for *_, why in rows if why)
             total.update(counts)
             bad.update(wrong)
-            columns = [f"{counts[d]:9}" for d in DOES] + [f"{wrong[k]:8}" for k in WRONG]
+            columns = [f"{every:6}", *(f"{counts[d]:9}" for d in DOES)] + [f"{wrong[k]:8}" for k in WRONG]
             print(f"{name:14} {' '.join(columns)}  {time.monotonic() - began:6.0f}", flush=True)
-            for state, n, what, kind, why in rows:
+            for state, _, n, what, kind, why in rows:
                 if why:
                     print(f"  {state} {what} {n} {kind}: {why}", flush=True)
     print(f"{sum(total.values())} faults injected ({dict(total)}), {dict(bad)}")

@@ -6,7 +6,6 @@ statuses that there are not, more than one line of an error, more than 30 s of a
 """
 
 import importlib
-import math
 import os
 import random
 import resource
@@ -18,6 +17,7 @@ import traceback
 from pathlib import Path
 
 import click
+import hostile_records
 
 LIMIT, SPACE, PATIENCE = 30, 2e9, 600  # of a processor [s], of memory [B], by the clock [s]
 STATUSES = (0, 1, 2, 3, 74, 130)
@@ -45,15 +45,6 @@ TEXTS = {
     "--formula": ("r*sin(phi)", "x = x", "1/0", "sin(", "r**r**r", "\\frac{r}{", "sum(phi)", "9**9**9", "phi!", "a;b"),
     "--units": ("mm", "mm, MPa", "kg^2", "m, mm", "furlong", "rad/s, rpm"),
 }  # fmt: skip
-HEADS = (
-    "t [s],phi0d [rad/s]", "t [ms],phi0d [rpm]", "t_s,speed_rpm", "time,speed", "t [s],phi0d [m]", "", "t [],phi0d []",
-    "t [s],phi0d [rad/s],M [N*m]", "t [s];phi0d [rad/s]", "\ufefft [s],phi0d [rad/s]", "t [s],t [s]",
-    "t [s],phi2d [rad/s]",
-)  # fmt: skip
-INDICATED = (
-    "crank_angle_deg,pressure_bar", "crank_angle_deg,time_s,pressure_bar", "deg,bar", "crank_angle_deg,pressure_pa",
-    "p,phi", "",
-)  # fmt: skip
 WARM = (  # read once, so that a forked process starts at once
     "mechsym.cli.cycle", "mechsym.cli.forces", "mechsym.cli.hinge", "mechsym.cli.identify", "mechsym.cli.simulate",
     "mechsym.codesign.task", "mechsym.jobs.hinge", "mechsym.jobs.identify", "mechsym.jobs.run", "scipy.optimize",
@@ -92,7 +83,7 @@ def line(rng: random.Random, place: Path) -> list[str]:
     (place / "empty.toml").write_text("")
     (place / "noise.bin").write_bytes(rng.randbytes(500))
     (place / "case.toml").write_text(_spoiled(rng))
-    (place / "trace.csv").write_text(_record(rng, HEADS))
+    hostile_records.write(rng, place / "trace.csv", rng.choice(list(hostile_records.HEADS)), most=6000)
     name = rng.choice([c for c in COMMANDS if c not in NOT_RUN])
     command = mechsym.get_command(click.Context(mechsym), name)
     words = [name]
@@ -140,57 +131,32 @@ def _spoiled(rng: random.Random) -> str:
     return "\n".join(lines)
 
 
-def _record(rng: random.Random, heads: tuple[str, ...]) -> str:
-    """A speeding shaft or an indicated pressure, as loggers and people leave them."""
-    count = rng.choice((0, 1, 5, 60, 400, 1500))
-    step, start = 10 ** rng.uniform(-5, 1), rng.choice((0.0, 0.0, 0.0, -5.0, 1e6, 1.7e9))
-    speed, gain = rng.uniform(-20, 200), rng.gauss(0, 5)
-    head = rng.choice(heads)
-    mark, columns = (";" if ";" in head else ","), max(1, len(head.replace(";", ",").split(",")))
-    rows = []
-    for i in range(count):
-        t = i * step
-        values = [start + t, speed + gain * t + rng.gauss(0, 0.01), 1.0 + 30 * max(0.0, math.cos(t)), rng.gauss(0, 1)]
-        if heads is INDICATED:
-            values = [i % 720, 1 + 40 * math.exp(-(((i - 360) / 40) ** 2)), 1.0]
-            values = [values[0], i / 18000, values[1]] if columns == 3 else values[:2]
-        rows.append(mark.join(f"{v:.7g}" for v in values[:columns]))
-    for _ in range(rng.choice((0, 0, 1, 2, 4)) if rows else 0):
-        at = rng.randrange(len(rows))
-        spoil = rng.choice(
-            ("gap", "nan", "text", "ragged", "twice", "back", "comma", "empty", "huge", "head", "comment")
-        )
-        if spoil == "gap":
-            del rows[at : at + rng.choice((1, 20, 300))]
-        elif spoil in ("twice", "back"):
-            rows.insert(at, rows[at] if spoil == "twice" else rows[0])
-        else:
-            rows[at] = {
-                "nan": f"nan{mark}nan", "text": f"#DIV/0!{mark}x", "ragged": f"{rows[at]}{mark}7", "empty": mark,
-                "comma": rows[at].replace(".", ","), "huge": f"1e308{mark}-1e308", "head": head,
-                "comment": f"# {rows[at]}",
-            }[spoil]  # fmt: skip
-        rows = rows or [""]
-    text = rng.choice(("\n", "\n", "\r\n", "\r")).join([head, *rows])
-    return text if rng.random() < 0.95 else text[: rng.randrange(len(text) + 1)]
-
-
 def trace(rng: random.Random, place: Path) -> list[str]:
     """A record for a command that reads one."""
-    shaft = rng.random() < 0.6
-    (place / "d.csv").write_text(_record(rng, HEADS if shaft else INDICATED), encoding="utf-8")
-    if shaft:
-        words = [
-            "identify",
-            "chmielewski",
-            "--trace",
+    kind = rng.choice(("speed", "speed", "speed", "pressure", "pressure", "torque"))
+    hostile_records.write(rng, place / "d.csv", kind)
+    if kind == "speed":
+        case, letters = rng.choice((*[("chmielewski", ("I2", "I2,k1", "friction.viscous", "c1", "I0,I2,k1,c1"))] * 4,
+                                    ("zotov-89", ("m", "I1")), ("generator", ("l", "friction.constant"))))  # fmt: skip
+        words = ["identify", case, "--trace", "d.csv", "--free", rng.choice(letters)]
+        return words + rng.choice(([], [], ["--set", "drive.time=0"], ["--json"], ["--out", "out"]))
+    if kind == "torque":
+        return [
+            "cycle",
+            rng.choice(("zotov-89", "generator")),
+            "--torque",
             "d.csv",
-            "--free",
-            rng.choice(("I2", "I2,k1", "friction.viscous", "c1")),
+            *(["--noise", "2 N*m"] * rng.randrange(2)),
         ]
-        return words + rng.choice(([], ["--set", "drive.time=0"], ["--json"]))
-    command = rng.choice(("cycle", "cycle", "forces", "hinge", "fmu", "guide"))
-    return [command, "generator", "--diagram", "d.csv", *(["--platforms", "none"] if command == "fmu" else [])]
+    if rng.random() < 0.2:
+        sizes = ["--bore", "68 mm", "--stroke", "55 mm", "--rod", "84 mm", "--compression", "8.5"]
+        return ["new", "diagram", "--trace", "d.csv", *sizes, "--out", "out"]
+    command = rng.choice(("cycle", "cycle", "cycle", "forces", "hinge", "fmu", "guide"))
+    words = [command, "generator", "--diagram", "d.csv", *(["--platforms", "none"] if command == "fmu" else [])]
+    if command == "cycle" and rng.random() < 0.3:
+        hostile_records.write(rng, place / "m.csv", kind)
+        words += rng.choice((["--motored", "m.csv"], ["--diagram", "m.csv"]))
+    return words
 
 
 def run(words: list[str], place: Path) -> tuple[int, str]:

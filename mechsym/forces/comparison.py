@@ -79,6 +79,8 @@ def compare(
     """
     if turn.gas is None:
         raise BadInput("a comparison at equal gas force needs a [cycle]")
+    if turn.gas.pistons:
+        raise BadInput("a comparison at equal gas force needs a gas of each cylinder; here all pistons share one")
     alike = Alike(
         stroke=turn.gas.chamber.stroke,
         mass=reciprocating_mass(turn),

@@ -50,6 +50,7 @@ def shared_object(source: str, mode: str) -> Path:
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
     folder = writable() / name[:2]
+    sweep_up(folder)
     for path in sorted(folder.glob(f"{name}-*.so")):
         with contextlib.suppress(OSError):  # another process has removed it, or the disk does not give it
             if path.name == _named(name, path):

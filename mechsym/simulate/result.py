@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_quantities, write_with
+from mechsym import files
 from mechsym.quantities import record, results
 from mechsym.quantities.results import Columns, part, quantity
 from mechsym.quantities.units import Pure, Radian, Second
@@ -73,7 +72,7 @@ class Result:
 
 def write_series(result: Result, path: Path) -> Path:
     """Write the time series as CSV; the first column is t, units in the headings."""
-    return write_quantities(path, {"t": result.t, **result.columns}, {"t": "s", **result.units})
+    return files.write_quantities(path, {"t": result.t, **result.columns}, {"t": "s", **result.units})
 
 
 def write_netcdf(result: Result, path: Path) -> Path:
@@ -84,13 +83,7 @@ def write_netcdf(result: Result, path: Path) -> Path:
     MissingExtra
         xarray or h5netcdf is not installed
     """
-    data = dataset(result)
-    try:
-        return write_with(path, lambda part: data.to_netcdf(part, engine="h5netcdf"))
-    except BadInput:
-        raise
-    except (ImportError, ValueError) as error:
-        raise _missing(error) from None
+    return files.write_netcdf(path, dataset(result))
 
 
 def dataset(result: Result) -> "xarray.Dataset":
@@ -101,16 +94,12 @@ def dataset(result: Result) -> "xarray.Dataset":
     try:
         import xarray as xr
     except ImportError as error:
-        raise _missing(error) from None
+        raise files.without_netcdf(error) from None
     variables = {n: ("t", v, {"units": result.units[n]}) for n, v in result.columns.items()}
     facts = {"status": result.status, "end": result.end, "steps": result.steps}
     numbers = {"energy_residual": result.energy.residual, "tolerance_difference": result.tolerance_difference}
     facts |= {k: v for k, v in numbers.items() if v is not None}
     return xr.Dataset(variables, coords={"t": ("t", result.t, {"units": "s"})}, attrs=facts)
-
-
-def _missing(error: Exception) -> MissingExtra:
-    return MissingExtra(f"netCDF needs xarray and h5netcdf ({error}); install them with pip install 'mechsym[netcdf]'")
 
 
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mechsym.errors import BadInput, MissingExtra
-from mechsym.files import write_quantities, write_with
+from mechsym import files
 from mechsym.sweep.outcomes import Gap, asked
 from mechsym.sweep.run import Sweep
 
@@ -68,7 +67,7 @@ def dataset(result: Sweep) -> "xarray.Dataset":
     try:
         import xarray as xr
     except ImportError as error:
-        raise _missing(error) from None
+        raise files.without_netcdf(error) from None
     shape, names = tuple(result.dims.values()), list(result.dims)
     along = {a.key: np.array([p[i] for p in result.points]) for i, a in enumerate(result.axes)}
     sampled = "sample" in result.dims
@@ -112,25 +111,17 @@ def write_table(result: Sweep, folder: Path) -> Path:
     table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()
               if result.units[name] or column.dtype.kind != "f" or not np.isnan(column).all()}  # fmt: skip
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
-    return write_quantities(folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if " [" not in n})
+    return files.write_quantities(
+        folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if " [" not in n}
+    )
 
 
 def write_netcdf(result: Sweep, folder: Path) -> Path:
-    """Write the sweep as netCDF to a temporary name and move it into place.
+    """Write the sweep as netCDF.
 
     Raises
     ------
     MissingExtra
         xarray or h5netcdf is not installed
     """
-    data = dataset(result)
-    try:
-        return write_with(folder / "sweep.nc", lambda part: data.to_netcdf(part, engine="h5netcdf"))
-    except BadInput:
-        raise
-    except (ImportError, ValueError) as error:
-        raise _missing(error) from None
-
-
-def _missing(error: Exception) -> MissingExtra:
-    return MissingExtra(f"netCDF needs xarray and h5netcdf ({error}); install them with pip install 'mechsym[netcdf]'")
+    return files.write_netcdf(folder / "sweep.nc", dataset(result))

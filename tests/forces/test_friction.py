@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from mechsym import cases
+from mechsym import cases, jobs
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import (
@@ -153,3 +153,8 @@ def test_a_comparison_needs_gas(slider):
     bare = dataclasses.replace(slider, acting=())
     with pytest.raises(BadInput, match="needs a \\[cycle\\]"):
         compare(bare, None, NoRings(), ComparisonSettings())
+
+
+def test_a_comparison_needs_a_gas_of_each_cylinder():
+    with pytest.raises(BadInput, match="here all pistons share one"):
+        jobs.forces(cases.load("alpha-stirling"), comparison=True)

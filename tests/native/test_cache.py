@@ -11,7 +11,7 @@ from pathlib import Path
 import casadi as ca
 import pytest
 
-from mechsym import native
+from mechsym import native, transaction
 from mechsym.native import cache, compiler
 from mechsym.native.compiler import NoCompiler
 
@@ -62,6 +62,18 @@ def test_damaged_file_is_made_again(home, damage):
     again = cache.shared_object(SOURCE, "strict")
     assert sound(home) == [again]
     assert cache.load(SOURCE, "strict").answer() == 42
+
+
+@needs_compiler
+def test_a_folder_that_a_process_could_not_remove_goes_with_the_next(home):
+    made = cache.shared_object(SOURCE, "strict")
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    left = made.parent / f".build.{transaction._machine()}-{ended.pid}-0123abcd"
+    left.mkdir()
+    (left / "half.c").write_text("half")
+    assert cache.shared_object(SOURCE, "strict") == made
+    assert not left.exists()
 
 
 @needs_compiler

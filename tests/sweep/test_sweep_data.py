@@ -116,15 +116,15 @@ def test_netcdf_holds_the_data_set(found, tmp_path):
 
 
 def test_netcdf_is_whole_or_not_there(found, tmp_path, monkeypatch):
-    xr, _ = pytest.importorskip("xarray"), pytest.importorskip("h5netcdf")
+    pytest.importorskip("xarray"), pytest.importorskip("h5netcdf")
     file = write_netcdf(found, tmp_path)
     before = file.read_bytes()
 
-    def breaks(self, path, **_):
-        Path(path).write_bytes(b"half")
+    def breaks(path, data):
+        path.write_text("half")
         raise OSError("disk full")
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", breaks)
+    monkeypatch.setattr(Path, "write_bytes", breaks)
     with pytest.raises(OSError, match="disk full"):
         write_netcdf(found, tmp_path)
     assert file.read_bytes() == before
