@@ -15,8 +15,8 @@ _SENTENCE = 40  # letters
 # no one grey has a contrast of 4.5 on both papers: the browser chooses
 _GREY = f"document.body.classList.contains('body--dark') ? '{DARK[QUIET]}' : '{QUIET}'"
 # in the picture: it tells its angle, and stands where it is told to
-_LINK = """<script>
-const [label, angle, play] = ["label", "angle", "play"].map(id => document.getElementById(id));
+_LINK = """<style>h1 { display: none } body { padding: 0 } .turning .scene svg { max-height: 21rem }</style><script>
+const [label, angle, play] = ["label", "angle", "play"].map(name => document.querySelector(".turn ." + name));
 let stopped = false;
 const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, "*");
 new MutationObserver(tell).observe(label, { childList: true });
@@ -113,6 +113,6 @@ def frame(page: str, title: str, turns: int) -> str:
     """A whole page inside the page, its angle linked with the charts; it shows so many turns."""
     linked = page.replace("</body>", _LINK.replace("DEGREES", str(360 * turns)))
     return (
-        f'<iframe style="width:100%;height:min(40rem,90vw);border:0;border-radius:.4rem" '
+        f'<iframe style="width:100%;height:min(27rem,90vw);border:0;border-radius:.4rem" '
         f'title="{html.escape(title)} turning" srcdoc="{html.escape(linked)}"></iframe>'
     )

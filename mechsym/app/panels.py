@@ -73,9 +73,10 @@ class HingePanel(Panel):
         self.first = ui.html("", sanitize=False).props('data-findings="1"')
         self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
         with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2"):
-            self.rows, self.bars = ui.html("", sanitize=False), ui.html("", sanitize=False)
+            self.stage = ui.html("", sanitize=False).classes("w-full")
+            self.rows = ui.html("", sanitize=False)
+        self.bars = ui.html("", sanitize=False)
         self.charts = ui.element("div").classes("w-full grid gap-2 grid-cols-1 sm:grid-cols-2 xl:grid-cols-3")
-        self.stage = ui.html("", sanitize=False).classes("w-full")
 
     async def show(self, values: Mapping[str, float], newest: Callable[[], bool]) -> None:
         """The answer at once, the picture when the sliders rest."""

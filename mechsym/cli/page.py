@@ -24,13 +24,15 @@ def page(case: str, out: Path | None, diagram: str | None, overrides: tuple[str,
     \b
     Example: mechsym page zotov-89 --out engine.html
     """
+    from mechsym.jobs.drawing import turning
     from mechsym.jobs.export import ready
     from mechsym.out.laws import block_of
     from mechsym.out.web import page as make
     from mechsym.out.web.build import PageChecks, WrittenPage
 
     found = case_of(case, pairs(overrides))
-    text = make(block_of(found.name, found.about, ready(found, diagram)))
+    run = ready(found, diagram)
+    text = make(block_of(found.name, found.about, run), turning(found, run.guide))
     path = write_text(file_in(out, f"{found.name}.html", ".html"), text)
     answer = WrittenPage(written=[str(path)], checks=PageChecks(bytes=len(text.encode())))
     emit(answer, as_json, lambda: "", files=[path])

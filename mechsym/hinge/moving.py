@@ -9,11 +9,14 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.hinge.contact import at_angles
 from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.guide import Guide
 from mechsym.hinge.result import Design
+from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import shapes_of
 from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.turning import scene
 from mechsym.quantities.display import figure
+from mechsym.quantities.units import Pure
 from mechsym.style import axis_unit
 
 _FRAMES = 120
@@ -27,14 +30,16 @@ def scenes(design: Design) -> list[Json]:
     if machine is not None:
         found.append(scene(machine, "the engine to scale", turns, frames))
     if design.usable is not None:
-        words = "the elastic hinge to scale: spring with its pistons, rollers"
-        tracks = ", first track (red) and second (violet), in planes beside each other" if _two(design) else ", track"
-        found.append(scene(elastic_hinge(design.usable, design.rollers), words + tracks, turns, frames))
+        found.append(hinge_scene(design.usable, design.rollers, turns, frames))
     return found
 
 
-def _two(design: Design) -> bool:
-    return any(s.role == "second_track" for s in elastic_hinge(design.guide, design.rollers)(0.0))
+def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: int) -> Json:
+    """The hinge alone over some turns of the crank."""
+    drawn = elastic_hinge(guide, rollers)
+    two = any(shape.role == "second_track" for shape in drawn(0.0))
+    tracks = ", first track (red) and second (violet), in planes beside each other" if two else ", track"
+    return scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
 
 
 def engine(design: Design) -> Callable[[float], Shapes] | None:

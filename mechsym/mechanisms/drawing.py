@@ -5,7 +5,8 @@ towards the head, y across, the shaft at the origin. Whoever shows them, matplot
 colours; the roles say what belongs together.
 """
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
@@ -19,6 +20,8 @@ from mechsym.quantities.units import Metre, Radian
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
+
+_PIN = 0.018  # radius of the pin of a link, by the width of all of them
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "declared", "drawn", "extent_of", "shapes"]
 
@@ -58,13 +61,28 @@ def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes]
         return lambda angle: sketched(said, mechanism.parameters, angle, None)
     if "drawing" not in mechanism.functions or len(mechanism.coordinates) != 1:
         return None
-    function = mechanism.functions["drawing"]
+    function, joints = mechanism.functions["drawing"], _joints(said["shapes"])
+
+    def places(angle: float) -> Mapping[str, float]:
+        return dict(zip(function.name_out(), map(float, function.call([angle])), strict=True))
 
     def shapes(angle: float) -> Shapes:
-        places = dict(zip(function.name_out(), map(float, function.call([angle])), strict=True))
-        return tuple(_shape(shape, places) for shape in said["shapes"])
+        at = places(angle)
+        pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius) for x, y in joints)
+        return (*(_shape(shape, at) for shape in said["shapes"]), *pins)
 
+    start = places(0.0)
+    radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
+                        default=0.0)  # fmt: skip
     return shapes
+
+
+def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
+    """Where links end, each place once, as the names of its coordinates; none where a declaration draws its own."""
+    if any(shape["role"] == "joint" for shape in found):
+        return []
+    links = (shape for shape in found if shape["kind"] == "line" and shape["role"] in ("crank", "rod"))
+    return list(dict.fromkeys((x, y) for link in links for x, y in link["points"]))
 
 
 def _shape(said: Json, found: Mapping[str, float]) -> Line | Circle:

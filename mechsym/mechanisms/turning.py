@@ -28,6 +28,8 @@ STYLES: dict[str, tuple[str, float, str]] = {
     "joint": (INK, 1.2, PAPER),
 }
 
+_BODIES, _BODY = ("rod", "crank"), 4.0  # drawn by their middle lines; as wide as bodies in a page
+
 
 def ordered(found: Iterable[Line | Circle]) -> list[Line | Circle]:
     """Shapes by their role, what lies behind first."""
@@ -37,7 +39,7 @@ def ordered(found: Iterable[Line | Circle]) -> list[Line | Circle]:
 def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames: int = FRAMES) -> Json:
     """A drawing over the crank angle as a page moves it, with a name for what it shows.
 
-    turns: of the crank, after which it begins again.
+    turns: of the crank, after which it begins again. Returns scene: `scale` is how many of its units a metre has.
     """
     left, right, low, high = extent_of(drawn)
     pad = 0.04 * max(right - left, high - low)
@@ -59,7 +61,7 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
         moving = paths[:, at].tolist() if moves[at].any() else []
         shapes.append({"role": shape.role, "r": radius, "closed": closed, "at": places(shape), "moves": moving})
     size = [1000.0, round(scale * (high - low + 2 * pad), 1)]
-    return {"name": name, "size": size, "turns": turns, "count": frames, "shapes": shapes}
+    return {"name": name, "size": size, "scale": scale, "turns": turns, "count": frames, "shapes": shapes}
 
 
 def rules() -> str:
@@ -69,6 +71,7 @@ def rules() -> str:
         f".{role}{_colours(line, fill)[:-1]};stroke-width:{1.6 * width:g}}}"
         for role, (line, width, fill) in STYLES.items()
     )
+    light += "".join(f".{role}.open{{stroke-width:{_BODY * STYLES[role][1]:g}}}" for role in _BODIES)
     return f"{light}@media screen and (prefers-color-scheme:dark){{{dark}}}"
 
 

@@ -7,7 +7,10 @@ import mechsym
 from mechsym import cases, inputs
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
+from mechsym.files import Json
+from mechsym.jobs.drawing import turning
 from mechsym.jobs.measured import MeasuredDiagram
+from mechsym.mechanisms.turning import rules
 from mechsym.page import page, title_mark
 from mechsym.quantities import record
 from mechsym.report.part import INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
@@ -93,12 +96,25 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
             facts = [fact for fact in found.facts if fact not in told]
             told += facts
             parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})
-        shown.append({"report": one, "answer": answer(one.case, one.parts), "parts": parts, "id": f"case-{place}"})
+        shown.append(
+            {
+                "report": one,
+                "scenes": _turning(one),
+                "answer": answer(one.case, one.parts),
+                "parts": parts,
+                "id": f"case-{place}",
+            }
+        )
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,
-        mark=title_mark([finding for one in reports for part in one.parts for finding in part.findings]),
+        rules=rules(), mark=title_mark([finding for one in reports for part in one.parts for finding in part.findings]),
     )  # fmt: skip
+
+
+def _turning(one: CaseReport) -> list[Json]:
+    """What turns at the head of a report: the engine with its hinge, or the machine alone."""
+    return next((scenes for found in one.parts if (scenes := found.turning())), None) or turning(one.case)
 
 
 def _title(reports: Sequence[CaseReport]) -> str:

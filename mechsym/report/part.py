@@ -1,7 +1,9 @@
 """One part of a report, also one that failed, and what has to be known before its numbers."""
 
+from collections.abc import Callable
 from typing import Any
 
+from mechsym.files import Json
 from mechsym.page import Finding, Grid, View
 from mechsym.page.finding import NOT_MET
 from mechsym.plausible import Doubt
@@ -29,6 +31,7 @@ class ReportPart:
     silent: tuple[str, ...] = ()  #: What it does not say
     numbers: Any = None  #: As the command gives them with --json
     doubts: tuple[Doubt, ...] = ()
+    turning: Callable[[], list[Json]] = list  #: Scenes of what turns at the head of the report
     beside: tuple[Finding, ...] = ()  #: What has to be known first besides what its view says
 
     @property

@@ -22,6 +22,7 @@ from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.report import borne
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import half
+from mechsym.hinge.moving import scenes
 from mechsym.hinge.result import complete
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs.cycle import cycle
@@ -239,7 +240,7 @@ def _hinge(case: Case) -> ReportPart:
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
                grid("Runs in time", runs, ["run", "ripple", "end"])),
         limits=tuple(limits), decide=tuple(decide), numbers=tell(numbers), doubts=of_gas(case, gas_of(design.machine)),
-        silent=_HINGE,
+        silent=_HINGE, turning=lambda: scenes(design),
     )  # fmt: skip
 
 

@@ -186,7 +186,7 @@ def test_a_tab_shows_the_sliders_that_its_command_reads(page):
 def test_picture_and_curves_share_a_cursor(page):
     """The turning picture draws a line in every chart; a pointer over a chart stops the picture at its angle."""
     picture = page.frame_locator("iframe")
-    playwright.expect(picture.locator("#label")).to_be_visible(timeout=30_000)
+    playwright.expect(picture.locator(".turn .label")).to_be_visible(timeout=30_000)
     lines = "[...mechsymCharts.values()].map(c => c.line.style.transform)"
     page.wait_for_function(f"({lines}).length === 3 && ({lines}).every(n => n !== '')", timeout=20_000)
     chart = page.locator("canvas").first
@@ -194,12 +194,12 @@ def test_picture_and_curves_share_a_cursor(page):
     box = chart.bounding_box()
     page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     page.wait_for_timeout(400)
-    held = picture.locator("#label").inner_text()
+    held = picture.locator(".turn .label").inner_text()
     page.wait_for_timeout(400)
-    assert picture.locator("#label").inner_text() == held and 120 < float(held[:-1]) < 240
+    assert picture.locator(".turn .label").inner_text() == held and 120 < float(held[:-1]) < 240
     page.mouse.move(5, 5)
     page.wait_for_timeout(600)
-    assert picture.locator("#label").inner_text() != held
+    assert picture.locator(".turn .label").inner_text() != held
 
 
 def test_an_upload_is_judged_and_shown(browser, address, page):

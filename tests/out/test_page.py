@@ -10,7 +10,6 @@ from shutil import which
 
 import numpy as np
 import pytest
-from built_in import needed
 from click.testing import CliRunner
 
 from mechsym import cases
@@ -230,14 +229,6 @@ def test_what_cannot_be_exported_is_said_in_the_report():
 
     text = with_live("<body></body>", [LiveRun(name="w", about="", ready=refuse)])
     assert "Not in this report: w.toml: &lt;closed&gt; by constraints" in text
-
-
-def test_the_guide_of_the_page_turns_with_its_own_shaft(exported):
-    from mechsym.out.web.build import _data
-
-    for name in ("zotov-89", "generator"):
-        wanted = cases.load(name, needed(name)).sections["guide"].shaft_ratio
-        assert _data(exported(name)[1])["ratio"] == wanted
 
 
 @pytest.mark.parametrize(("name", "turns"), [("zotov-89", 1), ("generator", 2), ("chmielewski", 1)])

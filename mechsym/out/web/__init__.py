@@ -1,7 +1,7 @@
 """A page that simulates: the C of the FMU as WebAssembly inside one HTML file, without a server.
 
 build.py   C to WebAssembly, and the page        page.c     what the page calls
-page.html  sliders, curves, the turning guide    live.py    the page inside a report
+page.html  sliders and curves    live.py    the page inside a report
 """
 
 from mechsym.out.web.build import page

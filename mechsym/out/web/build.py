@@ -7,17 +7,19 @@ import json
 import math
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import resources
 from pathlib import Path
 
 from mechsym.errors import MissingExtra
 from mechsym.files import Json
+from mechsym.mechanisms.turning import rules
 from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
 from mechsym.out.text.language_c import model
+from mechsym.page import page as template
 from mechsym.quantities.display import chosen
 from mechsym.quantities.results import part, quantity, result
 from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
@@ -46,8 +48,8 @@ class WrittenPage:
     checks: PageChecks = part()
 
 
-def page(block: Block) -> str:
-    """The text of an HTML file that simulates a block.
+def page(block: Block, scenes: Sequence[Json] = ()) -> str:
+    """The text of an HTML file that simulates a block; at its head what turns.
 
     Raises
     ------
@@ -59,7 +61,8 @@ def page(block: Block) -> str:
     data = json.dumps(_data(block), separators=(",", ":"), sort_keys=True).replace("</", "<\\/")
     text = (room / "page.html").read_text(encoding="utf-8")
     title = block.name.replace("&", "&amp;").replace("<", "&lt;")
-    return text.replace("{{title}}", title).replace("{{data}}", data).replace("{{code}}", code)
+    text = text.replace("{{title}}", title).replace("{{data}}", data).replace("{{code}}", code)
+    return text.replace("{{machine}}", template("machine.html", scenes=scenes, rules=rules()) if scenes else "")
 
 
 def webassembly(block: Block) -> bytes:
@@ -114,7 +117,6 @@ def _data(block: Block) -> Json:
         "palette": {"light": _palette(lambda colour: colour), "dark": _palette(DARK.__getitem__)},
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
         "period": _period(block),
-        "ratio": next((c.ratio for c in block.curves if c.name == "rho"), 1.0),
         # twenty turns from that speed, or the time of the run it was made from [s]
         "t_end": 20 * 2 * 3.141592653589793 / speed.start if speed.start else block.t_end,
     }
