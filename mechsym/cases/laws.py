@@ -256,13 +256,15 @@ def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float) -
 
 
 def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
-    """Springs and dampers of a declaration with the sign of what drives.
+    """Springs and dampers of a declaration with the sign of what drives, and loops with a side that nobody chose.
 
     listing: as stored of it. letters: values of the parameters [SI].
     """
     for kind, texts in (("spring", listing.get("springs", ())), ("damper", listing.get("dampers", ()))):
         for text in texts:
             yield from proportion(f"{kind}_sign", f"{kind} {text}", _number(text, letters))
+    if joints := listing.get("open_sides", ()):
+        yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
 
 
 def _of(link: Json, letters: Mapping[str, float], speed: float | None) -> Iterator[Doubt]:

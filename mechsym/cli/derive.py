@@ -13,10 +13,13 @@ from mechsym.files import Json
 @click.argument("names", nargs=-1)
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
 @click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
+@click.option("--explain", is_flag=True, help="Print how the loops of your own mechanisms close, write nothing.")
 @click.option("--latex", is_flag=True, help="Print the equations as LaTeX and write nothing.")
 @folder_option
 @json_option
-def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Path | None, as_json: bool) -> None:
+def derive(
+    names: tuple[str, ...], check: bool, show: bool, explain: bool, latex: bool, out: Path | None, as_json: bool
+) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
 
     The code of FILE.py or FILE.py:NAME goes to the cache by its content, with --out to a folder.
@@ -24,6 +27,7 @@ def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Pa
     \b
     Examples: mechsym derive crosshead
               mechsym derive ./scotch.py --out derived
+              mechsym derive ./scotch.py --explain
               mechsym derive crosshead --latex
     """
     from mechsym.mechanisms import own
@@ -32,6 +36,10 @@ def derive(names: tuple[str, ...], check: bool, show: bool, latex: bool, out: Pa
         _latex(names, as_json)
         return
     files = [name for name in names if own.is_file(name)]
+    if explain:
+        steps = {name: own.explained(name) for name in files}
+        emit({"closing": steps}, as_json, lambda: "\n".join(line for lines in steps.values() for line in lines))
+        return
     found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": []}
     if not files or len(files) < len(names):
         built_in = _built_in(tuple(name for name in names if name not in files), check)

@@ -10,7 +10,7 @@ from typing import Any
 
 from sympy import Symbol, cos, sin
 
-from mechsym.derive import dyads
+from mechsym.derive import dyads, poses
 from mechsym.derive.dyads import line_of_centres, on_line, pinned_at, place_by_pin, target
 from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint, named_point
 from mechsym.derive.refuse import refuse
@@ -48,9 +48,9 @@ def _single(m: Declaration, link: Link) -> bool:
         return bool(pins)
     for one in _outer(m, link):
         for other in _open(m, link):
-            close = dyads.SINGLES.get((one.kind, other.kind))
+            close, before = dyads.SINGLES.get((one.kind, other.kind)), len(m.tape.entries)
             if close and one is not other and close(m, link, one, other):
-                _require_no_guess(other, link)
+                _choose(m, (other, one), (link,), before)
                 return True
     return False
 
@@ -65,8 +65,9 @@ def _dyad(m: Declaration, a: Link, b: Link) -> bool:
             for last in _outer(m, second):
                 close = dyads.DYADS.get((outer.kind, inner.kind, last.kind))
                 if close and inner not in (outer, last) and not _of_no_length((first, outer), inner, (second, last)):
+                    before = len(m.tape.entries)
                     close(m, (first, outer), inner, (second, last))
-                    _require_no_guess(inner, a, b)
+                    _choose(m, (inner, outer, last), (a, b), before)
                     return True
     return False
 
@@ -95,11 +96,19 @@ def _of_no_length(one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Join
     return any(p.link is q.link and (p.u, p.v) == (q.u, q.v) for p, q in points)
 
 
+def _choose(m: Declaration, joints: tuple[Joint, ...], links: tuple[Link, ...], before: int) -> None:
+    """Set the side of links that were just placed, by their pose or `branch`; before: length of the tape then."""
+    _require_no_guess(joints[0], *links)
+    if side := poses.choose(m, joints, links, list(m.tape.entries)[before:]):
+        m.sides.append(side)
+
+
 def _require_no_guess(joint: Joint, *links: Link) -> None:
     for link in links:
         if link.guess is not None:
             why = f"the link {link.name!r} closes in closed form at the joint {joint.name!r}, which leaves its guess"
-            refuse(f"{why} without use; choose the side by branch=1 or -1 of that joint, and leave guess away")
+            way_out = "choose the side by pose= of the link, or branch=1 or -1 of that joint, and leave guess away"
+            refuse(f"{why} without use; {way_out}")
 
 
 def settle(m: Declaration, wanted: Link | None = None) -> None:
@@ -128,7 +137,9 @@ def _by_constraint(m: Declaration, link: Link, joint: Joint) -> None:
 
 
 def _dependent(m: Declaration, name: str, unit: str, link: Link) -> Symbol:
-    return m.dependents(name, unit, guess=link.guess or 0.0)
+    posed = m.poses.get(link.name)
+    angle = posed if unit == "rad" and isinstance(posed, float) else 0.0
+    return m.dependents(m.free_name(name), unit, guess=angle if link.guess is None else link.guess)
 
 
 def finish(m: Declaration) -> None:

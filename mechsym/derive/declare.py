@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from sympy import Expr, Integer
 
-from mechsym.derive import closing, dimensions
+from mechsym.derive import closing, dimensions, rates
 from mechsym.derive.drawing import Drawing
 from mechsym.derive.linkage import Link, Linkage, LinkPoint, point_of
 from mechsym.derive.refuse import place, refuse
@@ -115,13 +115,25 @@ class Declaration(Linkage, Roles, Drawing):
         self.bodies.append(
             Body(
                 name=name,
-                mass=self._constant(mass, "kg", f"mass of {name}"),
+                mass=self._constant(mass, "kg", f"{name}_mass", f"mass of {name}"),
                 at=(x, y),
                 turns=self._checked(turns, "rad", f"angle of {name}"),
-                inertia=self._constant(kept, "kg*m^2", f"inertia of {name}"),
+                inertia=self._constant(kept, "kg*m^2", f"{name}_inertia", f"inertia of {name}"),
                 about_axis=about_axis,
             )
         )
+
+    def watch(self, point: object, name: str) -> None:
+        """Put a point among the outputs under a name of its own, with its motion.
+
+        point: of a link, or a pair (x, y) [m]. name: before `_x, _y`; rates end in `_d`, accelerations in `_dd`.
+        """
+        pair = self._pair(point, "m", f"watched {name}") if isinstance(point, tuple) else point_of(point).xy
+        for axis, value in zip("xy", pair, strict=True):
+            place = self.let(f"{name}_{axis}", value, "m")
+            rates.output(self, place, order=2)
+            rates.output_dynamic(self, f"{name}_{axis}_d", rates.velocity(self, place), "m/s")
+            rates.output_dynamic(self, f"{name}_{axis}_dd", rates.acceleration(self, place), "m/s^2")
 
     def weight(self, x: Expr | float, y: Expr | float) -> None:
         """Declare the acceleration of free fall by its components [m/s^2]."""
@@ -154,7 +166,7 @@ class Declaration(Linkage, Roles, Drawing):
         if kind not in (None, dimensions.PURE) and not straight:
             refuse(f"{what} acts along {along}, which is in {dimensions.in_words(kind)}; give a length or an angle")
         unit = "" if kind is None else units[0 if straight else 1]
-        return Element(value=self._checked(value, unit, what), along=displacement)
+        return Element(value=self._sized(value, unit or units[0], what, what), along=displacement)
 
     def _moving(self, value: Expr | float, what: str) -> Expr:
         """An expression that a coordinate moves."""

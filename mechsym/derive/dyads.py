@@ -44,7 +44,7 @@ def pinned_at(m: Linkage, point: LinkPoint, beside: tuple[Joint, ...] = ()) -> J
 def place(m: Linkage, link: Link, local: Pair, position: Pair) -> None:
     """Place a link of known angle by one of its points, and give it its body."""
     if link.turns is not None and not link.turns.is_Symbol and not link.turns.is_number:
-        link.turns = m.let(f"angle_{link.name}", link.turns, "rad")
+        link.turns = m.derived(f"angle_{link.name}", link.turns, "rad")
     x, y = link.turn(local)
     if local == (0, 0):
         link.origin = position
@@ -71,6 +71,7 @@ def _along(m: Linkage, link: Link, start: LinkPoint, end: LinkPoint, way: Pair) 
 
 
 def _direction(m: Linkage, name: str, c: Expr, s: Expr) -> Symbol:
+    name = m.free_name(name)
     m._take(name, "rad", f"sin_{name}", f"cos_{name}")
     symbol = m.tape.define_direction(name, m._checked(c, "-", name), m._checked(s, "-", name))
     m.dimensions[symbol] = (0, 0, 0, 0)
@@ -91,7 +92,7 @@ def on_line(m: Linkage, link: Link, joint: Joint) -> Rail:
     own, rail, s = joint.side(link), joint.other(link), joint.sign(link)
     n, turn = m.displace(joint)
     base = rail.link.turns + rail.tilt
-    link.turns = m.let(f"angle_{link.name}", base + s * turn - own.tilt, "rad")
+    link.turns = m.derived(f"angle_{link.name}", base + s * turn - own.tilt, "rad")
     way = base if s == 1 else base - turn  # of the first link's line
     x, y = rail.link.out((rail.u, rail.v))
     start = named_point(m, joint.name, (x - s * n * sin(way), y + s * n * cos(way)))
@@ -105,7 +106,7 @@ def _offset(link: Link, rail: Rail, point: LinkPoint) -> Pair:
 
 
 def _slide(m: Linkage, link: Link, rail: Rail, s: Expr) -> None:
-    s = m.let(f"slide_of_{link.name}", s, "m")
+    s = m.derived(f"slide_of_{link.name}", s, "m")
     place(m, link, rail.reference, (rail.start[0] + s * rail.e[0], rail.start[1] + s * rail.e[1]))
 
 
@@ -134,10 +135,10 @@ def _rrr(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, J
     A, B = target(m, a, ja), target(m, b, jb)
     d, s, k = m.displace(inner), inner.sign(b), inner.name
     ways = [_square(j.side(link), inner.side(link)) for link, j in (one, other)]
-    D = m.let(f"way_x_{k}", _minus(B, A, s, d)[0], "m"), m.let(f"way_y_{k}", _minus(B, A, s, d)[1], "m")
-    square = m.let(f"square_{k}", _dot(D, D), "m^2")
-    share = m.let(f"share_{k}", (1 + (ways[0] - ways[1]) / square) / 2, "-")
-    height = m.let(f"height_{k}", _branch(inner, ja, jb) * sqrt(ways[0] / square - share**2), "-")
+    D = m.derived(f"way_x_{k}", _minus(B, A, s, d)[0], "m"), m.derived(f"way_y_{k}", _minus(B, A, s, d)[1], "m")
+    square = m.derived(f"square_{k}", _dot(D, D), "m^2")
+    share = m.derived(f"share_{k}", (1 + (ways[0] - ways[1]) / square) / 2, "-")
+    height = m.derived(f"height_{k}", _branch(inner, ja, jb) * sqrt(ways[0] / square - share**2), "-")
     way = share * D[0] - height * D[1], share * D[1] + height * D[0]
     _along(m, a, ja.side(a), inner.side(a), way)
     place_by_pin(m, a, ja, A)
@@ -147,8 +148,8 @@ def _rrr(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, J
 
 def _reach(m: Linkage, name: str, w: Pair, e: Pair, square: Expr, branch: int) -> Expr:
     """How far along a line a point lies at a distance from another."""
-    across = m.let(f"across_{name}", _cross(w, e), "m")
-    return m.let(f"along_{name}", branch * sqrt(square - across**2) - _dot(w, e), "m")
+    across = m.derived(f"across_{name}", _cross(w, e), "m")
+    return m.derived(f"along_{name}", branch * sqrt(square - across**2) - _dot(w, e), "m")
 
 
 def _rrp(m: Linkage, one: tuple[Link, Joint], inner: Joint, other: tuple[Link, Joint]) -> None:
@@ -170,9 +171,9 @@ def _in_line(line: LinkLine, point: LinkPoint) -> Pair:
 
 def _aim(m: Linkage, name: str, D: Pair, h: Expr, branch: int) -> Symbol:
     """Direction of a line at a signed distance: its normal component of D is h."""
-    D = m.let(f"way_x_{name}", D[0], "m"), m.let(f"way_y_{name}", D[1], "m")
-    square, h = m.let(f"square_{name}", _dot(D, D), "m^2"), m.let(f"off_{name}", h, "m")
-    along = m.let(f"reach_{name}", branch * sqrt(square - h**2), "m")
+    D = m.derived(f"way_x_{name}", D[0], "m"), m.derived(f"way_y_{name}", D[1], "m")
+    square, h = m.derived(f"square_{name}", _dot(D, D), "m^2"), m.derived(f"off_{name}", h, "m")
+    along = m.derived(f"reach_{name}", branch * sqrt(square - h**2), "m")
     return _direction(m, f"beta_{name}", (D[0] * along + D[1] * h) / square, (D[1] * along - D[0] * h) / square)
 
 

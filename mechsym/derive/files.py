@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
+from mechsym.derive import closing
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
@@ -140,6 +141,14 @@ def chosen(path: Path, name: str = "") -> Declaration:
     if name and name not in declared:
         raise BadInput(f"{path} declares no mechanism {name!r}; {suggest(name, declared)}")
     return declared[name] if name else next(iter(declared.values()))
+
+
+def explained(path: Path, name: str) -> list[str]:
+    """How the loops of a mechanism in a file are closed, a line each, in order."""
+    m = chosen(path, name)
+    closing.finish(m)
+    held = [f"{letter} is held by constraint, from {m.guesses[letter.name]:g} on" for letter in m.dependent_list]
+    return [*map(str, m.sides), *held]
 
 
 def build(path: Path, name: str, source_hash: str) -> tuple[str, Listing]:

@@ -5,14 +5,15 @@ import unicodedata
 from collections.abc import Iterable
 from math import inf, isfinite
 
-from sympy import Expr, Float, Symbol, cos, nan, oo, pi, sin, tan, zoo
+from sympy import Expr, Float, Integer, Symbol, cos, nan, oo, pi, sin, tan, zoo
 
 from mechsym.derive.dimensions import PURE, Dimension, dimension_of, in_words, of_unit
 from mechsym.derive.printer import UnsupportedNode, read, require_known
 from mechsym.derive.refuse import place, refuse
 from mechsym.derive.tape import Intermediates
+from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.units import scale
+from mechsym.quantities.units import parse, scale
 
 _RANGE = ("above", "below", "low", "high", "default")
 
@@ -33,6 +34,7 @@ class Letters:
         self.ranges: dict[str, Json] = {}
         self.q: list[Symbol] = []
         self.dependent_list: list[Symbol] = []
+        self.derived_list: list[Symbol] = []  # named by links and joints
         self.guesses: dict[str, float] = {}
         self.parameter_list: list[Symbol] = []
         self.input_list: list[Symbol] = []
@@ -40,6 +42,7 @@ class Letters:
         self.joint_about: dict[Symbol, str] = {}
         self.reaction_of: dict[Symbol, Symbol] = {}
         self.multiplier_of: dict[str, Symbol] = {}
+        self.sizes: dict[Symbol, tuple[str, str, float]] = {}  # letters that numbers with units have made
         self.kinematic_outputs: list[Symbol] = []
         self.dynamic_outputs: dict[str, Expr] = {}
 
@@ -116,10 +119,24 @@ class Letters:
         """Name a physical intermediate; its unit is checked against the expression."""
         dimension = self._unit(unit) if unit != "" else None
         expression = self._checked(value, unit, str(name))
+        if known := next((s for s in self.derived_list if s.name == name and s == expression), None):
+            return known  # the place of a joint under its own name
         self._take(name, unit)
         symbol = self.tape.define(name, expression)
         self.dimensions[symbol] = dimension or self.dimension(expression)
         return symbol
+
+    def derived(self, name: str, value: Expr | float, unit: str) -> Symbol:
+        """Name what a link or a joint needs; letters of the declaration go before it."""
+        self.derived_list.append(self.let(self.free_name(name), value, unit))
+        return self.derived_list[-1]
+
+    def free_name(self, name: str) -> str:
+        """A name for what a link or a joint needs, with `_` behind it where the declaration has taken it."""
+        known = {*self.units, *(s.name for s in self.tape.entries)}
+        while known & {name, f"sin_{name}", f"cos_{name}"}:
+            name += "_"
+        return name
 
     def angle(self, name: str, sine: Expr | float) -> Symbol:
         """Name an angle in (-pi/2, pi/2) that closes a loop, by its sine."""
@@ -233,9 +250,32 @@ class Letters:
                 refuse(f"{what} = {value} turns by {number} rad; write degrees as {number} * pi / 180")
         return expression
 
-    def _constant(self, value: Expr | float, unit: str, what: str) -> Expr:
+    def _sized(self, value: object, unit: str, name: str, what: str) -> Expr:
+        """An expression, or the letter that a number with a unit makes: a parameter of that default value."""
+        if not isinstance(value, (str, float)) or value == 0.0:
+            return self._checked(Integer(0) if isinstance(value, float) else value, unit, what)
+        number = self._posed(value, unit, what)
+        letter = next((s for s, of in self.sizes.items() if of == (name, unit, number)), None)
+        if letter is None:
+            more = sum(of[0] == name for of in self.sizes.values())
+            letter = self.parameters(self.free_name(f"{name}{more + 1}" if more else name), unit, default=number)
+            self.sizes[letter] = name, unit, number
+        return letter
+
+    def _posed(self, value: object, unit: str, what: str) -> float:
+        """A number in SI, also from a text with a unit."""
+        if not isinstance(value, str):
+            return self._number(value, what)
+        try:
+            return parse(value, unit, what)
+        except BadInput as error:
+            refuse(str(error))
+
+    def _constant(self, value: Expr | float | str, unit: str, name: str, what: str) -> Expr:
         """A mass or an inertia: of parameters alone, and not below zero whatever values they have."""
-        expression = self._checked(value, unit, what)
+        expression = self._sized(value, unit, name, what)
+        if expression in self.sizes and self.sizes[expression][2] < 0:
+            refuse(f"{what} = {value} is below zero; write it with the other sign")
         if moving := expression.free_symbols & {*self.tape.variables, *self.tape.entries}:
             refuse(
                 f"{what} = {value} changes with {', '.join(sorted(map(str, moving)))}; that of a rigid body does not"
@@ -244,11 +284,14 @@ class Letters:
             refuse(f"{what} = {value} is below zero; write it with the other sign")
         return expression
 
-    def _pair(self, value: Expr | float, unit: str, what: str) -> tuple[Expr, Expr]:
-        """Two expressions, along x and y or u and v."""
+    def _pair(self, value: object, unit: str, what: str, names: tuple[str, str] | None = None) -> tuple[Expr, Expr]:
+        """Two expressions, along x and y or u and v; names: of the letters that numbers with units make."""
         if not isinstance(value, (tuple, list)) or len(value) != 2:
             refuse(f"{what} = {value!r} is no pair; mechanisms are planar: write two values (x, y)")
-        first, second = (self._checked(v, unit, what) for v in value)
+        if names is None:
+            first, second = (self._checked(v, unit, what) for v in value)
+        else:
+            first, second = (self._sized(v, unit, n, what) for v, n in zip(value, names, strict=True))
         return first, second
 
     def _number(self, value: Expr | float, what: str) -> float:

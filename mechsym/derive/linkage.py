@@ -79,12 +79,13 @@ class Link:
 
     def at(self, u: Expr | float = 0, v: Expr | float = 0) -> LinkPoint:
         """A point of the link, in its own axes [m]."""
-        return LinkPoint(self, *(self.m._checked(c, "m", f"point of {self.name}") for c in (u, v)))
+        names = f"{self.name}_u", f"{self.name}_v"
+        return LinkPoint(self, *self.m._pair((u, v), "m", f"point of {self.name}", names))
 
     def line(self, u: Expr | float = 0, v: Expr | float = 0, *, angle: Expr | float = 0) -> LinkLine:
         """A line of the link through a point [m] at an angle [rad], in its own axes."""
         at = self.at(u, v)
-        return LinkLine(self, at.u, at.v, self.m._checked(angle, "rad", "line"))
+        return LinkLine(self, at.u, at.v, self.m._sized(angle, "rad", f"{self.name}_tilt", "line"))
 
     @property
     def placed(self) -> bool:
@@ -154,6 +155,8 @@ class Linkage(Letters):
     def _start_linkage(self) -> None:
         self.links: list[Link] = []
         self.link_joints: list[Joint] = []
+        self.poses: dict[str, float | tuple[float, float]] = {}
+        self.sides: list[Any] = []  # how loops were closed, see poses.py
         self.frame = Link(self, "frame", turns=Integer(0), origin=(Integer(0), Integer(0)))
 
     def link(
@@ -165,12 +168,14 @@ class Linkage(Letters):
         centre: object = (0, 0),
         inertia: Expr | float = 0,
         guess: Radian | None = None,
+        pose: object = None,
     ) -> Link:
         """Add a rigid link.
 
         turns: Expr, optional, its angle where that is known: a coordinate of the crank [rad]. mass, inertia: Expr, mass
         [kg], inertia about the centre of mass [kg*m^2]. centre: tuple of Expr, centre of mass in the link's axes [m].
-        Returns link: its points are `link.at(u, v)`, its lines `link.line(u, v, angle=..)`.
+        pose: its angle or place in a rough pose, see `pose`. Returns link: its points are `link.at(u, v)`, its lines
+        `link.line(u, v, angle=..)`.
 
         Parameters
         ----------
@@ -186,11 +191,35 @@ class Linkage(Letters):
         new.turns = None if turns is None else self._checked(turns, "rad", f"angle of {name}")
         if new.given and guess is not None:
             refuse(f"the link {name!r} turns by {turns}, which leaves its guess without use; leave guess away")
-        new.mass = self._constant(mass, "kg", f"mass of {name}")
-        new.inertia = self._constant(inertia, "kg*m^2", f"inertia of {name}")
-        new.centre = self._pair(centre, "m", f"centre of {name}")
+        new.mass = self._constant(mass, "kg", f"{name}_mass", f"mass of {name}")
+        new.inertia = self._constant(inertia, "kg*m^2", f"{name}_inertia", f"inertia of {name}")
+        new.centre = self._pair(centre, "m", f"centre of {name}", (f"{name}_centre_u", f"{name}_centre_v"))
         self.links.append(new)
+        if pose is not None:
+            self.pose(**{name: pose})
         return new
+
+    def pose(self, **places: object) -> None:
+        """Say roughly how the mechanism stands when assembled, which chooses the side of every loop.
+
+        places: angles of links and values of coordinates [rad, m], also as text with a unit, or places (x, y) of the
+        origins of links [m]. It stands before the joints that close.
+        """
+        letters = {q.name: q for q in self.q}
+        for name, value in places.items():
+            link = next((k for k in self.links if k.name == name), None)
+            if link is None and name not in letters:
+                known = ", ".join([*letters, *(k.name for k in self.links)]) or "none"
+                refuse(f"the pose names {name!r}, which is no link and no coordinate of {self.name}; there are {known}")
+            if link is not None and link.placed:
+                refuse(f"the pose of {name} comes after its loop has closed; say it before the joints")
+            if isinstance(value, (tuple, list)) and len(value) == 2 and link is not None:
+                x, y = (self._posed(v, "m", f"pose of {name}") for v in value)
+                self.poses[name] = x, y
+                continue
+            known_as = str(link.turns) if link is not None and link.turns in self.q else name
+            unit = "rad" if link is not None else self.units[name]
+            self.poses[known_as] = self._posed(value, unit, f"pose of {name}")
 
     def pin(self, name: str, first: object, second: object, *, branch: int = 0) -> None:
         """Join two points (a link stands for its origin); `branch` 1 or -1 chooses the side of a dyad."""
@@ -213,7 +242,7 @@ class Linkage(Letters):
         """Let pitch circles of radii [m] about two points roll; `inside` puts the second within the first (a ring)."""
         if not isinstance(inside, bool):
             refuse(f"inside = {inside!r} of the gear {name!r} must be True or False")
-        sizes = self._pair(radii, "m", f"pitch radii of {name}")
+        sizes = self._pair(radii, "m", f"pitch radii of {name}", (f"{name}_r1", f"{name}_r2"))
         above = [r.subs({s: Symbol(s.name, positive=True) for s in r.free_symbols}) for r in sizes]
         if any(r.is_zero or r.is_negative for r in above):
             refuse(f"the gear {name!r} has pitch radii {sizes}; both must be above 0, and inside=True makes a ring")
@@ -241,7 +270,7 @@ class Linkage(Letters):
 
     def _point(self, name: str, value: Expr | float) -> Expr:
         value = self._checked(value, "m", name)
-        return value if value.is_Number or value.is_Symbol else self.let(name, value, "m")
+        return value if value.is_Number or value.is_Symbol else self.derived(name, value, "m")
 
     def settle(self, link: Link | None = None) -> None:
         """Place a link, or all of them (see `Declaration`)."""
@@ -263,7 +292,8 @@ class Linkage(Letters):
         about = f"{joint.first.link.name} on {joint.second.link.name}, {joint.kind} {joint.name}"
         for part in parts:
             unit, stem = ("N*m", "M") if part == "turn" else ("N", f"R_{part}")
-            displacement = self.joints(f"s{part}_{joint.name}", about, unit, f"{stem}_{joint.name}")
+            names = (self.free_name(f"{first}_{joint.name}") for first in (f"s{part}", stem))
+            displacement = self.joints(next(names), about, unit, next(names))
             joint.displacements += (displacement,)
         return joint.displacements
 

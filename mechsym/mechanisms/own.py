@@ -167,6 +167,15 @@ def _load(path: Path, which: str, key: str) -> Own:
     )
 
 
+def explained(name: str) -> list[str]:
+    """How the loops of a mechanism are closed, a line each."""
+    from mechsym.derive import files
+
+    path, which = file_of(name)
+    permit(path.resolve())
+    return files.explained(path, which)
+
+
 def write(mechanism: Own, folder: Path | None) -> list[Path]:
     """Write code and listing to a folder; without one they are in the cache, which is named."""
     if folder is None:
