@@ -115,7 +115,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("scavenging", (), (), _unless("source", "turbocharger")),
     ("rollers", (), ("simulate",), _no_friction),
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
-    ("cycle", ("c_v", "lhv", "R"), ("simulate", "cycle", "codesign"), _fuel),
+    ("cycle", ("c_v", "lhv", "R"), ("simulate", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
     ("cycle", ("lhv",), ("size",), _fuel),
     ("cycle", ("octane",), ("simulate", "forces", "size", "hinge", "codesign"), _said("the tab cycle tells the knock")),

@@ -46,7 +46,7 @@ class CaseFacts:
     @property
     def in_loop(self) -> bool:
         """Whether the gas of a run follows its motion."""
-        return self.closed and not self.has("drive")
+        return self.closed and not self.has("drive") and not self.has("blowdown")
 
     def has(self, *names: str) -> bool:
         """Whether the case has all of these sections."""

@@ -24,8 +24,9 @@ from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad
-from mechsym.machine.record import Machine, lever, only_gas
+from mechsym.machine.record import Firing, Machine, firings, lever
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import angle
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.engine import reduced
@@ -101,36 +102,42 @@ def gas_turn(contact: Contact, guide: Guide, walled: AirThermal) -> GasTurn:
 
 
 def misfire_share(machine: Machine, wanted: Hinge, guide: Guide | None, rollers: RollerParameters) -> float | None:
-    """Lowest speed in one period without combustion from dead centre, by the mean speed before; 0 for a stop [-].
+    """Lowest speed in one period in which a cylinder does not fire, by the mean speed before; 0 for a stop [-].
 
-    The gas goes back along its compression line, the load brakes on. None where there is no steady motion before, or
-    the gas is known by its torque only.
+    Its gas goes back along the compression line, the load brakes on; of several cylinders the one that costs most. None
+    where there is no steady motion before, or the gas is known by its torque only.
     """
-    gas, fired = only_gas(machine), reduced(fitted(machine, wanted, guide))
-    if gas is None:
+    lost, fired = firings(machine), reduced(fitted(machine, wanted, guide))
+    if not lost:
         return None
-    period = gas.pressure.period
-    without = unfired(gas.force, period)
-
-    def torque(phi: np.ndarray) -> np.ndarray:
-        arm = lever(machine.mechanism, machine.gas_input)(phi)
-        return np.asarray(fired.torque(phi) + (without(phi) - gas.force(phi)) * arm)
-
-    missed = dataclasses.replace(
-        fired, torque=torque, kinks=tuple({*fired.kinks, *unfired_kinks(gas.pressure.kinks, period)})
-    )
+    missed = [_without(machine, fired, one) for one in lost]
     if guide is not None and guide.rho is not None:
         contact = at_angles(guide, rollers, np.arange(_POINTS) * 2 * np.pi / _POINTS)
-        fired, missed = (_with_mass(m, guide, contact, rollers) for m in (fired, missed))
+        fired, *missed = (_with_mass(m, guide, contact, rollers) for m in (fired, *missed))
     before = steady_state(_panels(fired), machine.omega)
     if before.speed_mean is None:
         return None
-    panels = dataclasses.replace(tabulate(missed), load=_panels(fired).load)
-    energy = 0.5 * float(panels.inertia_edges[0]) * float(before.omega[0]) ** 2
-    turn = angle.turn(panels, 0.0, energy)
-    if angle.lowest_energy(turn) <= 0:
-        return 0.0
-    return float(angle.speeds(panels, 0.0, turn)[1].min()) / before.speed_mean
+    lowest = min(_lowest_speed(_panels(fired), m, float(before.omega[0])) for m in missed)
+    return lowest / before.speed_mean
+
+
+def _without(machine: Machine, fired: ReducedMachine, lost: Firing) -> ReducedMachine:
+    """The machine in a period in which one cylinder does not fire."""
+    cold = unfired(lost.force, lost.period)
+
+    def torque(phi: np.ndarray) -> np.ndarray:
+        arm, angle = lever(machine.mechanism, lost.input)(phi), phi - lost.start
+        return np.asarray(fired.torque(phi) + lost.sense * (cold(angle) - lost.force(angle)) * arm)
+
+    kinks = {(k + lost.start) % fired.period for k in unfired_kinks(lost.kinks, lost.period)}
+    return dataclasses.replace(fired, torque=torque, kinks=tuple({*fired.kinks, *kinks}))
+
+
+def _lowest_speed(panels: Panels, missed: ReducedMachine, omega: RadPerSecond) -> float:
+    """Lowest speed of a period that begins with a speed; 0 for a stop [rad/s]."""
+    one = dataclasses.replace(tabulate(missed), load=panels.load)
+    turn = angle.turn(one, 0.0, 0.5 * float(one.inertia_edges[0]) * omega**2)
+    return 0.0 if angle.lowest_energy(turn) <= 0 else float(angle.speeds(one, 0.0, turn)[1].min())
 
 
 def _with_mass(machine: ReducedMachine, guide: Guide, contact: Contact, rollers: RollerParameters) -> ReducedMachine:

@@ -15,7 +15,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cases.runs import guesses
-from mechsym.cycle.kinds import with_diagram
+from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.forces.friction import FittedLaw, NoRings, fit
 from mechsym.forces.turn import (
@@ -33,7 +33,7 @@ from mechsym.forces.turn import (
 )
 from mechsym.jobs.gas import at_recorded_speed, common_period, gas, kinks_of, of, pistons, shaft_curve
 from mechsym.machine.loads import ConstantLoad, Load
-from mechsym.machine.record import AngleForce, Machine
+from mechsym.machine.record import AngleForce, Machine, firing_of
 from mechsym.mechanisms.loops import along_turn
 from mechsym.mechanisms.own import content
 from mechsym.mechanisms.record import Mechanism, evaluate
@@ -103,7 +103,14 @@ def _with_gas(case: Case, mechanism: Mechanism) -> Machine:
     names = [f"gas_{p.name}" if others else "gas" for p in acting]
     forces = tuple(AngleForce(name=n, input=p.input, value=p.force) for n, p in zip(names, acting, strict=True))
     period, kinks = common_period(acting), kinks_of(acting)
-    return _bare(case, mechanism, gas=first.gas, gas_input="", forces=forces, period=period, kinks=kinks)
+    several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if _burns(case) else ()
+    return _bare(
+        case, mechanism, gas=first.gas, gas_input="", forces=forces, period=period, kinks=kinks, several=several
+    )
+
+
+def _burns(case: Case) -> bool:
+    return kind_of(case.need("cycle")).fired
 
 
 def _with_shared_gas(case: Case, mechanism: Mechanism) -> Machine:
@@ -120,6 +127,8 @@ def _with_shared_gas(case: Case, mechanism: Mechanism) -> Machine:
     return _bare(
         case, mechanism, gas=found, gas_input="", forces=tuple(map(force, pushes(acts, np.zeros(1)))),
         period=period, kinks=tuple(kinks),
+        several=tuple(firing_of(a.gas, a.face.input, a.face.fires, a.face.area, a.face.sense) for a in acts)
+        if _burns(case) else (),
     )  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
 from mechsym.jobs.cycle import cycle, engine
+from mechsym.mechanisms import roles_of
 from mechsym.optimise.problem import Limit, Optimise, limit_of, problem
 from mechsym.optimise.result import Optimised, ParetoPoint, TriedWords
 from mechsym.optimise.search import FigureProgramme, search
@@ -151,8 +152,8 @@ def _asked(case: Case) -> Json:
 def optimise(case: Case) -> Optimised:
     """Best design of a case under its limits.
 
-    case: with `[optimise]` and a cycle; of spark ignition it is solved with exact derivatives, of other kinds one
-    design at a time. Returns found: status, variables, active limits and multipliers.
+    case: with `[optimise]` and a cycle; spark ignition on pistons of a declaration is solved with exact derivatives,
+    what else there is one design at a time. Returns found: status, variables, active limits and multipliers.
     """
     require(case, "optimise")
     section: Optimise = case.need("optimise")
@@ -176,7 +177,8 @@ def optimise(case: Case) -> Optimised:
 
 def _one(case: Case) -> Optimised:
     section: Optimise = case.need("optimise")
-    if kind_of(case.need("cycle")).closed:
+    # derivatives are those of one piston's gas; the figures of faces, or of throws, are compared design by design
+    if kind_of(case.need("cycle")).closed and roles_of(case.mechanism).pistons:
         limits = dataclasses.replace(section, constraints=_asked(case) | section.constraints)
         return _solved(problem(engine(case), case.need("operation").speed, limits), section, solve)
     return _solved(programme(case, section, _asked(case)), section, search)

@@ -48,7 +48,7 @@ from mechsym.torsion.twist import Settling, natural_frequencies, sections, sente
 def in_loop(case: Case) -> bool:
     """Whether the gas of a case follows its motion, so that both are integrated together."""
     cycle = case.sections.get("cycle")
-    return cycle is not None and "drive" not in case.sections and kind_of(cycle).closed
+    return cycle is not None and not {"drive", "blowdown"} & case.sections.keys() and kind_of(cycle).closed
 
 
 def run_in_loop(case: Case, settings: Settings) -> Result:
@@ -82,7 +82,10 @@ def loop(case: Case) -> Loop:
     """
     machine, omega = engine(one_cylinder(case)), case.need("operation").speed
     if machine.blowdown is not None:
-        raise BadInput(f"{case.file}: gas and motion integrated together know no [blowdown]; leave it out")
+        raise BadInput(
+            f"{case.file}: gas and motion integrated together know no [blowdown]; leave it out, or take "
+            "'mechsym simulate', where the gas is that of the speed of operation"
+        )
     mechanism = mechanism_of(case)
     mechanism = turning(case) if mechanism.dependents else mechanism
     cylinders, taken = _cylinders(case, mechanism), load_input(case)

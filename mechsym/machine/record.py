@@ -18,7 +18,7 @@ from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.record import Mechanism
 from mechsym.page import Shown
 from mechsym.quantities import choice, quantity, record
-from mechsym.quantities.units import Radian
+from mechsym.quantities.units import Area, Pure, Radian
 
 _TURN = 2 * np.pi
 
@@ -37,6 +37,27 @@ class AngleForce:
 
 
 @record
+class Firing:
+    """A cylinder whose combustion can be lost."""
+
+    input: str  #: Takes its force
+    force: Callable[[np.ndarray], np.ndarray]  #: Over the angle from its firing dead centre, grows with pressure [N]
+    period: float  #: Of its cycle [rad]
+    start: float = 0.0  #: Crank angle of that dead centre [rad]
+    sense: float = 1.0  #: 1 where the input takes the force as it is, -1 where against it [-]
+    kinks: tuple[float, ...] = ()  #: Where the force is not smooth [rad]
+
+
+def firing_of(gas: Gas, name: str, start: Radian, area: Area | None = None, sense: Pure = 1.0) -> Firing:
+    """A cylinder by its gas; name: of the input, start: of its firing, area: of its face where not the piston's."""
+    pressure, face = gas.pressure, gas.chamber.area if area is None else area
+    return Firing(
+        input=name, force=lambda phi: (pressure.absolute(phi) - gas.p_back) * face, period=pressure.period, start=start,
+        sense=sense, kinks=tuple(pressure.kinks),
+    )  # fmt: skip
+
+
+@record
 class Machine(Shown):
     """A mechanism with one coordinate, what drives it and what it drives."""
 
@@ -49,6 +70,7 @@ class Machine(Shown):
     omega: float = quantity("rad/s", default=0.0, low=0, about="speed of operation, 0 where none is meant")
     period: float = quantity("rad", default=_TURN, above=0, about="period of the forces besides the gas")
     kinks: tuple[float, ...] = ()  #: Where one of them is not smooth, in [0, period) [rad]
+    several: tuple[Firing, ...] = ()  #: Cylinders in which fuel burns, where there is more than `gas_input` takes
 
     def __post_init__(self) -> None:
         mechanism = self.mechanism
@@ -79,6 +101,15 @@ def only_gas(machine: Machine) -> Gas | None:
     """The gas where nothing else drives: one piston, whose compression line about angle 0 is known."""
     alone = machine.gas_input and all(force.role != "drive" for force in machine.forces)
     return machine.gas if alone else None
+
+
+def firings(machine: Machine) -> tuple[Firing, ...]:
+    """The cylinders whose combustion can be lost; none where no compression line is known."""
+    gas = only_gas(machine)
+    if gas is None or not machine.gas_input:
+        return machine.several
+    pressure = gas.pressure
+    return (Firing(input=machine.gas_input, force=gas.force, period=pressure.period, kinks=tuple(pressure.kinks)),)
 
 
 @lru_cache(maxsize=64)

@@ -130,6 +130,14 @@ def forecast(size: int, count: int = 1) -> None:
     budget.require(f"compiling {size / 1e6:.2g} MB of C", count * _PER_BYTE * size, _SPACE * size, way_out)
 
 
+def way_out(command: Sequence[str]) -> tuple[str, str]:
+    """What to call a compiler that fails, and what to do: one that is a module of Python is none that CC could name."""
+    if "-m" in command[:2]:
+        module = command[2]
+        return f"python -m {module}", f"install it anew: pip install --force-reinstall {module}"
+    return command[0], "name another compiler in CC"
+
+
 def call(command: Sequence[str], what: str, target: Path, folder: Path | None = None) -> None:
     """Let a compiler make `target` of `what`, in a folder; it ends in time, and with all processes that it started.
 
@@ -138,7 +146,7 @@ def call(command: Sequence[str], what: str, target: Path, folder: Path | None = 
     NoCompiler
         It cannot be run, does not end, fails, or makes nothing
     """
-    name, other = " ".join(command[:4]) if "-m" in command[:2] else command[0], "name another compiler in CC"
+    name, other = way_out(command)
     try:
         process = subprocess.Popen(
             command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",

@@ -1,17 +1,25 @@
 """What the ideal hinge leaves out: nothing without friction and heat, the numbers of the specification with them."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hinges import monotone_seal_torque
 
 from mechsym import cases, jobs
+from mechsym.cycle.unfired import unfired
+from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import cut
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import misfire_share, price
 from mechsym.hinge.torque import torque
+from mechsym.machine.record import lever
+from mechsym.simulate.angle import tabulate
+from mechsym.simulate.engine import reduced
+from mechsym.simulate.steady import steady_state
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 NONE = HingeLosses(bearing_mu=0.0, seal_mu=0.0, guide_mu=0.0, tau=1e9, gamma=1.25)
 
 
@@ -67,3 +75,26 @@ def test_mass_on_the_rollers_presses_and_turns():
     assert price(*heavy, HingeLosses()).losses.bearing > price(*light, HingeLosses()).losses.bearing
     # a guide that was cut for rollers without mass is not exact with them
     assert price(*heavy, NONE).speed_ripple > 5e-3 > price(*light, NONE).speed_ripple
+
+
+def test_of_several_cylinders_the_worst_is_lost():
+    """By the work that is missing behind each dead centre, summed over the angle."""
+    case = cases.load(str(EXAMPLES / "v-twin.toml"))
+    engine = jobs.machine(case)
+    wanted = torque(engine)
+    guide, rollers = cut(wanted, case.need("spring"), case.need("guide")), case.need("rollers")
+    one = fitted(engine, wanted, guide)
+    plain = reduced(one)
+    phi = np.linspace(0, plain.period, 20001)
+    before = steady_state(tabulate(plain), engine.omega)
+    shares = []
+    for lost in engine.several:
+        cold, warm = unfired(lost.force, lost.period)(phi - lost.start), lost.force(phi - lost.start)
+        moment = plain.torque(phi) + (cold - warm) * lever(engine.mechanism, lost.input)(phi) - wanted.load_torque
+        work = np.concatenate([[0], np.cumsum((moment[1:] + moment[:-1]) / 2 * np.diff(phi))])
+        inertia = plain.inertia(phi)
+        speed = np.sqrt(2 * (inertia[0] * before.omega[0] ** 2 / 2 + work) / inertia)
+        shares.append(speed.min() / before.speed_mean)
+    assert len(shares) == 2
+    # the load brakes a little less as the shaft slows
+    assert misfire_share(engine, wanted, guide, rollers) == pytest.approx(min(shares), rel=0.01)

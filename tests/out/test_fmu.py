@@ -303,16 +303,6 @@ def test_a_program_in_c_runs_it_without_python(unit, exported, tmp_path):
     np.testing.assert_allclose(np.array(found, dtype=float), truth, rtol=1e-10)
 
 
-@pytest.mark.slow
-@pytest.mark.heavy
-def test_a_library_for_windows_is_inside_when_asked_for(exported):
-    pytest.importorskip("ziglang", reason="the extra web is not installed")
-    made = fmu(exported("zotov-89")[1], 2, ("linux64", "win64"))
-    with zipfile.ZipFile(io.BytesIO(made.data)) as archive:
-        assert archive.read("binaries/win64/zotov_89.dll").startswith(b"MZ")
-        assert b"fmi2DoStep" in archive.read("binaries/win64/zotov_89.dll")
-
-
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 
 

@@ -296,12 +296,14 @@ class MarineGas(CylinderGas):
         return back_pressure(self.charged(omega)[0])
 
     def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
-        """Pressure at a speed [rad/s], with what the turbocharger does; the fuel is known where that is."""
+        """Pressure at a speed [rad/s], the fuel that its heat asks for, and what the turbocharger does."""
         cycle, state = self.charged(omega)
         pressure = two_stroke_pressure(cycle, room)
         burnt = burnt_angles(cycle, math.inf)
-        if state is None:
-            return pressure, burnt
+        if state is None:  # the fuel that the temperature rise asks for
+            closed = solve(cycle, room)
+            work = cycle.mean_indicated_pressure * room.displacement
+            return pressure, burnt | {"sfc_g_kwh": 3.6e9 * closed.fuel / work, "efficiency": closed.efficiency}
         return dataclasses.replace(pressure, facts=(*pressure.facts, *_facts(state))), burnt | _columns(state)
 
 

@@ -206,6 +206,7 @@ class TwoStrokeState:
     dT: float
     mass: float  #: Trapped gas [kg]
     excess_air: float  #: Air-fuel ratio over the stoichiometric one that the rise would need [-]
+    fuel: float  #: What the rise would need of it, without heat to the walls [kg]
     efficiency: float  #: Indicated work by the heat of that fuel [-]
 
 
@@ -258,6 +259,7 @@ def _state(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> TwoStroke
         dT=dT,
         mass=mass,
         excess_air=mass / fuel / _AIR_BY_FUEL,
+        fuel=fuel,
         efficiency=cycle.mean_indicated_pressure * cylinder.displacement / (fuel * cycle.lhv),
     )
 

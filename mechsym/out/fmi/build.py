@@ -148,7 +148,7 @@ def _compiled(command: Sequence[str], version: int, sources: Mapping[str, str]) 
         compiler.call([*words, "-lm"], "the sources", target, Path(folder))
         binary = target.read_bytes()
         if not binary.startswith((b"\x7fELF", b"MZ")):
-            raise compiler.NoCompiler(f"{command[0]} made no library; name another compiler in CC")
+            raise compiler.NoCompiler("{} made no library; {}".format(*compiler.way_out(command)))
         return binary
 
 
