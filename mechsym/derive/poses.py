@@ -142,7 +142,7 @@ def _nearer(
         refuse(f"the loop does not close at the joint {joint.name!r} in the pose; check the pose and the lengths")
     nearest = {sign: [row[best[0] if len(row) > 1 else 0] for row in rows] for sign, rows in by_sign.items()}
     named = " and ".join(link.name for link in links)
-    told = " or ".join(f"{', '.join(f'{v:.3g}' for v in row)} (branch = {sign})" for sign, row in nearest.items())
+    told = " or ".join(f"{_in_words(m, links, row)} (branch = {sign})" for sign, row in nearest.items())
     way_out = f"{named} at {told}; say nearer angles of them, or branch= at the joint"
     if rank[best[0]] > _ROUGH * np.sqrt(len(links)):
         refuse(f"the pose fits no solution at the joint {joint.name!r}: {way_out}")
@@ -152,3 +152,14 @@ def _nearer(
     if abs(away[1][best[0]] - away[-1][best[0]]) <= _BOTH * between[best[0]]:
         refuse(f"the pose fits both solutions at the joint {joint.name!r}: {way_out}")
     return 1 if share > 0.5 else -1
+
+
+def _in_words(m: Linkage, links: list[Link], row: list[np.ndarray]) -> str:
+    """Angles in degrees and places, in the order of the links."""
+    left, words = list(row), []
+    for link in links:
+        if isinstance(m.poses[link.name], float):
+            words.append(f"{np.rad2deg(np.mod(left.pop(0) + np.pi, 2 * np.pi) - np.pi):.3g} deg")
+        else:
+            words.append(f"({left.pop(0):.3g}, {left.pop(0):.3g}) m")
+    return ", ".join(words)
