@@ -46,6 +46,9 @@ class MainShaft(ShaftLimits):
     bearing_width: float = quantity("m", default=0.0, low=0, high=5, about="of a main bearing along the shaft")
     clearance: float = quantity("m", default=0.0, low=0, high=0.01, about="radial, of a main bearing")
     oil_viscosity: float = quantity("Pa*s", default=0.0, low=0, high=10, about="of the oil in the film")
+    film: str = choice(
+        "short", "finite", default="short", about="law of the oil film: of a short bearing, or of one of finite width"
+    )
     pin_diameter: float = quantity("m", default=0.0, low=0, high=5, about="of a crank pin", only=("mains", "beam"))
     web_width: float = quantity("m", default=0.0, low=0, high=10, about="of a web, across", only=("mains", "beam"))
     web_thickness: float = quantity(

@@ -1,11 +1,13 @@
 """The oil film of a journal against quadrature, Ocvirk's steady bearing and the energy that it takes."""
 
 import cmath
+import dataclasses
 import json
 import math
 
 import numpy as np
 import pytest
+import scipy
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,7 +15,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from mechsym.cli import mechsym
-from mechsym.forces.film import beyond, impedance, orbit, velocity
+from mechsym.forces.film import beyond, finite_velocity, impedance, orbit, rotation, squeeze, velocity
 from mechsym.forces.mains import Journal, MainShaft
 
 SHAFT = MainShaft(journal_diameter=0.05, bearing_width=0.02, clearance=25e-6, oil_viscosity=0.01)
@@ -108,3 +110,61 @@ def test_command(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(0 < row["film_min"] < 25e-6 and 0 < row["eccentricity_max"] < 1 for row in rows)
     # firing 1-3-2 is the same from both ends
     assert rows[0]["film_min"] == pytest.approx(rows[3]["film_min"], rel=1e-3)
+
+
+def reynolds(e: float, width: float, squeezed: bool, around: int = 240, along: int = 12) -> complex:
+    """Sommerfeld number and angle of a full bearing, by differences over half its width: pressures and their residuals
+    both are at least 0, and one of them is. Along the line of centres from the widest gap, and across it."""
+    at, step = np.arange(around) * 2 * math.pi / around, 2 * math.pi / around
+    ahead = (1 + e * np.cos(at + step / 2)) ** 3 / step**2
+    behind, here = np.roll(ahead, 1), np.arange(around)
+    places = np.r_[here, here, here], np.r_[here, (here + 1) % around, (here - 1) % around]
+    turning = scipy.sparse.csr_matrix((np.r_[ahead + behind, -ahead, -behind], places))
+    main = np.r_[1.0, np.full(along - 2, 2.0), 3.0]  # mirrored in the middle, 0 at the end
+    across = scipy.sparse.diags([main, -np.ones(along - 1), -np.ones(along - 1)], [0, 1, -1])
+    sides = scipy.sparse.diags((1 + e * np.cos(at)) ** 3 * (along / width) ** 2)
+    matrix = (scipy.sparse.kron(turning, scipy.sparse.eye(along)) + scipy.sparse.kron(sides, across)).tocsr()
+    right = np.repeat(-12 * np.cos(at) if squeezed else 6 * e * np.sin(at), along)
+    free = np.ones(len(right), dtype=bool)
+    for _ in range(60):
+        p = np.zeros(len(right))
+        p[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free].tocsc(), right[free])
+        now = np.where(free, p >= 0, matrix @ p < right)
+        if (now == free).all():
+            break
+        free = now
+    rows = p.reshape(around, along).sum(axis=1) * step / along / 2
+    return complex(rows @ np.cos(at), rows @ np.sin(at))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [0.25, 0.5, 1.0])
+@pytest.mark.parametrize("e", [0.3, 0.6, 0.9])
+def test_the_fits_of_a_finite_bearing(e: float, width: float) -> None:
+    so, attitude = rotation(e, width)
+    load = reynolds(e, width, squeezed=False)
+    assert e * so == pytest.approx(abs(load), rel=0.07)
+    assert attitude == pytest.approx(math.atan2(load.imag, -load.real), abs=math.radians(5))
+    assert squeeze(e, width) == pytest.approx(abs(reynolds(e, width, squeezed=True)), rel=0.06)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_steady_load_rests_where_the_fits_say(sense: float) -> None:
+    shaft = dataclasses.replace(SHAFT, film="finite", bearing_width=0.03)
+    e, width = 0.7, 0.6
+    so, attitude = rotation(e, width)
+    load = e * so * 0.03 * 0.05 * 0.01 * OMEGA * (0.025 / 25e-6) ** 2
+    found = orbit(Journal(z=0.0, sense=sense, x=np.full(N, load), y=np.zeros(N)), shaft, OMEGA, PHI, 2 * math.pi)
+    assert found.settled and beyond(shaft, found) == ""
+    assert np.abs(found.eccentricity) == pytest.approx(np.full(N, e), abs=1e-4)
+    assert np.angle(found.eccentricity) == pytest.approx(np.full(N, sense * attitude), abs=2e-4)
+
+
+@given(st.floats(0, 0.95), st.floats(-math.pi, math.pi), st.floats(0.25, 1))
+def test_a_finite_film_gives_the_load_back(e: float, towards: float, width: float) -> None:
+    load = cmath.rect(1.0, towards)
+    v = finite_velocity(complex(e, 0), load, width)
+    so, attitude = rotation(e, width)
+    turning = 2 * abs(v.imag) * so * cmath.rect(1.0, math.copysign(attitude, v.imag))
+    back = turning + squeeze(math.copysign(e, v.real), width) * v.real
+    assert back == pytest.approx(2 * width**2 * load, rel=1e-9)
