@@ -30,6 +30,10 @@ _SEEN = 1e-6  # of the largest order: a lower one is not listed
     help="Of the counterweights that shake the frame least, those with the least peak of a main bearing: mains.",
 )  # fmt: skip
 @click.option("--largest", metavar="UNBALANCE", help='Largest mass times radius of one weight, e.g. "0.02 kg*m".')
+@click.option(
+    "--apart", metavar="LENGTH", default="0 m", show_default=True,
+    help="Distance of both shafts of a pair along the cylinders: they take roll too.",
+)  # fmt: skip
 @json_option
 @out_option
 @set_option
@@ -39,6 +43,7 @@ def balance(
     shafts: str,
     least: str,
     largest: str | None,
+    apart: str,
     as_json: bool,
     out: Path | None,
     overrides: tuple[str, ...],
@@ -60,7 +65,7 @@ def balance(
     if most is not None and most <= 0:
         raise BadInput(f"--largest = {largest}: give more than 0 kg*m, or leave it away")
     loaded = case_of(case, pairs(overrides))
-    one = run(loaded, weights, _orders(shafts), least, most)
+    one = run(loaded, weights, _orders(shafts), least, most, parse(apart, "m", "--apart"))
     told = numbers(loaded, one)
     files = write(one, told, out, loaded.about or listing(loaded.mechanism)["about"]) if out else []
     emit(told, as_json, lambda: _text(told), files=files)
@@ -77,7 +82,7 @@ def _text(told: "BalanceOfEngine") -> str:
     before, after = told.before, told.after
     rows = [
         row
-        for kind, unit in (("force", "N"), ("couple", "N*m"))
+        for kind, unit in (("force", "N"), ("couple", "N*m"), ("roll", "N*m"))
         for row in _rows(kind, unit, getattr(before, kind), getattr(after, kind))
     ]
     lines = [f"{told.case}: balance at {told.speed_rpm:.6g} rpm", _left(told), ""]
@@ -117,5 +122,5 @@ def _weight(name: str, one: "WeightNumbers") -> str:
     way = "" if name == "counterweight" else f" at {one.order:+d} times the crank's speed"
     return (
         f"{name}{way}: {quantity_text(one.unbalance, 'kg*m', 4)} at {figure(one.angle_deg, 4)} deg, "
-        f"z = {quantity_text(one.z, 'm', 4)}"
+        f"z = {quantity_text(one.z, 'm', 4)}" + (f", x = {quantity_text(one.x, 'm', 4)}" if one.x else "")
     )

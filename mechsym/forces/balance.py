@@ -7,7 +7,8 @@ A weight of unbalance `u` that turns `n` times as fast as the crank (`n < 0`: ag
 at its place along the shaft. The force of the moving masses and their couple about the shaft's middle are sums of such
 vectors too, one for each whole `n`, so each `n` is a problem of its own: weights at two places cancel force and couple
 of their `n` together, and with one place, or weights that are too small for it, the least mean square is left, the
-couple weighed as a force at half the length of the shaft.
+couple weighed as a force at half the length of the shaft. A pair of balancer shafts that stand one above the other
+along the reference axis turns the frame about the crankshaft too: it can take the roll of its order.
 """
 
 import cmath
@@ -19,9 +20,10 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.forces.mains import Journal, MainShaft, influence, journals, place, supports
+from mechsym.forces.shaking import roll_moment
 from mechsym.forces.turn import Turn, at, main_roles
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, KilogramMetre, Newton, NewtonMetre
+from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre
 
 HIGHEST = 12  #: Whole orders that are told
 _ROUNDING = 1e-12  # of the unbalance of the largest throw
@@ -37,6 +39,7 @@ class Weight:
     unbalance: float  #: Mass times radius [kg*m]
     angle: float  #: Where it stands at crank angle 0, in the crank's sense of rotation [rad]
     order: int  #: Its speed over the crank's, negative against it [-]
+    x: float = 0.0  #: Place of its shaft along the reference axis, from the crankshaft or the middle of a pair [m]
 
     @property
     def vector(self) -> complex:
@@ -50,6 +53,7 @@ class Shaken:
 
     force: np.ndarray  #: shape (n,): x + iy [N]
     couple: np.ndarray  #: shape (n,): Of these forces about the shaft's middle, sum of z times force, x + iy [N*m]
+    roll: np.ndarray | None  #: shape (n,): Moment about the shaft [N*m]; None where it is not told
     rounding: float  #: An unbalance that is not larger is none [kg*m]
     journals: tuple[Journal, ...]
 
@@ -72,6 +76,7 @@ def balance(
     least: str = "frame",
     largest: KilogramMetre | None = None,
     settings: MainShaft | None = None,
+    apart: Metre = 0.0,
 ) -> BalancedEngine:
     """Weights that leave the least force and couple on the frame, or the least peak of the main bearings.
 
@@ -85,6 +90,8 @@ def balance(
         `frame`, or `mains`: the counterweights are for the largest load of a main bearing, the shafts for the frame
     largest : float, optional
         Unbalance that one weight may have
+    apart : float
+        Distance of the two shafts of a pair along the reference axis, the one above that leaves less roll [m]
 
     Raises
     ------
@@ -107,6 +114,7 @@ def balance(
     for n in (n for k in shafts for n in (k, -k) if n not in turned_already):
         places = _places(turn, "ends", _senses(turn)[0])
         hung += _weights(places, _solved(turn, before, n, places, largest), n, before)
+    hung = _above(turn, before, hung, apart)
     after = _with(turn, before, on_crank, hung, settings)
     return BalancedEngine(turn=turn, before=before, after=after, counterweights=on_crank, shafts=hung)
 
@@ -156,7 +164,10 @@ def _shaken(turn: Turn, settings: MainShaft | None) -> Shaken:
     sizes = [np.hypot(*(idle.reactions[name] for name in role.reactions)).max() for role in main_roles(turn)]
     force = _force(turn)
     rounding = _ROUNDING * max([*sizes, np.abs(force).max()]) / turn.omega**2
-    return Shaken(force=force, couple=couple(turn), rounding=float(rounding), journals=journals(turn, settings))
+    return Shaken(
+        force=force, couple=couple(turn), roll=roll_moment(turn), rounding=float(rounding),
+        journals=journals(turn, settings),
+    )  # fmt: skip
 
 
 def _senses(turn: Turn) -> tuple[int, ...]:
@@ -253,16 +264,39 @@ def _shares_of(turn: Turn, settings: MainShaft, places: Sequence[float], sense: 
     return influence(turn, settings, stands, np.array(places))
 
 
+def _above(turn: Turn, shaken: Shaken, hung: Sequence[Weight], apart: Metre) -> tuple[Weight, ...]:
+    """Both shafts of each pair at their places, so that its moment about the crankshaft is against the roll."""
+    if not apart or shaken.roll is None:
+        return tuple(hung)
+    placed: tuple[Weight, ...] = ()
+    for k in sorted({abs(one.order) for one in hung}):
+        pair = [one for one in hung if abs(one.order) == k]
+        ways = [tuple(replace(one, x=math.copysign(apart / 2, side * one.order)) for one in pair) for side in (1, -1)]
+        placed += min(ways, key=lambda way: abs(part(shaken.roll + _roll(turn, way), turn, k)))
+    return placed
+
+
+def _roll(turn: Turn, weights: Sequence[Weight]) -> NewtonMetre[Array]:
+    """Moment of weights about the crankshaft."""
+    return sum((one.x * _pull(turn, one).imag for one in weights), np.zeros_like(turn.phi))
+
+
+def _pull(turn: Turn, one: Weight) -> Newton[Array]:
+    """Force of a weight on the frame, x + iy."""
+    return np.asarray(one.vector * (one.order * turn.omega) ** 2 * np.exp(1j * one.order * turn.phi))
+
+
 def _with(
     turn: Turn, shaken: Shaken, on_crank: Sequence[Weight], hung: Sequence[Weight], settings: MainShaft
 ) -> Shaken:
     """What shakes the frame with weights; those on the crankshaft load its bearings."""
     force, turned, held = shaken.force, shaken.couple, list(shaken.journals)
     for one in (*on_crank, *hung):
-        pull = one.vector * (one.order * turn.omega) ** 2 * np.exp(1j * one.order * turn.phi)
+        pull = _pull(turn, one)
         force, turned = force + pull, turned + (one.z - middle(turn)) * pull
         own = [i for i, journal in enumerate(held) if journal.sense == one.order and one in on_crank]
         shares = _shares_of(turn, settings, [one.z], one.order)[:, 0] if own else ()
         for i, share in zip(own, shares, strict=True):
             held[i] = replace(held[i], x=held[i].x + share * pull.real, y=held[i].y + share * pull.imag)
-    return Shaken(force=force, couple=turned, rounding=shaken.rounding, journals=tuple(held))
+    roll = None if shaken.roll is None else shaken.roll + _roll(turn, hung)
+    return Shaken(force=force, couple=turned, roll=roll, rounding=shaken.rounding, journals=tuple(held))

@@ -12,10 +12,10 @@ from mechsym.files import write_quantities, write_text
 from mechsym.forces import balance as physics
 from mechsym.forces.balance import BalancedEngine, Shaken, Weight, amplitudes, length
 from mechsym.forces.mains import MainShaft
-from mechsym.forces.shaking import orders, roll_moment
+from mechsym.forces.shaking import orders
 from mechsym.jobs.machine import turn
 from mechsym.quantities.results import part, quantity, result
-from mechsym.quantities.units import KilogramMetre
+from mechsym.quantities.units import KilogramMetre, Metre
 
 _ROUNDING = 1e-9  # of the largest value of a curve: an amplitude that is not larger is 0
 
@@ -26,6 +26,8 @@ class ShakenNumbers:
 
     force: Mapping[str, float] = quantity("N")  #: Largest value of each whole order
     couple: Mapping[str, float] = quantity("N*m")  #: The same of the couple about the shaft's middle
+    #: The same of the moment about the shaft; empty where the mechanism does not tell it
+    roll: Mapping[str, float] = quantity("N*m")
     force_max: float = quantity("N")  #: Of all orders together
     couple_max: float = quantity("N*m")  #: Likewise
     #: Largest load of a main bearing; null where the places of the bearings are not known
@@ -38,6 +40,7 @@ class WeightNumbers:
 
     order: int = quantity("-")  #: Its speed over the crank's, negative against it
     z: float = quantity("m")  #: Place along the shaft
+    x: float = quantity("m")  #: Of a balancer shaft, along the reference axis from the middle of its pair
     unbalance: float = quantity("kg*m")  #: Mass times radius
     angle_deg: float = quantity("deg")  #: Where it stands at crank angle 0, from the reference axis
 
@@ -60,6 +63,7 @@ def balance(
     shafts: Sequence[int] = (),
     least: str = "frame",
     largest: KilogramMetre | None = None,
+    apart: Metre = 0.0,
 ) -> BalancedEngine:
     """Counterweights and balancer shafts of a case at its speed of operation; arguments as in `forces.balance`.
 
@@ -71,7 +75,8 @@ def balance(
     186.6
     """
     require(case, "balance")
-    return physics.balance(turn(case), weights, shafts, least, largest, case.sections.get("shaft") or MainShaft())
+    settings = case.sections.get("shaft") or MainShaft()
+    return physics.balance(turn(case), weights, shafts, least, largest, settings, apart)
 
 
 def numbers(case: Case, one: BalancedEngine) -> BalanceOfEngine:
@@ -93,10 +98,18 @@ def _shaken(one: BalancedEngine, shaken: Shaken) -> ShakenNumbers:
     return ShakenNumbers(
         force={str(k): value for k, value in force.items()},
         couple={str(k): value for k, value in couple.items()},
+        roll=_roll(shaken, one, least),
         force_max=_largest(shaken.force, least),
         couple_max=_largest(shaken.couple, least * length(one.turn)),
         main_bearing_max=max((float(journal.load.max()) for journal in shaken.journals), default=None),
     )
+
+
+def _roll(shaken: Shaken, one: BalancedEngine, least: float) -> dict[str, float]:
+    if shaken.roll is None:
+        return {}
+    size = max(least * length(one.turn), _ROUNDING * float(np.abs(shaken.roll).max()))
+    return {str(k): value for k, value in amplitudes(shaken.roll, one.turn, size).items()}
 
 
 def _largest(values: np.ndarray, least: float) -> float:
@@ -105,7 +118,7 @@ def _largest(values: np.ndarray, least: float) -> float:
 
 
 def _weight(one: Weight) -> WeightNumbers:
-    return WeightNumbers(order=one.order, z=one.z, unbalance=one.unbalance, angle_deg=math.degrees(one.angle))
+    return WeightNumbers(order=one.order, z=one.z, x=one.x, unbalance=one.unbalance, angle_deg=math.degrees(one.angle))
 
 
 def write(one: BalancedEngine, told: BalanceOfEngine, folder: Path, about: str) -> list[Path]:
@@ -120,8 +133,11 @@ def write(one: BalancedEngine, told: BalanceOfEngine, folder: Path, about: str) 
         for name, both in (("force", shaken.force), ("couple", shaken.couple))
         for axis, values in (("x", both.real), ("y", both.imag))
     }
-    if (roll := roll_moment(one.turn)) is not None:
-        curves["roll"] = roll
+    curves |= {
+        f"roll_{when}": shaken.roll
+        for when, shaken in (("before", one.before), ("after", one.after))
+        if shaken.roll is not None
+    }
     spectra = {name: orders(values, one.turn.period) for name, values in curves.items()}
     columns = {"order": next(iter(spectra.values())).order}
     for name, spectrum in spectra.items():

@@ -157,6 +157,19 @@ def test_lanchester_shafts_of_a_four() -> None:
         assert total == pytest.approx(M * R * harmonic(2) / 2, rel=1e-9)
 
 
+def test_shafts_one_above_the_other_take_roll() -> None:
+    """A pair of twice the crank's speed at x = +- h/2: h times half of the force that it balances."""
+    one = in_line(0, 180, 180, 0)
+    done = balance(one, weights="none", shafts=(2,), apart=0.05)
+    assert done.before.roll is not None and done.after.roll is not None
+    before, after = (amplitudes(roll, one)[2] for roll in (done.before.roll, done.after.roll))
+    assert after < before
+    added = done.after.roll - done.before.roll
+    assert amplitudes(added, one)[2] == pytest.approx(0.05 * 4 * harmonic(2) * UNIT / 2, rel=1e-9)
+    assert added == pytest.approx(amplitudes(added, one)[2] * np.sin(2 * one.phi) * np.sign(added[10]), abs=1e-9 * UNIT)
+    assert amplitudes(done.after.force, one)[2] < 1e-12 * UNIT
+
+
 def test_a_single_cylinder_keeps_half() -> None:
     one = in_line(0)
     done = balance(one)
