@@ -91,7 +91,7 @@ def balance(
     largest : float, optional
         Unbalance that one weight may have
     apart : float
-        Distance of the two shafts of a pair along the reference axis, the one above that leaves less roll [m]
+        Distance of the two shafts of a pair along the reference axis, the one above that leaves less roll
 
     Raises
     ------

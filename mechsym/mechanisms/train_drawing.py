@@ -14,8 +14,21 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from mechsym.mechanisms.crank_train.parameters import each, local_shift
-from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, box, extent_of, slider_crank, turned, width_of
+from mechsym.mechanisms.crank_train.articulated import pose, top
+from mechsym.mechanisms.crank_train.parameters import each, hung_letters, local_shift
+from mechsym.mechanisms.drawn_parts import (
+    Circle,
+    Line,
+    Point,
+    Shapes,
+    box,
+    cylinder,
+    extent_of,
+    piston,
+    slider_crank,
+    turned,
+    width_of,
+)
 from mechsym.quantities.units import Scalar
 
 
@@ -52,10 +65,23 @@ def _at_the_end(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | 
     for i, k in enumerate(p.throw):
         r, l1, l2, offset, bank = (each(p, n)[i] for n in ("r", "l1", "l2", "offset", "bank"))
         sense, origin = each(p, "sense")[k - 1], (each(p, "axis_x")[k - 1], each(p, "axis_y")[k - 1])
-        own = tuple(slider_crank(r, l1 + l2, offset, angle + local_shift(p)[i], bore))
+        if each(p, "master")[i]:
+            own = tuple(_hung(p, i, angle, bore)) if i in shown else ()
+        else:
+            own = tuple(slider_crank(r, l1 + l2, offset, angle + local_shift(p)[i], bore))
         if i not in shown:
             own = tuple(s for s in own if s.role == "crank") + tuple(s for s in own if s.role == "joint")[:1]
         yield from turned(own, bank, sense, origin)
+
+
+def _hung(p: Scalar, i: int, angle: float, bore: float | None) -> Iterable[Line | Circle]:
+    """A rod that hangs on another with its piston and cylinder, in the axes of its own cylinder."""
+    (knuckle, end, reach), r = _rod(p, i, angle), each(p, "r")[i]
+    yield Line(role="rod", points=(knuckle, end))
+    yield Circle(role="joint", centre=knuckle, radius=0.09 * r)
+    yield from piston(end, 2 * r, bore)
+    yield from cylinder(end[1], reach - 2 * r, 2 * r, bore)
+    yield Circle(role="joint", centre=end, radius=0.09 * r)
 
 
 @functools.lru_cache(maxsize=64)
@@ -85,14 +111,24 @@ def _along(
     yield Line(role="frame", points=((first, 0.0), (last, 0.0)))
     yield box("flywheel", (last, -1.3 * largest), (0.25 * pitch, 2.6 * largest))
     for i, z in zip(bank, places, strict=True):
-        r, l, offset = each(p, "r")[i], each(p, "l1")[i] + each(p, "l2")[i], each(p, "offset")[i]
-        own = angle + local_shift(p)[i]
+        r, own = each(p, "r")[i], angle + local_shift(p)[i]
         height, half = r * math.cos(own), 0.2 * width_of(bore, 2 * r)
-        end = height + math.sqrt(l**2 - (r * math.sin(own) - offset) ** 2)
+        (hangs, _), (end, _), reach = _rod(p, i, angle)
         points = ((z - 1.8 * half, 0.0), (z - half, 0.0), (z - half, height), (z + half, height), (z + half, 0.0))
         yield Line(role="crank", points=(*points, (z + 1.8 * half, 0.0)))
-        yield Line(role="rod", points=((z, height), (z, end)))
-        yield from _cylinder_along(z, end, math.sqrt((r + l) ** 2 - offset**2), 2 * r, bore)
+        yield Line(role="rod", points=((z, hangs), (z, end)))
+        yield from _cylinder_along(z, end, reach, 2 * r, bore)
+
+
+def _rod(p: Scalar, i: int, angle: float) -> tuple[Point, Point, float]:
+    """Both ends of a rod in the axes of its cylinder, and the largest distance of the piston pin from the shaft [m]."""
+    if master := int(each(p, "master")[i]):
+        letters = hung_letters(p, i)
+        return *pose(letters, angle + local_shift(p)[master - 1]), top(letters)[1]
+    r, l, offset = each(p, "r")[i], each(p, "l1")[i] + each(p, "l2")[i], each(p, "offset")[i]
+    own = angle + local_shift(p)[i]
+    pin = (r * math.cos(own), r * math.sin(own))
+    return pin, (pin[0] + math.sqrt(l**2 - (pin[1] - offset) ** 2), offset), math.sqrt((r + l) ** 2 - offset**2)
 
 
 def _cylinder_along(z: float, end: float, top: float, stroke: float, bore: float | None) -> Iterable[Line | Circle]:

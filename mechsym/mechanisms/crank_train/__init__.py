@@ -1,6 +1,7 @@
 """Any number of throws on a torsionally elastic shaft, with the flywheel at the load end.
 
 parameters  what a crank train consists of
+articulated  rods that hang on other rods
 parts       one derived throw, instantiated for every cylinder and joined by the shaft
 forces      kinematics, reactions and momentum per throw
 firing      firing order, crank phases and gas forces

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import casadi as ca
 
 from mechsym.mechanisms.crank_train import forces
+from mechsym.mechanisms.crank_train.articulated import LETTERS, OUTPUTS, hung
 from mechsym.mechanisms.crank_train.forces import Instances, Outputs
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.mechanisms.crank_train.throws import ThrowPart, parts
@@ -84,9 +85,11 @@ def _throw(group: str) -> ca.Function:
     return ca.Function(group, [state, letters], [ca.vertcat(*found)])
 
 
-def _tables(s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
+def _tables(
+    s: _Symbols, all_parts: list[ThrowPart], names: Sequence[str], function: Callable[[str], ca.Function]
+) -> Callable[[str], ca.SX]:
     """What gives the outputs of a group, a row each, for all parts, a column each."""
-    names, n = generated("crank_throw").PARAMETERS, len(s.q)
+    n = len(s.q)
     letters = ca.horzcat(*(ca.vertcat(*(part.letters[name] for name in names), part.shift) for part in all_parts))
     # nothing pushes a crank that is alone
     every, nothing = ca.vertcat(*s.q, *s.u, *s.a, *s.forces, 0), 3 * n + len(s.forces)
@@ -94,7 +97,7 @@ def _tables(s: _Symbols, all_parts: list[ThrowPart]) -> Callable[[str], ca.SX]:
         (p.throw, n + p.throw, 2 * n + p.throw, 3 * n + p.cylinder - 1 if p.cylinder else nothing) for p in all_parts
     ]
     state = ca.reshape(every[[place for row in rows for place in row]], len(_STATE), len(rows))
-    return lambda group: _throw(group).map(len(rows))(state, letters)
+    return lambda group: function(group).map(len(rows))(state, letters)
 
 
 def _rows(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart], table: ca.SX) -> list[ca.SX]:
@@ -107,16 +110,26 @@ def _rows(p: CrankTrainParameters, s: _Symbols, all_parts: list[ThrowPart], tabl
 def _mechanism(
     p: CrankTrainParameters, s: _Symbols, join: Callable[[CrankTrainParameters, _Symbols, list[ca.SX]], _Joined]
 ) -> Mechanism:
-    all_parts = parts(p)
-    tables = _tables(s, all_parts)
+    all_parts, derived = parts(p), generated("crank_throw")
+    # what stands on a crank pin is the derived throw, what hangs on another's rod is added to it
+    own, hanging = ([part for part in all_parts if bool(part.master) == hangs] for hangs in (False, True))
+    names: dict[bool, Callable[[str], tuple[str, ...]]] = {
+        False: lambda group: derived.FUNCTIONS[group][1],
+        True: lambda group: OUTPUTS[group],
+    }
+    tables = [(own, names[False], _tables(s, own, derived.PARAMETERS, _throw))]
+    if hanging:
+        tables.append((hanging, names[True], _tables(s, hanging, LETTERS, hung)))
 
     def throws(group: str) -> Instances:
-        names, columns = generated("crank_throw").FUNCTIONS[group][1], ca.horzsplit(tables(group))
-        found = (dict(zip(names, ca.vertsplit(column), strict=True)) for column in columns)
-        return list(zip(all_parts, found, strict=True))
+        return [
+            (part, dict(zip(outputs(group), ca.vertsplit(column), strict=True)))
+            for some, outputs, table in tables
+            for part, column in zip(some, ca.horzsplit(table(group)), strict=True)
+        ]
 
     def joined() -> _Joined:
-        return join(p, s, _rows(p, s, all_parts, tables("dynamics")))
+        return join(p, s, _rows(p, s, all_parts, ca.horzcat(*(table("dynamics") for _, _, table in tables))))
 
     def energy() -> Outputs:
         found, strain = throws("energy"), ca.sum1(ca.vertcat(*each(p, "k")) * _sections(s.q) ** 2 / 2)
@@ -200,6 +213,9 @@ def _unit(output: str) -> str:
         "d2x_": "m/(rad*rad)",
         "psi_": "rad",
         "dpsi_": "rad/rad",
+        "knuckle_force_": "N",
+        "knuckle_": "rad",
+        "dknuckle_": "rad/rad",
         "shaft_torque_": "N*m",
     }
     return next((unit for start, unit in kinds.items() if output.startswith(start)), "" if output == ".." else "N")

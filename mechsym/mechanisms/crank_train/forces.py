@@ -18,7 +18,8 @@ def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
     """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
 
     names: names of the coordinates; one name stands for all throws. Returns outputs: `x_1`, `dx_1_dphi1`,
-    `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, .
+    `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, of a rod that hangs on another `knuckle_1` and its derivative, the
+    turn of its pin.
     """
     outputs: Outputs = {}
     for part, found in throws:
@@ -28,6 +29,8 @@ def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
             twice = f"d{q}_d{q}" if len(names) > 1 else f"d{q}2"
             outputs |= {f"x_{i}": found["x"], f"dx_{i}_d{q}": found["dx_dphi"], f"d2x_{i}_{twice}": found["d2x_dphi2"]}
             outputs |= {f"psi_{i}": found["psi"], f"dpsi_{i}_d{q}": found["dpsi_dphi"]}
+            if part.master:
+                outputs |= {f"knuckle_{i}": found["knuckle"], f"dknuckle_{i}_d{q}": found["dknuckle_dphi"]}
     return outputs
 
 
@@ -39,7 +42,9 @@ def reactions(throws: Instances) -> Outputs:
     outputs : dict of str to casadi.SX
         Per cylinder `pin_force_x_1, pin_force_y_1` (crank on rod, common frame), `piston_pin_force_along_1`,
         `piston_pin_force_across_1` (rod on piston), `side_force_1` (cylinder on piston, across, positive in the sense
-        of rotation); per throw `main_bearing_force_x_1, main_bearing_force_y_1` (frame on crank, common frame)
+        of rotation); of a rod that hangs on another `knuckle_force_x_1, knuckle_force_y_1` (that rod on it, common
+        frame) in place of the pin force, which the other's has in it; per throw `main_bearing_force_x_1,
+        main_bearing_force_y_1` (frame on crank, common frame)
     """
     outputs: Outputs = {}
     bearings: Outputs = {}
@@ -48,12 +53,29 @@ def reactions(throws: Instances) -> Outputs:
         for axis, force in zip("xy", _common(part, found["R_x_O"], found["R_y_O"]), strict=True):
             name = f"main_bearing_force_{axis}_{k}"
             bearings[name] = bearings.get(name, ca.SX(0)) + force
-        if i:
+        if part.master:
+            outputs |= _hung(part, found, outputs)
+        elif i:
             pin = _common(part, found["R_x_A"], found["R_y_A"])
             outputs |= {f"pin_force_x_{i}": pin[0], f"pin_force_y_{i}": pin[1]}
             outputs |= {f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"]}
             outputs[f"side_force_{i}"] = found["R_y_G"]
     return outputs | bearings
+
+
+def _hung(part: ThrowPart, found: Outputs, before: Outputs) -> Outputs:
+    """Forces at a rod that hangs on another, and those of the other with what it carries."""
+    i, m = part.cylinder, part.master
+    pin, knuckle = (_common(part, found[f"R_x_{joint}"], found[f"R_y_{joint}"]) for joint in "AK")
+    carried = {
+        f"pin_force_x_{m}": pin[0], f"pin_force_y_{m}": pin[1], f"piston_pin_force_across_{m}": found["R_y_Bm"],
+        f"side_force_{m}": found["R_y_Gm"],
+    }  # fmt: skip
+    return {name: before[name] + force for name, force in carried.items()} | {
+        f"knuckle_force_x_{i}": knuckle[0], f"knuckle_force_y_{i}": knuckle[1],
+        f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"],
+        f"side_force_{i}": found["R_y_G"],
+    }  # fmt: skip
 
 
 def momentum(throws: Instances) -> Outputs:

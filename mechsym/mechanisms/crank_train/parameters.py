@@ -15,12 +15,14 @@ import math
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
+from mechsym.mechanisms.crank_train.articulated import top
 from mechsym.mechanisms.own import require
 from mechsym.quantities import quantity, record
-from mechsym.quantities.units import Radian
+from mechsym.quantities.units import Pure, Radian
 
 Numbers = float | tuple[float, ...]
-_PER_CYLINDER = ("phase", "bank", "firing", "r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "z_rod")
+_PER_CYLINDER = ("phase", "bank", "firing", "r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "z_rod",
+                 "master", "knuckle", "knuckle_angle")  # fmt: skip
 _PER_THROW = ("I0", "m0", "u0", "u_phase", "sense", "axis_x", "axis_y", "z", "k", "c")
 
 
@@ -41,6 +43,10 @@ class CrankTrainParameters:
     m_piston: Numbers = quantity("kg", low=0, about="mass of the piston")
     I_rod: Numbers = quantity("kg*m^2", low=0, about="inertia of the rod about its centre of mass")
     z_rod: Numbers = quantity("m", default=0.0, about="position of the rod from the middle of its throw")
+    #: Per cylinder, of articulated rods: number of the cylinder whose rod carries this one's, 0 for a crank pin
+    master: Numbers = quantity("-", default=0.0, low=0, about="cylinder on whose rod this rod hangs; 0: the crank pin")
+    knuckle: Numbers = quantity("m", default=0.0, low=0, about="crank pin to the knuckle pin of a rod that hangs")
+    knuckle_angle: Numbers = quantity("rad", default=0.0, about="knuckle pin from the master rod's middle line")
     I0: Numbers = quantity("kg*m^2", above=0, about="inertia of the throw about the axis")
     m0: Numbers = quantity("kg", default=0.0, low=0, about="mass of the throw")
     u0: Numbers = quantity("kg*m", default=0.0, about="unbalance of the throw")
@@ -63,6 +69,7 @@ class CrankTrainParameters:
         _check_lists(self)
         for i in range(len(self.throw)):
             require(CrankThrowParameters, {name: each(self, name)[i] for name in ("r", "l1", "l2", "offset")})
+        _check_masters(self)
 
 
 def _check_lists(p: CrankTrainParameters) -> None:
@@ -76,6 +83,41 @@ def _check_lists(p: CrankTrainParameters) -> None:
             raise BadInput(f"{name} has {len(value)} values; give one number for all, or one a {what}: {wanted}")
     if set(each(p, "sense")) - {1.0, -1.0}:
         raise BadInput(f"sense = {p.sense} is not an option; options are 1 and -1")
+
+
+def _check_masters(p: CrankTrainParameters) -> None:
+    """Refuse a rod that hangs on none, on one that hangs itself, or on that of another crank pin."""
+    masters = each(p, "master")
+    for i, number in enumerate(masters, 1):
+        if not number:
+            continue
+        m = int(number) - 1
+        if m != number - 1 or m >= len(masters) or masters[m]:
+            carry = ", ".join(str(k) for k, other in enumerate(masters, 1) if not other)
+            raise BadInput(f"master of cylinder {i} = {number:g} is no rod on a crank pin; those are {carry}")
+        pins = [(p.throw[k], each(p, "phase")[k]) for k in (i - 1, m)]
+        if pins[0] != pins[1]:
+            raise BadInput(
+                f"the rod of cylinder {i} hangs on that of cylinder {m + 1}: give both the same throw and phase"
+            )
+
+
+def hung_letters(p: CrankTrainParameters, i: int) -> dict[str, float]:
+    """Letters of the rod of a cylinder, by its index from 0, that hangs on another's, but for `top`."""
+    m, sense = int(each(p, "master")[i]) - 1, each(p, "sense")[p.throw[i] - 1]
+    own = {name: each(p, name)[i] for name in ("l1", "l2", "offset", "m_rod", "I_rod", "m_piston")}
+    bank = each(p, "bank")[m]
+    return own | {
+        "r": each(p, "r")[m], "l": each(p, "l1")[m] + each(p, "l2")[m], "offset_m": each(p, "offset")[m],
+        "a": each(p, "knuckle")[i], "kappa": sense * each(p, "knuckle_angle")[i],
+        "v": sense * (each(p, "bank")[i] - bank), "g": p.g, "axis_tilt": tilt(p, bank, sense),
+    }  # fmt: skip
+
+
+def tilt(p: CrankTrainParameters, bank: Radian, sense: Pure) -> Radian:
+    """Angle of a cylinder's axis against the horizontal, in the sense of its throw."""
+    turned = p.axis_tilt + bank
+    return turned if sense > 0 else math.pi - turned  # mirrored, so is gravity
 
 
 def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
@@ -98,6 +140,11 @@ def local_shift(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
 
 
 def dead_centre(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
-    """Each cylinder's own crank angle at top dead centre, 0 without offset."""
+    """Each cylinder's own crank angle at top dead centre, 0 without offset of a rod on a crank pin."""
     lengths = (each(parameters, name) for name in ("r", "l1", "l2", "offset"))
-    return tuple(math.asin(offset / (r + l1 + l2)) for r, l1, l2, offset in zip(*lengths, strict=True))
+    own = [math.asin(offset / (r + l1 + l2)) for r, l1, l2, offset in zip(*lengths, strict=True)]
+    for i, number in enumerate(each(parameters, "master")):
+        if number:
+            letters = hung_letters(parameters, i)
+            own[i] = top(letters)[0] - letters["v"]
+    return tuple(own)

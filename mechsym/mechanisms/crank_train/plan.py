@@ -15,14 +15,15 @@ from mechsym.quantities.records import Record
 
 
 def _alone(p: CrankTrainParameters) -> tuple[str, Record]:
-    """The first cylinder on a shaft of its own."""
+    """The first cylinder whose rod is on a crank pin, on a shaft of its own."""
     if any(each(p, "offset")):
         raise BadInput(
             f"offset = {max(each(p, 'offset'), key=abs):g} m: the cycles of a crank train know dead centres half a "
             "turn apart; set offset = 0 or leave [cycle] out"
         )
-    letters = {n: each(p, n)[0] for n in ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")}
-    return THROW, CrankThrowParameters(**letters, I0=each(p, "I0")[0])
+    first = next(i for i, master in enumerate(each(p, "master")) if not master)
+    letters = {n: each(p, n)[first] for n in ("r", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston")}
+    return THROW, CrankThrowParameters(**letters, I0=each(p, "I0")[p.throw[first] - 1])
 
 
 def _proportions(p: CrankTrainParameters) -> Proportions:

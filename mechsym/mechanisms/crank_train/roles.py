@@ -52,11 +52,18 @@ def _opposed(p: CrankTrainParameters) -> bool:
 
 
 def _pins(p: CrankTrainParameters, i: int) -> tuple[BearingRole, BearingRole]:
+    piston_pin = BearingRole(
+        name=f"piston_pin_{i}", at="piston_pins", turns=f"psi_{i}",
+        reactions=(f"piston_pin_force_along_{i}", f"piston_pin_force_across_{i}"),
+    )  # fmt: skip
+    if each(p, "master")[i - 1]:
+        knuckle = BearingRole(
+            name=f"knuckle_pin_{i}", at="piston_pins", turns=f"knuckle_{i}",
+            reactions=(f"knuckle_force_x_{i}", f"knuckle_force_y_{i}"),
+        )  # fmt: skip
+        return piston_pin, knuckle
     return (
-        BearingRole(
-            name=f"piston_pin_{i}", at="piston_pins", turns=f"psi_{i}",
-            reactions=(f"piston_pin_force_along_{i}", f"piston_pin_force_across_{i}"),
-        ),
+        piston_pin,
         BearingRole(
             name=f"crank_pin_{i}", at="crank_pins", turns=("phi", f"psi_{i}"), throw=each(p, "r")[i - 1],
             phase=each(p, "phase")[i - 1], sense=each(p, "sense")[p.throw[i - 1] - 1],

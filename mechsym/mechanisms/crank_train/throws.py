@@ -1,9 +1,10 @@
 """The derived throw, instantiated: the crank of every throw alone, and one instance for every cylinder."""
 
-import math
+import dataclasses
 from collections.abc import Mapping
 
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, local_shift
+from mechsym.mechanisms.crank_train.articulated import top
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, hung_letters, local_shift, tilt
 from mechsym.quantities import record
 
 _CRANK = ("I0", "m0", "u0")
@@ -23,12 +24,13 @@ class ThrowPart:
     axis: tuple[float, float]  #: Place of the shaft axis [m]
     z: float  #: Position along the shaft [m]
     letters: Mapping[str, float]
+    master: int = 0  #: Cylinder on whose rod its rod hangs, 0 for one on a crank pin
 
 
 def parts(p: CrankTrainParameters) -> list[ThrowPart]:
     """The instances that a crank train consists of, cranks first.
 
-    Returns parts: one a throw, then one a cylinder.
+    Returns parts: one a throw, then one a cylinder, those whose rods hang on others last.
     """
     nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
     found = []
@@ -36,16 +38,22 @@ def parts(p: CrankTrainParameters) -> list[ThrowPart]:
         # a throw without rod and piston; its lengths do not matter
         letters = nothing | {"r": 1.0, "l1": 1.0, "l2": 1.0} | {n: each(p, n)[k] for n in _CRANK}
         found.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
-    for i, (k, shift) in enumerate(zip(p.throw, local_shift(p), strict=True)):
-        letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
-        found.append(_part(p, i + 1, k - 1, shift, each(p, "bank")[i], letters))
-    return found
+    shifts, banks, hung = local_shift(p), each(p, "bank"), []
+    for i, (k, master) in enumerate(zip(p.throw, each(p, "master"), strict=True)):
+        if master:  # in the axes of the cylinder that carries it
+            m, own = int(master) - 1, hung_letters(p, i)
+            part = _part(p, i + 1, k - 1, shifts[m], banks[m], own | {"top": top(own)[1]})
+            hung.append(dataclasses.replace(part, master=m + 1))
+        else:
+            letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
+            found.append(_part(p, i + 1, k - 1, shifts[i], banks[i], letters))
+    return found + hung
 
 
 def _part(
     p: CrankTrainParameters, cylinder: int, k: int, shift: float, bank: float, letters: dict[str, float]
 ) -> ThrowPart:
-    sense, tilt = each(p, "sense")[k], p.axis_tilt + bank
+    sense = each(p, "sense")[k]
     return ThrowPart(
         cylinder=cylinder,
         throw=k,
@@ -54,5 +62,5 @@ def _part(
         sense=sense,
         axis=(each(p, "axis_x")[k], each(p, "axis_y")[k]),
         z=each(p, "z")[k] + (each(p, "z_rod")[cylinder - 1] if cylinder else 0.0),
-        letters=letters | {"g": p.g, "axis_tilt": tilt if sense > 0 else math.pi - tilt},  # mirrored, so is gravity
+        letters=letters | {"g": p.g, "axis_tilt": tilt(p, bank, sense)},
     )
