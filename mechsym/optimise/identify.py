@@ -163,12 +163,15 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     BadInput
         The trace is too short for them, or does not determine one of them
     """
-    count, unknown = sum(map(len, trace.speeds.values())), len(model.names) + 2 * len(model.velocities)
+    seen = _seen_poses(model)
+    count = sum(map(len, trace.speeds.values()))
+    unknown = len(model.names) + len(model.velocities) + sum(seen)
     if count < 10 * unknown:
         raise BadInput(f"{trace.file}: {count} samples for {unknown} unknowns; give ten times as many, or free fewer")
     _require_seen(model, trace)
-    # speeds do not tell where the dead centre lies: a search from each quarter
-    angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if any(model.turning) else 1)]
+    # speeds do not tell where the dead centre lies: a search from each quarter, unless no speed depends on it
+    angular = any(turns and in_it for turns, in_it in zip(model.turning, seen, strict=True))
+    angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if angular else 1)]
     longest = _longest(model, trace, angles)
     require_plausible(model, trace, angles, longest)
     _require_short(model, trace, longest, len(angles))
@@ -190,11 +193,22 @@ def _pose(model: TracedMotion) -> str:
     return ", ".join(f"{name} = {value:.4g}" for name, value in zip(names, model.pose, strict=True))
 
 
+def _columns_in(model: TracedMotion, number: int) -> set[int]:
+    """Which entries of the input of a number the rates of a motion hold."""
+    inputs = [ca.SX.sym(name, *shape) for name, shape in zip("xwz", map(model.rate.size_in, range(3)), strict=True)]
+    return set(ca.jacobian(model.rate(*inputs), inputs[number]).sparsity().get_col())
+
+
+def _seen_poses(model: TracedMotion) -> list[bool]:
+    """Whether the equations of motion hold each coordinate: where a rotor starts, its speed does not know."""
+    held = _columns_in(model, 0)
+    return [k in held for k in range(len(model.velocities))]
+
+
 def _require_seen(model: TracedMotion, trace: Trace) -> None:
     """Refuse parameters that are in no equation of motion."""
-    x, w, z = (ca.SX.sym(name, *shape) for name, shape in zip("xwz", map(model.rate.size_in, range(3)), strict=True))
-    by_column = ca.jacobian(model.rate(x, w, z), z).sparsity().get_col()
-    unseen = [name for i, name in enumerate(model.names) if i not in by_column]
+    held = _columns_in(model, 2)
+    unseen = [name for i, name in enumerate(model.names) if i not in held]
     if unseen:
         why = f"no motion shows {', '.join(unseen)}: the equations of motion do not hold it"
         raise BadInput(f"{trace.file}: {why}; leave it out of --free")
@@ -225,8 +239,11 @@ def _longest(model: TracedMotion, trace: Trace, angles: list[float]) -> float:
     return _LONGEST / max(float(np.abs(np.linalg.eigvals(closed)).max()), turning, 1e-9)
 
 
-def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.ndarray:
-    """Inverse of the information of the parameters, by their sizes; refused where one of them is not determined."""
+def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> tuple[np.ndarray, int]:
+    """Inverse of the information of the parameters, by their sizes, and how many unknowns the trace has settled.
+
+    Refused where a parameter is not determined; a start that no speed shows is no unknown.
+    """
     columns, width = unit_columns(slopes)
     _, singular, directions = np.linalg.svd(columns, full_matrices=False)
     weak = singular < RANK * singular[0]
@@ -239,14 +256,15 @@ def _covariance(model: TracedMotion, trace: Trace, slopes: np.ndarray) -> np.nda
             "measure a torque or another speed too"
         )
     inverse = directions[~weak].T / singular[~weak]
-    return (inverse @ inverse.T / np.outer(width, width))[:k, :k]
+    return (inverse @ inverse.T / np.outer(width, width))[:k, :k], int(np.count_nonzero(~weak))
 
 
 def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
     model, trace, best = task.model, task.trace, fits[0]
-    dof = best.rest.size - best.slopes.shape[1]
+    inverse, settled = _covariance(model, trace, best.slopes)
+    dof = best.rest.size - settled
     noise = math.sqrt(best.left / dof)
-    covariance = noise**2 * _covariance(model, trace, best.slopes) * np.outer(model.size, model.size)
+    covariance = noise**2 * inverse * np.outer(model.size, model.size)
     errors, wide = np.sqrt(np.diag(covariance)), float(stdtrit(dof, 0.975))
     alike = _alike(fits, noise * wide, errors)
     ends = [(v - wide * e, v + wide * e) for v, e in zip(best.theta.tolist(), errors.tolist(), strict=True)]

@@ -22,10 +22,10 @@ T = np.linspace(0.0, 6.0, 121)
 SHAPES = np.column_stack([np.ones_like(T) / W**2, 2 * T / W**2, np.cos(W * T), np.sin(W * T)])
 
 
-def motion(torque=lambda z, w: z[0] * w[0] + z[1] * w[1], low=(-np.inf, -np.inf), turning=True):
+def motion(torque=lambda z, w: z[0] * w[0] + z[1] * w[1], low=(-np.inf, -np.inf), turning=True, stiffness=W**2):
     x, w, z = ca.SX.sym("x", 2), ca.SX.sym("w", 2), ca.SX.sym("z", 2)
-    rate = ca.Function("rate", [x, w, z], [ca.vertcat(x[1], torque(z, w) - W**2 * x[0])])
-    energy = ca.Function("energy", [x, w, z], [x[1] ** 2 / 2, x[1] * (torque(z, w) - W**2 * x[0])])
+    rate = ca.Function("rate", [x, w, z], [ca.vertcat(x[1], torque(z, w) - stiffness * x[0])])
+    energy = ca.Function("energy", [x, w, z], [x[1] ** 2 / 2, x[1] * (torque(z, w) - stiffness * x[0])])
     return TracedMotion(
         rate=rate, velocities=("phid",), turning=(turning,), inputs=("a", "b"), names=("z1", "z2"), units=("N", "m"),
         start=np.array([0.5, 0.5]), size=np.array([0.7, 0.4]), low=np.array(low), known=lambda t: np.array([t, t**2]),
@@ -119,6 +119,21 @@ def test_ten_samples_for_each_unknown_are_enough():
     with pytest.raises(BadInput, match="39 samples for 4 unknowns"):
         identify(motion(), trace(t=T[:39]))
     assert identify(motion(), trace(t=T[:40])).samples == 40
+
+
+def test_an_angle_that_no_speed_shows_is_no_unknown():
+    # a rotor without a spring: u = z1 t^2 / 2 + z2 t^3 / 3 + u0, wherever it started
+    shapes = np.column_stack([T**2 / 2, T**3 / 3, np.ones_like(T)])
+    speeds = shapes @ [*Z, 1.5] + np.random.default_rng(5).normal(0, 0.05, T.size)
+    measured = dataclasses.replace(trace(), speeds={"phid": speeds})
+    found = identify(motion(stiffness=0.0, turning=False), measured)
+    best, covariance, noise = least_squares(speeds, shapes)
+    assert [one.value for one in found.estimates] == pytest.approx(list(best[:2]), rel=1e-5)
+    assert [one.error for one in found.estimates] == pytest.approx(list(np.sqrt(np.diag(covariance))[:2]), rel=1e-5)
+    assert found.noise == pytest.approx(noise, rel=1e-6)
+    few = dataclasses.replace(measured, t=T[:29], speeds={"phid": speeds[:29]})
+    with pytest.raises(BadInput, match="29 samples for 3 unknowns"):
+        identify(motion(stiffness=0.0, turning=False), few)
 
 
 def drift(count):
