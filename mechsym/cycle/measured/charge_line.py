@@ -58,6 +58,25 @@ def log_pressure(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> t
     return -shape.n0 * level - shape.n1 * level**2 / 2 - shape.loss * lost, slopes
 
 
+def by_clearance(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> Pure[Array]:
+    r"""How the logarithm of the pressure changes with the logarithm of the clearance.
+
+    .. math:: \frac{\partial \ln p/p_r}{\partial \ln V_c} = -(n_0 + n_1 L)\left(\frac{V_c}{V} - \frac{V_c}{V_r}\right)
+        - k q \int_{\varphi_r}^{\varphi} \left(\frac{V_c}{V}\right)^q \left(1 - \frac{V_c}{V}\right) d\varphi
+
+    phi: crank angle from firing TDC, within half a turn of it. Returns slope: shape (n,).
+
+    Notes
+    -----
+    Source: derivative of `log_pressure`. A rod that is not the engine's bends the line in the same way.
+    """
+    v, v_ref, v_c = volume(cylinder, phi), float(volume(cylinder, REFERENCE)), float(volume(cylinder, 0.0))
+    share = v_c / volume(cylinder, _GRID)
+    grown = scipy.interpolate.CubicSpline(_GRID, share**shape.sharpness * (1 - share)).antiderivative()
+    lost = shape.loss * shape.sharpness * (grown(phi) - grown(REFERENCE))
+    return -(shape.n0 + shape.n1 * np.log(v / v_ref)) * (v_c / v - v_c / v_ref) - lost
+
+
 def mean_exponent(cylinder: Chamber, shape: ChargeShape, first: Radian, last: Radian) -> Pure:
     r"""The exponent of the straight line between two points of the charge's line.
 

@@ -1,16 +1,18 @@
 """Cross-checks of a measured diagram: what each must give, and the doubt where it does not."""
 
+import dataclasses
 import math
 from collections.abc import Sequence
 
 import numpy as np
 
-from mechsym.cycle.chamber import Chamber
+from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.measured.alignment import between
-from mechsym.cycle.measured.charge_line import log_pressure, mean_exponent
+from mechsym.cycle.measured.charge_line import REFERENCE, log_pressure, mean_exponent
+from mechsym.cycle.measured.dead_centre import ENCODER, from_compression, from_motored
 from mechsym.cycle.measured.diagram import Diagram, line_prior
 from mechsym.cycle.measured.heat_release import burnt_fraction, heat_release, polytropic_fit
-from mechsym.cycle.measured.joint_fit import Prior, joint_fit
+from mechsym.cycle.measured.joint_fit import JointFit, Prior, clearance_asked, joint_fit
 from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
 from mechsym.cycle.measured.smoothing import noise
 from mechsym.plausible import Doubt
@@ -33,6 +35,7 @@ _FLOOR = 75 * _DEG  # inlet valves close at most 70 degrees behind the dead cent
 _BURNT, _OPENS = 0.97, 110 * _DEG
 _FREE = (0.2, 2.5)  # an engine that breathes freely, or with a small charger [bar]
 _Z = 1.96
+_BENT, _SHEET = 2.25, 0.03  # standard deviations; of the clearance: what data sheets leave, 0.2 of a ratio of 8.5
 
 
 def diagram_doubts(
@@ -50,6 +53,7 @@ def diagram_doubts(
         _width(measured),
     ]
     found += [_agreement(measured), _free(diagram, cylinder, measured), _spread(measured), _loss_angle(measured)]
+    found.append(_geometry(diagram, cylinder, measured))
     if not measured.alignment.motored:
         found += [_peak(phi_p_max), *_combustion(diagram, cylinder, measured)]
     return tuple(doubt for doubt in found if doubt is not None)
@@ -129,7 +133,8 @@ def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doub
         return None
     phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
     free = Prior(n0=(line_prior(diagram).n0[0], 0.3))
-    fit = joint_fit(phi, mean, cylinder, between(diagram), noise(mean), free, [0.0])
+    # up to where the line ends that is compared: it may burn before the end that the case names
+    fit = joint_fit(phi, mean, cylinder, measured.alignment.fit.between, noise(mean), free, [0.0])
     spread = math.sqrt(float(fit.covariance[0, 0] + measured.alignment.fit.covariance[0, 0]))
     limit = _Z * spread / _DEG
     why = "with the exponent free the dead centre is elsewhere: drift, early burning, or another compression ratio"
@@ -140,6 +145,28 @@ def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doub
         (-limit, limit),
         why,
     )
+
+
+def _geometry(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doubt | None:
+    """The compression ratio with which the line fits best, all that is not known of it free.
+
+    A wrong clearance bends the line by V_c/V, which dead centre, exponents, losses and offset follow in part only. A
+    wrong rod bends it in the same way, so that one number tells of both.
+    """
+    alignment, prior, half = measured.alignment, line_prior(diagram), measured.tdc_uncertainty
+    if alignment.own is not None:
+        prior = dataclasses.replace(prior, tdc=(0.0, ENCODER if half is None else half / _Z))
+    phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
+    if alignment.motored:
+        _, fit = from_motored(phi, mean, cylinder, prior, "")
+    else:
+        _, fit = from_compression(phi, mean, cylinder, between(diagram), prior)
+    asked, spread = clearance_asked(fit, phi, mean, cylinder, prior)
+    less = cylinder.compression_ratio - 1
+    low, high = (1 + less * math.exp(side * _BENT * math.hypot(spread, _SHEET)) for side in (-1, 1))
+    why = "the line is bent as by another compression ratio, rod or stroke: one of them is wrong, or the sensor drifts"
+    quantity = "compression ratio that the line asks for [-]"
+    return _doubt("geometry", quantity, 1 + less * math.exp(-asked), (low, high), why)
 
 
 def _spread(measured: MeasuredCycles) -> Doubt | None:
@@ -183,18 +210,27 @@ def _combustion(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -
     return [
         _doubt("heat", "heat released by mass of charge [MJ/kg]", heat / mass / 1e6, (0.0, _MIXTURE_HEAT / 1e6), whose),
         _doubt("early_heat", "heat until fit_to by the heat of the cycle [-]", early, _EARLY, when),
-        _expansion(at, p, q, cylinder),
+        _expansion(at, p, q, cylinder, line),
     ]
 
 
-def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber) -> Doubt | None:
+def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber, line: JointFit) -> Doubt | None:
     behind = phi[int(np.argmax(burnt_fraction(phi, q) > _BURNT))]
     first = max(float(behind), 50 * _DEG)
     if phi[-1] - first < 25 * _DEG or not np.all(p[phi >= first] > 0):
         return None
     n = polytropic_fit(phi, p, cylinder, first, float(phi[-1]))
     why = "behind burning the gas expands with 1.2 to 1.35: dead centre, offset or scale is wrong, or the sensor drifts"
-    return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, _EXPANSION, why)
+    by = _Z * _by_sensor(line, cylinder, np.array([first, phi[-1]]), np.interp([first, phi[-1]], phi, p))
+    usual = (_EXPANSION[0] - by, _EXPANSION[1] + by)
+    return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, usual, why)
+
+
+def _by_sensor(line: JointFit, cylinder: Chamber, ends: np.ndarray, p: np.ndarray) -> float:
+    """Standard deviation of the exponent between two angles by what is not known of offset and drift of the sensor."""
+    by_offset, by_drift = 1 / p, (ends - REFERENCE) / p
+    slope = np.diff([by_offset, by_drift])[:, 0] / float(np.diff(np.log(volume(cylinder, ends)))[0])
+    return line.swing * math.sqrt(float(slope @ line.covariance[6:, 6:] @ slope))
 
 
 def exponent_doubts(compression: Pure, expansion: Pure | None, told: Sequence[Doubt]) -> list[Doubt]:

@@ -15,9 +15,9 @@ from typing import Annotated
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.measured.charge_line import REFERENCE, ChargeShape, log_pressure
+from mechsym.cycle.measured.charge_line import REFERENCE, ChargeShape, by_clearance, log_pressure
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Pascal, Radian
+from mechsym.quantities.units import Array, Pascal, Pure, Radian
 
 _RAMP = math.radians(5.0)
 _LONGEST_STEP = math.radians(3.0)
@@ -48,6 +48,7 @@ class JointFit:
     drift: float  #: How fast that changes [Pa/rad]
     covariance: np.ndarray  #: shape (8, 8), level, offset and drift by the swing of the record [rad, -, 1/rad]
     prior_share: float  #: Share of the variance of the dead centre that the priors leave; the rest is noise [-]
+    between: tuple[float, float]  #: Ends of the line from the dead centre [rad]
     swing: float  #: Highest less lowest pressure of the record [Pa]
     rms: float  #: Root mean square of the residuals of the mean cycle [Pa]
     sigma: float  #: Noise behind the covariance, residuals that hang together allowed for [Pa]
@@ -76,7 +77,7 @@ def joint_fit(
     at = min(tried, key=lambda found: _cost(found, floor, prior))
     noise = max(floor, _correlated(at[2], at[3]))
     at = _solve(phi, mean / swing, cylinder, between, noise, prior, at[0], inside)
-    return _result(at, swing, noise, prior)
+    return _result(at, swing, noise, prior, between)
 
 
 def cycle_lines(
@@ -124,6 +125,36 @@ def information(fit: JointFit, prior: Prior) -> tuple[np.ndarray, np.ndarray]:
     return both - before, both @ values - before @ middle
 
 
+def clearance_asked(
+    fit: JointFit, phi: Radian[Array], mean: Pascal[Array], cylinder: Chamber, prior: Prior
+) -> tuple[Pure, Pure]:
+    r"""By how much larger a clearance fits a line best, and the standard deviation of that.
+
+    .. math:: \hat g = \frac{c_\perp^T b}{c_\perp^T c_\perp}, \quad s = \frac{1}{|c_\perp|}, \quad
+        c_\perp = c - A (A^T A)^{-1} A^T c
+
+    fit: of these samples under the prior; phi: ascending crank angles on the scale of its dead centre. Returns change,
+    spread: of the logarithm of the clearance, which is minus that of the compression ratio less 1.
+
+    Notes
+    -----
+    A: residuals of samples and priors by the values of the fit, b what they leave, c by the clearance: all that the
+    dead centre, exponents, losses and the sensor can explain is taken out. One step of Gauss and Newton.
+    """
+    noise, shape = fit.sigma / fit.swing, fit.shape
+    x = np.array([fit.tdc, shape.n0, shape.n1, shape.loss, shape.sharpness])
+    values, left, weight, jacobian = _line(phi, mean / fit.swing, cylinder, fit.between, noise, x)
+    inside = _weights(phi - fit.tdc, fit.between) > 0
+    # the column of the level is the line itself
+    c = values[5] * jacobian[:, 5] * by_clearance(cylinder, phi[inside] - fit.tdc, shape)
+    middle, tight = _known(prior, fit.tdc)
+    both = np.vstack([jacobian / noise, np.diag(tight)])
+    rest, column = np.append(left / noise, tight * (middle - values)), np.append(c / noise, 0 * tight)
+    alone = column - both @ np.linalg.lstsq(both, column, rcond=None)[0]
+    size = float(alone @ alone)
+    return float(alone @ rest) / size, 1 / math.sqrt(size)
+
+
 def _weights(phi: np.ndarray, between: tuple[float, float]) -> np.ndarray:
     # they rise and fall inside the ends: what lies behind the last angle may burn already
     return np.clip(np.minimum(phi - between[0], between[1] - phi) / _RAMP, 0.0, 1.0)
@@ -137,16 +168,7 @@ def _solve(
     middle, tight = _known(prior, start)
     x = middle[:5].copy()
     for turn in range(_TURNS):
-        weight = _weights(phi - x[0], between)
-        inside = weight > 0
-        angle, y, root = phi[inside] - x[0], mean[inside], np.sqrt(weight[inside])
-        log_p, slopes = log_pressure(cylinder, angle, ChargeShape(n0=x[1], n1=x[2], loss=x[3], sharpness=x[4]))
-        rise = np.exp(log_p)
-        linear = np.stack([rise, np.ones_like(rise), angle - REFERENCE], axis=-1)
-        size, offset, drift = _linear(linear * root[:, None], y * root, noise)
-        jacobian = np.hstack([size * rise[:, None] * slopes, linear]) * root[:, None]
-        left = (y - linear @ np.array([size, offset, drift])) * root
-        values = np.array([*x, size, offset, drift])
+        values, left, weight, jacobian = _line(phi, mean, cylinder, between, noise, x)
         step = np.linalg.lstsq(
             np.vstack([jacobian / noise, np.diag(tight)]),
             np.append(left / noise, tight * (middle - values)),
@@ -159,7 +181,23 @@ def _solve(
         step *= min(1.0, limit / max(abs(step[0]), 1e-12)) * (1.0 if turn < 8 else 0.5)
         x = x + step
         x[0], x[4] = np.clip(x[0], *bounds), np.clip(x[4], 0.3, 3.0)
-    return float(x[0]), values, left, weight[inside], jacobian
+    return float(x[0]), values, left, weight, jacobian
+
+
+def _line(
+    phi: np.ndarray, mean: np.ndarray, cylinder: Chamber, between: tuple[float, float], noise: float, x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """All values with the level, offset and drift that fit best, residuals, weights and Jacobian inside the ends."""
+    weight = _weights(phi - x[0], between)
+    inside = weight > 0
+    angle, y, root = phi[inside] - x[0], mean[inside], np.sqrt(weight[inside])
+    log_p, slopes = log_pressure(cylinder, angle, ChargeShape(n0=x[1], n1=x[2], loss=x[3], sharpness=x[4]))
+    rise = np.exp(log_p)
+    linear = np.stack([rise, np.ones_like(rise), angle - REFERENCE], axis=-1)
+    size, offset, drift = _linear(linear * root[:, None], y * root, noise)
+    jacobian = np.hstack([size * rise[:, None] * slopes, linear]) * root[:, None]
+    left = (y - linear @ np.array([size, offset, drift])) * root
+    return np.array([*x, size, offset, drift]), left, weight[inside], jacobian
 
 
 def _known(prior: Prior, start: float) -> tuple[np.ndarray, np.ndarray]:
@@ -188,7 +226,7 @@ def _cost(at: _Solved, noise: float, prior: Prior) -> float:
     return float(left @ left / noise**2 + np.sum((tight * (values - middle))[1:] ** 2)) / float(weight.sum())
 
 
-def _result(at: _Solved, swing: float, noise: float, prior: Prior) -> JointFit:
+def _result(at: _Solved, swing: float, noise: float, prior: Prior, between: tuple[float, float]) -> JointFit:
     tdc, values, left, weight, jacobian = at
     tight = _known(prior, tdc)[1]
     data = jacobian.T @ jacobian / noise**2
@@ -203,6 +241,7 @@ def _result(at: _Solved, swing: float, noise: float, prior: Prior) -> JointFit:
         drift=drift * swing,
         covariance=covariance,
         prior_share=float((covariance @ np.diag(tight**2) @ covariance)[0, 0] / covariance[0, 0]),
+        between=between,
         swing=swing,
         rms=float(np.sqrt(left @ left / weight.sum())) * swing,
         sigma=noise * swing,
