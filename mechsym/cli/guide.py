@@ -84,11 +84,11 @@ def _refuse_bore(hole: float, curves: "Groove") -> None:
 
 def _dxf(path: Path | None, shop: "Workshop", curves: "Groove", hole: float) -> list[str]:
     from mechsym.out.cad.dxf import write
-    from mechsym.out.cad.sheet import spring_text
+    from mechsym.out.cad.sheet import plain, spring_text
 
     lines = [
         f"guide of {shop.name}, {shop.guide.omega / RPM:.5g} rpm, mm",
-        f"spring {spring_text(shop.guide.spring)}",
+        f"spring {plain(spring_text(shop.guide.spring))}",
         f"within {1e6 * curves.tolerance:.3g} um of the exact curves; roller {2e3 * curves.roller_radius:.6g} mm",
     ]
     return [] if path is None else [str(write(curves, path, hole, lines))]

@@ -37,6 +37,18 @@ ERROR = 1e-4  # of the track, that is tried [m]
 
 
 @record
+class TriedError:
+    """What may be off by some size, and the speed ripple of the steady motion then."""
+
+    name: str
+    words: str  #: How far off, low and high
+    size: float  #: [unit]
+    unit: str
+    low: float | None  #: Ripple with less; None where there is no steady motion [-]
+    high: float | None  #: Ripple with more [-]
+
+
+@record
 class Workshop:
     """A guide with what a workshop has to know of it."""
 
@@ -48,8 +60,7 @@ class Workshop:
     verdict: Verdict
     contact: Contact
     kinks: tuple[float, ...]  #: angles of the guide's shaft where the curvature jumps [rad]
-    #: what is off, and the speed ripple of the steady motion low and high; None where there is none [-]
-    tolerances: tuple[tuple[str, float | None, float | None], ...]
+    tolerances: tuple[TriedError, ...]
 
 
 def workshop(case: Case, diagram: str | None = None) -> Workshop:
@@ -63,14 +74,22 @@ def workshop(case: Case, diagram: str | None = None) -> Workshop:
     require(case, "guide", NO_FILE if diagram else "")
     rollers, limits = case.need("rollers"), case.need("limits")
     engine, wanted, guide = guide_of(case, diagram)
-    rows = [(f"{s.name} 1 % low, high", _ripple(s.low), _ripple(s.high)) for s in sensitivities(engine, wanted, guide)]
+    rows = [
+        TriedError(name=s.name, words="1 % low, high", size=0.01 * abs(s.value), unit=s.unit, low=_ripple(s.low),
+                   high=_ripple(s.high))
+        for s in sensitivities(engine, wanted, guide)
+    ]  # fmt: skip
     inwards, outwards = (_ripple(with_guide(engine, wanted, _shifted(guide, d))) for d in (-ERROR, ERROR))
     ratio = guide.parameters.shaft_ratio
     return Workshop(
         name=case.name, about=case.about, machine=engine, guide=guide, rollers=rollers,
         verdict=judge(guide, rollers, limits), contact=at_pieces(guide, rollers),
         kinks=_around(guide, tuple(k * ratio for k in kinks_of(engine))),
-        tolerances=(*rows, (f"track {1e3 * ERROR:g} mm in, out", inwards, outwards)),
+        tolerances=(
+            *rows,
+            TriedError(name="track", words=f"{1e3 * ERROR:g} mm in, out", size=ERROR, unit="m", low=inwards,
+                       high=outwards),
+        ),
     )  # fmt: skip
 
 

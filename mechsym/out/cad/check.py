@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from ezdxf.entities import Spline
 
 _POINTS = 4000  # of each spline
-_DIGITS = 1e-9  # of the length and area that the text states
-_STATED = re.compile(r"(\w+): exact length (\S+) mm, area (\S+) mm\^2")
+_DIGITS = 1e-5  # of the length and area that the text states to the micrometre
+_STATED = re.compile(r"(\w+): exact length (\S+) mm, area (\S+) mm²")
 _LAYERS = {"CENTRES": 0.0, "INNER": -1.0, "OUTER": 1.0}
 
 

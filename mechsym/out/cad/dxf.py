@@ -55,11 +55,10 @@ def text(track: Groove, bore: Metre, lines: Sequence[str]) -> str:
 
 
 def _sizes(track: Groove) -> list[str]:
-    """A line for each curve: length and area of the exact one, in all digits that count."""
+    """A line for each curve: length to the micrometre and area of the exact one."""
     curves = {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}
     return [
-        f"{layer}: exact length {_MM * c.length:.13g} mm, area {_MM**2 * c.area:.13g} mm^2"
-        for layer, c in curves.items()
+        f"{layer}: exact length {_MM * c.length:.3f} mm, area {_MM**2 * c.area:.3f} mm²" for layer, c in curves.items()
     ]
 
 
