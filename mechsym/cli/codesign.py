@@ -215,19 +215,25 @@ def _turning(numbers: "CoDesignNumbers") -> list[str]:
     from mechsym.codesign.summary import bound_words
 
     bound, given = numbers.bound, numbers.with_given_hardware
+    springs = ("one spring", "two springs", "three springs")
+    estimates = ", ".join(f"{_inertia(value)} with {of}" for of, value in zip(springs, bound.estimate, strict=False))
     pays = bound.springs_that_pay
-    estimates = ", ".join(f"{springs}: {_inertia(value)}" for springs, value in enumerate(bound.estimate, 1))
+    further = f"each one up to {pays} at least halves what turns" if pays > 1 else "a second one does not halve it"
     lines = [
         f"total inertia    {_inertia(numbers.total_inertia)} turns: engine, flywheel, rollers "
         f"({_inertia(numbers.rollers_inertia)} in the mean)",
         f"bound            {bound_words(numbers)}{'; it holds for' * bool(bound.speeds_rpm)}",
         *(f"                 - {words}" for words in bound.assumes if bound.speeds_rpm),
-        f"estimate         {estimates} in all by the number of springs (D by the ripple); "
-        f"up to {pays} pay{'s' * (pays == 1)}",
+        f"estimate         {estimates} in all, by weak ripple, shapes of any kind and rollers without mass",
+        f"                 - {further if pays else 'no spring halves what a bare flywheel asks for'}",
     ]
     if given is not None:
-        before = f"flywheel {_inertia(given.flywheel_inertia)} and rollers {_inertia(given.rollers_inertia)}"
-        lines.append(f"hardware free    with that of the case {before}; what is made small is their sum")
+        now = _inertia(numbers.flywheel_inertia + numbers.rollers_inertia)
+        before = _inertia(given.flywheel_inertia + given.rollers_inertia)
+        lines.append(
+            f"hardware free    flywheel and rollers together {now}, {before} with that of the case: their sum is made "
+            f"small; flywheel {_inertia(given.flywheel_inertia)} and rollers {_inertia(given.rollers_inertia)} then"
+        )
     return lines
 
 

@@ -61,10 +61,10 @@ def test_some_records_with_a_wrong_compression_ratio():
 @pytest.mark.slow
 @pytest.mark.heavy
 def test_sixty_records_with_a_wrong_geometry():
-    """A fired line alone cannot tell a rod of 0.7 or 1.3: its spread is as large as that."""
+    """A rod of 0.7 or 1.3 bends a line as a clearance that is little further off than data sheets leave it."""
     fired, motored = shares(60, 901, True, RATIO | ROD), shares(60, 902, False, RATIO | ROD)
     print(f"fired {fired}\nmotored {motored}")
-    assert max(fired["as built"], motored["as built"]) <= 0.07
+    assert max(fired["as built"], motored["as built"]) <= 0.03
     assert min(motored["ratio up"], motored["ratio down"]) >= 0.98
     assert min(fired["ratio up"], fired["ratio down"]) >= 0.6
-    assert min(motored["rod up"], motored["rod down"]) >= 0.4
+    assert max(motored["rod up"], motored["rod down"]) > 0
