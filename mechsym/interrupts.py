@@ -19,6 +19,7 @@ STATUS = 130  # exit status
 _WAIT = [signal.SIGINT, *([signal.SIGALRM] if hasattr(signal, "setitimer") else [])]  # of `asked_to_stop` too
 WORDS = "mechsym: interrupted; files already named above are complete"
 
+groups: set[int] = set()  #: Process groups that end with this process where the thread ends it
 _moving = threading.RLock()  # held while files move into place, and while what is finished is written
 _obeyed = threading.Event()  # an interrupt came, and what was computed since may be cut short
 
@@ -109,6 +110,9 @@ def _watch(reading: int, last: Callable[[], Any]) -> None:
     threading.Event().wait(_PATIENCE)
     with _moving:
         last()
+        for group in tuple(groups):
+            with contextlib.suppress(OSError):
+                os.killpg(group, signal.SIGKILL)
         with contextlib.suppress(OSError):
             os.write(2, f"{WORDS}\n".encode())
         os._exit(STATUS)

@@ -12,8 +12,6 @@ forks inside SQLite, whose locks belong to one process; one that does not end in
 
 import argparse
 import contextlib
-import ctypes
-import errno
 import importlib
 import io
 import itertools
@@ -23,7 +21,6 @@ import os
 import select
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import threading
@@ -35,77 +32,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 from fault_places import COLD, COMMANDS, Place, alike, mixed  # noqa: E402
+from fault_shim import DOES, Faults, patched, preloaded  # noqa: E402
 
-ROOT = Path(__file__).parents[1]
-SOURCE = Path(__file__).with_name("faults.c")
-DOES = ("once", "full", "kill", "interrupt")
 WRONG = ("mixtures", "losses", "hangs", "others")  # of what is wrong
 SLACK = 0.05  # to judge what was left, and to begin again [s]
 LIMIT = 180  # for what goes on after a fault; the slowest command takes seconds [s]
 HUNG = "hangs"  # in the place of an exit status
-
-
-class Faults:
-    """The library between Python and the system."""
-
-    def __init__(self):
-        self.library = ctypes.CDLL(None)
-        self.library.faults_kind.restype = ctypes.c_char_p
-        self.tell_type = ctypes.CFUNCTYPE(None, ctypes.c_long, ctypes.c_int)
-        self.told = None
-
-    def tell(self, function):
-        self.told = self.tell_type(function) if function else None  # kept alive
-        self.library.faults_tell(self.told)
-
-    def want(self, at, does):
-        self.library.faults_want(ctypes.c_long(at), DOES.index(does))
-
-    @property
-    def kind(self):
-        return self.library.faults_kind().decode() if self.library.faults_fired() else ""
-
-    def asks(self, word):
-        return bool(self.library.faults_ask(word.encode()))
-
-
-def preloaded(folder, *words):
-    """Python with the library loaded before all others."""
-    library = Path(folder) / "faults.so"
-    subprocess.run(["gcc", "-O1", "-shared", "-fPIC", str(SOURCE), "-o", str(library), "-ldl"], check=True)
-    environment = {"LD_PRELOAD": str(library), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
-    return subprocess.run([sys.executable, *words], cwd=ROOT, check=False, env=os.environ | environment).returncode
-
-
-def patched(faults):
-    """Let processes, compilers and solvers fail in their turn too."""
-    import casadi
-    import scipy.integrate
-    import scipy.sparse.linalg
-
-    from mechsym.native import compiler
-
-    def failing(owner, name, word, error):
-        function = getattr(owner, name)
-
-        def shim(*args, **options):
-            if faults.asks(word):
-                raise error()
-            return function(*args, **options)
-
-        setattr(owner, name, shim)
-
-    def broken(command, what, target, folder=None, call=compiler.call):
-        call(command, what, target, folder)
-        if faults.asks("compile"):
-            target.write_bytes(target.read_bytes()[:100])
-
-    compiler.call = broken
-    failing(subprocess.Popen, "__init__", "fork", lambda: OSError(errno.EAGAIN, os.strerror(errno.EAGAIN)))
-    for owner, name in ((casadi, "nlpsol"), (casadi, "qpsol"), (casadi, "conic"), (casadi, "rootfinder"),
-                        (casadi, "integrator"), (scipy.sparse.linalg, "splu"),
-                        (scipy.integrate.OdeSolver, "__init__")):  # fmt: skip
-        failing(owner, name, "solver", MemoryError)
 
 
 class Command:
@@ -247,6 +179,8 @@ def series(command, value, state, asked, judge, new):
     place = command.place
     *seen, (_, end) = calls(command, value)
     place.back(state)
+    if not seen:  # what is kept of the run before serves this one
+        return []
     kinds = asked.does.split(",")
     # a process can go on from where the folder was as it is kept
     ready = [1] + [n for n, (may, _) in enumerate(seen, 1) if may and n > 1]
@@ -327,7 +261,8 @@ def judged(command, answer, sets, old_points, usual):
     place, (status, said, kind, what), (old, new) = command.place, answer, sets
     now = place.results()
     whole = "new" if now == new else "old" if now == old else ""
-    if not whole and (place.cold or kind in ("fork", "compile", "solver")) and alike(now, new):
+    certified = "run/summary.json" in now and not mixed(place.folder)
+    if not whole and (place.cold or kind in ("fork", "compile", "solver")) and alike(now, new, certified):
         whole = "new"
     if status == HUNG:
         return f"{HUNG}: {said}"
@@ -341,7 +276,7 @@ def judged(command, answer, sets, old_points, usual):
     if what == "kill":
         if strangers:
             return f"a loss: {', '.join(strangers)}"
-        if not whole and "run/summary.json" in now and not mixed(place.folder):
+        if not whole and certified:
             return "a mixture that its summary certifies"
     else:
         if not whole:

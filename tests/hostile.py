@@ -139,6 +139,7 @@ def trace(rng: random.Random, place: Path) -> list[str]:
         case, letters = rng.choice((*[("chmielewski", ("I2", "I2,k1", "friction.viscous", "c1", "I0,I2,k1,c1"))] * 4,
                                     ("zotov-89", ("m", "I1")), ("generator", ("l", "friction.constant"))))  # fmt: skip
         words = ["identify", case, "--trace", "d.csv", "--free", rng.choice(letters)]
+        words += ["--set", "drive.torque=50 N*m"] if case != "chmielewski" else []
         return words + rng.choice(([], [], ["--set", "drive.time=0"], ["--json"], ["--out", "out"]))
     if kind == "torque":
         return [
@@ -146,7 +147,7 @@ def trace(rng: random.Random, place: Path) -> list[str]:
             rng.choice(("zotov-89", "generator")),
             "--torque",
             "d.csv",
-            *(["--noise", "2 N*m"] * rng.randrange(2)),
+            *(["--noise", "2 N*m"] if rng.random() < 0.9 else []),
         ]
     if rng.random() < 0.2:
         sizes = ["--bore", "68 mm", "--stroke", "55 mm", "--rod", "84 mm", "--compression", "8.5"]

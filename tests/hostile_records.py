@@ -4,10 +4,14 @@
 `torque` of a crank over one turn.
 """
 
+import functools
 import random
 from pathlib import Path
 
 import numpy as np
+
+from mechsym import cases
+from mechsym.jobs.run import run
 
 HEADS = {
     "speed": (
@@ -21,15 +25,17 @@ HEADS = {
         "deg,bar", "crank_angle_deg,pressure_pa", "", "phi [°],p [bar]", "time_s,pressure_bar", "phi [deg],p [kPa]",
         "pressure_bar,crank_angle_deg", "phi [rad],p [psi]", "crank_angle_deg,pressure_bar,pressure_bar",
     ),
-    "torque": ("phi [deg],M [N*m]", "crank_angle_deg,torque_nm", "phi,M", "", "M [N*m],phi [deg]",
+    "torque": ("phi [deg],torque [N*m]", "crank_angle_deg,torque_nm", "phi,M", "", "M [N*m],phi [deg]",
                "phi [rad],M [kN*m]"),
 }  # fmt: skip
-ROWS = (0, 1, 2, 5, 60, 400, 400, 1500, 1500, 6000)
+ROWS = (0, 1, 5, 60, 400, 400, 1500, 1500, 1500, 6000)
 MANY, SELDOM = 1_200_000, 0.02  # rows of a logger that nobody stopped, and how often
 
 
 def clean(rng: random.Random, kind: str, count: int) -> np.ndarray:
-    """Columns of a machine that exists, though perhaps not of the one that is asked of."""
+    """Columns of the machine that is asked of, or of another one."""
+    if kind != "torque" and rng.random() < 0.5:
+        return _own(kind)[:count].copy()
     noise = np.random.default_rng(rng.randrange(2**32))
     if kind == "speed":
         t = np.arange(count) * 10 ** rng.uniform(-4, -1)
@@ -45,6 +51,19 @@ def clean(rng: random.Random, kind: str, count: int) -> np.ndarray:
     burnt = 25 * np.exp(-(((phi - 0.2) / 0.4) ** 2)) * rng.choice((0, 1, 1))
     p = 1.0 * (1.12 / volume) ** 1.33 + burnt + noise.normal(0, 0.05, count)
     return np.column_stack([angle, p, angle / (6 * rng.choice((90, 1500, 3000)))])
+
+
+@functools.cache
+def _own(kind: str) -> np.ndarray:
+    """What the machine of the built-in case would give, as a run or its file has it."""
+    if kind == "pressure":
+        lines = Path(cases.__file__).with_name("generator-synthetic.csv").read_text().splitlines()
+        rows = np.genfromtxt([line for line in lines if line[0] in "-0123456789"], delimiter=",")
+        return rows[:, [0, 2, 1]]
+    short = {"simulation.t_end": "3 s", "simulation.window": "1 s", "simulation.output_step": "2 ms"}
+    start = run(cases.load("chmielewski", short), check="none").result
+    speed = start.columns["phi0d"] + np.random.default_rng(1).normal(0, 0.002, len(start.t))
+    return np.column_stack([start.t, speed, 0 * start.t])
 
 
 def _stretch(rng: random.Random, rows: np.ndarray) -> slice:
@@ -122,7 +141,7 @@ LINES = (
     "end of record",
     '"1"",2',
 )
-ENCODINGS = ("utf-8", "utf-8", "utf-8", "utf-8-sig", "utf-16", "utf-32", "latin-1", "cp1252", "shift-jis")
+ENCODINGS = ("utf-8-sig", "utf-16", "utf-32", "latin-1", "cp1252", "shift-jis")
 
 
 def write(rng: random.Random, file: Path, kind: str, most: int = MANY) -> None:
@@ -132,8 +151,8 @@ def write(rng: random.Random, file: Path, kind: str, most: int = MANY) -> None:
     for _ in range(rng.choice((0, 1, 1, 2, 3))):
         if len(rows):
             rows = SPOILS[rng.choice(list(SPOILS))](rng, rows)
-    head = rng.choice(HEADS[kind])
-    mark = rng.choice((",", ",", ",", ",", ";", "\t", " ", "|"))
+    head = HEADS[kind][0] if rng.random() < 0.6 else rng.choice(HEADS[kind])
+    mark = "," if rng.random() < 0.85 else rng.choice((";", "\t", " ", "|"))
     columns = min(3, max(1, head.count(",") + 1)) if head else 2
     if "time_s,p" in head and columns == 3:
         rows = rows[:, [0, 2, 1]]
@@ -145,14 +164,13 @@ def write(rng: random.Random, file: Path, kind: str, most: int = MANY) -> None:
 
 def _typed(rng: random.Random, text: str, mark: str) -> bytes:
     """The text as another program, another country or a broken disk leaves it."""
-    if rng.random() < 0.3:
+    if rng.random() < 0.12:
         lines = text.split("\n")
         for _ in range(rng.choice((1, 1, 3))):
             lines.insert(rng.choice((0, 1, rng.randrange(len(lines) + 1))), rng.choice(LINES))
         text = "\n".join(lines)
-    change = rng.choice(
-        ("", "", "", "", "", "comma", "exponent", "trailing", "quoted", "crlf", "cr", "padded", "nul", "cut")
-    )
+    changes = ("comma", "exponent", "trailing", "quoted", "crlf", "cr", "padded", "nul", "cut")
+    change = rng.choice(changes) if rng.random() < 0.25 else ""
     match change:
         case "comma":
             text = text.replace(".", ",")
@@ -170,5 +188,5 @@ def _typed(rng: random.Random, text: str, mark: str) -> bytes:
             text = text.replace("\n", "\n\0", 3)
         case "cut":
             text = text[: rng.randrange(len(text) + 1)]
-    data = text.encode(rng.choice(ENCODINGS), "replace")
+    data = text.encode(rng.choice(ENCODINGS) if rng.random() < 0.12 else "utf-8", "replace")
     return data if rng.random() < 0.97 else data + rng.randbytes(40)

@@ -11,6 +11,7 @@ import sys
 import threading
 from pathlib import Path
 
+import fault_shim
 import faults
 import pytest
 
@@ -238,7 +239,7 @@ TURNS = """
 import contextlib, sys
 from pathlib import Path
 sys.path.insert(0, "tests")
-from faults import Faults
+from fault_shim import Faults
 from test_files import held, written
 folder, before, does, calls = Path(sys.argv[1]), sys.argv[2] == "held", sys.argv[3], Faults()
 old, new = folder / "old", folder / "new"
@@ -266,7 +267,7 @@ assert count > (15 if does == "once" else 8) and not calls.kind
 @pytest.mark.parametrize("does", ["once", "full"])
 def test_a_fault_at_any_call_leaves_the_old_files_or_the_new_ones(tmp_path, before, does):
     (tmp_path / "runs").mkdir()
-    assert faults.preloaded(tmp_path, "-c", TURNS, str(tmp_path / "runs"), before, does) == 0
+    assert fault_shim.preloaded(tmp_path, "-c", TURNS, str(tmp_path / "runs"), before, does) == 0
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import interrupts as times
 import pytest
@@ -14,10 +15,19 @@ from mechsym import files, interrupts
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
 # the command line with some work in the place of its commands
 _RUN = """
-import ctypes, signal, sys, time
+import ctypes, signal, sys, threading, time
 from pathlib import Path
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets what runs in the background ignore it
 from mechsym import cli, files
+def in_a_compiler():
+    from mechsym.native import compiler
+    made = Path(sys.argv[1]).with_name("process")
+    sleep = f"import ctypes, os, signal, time; open({str(made)!r}, 'w').write(str(os.getpid())); time.sleep(60)"
+    libc, lock = ctypes.CDLL(None), ctypes.create_string_buffer(256)
+    thread = threading.Thread(target=compiler.call, args=([sys.executable, "-c", sleep], "it", made), daemon=True)
+    thread.start()
+    for _ in range(2):
+        libc.pthread_mutex_lock(lock)
 def swallowed():
     try:
         time.sleep(60)
@@ -55,6 +65,31 @@ def test_an_interrupt_ends_a_command_whatever_it_is_at(tmp_path, work):
     _, said = process.communicate(timeout=20)  # how soon is for the slow test, which knows what else the machine does
     assert (process.returncode, said) == (interrupts.STATUS, f"{interrupts.WORDS}\n")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_compiler_ends_with_the_command_that_waits_for_it(tmp_path):
+    folder, noted = tmp_path / "run", tmp_path / "process"
+    process = subprocess.Popen([sys.executable, "-c", _RUN, str(folder), "in_a_compiler"], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)  # fmt: skip
+    while not noted.exists() or not noted.read_text():
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=20)
+    assert process.returncode == interrupts.STATUS
+    for _ in range(100):
+        if _ended(int(noted.read_text())):
+            return
+        time.sleep(0.05)
+    raise AssertionError("the compiler runs on")
+
+
+def _ended(number):
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return True
+    stat = Path(f"/proc/{number}/stat")
+    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] == "Z"
 
 
 def test_files_that_move_into_place_do_so_to_the_end(tmp_path, monkeypatch):

@@ -13,7 +13,7 @@ import sysconfig
 from collections.abc import Sequence
 from pathlib import Path
 
-from mechsym import budget
+from mechsym import budget, interrupts
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -155,11 +155,13 @@ def call(command: Sequence[str], what: str, target: Path, folder: Path | None = 
     except OSError as error:
         raise NoCompiler(f"{name} cannot be run: {error}; {other}") from error
     try:
+        interrupts.groups.add(process.pid)
         _, said = process.communicate(timeout=PATIENCE)
     except subprocess.TimeoutExpired:
         raise NoCompiler(f"{name} did not end in {PATIENCE:g} s; {other}") from None
     finally:
         _end(process)
+        interrupts.groups.discard(process.pid)
     if process.returncode:
         lines = [line for line in said.splitlines() if "error" in line] or said.splitlines() or ["no word"]
         raise NoCompiler(f"{name} failed on {what}: {lines[0].strip()}")

@@ -49,7 +49,13 @@ def require_plausible(model: TracedMotion, trace: Trace, angles: list[float], lo
         return  # what slides was not measured
     if not np.isfinite(model.low).all():
         return  # work whose sign is not known tells nothing
-    ratio = min((_ratio(model, trace, angle) for angle in angles), key=lambda r: abs(math.log(r)))
+    ratios = (_ratio(model, trace, angle) for angle in angles)
+    ratio = min(ratios, key=lambda r: (r < 0, abs(math.log(abs(r)))))
+    if ratio < 0:
+        raise BadInput(
+            f"{trace.file}: its kinetic energy grows where all known forces take work, or falls where they give it: a "
+            "speed or a torque with the other sign?"
+        )
     if not 1 / _OFF <= ratio <= _OFF:
         slip = min(_SLIPS, key=lambda s: abs(math.log(ratio / s)))
         hint = f": {_SLIPS[slip]}?" if 0.5 < ratio / slip < 2 else ": another machine, or a wrong unit?"
@@ -60,7 +66,7 @@ def require_plausible(model: TracedMotion, trace: Trace, angles: list[float], lo
 
 
 def _ratio(model: TracedMotion, trace: Trace, angle: float) -> float:
-    """Change of kinetic energy by the work of what is known; 1 where the trace does not tell it."""
+    """Change of kinetic energy by the work of what is known, both signs told; 1 where the trace does not tell it."""
     states = followed(model, trace, trace.t, angle)
     known = model.known(trace.t)
     kinetic, power = (
@@ -76,4 +82,5 @@ def _ratio(model: TracedMotion, trace: Trace, angle: float) -> float:
         return gained / max(work, enough / 10) if gained > max(enough, _OFF * work) else 1.0
     if max(abs(gained), abs(work)) < enough or not enough:
         return 1.0
-    return max(abs(gained), 1e-12 * enough) / max(abs(work), 1e-12 * enough)
+    ratio = max(abs(gained), 1e-12 * enough) / max(abs(work), 1e-12 * enough)
+    return math.copysign(ratio, gained * work) if min(abs(gained), abs(work)) >= enough else ratio

@@ -1,7 +1,10 @@
 """Balance of engines against closed forms, and weights that leave what they must."""
 
+import cmath
+import dataclasses
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +13,8 @@ from click.testing import CliRunner
 
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.forces.balance import amplitudes, balance, couple, part
+from mechsym.forces.balance import Shaken, Weight, _with, amplitudes, balance, couple, part
+from mechsym.forces.mains import MainShaft
 from mechsym.forces.turn import Turn, crank_drive, turn
 from mechsym.mechanisms.crank_train import CrankTrainParameters
 
@@ -195,6 +199,27 @@ def test_weights_for_the_bearings_shake_the_frame_no_more() -> None:
     for kind in ("force", "couple"):
         left = [amplitudes(getattr(done.after, kind), one)[1] for done in (frame, mains)]
         assert left[1] == pytest.approx(left[0], rel=1e-6, abs=1e-6 * UNIT * A)
+
+
+def test_no_step_from_the_weights_for_the_bearings_lowers_their_peak() -> None:
+    # the problem is convex: where no small step that leaves the frame as it is helps, none does
+    one = in_line(0, 180, 180, 0)
+    before, best = balance(one, weights="none").before, balance(one, weights="webs", least="mains").counterweights
+    z = np.array([weight.z for weight in best])
+    free = np.linalg.svd(np.array([np.ones(4), z]))[2][2:]  # neither a force nor a couple
+    least, size = peak(one, before, best), max(weight.unbalance for weight in best)
+    for direction in (*free, free[0] + free[1], free[0] - free[1]):
+        for turned in np.exp(2j * math.pi * np.arange(8) / 8):
+            vectors = [w.vector + 0.2 * size * turned * d for w, d in zip(best, direction, strict=True)]
+            moved = [
+                dataclasses.replace(w, unbalance=abs(v), angle=cmath.phase(v))
+                for w, v in zip(best, vectors, strict=True)
+            ]
+            assert peak(one, before, moved) > 0.999 * least
+
+
+def peak(one: Turn, before: Shaken, weights: Sequence[Weight]) -> float:
+    return max(float(held.load.max()) for held in _with(one, before, weights, (), MainShaft()).journals)
 
 
 def test_bearings_without_places_are_refused() -> None:

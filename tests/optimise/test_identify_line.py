@@ -5,6 +5,7 @@ phi'' = z1 t + z2 t^2 - W^2 phi, so u = z1 / W^2 + 2 z2 t / W^2 + A cos W t + B 
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import casadi as ca
 import numpy as np
@@ -12,9 +13,10 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.stats import t as student
 
+from mechsym import budget
 from mechsym.errors import BadInput
 from mechsym.optimise.fit import TracedMotion, grid
-from mechsym.optimise.identify import Estimate, doubts, durbin_watson, identify, white_noise
+from mechsym.optimise.identify import Estimate, _alike, doubts, durbin_watson, identify, white_noise
 from mechsym.optimise.trace import Trace
 
 W, Z = 1.3, (0.7, -0.4)
@@ -215,3 +217,41 @@ def test_a_motion_half_a_turn_on_explains_as_much_with_the_other_sign():
     ambiguous, loose = found.doubts
     assert (ambiguous.code, ambiguous.value) == ("ambiguous", 2.0)
     assert (loose.code, loose.value) == ("loose", pytest.approx((one.high - one.low) / abs(one.value)))
+
+
+def test_ends_of_a_bent_interval_are_those_of_the_straight_one():
+    # the model is straight in the cube of z1, so the interval of z1 ends at the cube roots of the ends of that one
+    bent = identify(motion(lambda z, w: z[0] ** 3 * w[0] + z[1] * w[1]), trace(noise=0.6))
+    best, covariance, _ = least_squares(trace(noise=0.6).speeds["phid"])
+    wide = student.ppf(0.975, T.size - 4) * math.sqrt(covariance[0, 0])
+    one = bent.parameters["z1"]
+    assert one.value == pytest.approx(np.cbrt(best[0]), rel=1e-5)
+    for end, sign in ((one.low, -1), (one.high, 1)):
+        assert end**3 == pytest.approx(best[0] + sign * wide, abs=0.025 * wide)
+
+
+def test_a_fit_is_forecast_by_the_numbers_of_its_linear_system(monkeypatch):
+    # a column for each of two parameters, for angle and speed at the start, and for what is measured
+    asked = []
+    monkeypatch.setattr(budget, "require", lambda what, seconds, size, way_out: asked.append([seconds, size]))
+    x, w, z = ca.SX.sym("x", 2), ca.SX.sym("w", 2), ca.SX.sym("z", 1)
+    fewer = dataclasses.replace(
+        motion(turning=False), names=("z1",), units=("N",), start=np.array([0.5]), size=np.array([0.7]),
+        low=np.array([-np.inf]), rate=ca.Function("rate", [x, w, z], [ca.vertcat(x[1], z[0] * w[0] - W**2 * x[0])]),
+    )  # fmt: skip
+    for model, t in ((motion(turning=False), T), (motion(turning=False), T[:61]), (fewer, T)):
+        identify(model, trace(t=t))
+    assert np.divide(asked[0], asked[1]) == pytest.approx([2.0, 2.0])
+    assert np.divide(asked[0], asked[2]) == pytest.approx([5 / 4, 5 / 4])
+
+
+def test_fits_are_one_where_they_start_at_one_angle_or_have_the_same_parameters():
+    def fit(angle, theta):
+        states = np.array([[angle, 9.0], [5.0, 7.0]])
+        return SimpleNamespace(states=states, theta=np.array([theta]), status="converged", left=1.0)
+
+    def count(angle, theta):
+        return len(_alike([fit(0.3, 1.0), fit(angle, theta)], 1.0, np.array([0.1])))
+
+    assert (count(0.3 + 2 * math.pi, 2.0), count(0.4, 2.0), count(1.3, 1.001)) == (1, 1, 1)
+    assert (count(1.3, 2.0), count(0.3 + math.pi, 1.1)) == (2, 2)

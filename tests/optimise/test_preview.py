@@ -18,7 +18,8 @@ SLIPS = [
     ({"head": "phi0d [rpm]"}, "rad/s under .rpm"),
     ({"speed": 9.549297}, "rpm under .rad/s"),
     ({"speed": 0.0174533}, "rad/s under .deg/s"),
-    ({"speed": -1, "time": 0.001}, "another machine|wrong unit|under"),
+    ({"speed": -1}, "the other sign"),
+    ({"speed": -1, "time": 0.001}, "another machine|wrong unit|under|the other sign"),
 ]
 
 

@@ -290,8 +290,11 @@ def test_of_two_criticals_close_by_the_nearer_one_counts(end, nearest):
     found = settling(speeds_to(end), "phi", 2 * math.pi, (200.0, 202.4), 90.0)
     assert found.at == (2.0, nearest)
     text = "\n".join(sentences(found))
-    assert "on a rigid shaft gas and load are in balance at 859.4 rpm" in text and "order 2 holds it" in text
+    critical = f"{nearest * 30 / math.pi:.4g} rpm"
+    assert "on a rigid shaft gas and load are in balance at 859.4 rpm" in text
+    assert f"order 2 holds it at its critical speed of {critical}" in text
     balanced = settling(speeds_to(end), "phi", 2 * math.pi, (200.0, 202.4), end)
+    assert sentences(balanced)[-1].startswith(f"order 2 has a critical speed of {critical}, within 2 %")
     assert "the critical does not hold it" in "\n".join(sentences(balanced))
     alone = settling(speeds_to(end), "phi", 2 * math.pi, (), None)
     assert sentences(alone)[1:] == ("it runs at no critical speed",)

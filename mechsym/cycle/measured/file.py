@@ -94,7 +94,7 @@ def has_angles(path: str | Path) -> bool:
 
 
 def _refuse_swapped(file: str, pressure: np.ndarray, name: str) -> None:
-    if np.mean(np.diff(pressure) > 0) > _RISING:
+    if len(pressure) > 1 and np.mean(np.diff(pressure) > 0) > _RISING:
         raise BadInput(
             f"{file}: {name} rises from nearly every row to the next, as an angle or a time does and no pressure; are "
             "two columns swapped? exchange their headings, or name the right ones with angle_column and pressure_column"
