@@ -14,7 +14,7 @@ from mechsym.cases import reads
 from mechsym.cases.facts import CaseFacts, facts_of
 from mechsym.cycle.kinds import KINDS
 from mechsym.errors import MissingSection
-from mechsym.mechanisms.plan import plan_of, with_chain
+from mechsym.mechanisms.plan import driving_inputs, plan_of, with_chain
 from mechsym.quantities import load, record
 
 _SECTION = re.compile(r"^\[\w+\]$")
@@ -39,7 +39,7 @@ def require(case: Any, command: str, given: str = "") -> None:
     missing = COMMANDS[command].lacks(facts)
     if missing := [what for what in dict.fromkeys(missing) if what != given]:
         told = [_SECTION.sub(r"section \g<0> is missing", what) for what in in_words(facts, missing)]
-        told = [f"{command} needs {what}" if what.startswith(("[", "simulation.")) else what for what in told]
+        told = [f"{command} needs {what}" if what.startswith(("[", "simulation.", "drive.")) else what for what in told]
         raise MissingSection(f"{case.file}: {'; '.join(told)}; see 'mechsym check' and 'mechsym cases'")
 
 
@@ -60,8 +60,8 @@ def lacking(case: CaseFacts) -> dict[str, list[str]]:
 
 
 def read_by(case: CaseFacts) -> dict[str, set[str]]:
-    """Sections of a case that each command reads which can run on it."""
-    can = (name for name, missing in lacking(case).items() if not missing)
+    """Sections of a case that each command reads which can run on it, or could with the input of its drive named."""
+    can = (name for name in sorted(COMMANDS) if not COMMANDS[name].asks(case))
     return {name: COMMANDS[name].reads(case) & case.sections.keys() for name in can}
 
 
@@ -133,6 +133,15 @@ def _cycle(case: CaseFacts) -> list[str]:
     if case.kind is not None and not case.shared and case.undetermined:
         return [*_missing(case, "parameters", "operation", "cycle", "closing", "faces"), *_gas(case)]
     return _turning(case, "cycle")
+
+
+def _drive(case: CaseFacts) -> list[str]:
+    """What a `[drive]` lacks that does not name its input, where several torques could be meant."""
+    if not case.has("drive") or case.roles is None or case.value("drive", "input"):
+        return []
+    if len(driving_inputs(case.mechanism)) == 1:
+        return []
+    return [f"drive.input, one of {', '.join(mechanisms.listing(case.mechanism)['inputs']) or 'none'}"]
 
 
 def _hinge(case: CaseFacts) -> list[str]:
@@ -246,28 +255,32 @@ def _reads_report(case: CaseFacts) -> set[str]:
 class Command:
     """A command that takes a case."""
 
-    lacks: Callable[[CaseFacts], list[str]]
+    asks: Callable[[CaseFacts], list[str]]  #: What it lacks itself
     reads: Callable[[CaseFacts], set[str]]  #: Whatever the case has of these
+
+    def lacks(self, case: CaseFacts) -> list[str]:
+        """What a case still lacks for it."""
+        return [*self.asks(case), *(_drive(case) if "drive" in self.reads(case) else ())]
 
 
 COMMANDS: Mapping[str, Command] = {
-    "app": Command(lacks=lambda case: [], reads=_reads_report),
-    "balance": Command(lacks=_turning, reads=lambda case: reads.of_turn(case) | {"shaft"}),
-    "codesign": Command(lacks=_codesign, reads=lambda case: reads.guide(case) | {"codesign", "losses"}),
-    "compare": Command(lacks=_compare, reads=lambda case: reads.of_turn(case) | reads.of_friction(case) | {"speeds"}),
-    "cycle": Command(lacks=_cycle, reads=reads.cycle),
-    "eval": Command(lacks=lambda case: _missing(case, "parameters"), reads=lambda case: {"parameters"}),
-    "export": Command(lacks=_export, reads=reads.run),
-    "flywheel": Command(lacks=_turning, reads=reads.flywheel),
-    "fmu": Command(lacks=_export, reads=reads.run),
-    "forces": Command(lacks=_turning, reads=reads.forces),
-    "guide": Command(lacks=_hinge, reads=reads.guide),
-    "hinge": Command(lacks=_hinge, reads=reads.hinge),
-    "identify": Command(lacks=_identify, reads=reads.identify),
-    "optimise": Command(lacks=_optimise, reads=lambda case: reads.cycle(case) | {"optimise"}),
-    "page": Command(lacks=_export, reads=reads.run),
-    "report": Command(lacks=lambda case: [], reads=_reads_report),
-    "simulate": Command(lacks=_simulate, reads=reads.simulate),
-    "size": Command(lacks=_size, reads=reads.size),
-    "sweep": Command(lacks=_sweep, reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set()),
+    "app": Command(asks=lambda case: [], reads=_reads_report),
+    "balance": Command(asks=_turning, reads=lambda case: reads.of_turn(case) | {"shaft"}),
+    "codesign": Command(asks=_codesign, reads=lambda case: reads.guide(case) | {"codesign", "losses"}),
+    "compare": Command(asks=_compare, reads=lambda case: reads.of_turn(case) | reads.of_friction(case) | {"speeds"}),
+    "cycle": Command(asks=_cycle, reads=reads.cycle),
+    "eval": Command(asks=lambda case: _missing(case, "parameters"), reads=lambda case: {"parameters"}),
+    "export": Command(asks=_export, reads=reads.run),
+    "flywheel": Command(asks=_turning, reads=reads.flywheel),
+    "fmu": Command(asks=_export, reads=reads.run),
+    "forces": Command(asks=_turning, reads=reads.forces),
+    "guide": Command(asks=_hinge, reads=reads.guide),
+    "hinge": Command(asks=_hinge, reads=reads.hinge),
+    "identify": Command(asks=_identify, reads=reads.identify),
+    "optimise": Command(asks=_optimise, reads=lambda case: reads.cycle(case) | {"optimise"}),
+    "page": Command(asks=_export, reads=reads.run),
+    "report": Command(asks=lambda case: [], reads=_reads_report),
+    "simulate": Command(asks=_simulate, reads=reads.simulate),
+    "size": Command(asks=_size, reads=reads.size),
+    "sweep": Command(asks=_sweep, reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set()),
 }

@@ -82,11 +82,13 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     squares = (dx**2).sum(axis=0)
     columns = np.stack([np.ones(inertia.size), squares], axis=1)
     least, mass = (float(v) for v in np.linalg.lstsq(columns, inertia)[0])
-    # beams and rods move with the pistons, and are judged by themselves
-    mass -= linked(plan_of(case.mechanism).listing(None), asdict(case.need("parameters"))) / len(x)
+    # beams and rods, which are judged by themselves, move with the pistons by a share between nothing and all
+    links = linked(plan_of(case.mechanism).listing(None), asdict(case.need("parameters"))) / len(x)
     # the squares of many pistons add up to nearly a constant, which tells nothing of one
-    if mass > 0 and np.ptp(squares) > 0.1 * squares.mean():
-        found += moving_mass("mass that the crank feels with a piston", mass, area, bore, stroke)
+    if mass > links and np.ptp(squares) > 0.1 * squares.mean():
+        what = "mass that the crank feels with a piston"
+        doubts = moving_mass(what, mass - links, area, bore, stroke)
+        found += doubts if doubts and moving_mass(what, mass, area, bore, stroke) else ()
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
     return found + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip

@@ -49,7 +49,7 @@ def _text(report: Json, reasons: Mapping[str, str]) -> str:
     lines += ["", f"can run{' once mended' * bool(problems)}: {', '.join(ready) or 'nothing'}"] if commands else []
     for reason in dict.fromkeys(reasons.values()):
         names = [name for name, why in reasons.items() if why == reason]
-        lacks = f" lack{'s' * (len(names) == 1)}" if reason.startswith("[") else ":"
+        lacks = f" lack{'s' * (len(names) == 1)}" if reason.startswith(("[", "drive.")) else ":"
         lines.append(f"  {', '.join(names)}{lacks} {reason}")
     return "\n".join(lines)
 

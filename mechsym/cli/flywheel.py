@@ -8,7 +8,7 @@ import click
 from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
@@ -52,10 +52,10 @@ def _share(text: str) -> float:
 
 
 def _text(result: Json) -> str:
-    bare, check = result["ripple_bare"], result["check"]
+    bare, check, swing = result["ripple_bare"], result["check"], result["work_swing"]
+    mean = result["torque_mean"] if abs(result["torque_mean"]) > SMALLEST * swing else 0.0  # else round-off
     lines = [
-        f"mean torque {quantity_text(result['torque_mean'], 'N*m')}, work that swings "
-        f"{quantity_text(result['work_swing'], 'J')}",
+        f"mean torque {quantity_text(mean, 'N*m')}, work that swings {quantity_text(swing, 'J')}",
         f"without a further flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
     ]
     if result["inertia"] is None:

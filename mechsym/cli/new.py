@@ -45,10 +45,10 @@ def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke:
     """
     traced = {"--trace": trace, "--rod": rod, "--compression": compression, "--speed": speed}
     if what != "diagram" and (named := [option for option, value in traced.items() if value is not None]):
-        raise BadInput(f"{', '.join(named)} belong to a diagram; leave them away, or write: mechsym new diagram")
+        raise BadInput(f"only a diagram has {', '.join(named)}; leave it away, or write: mechsym new diagram")
     sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas}
     if what == "mechanism" and (given := [option for option, value in sizes.items() if value is not None]):
-        raise BadInput(f"{', '.join(given)} belong to an engine; leave them away, or write: mechsym new engine")
+        raise BadInput(f"only an engine has {', '.join(given)}; leave it away, or write: mechsym new engine")
     doubts: tuple[Doubt, ...] = ()
     if what == "mechanism":
         files = _mechanism(name, out)

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from mechsym.cycle.breathing.flow import valve_lift
 from mechsym.cycle.breathing.records import Breathing
@@ -57,6 +56,8 @@ def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
 
 def both_logarithmic(axis: "Axes") -> None:
     """Few and plain numbers on two logarithmic axes."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     for one in (axis.xaxis, axis.yaxis):
         low, high = one.get_view_interval()
         one.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1000 * low else (1,)))

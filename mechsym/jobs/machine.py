@@ -36,6 +36,7 @@ from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import AngleForce, Machine, firing_of
 from mechsym.mechanisms.loops import along_turn
 from mechsym.mechanisms.own import content
+from mechsym.mechanisms.plan import driving_inputs
 from mechsym.mechanisms.record import Mechanism, evaluate
 from mechsym.mechanisms.shaft_inertia import at_rest, is_damped, with_inertia, with_torque
 from mechsym.quantities import record
@@ -285,10 +286,9 @@ def drive_on(case: Case, mechanism: Mechanism) -> DriveInput:
 
 def driving_input(case: Case) -> str:
     """The input that a `[drive]` without one turns: the rotor's, or the only torque on a coordinate."""
-    named = [r.drive for r in mechanisms.roles_of(case.mechanism).rotors if r.drive]
-    units = mechanisms.listing(case.mechanism)["inputs"]
-    torques = named or [n for n, unit in units.items() if unit == "N*m"]
+    torques = driving_inputs(case.mechanism)
     if len(torques) != 1:
+        units = mechanisms.listing(case.mechanism)["inputs"]
         raise BadInput(f"{case.file}: key drive.input is missing; inputs are {', '.join(units) or 'none'}")
     return torques[0]
 

@@ -174,6 +174,12 @@ def roles_of(name: str) -> "PartRoles":
     return _roles(name) if own.is_file(name) else _packaged_roles(name)
 
 
+def driving_inputs(name: str) -> list[str]:
+    """The inputs by which a drive may turn a mechanism: those of its rotors, else every torque."""
+    named = [rotor.drive for rotor in roles_of(name).rotors if rotor.drive]
+    return named or [text for text, unit in plan_of(name).listing(None)["inputs"].items() if unit == "N*m"]
+
+
 def _roles(name: str) -> "PartRoles":
     from mechsym.mechanisms.roles import roles_in  # an evaluation asks for none
 

@@ -242,9 +242,12 @@ def approach(task: TraceTask, angle: Radian) -> tuple[np.ndarray, np.ndarray] | 
 
 def unit_columns(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Columns divided by their lengths, and these; 1 in place of 0 [unit of the columns]."""
-    width = np.linalg.norm(columns, axis=0)
+    # by powers of two first: slopes of a motion that runs away are not squared as they are
+    power = np.frexp(np.abs(columns).max(axis=0, initial=0.0))[1]
+    near = np.ldexp(columns, -power)
+    width = np.linalg.norm(near, axis=0)
     width[width == 0] = 1.0
-    return columns / width, width
+    return near / width, np.ldexp(width, power)
 
 
 def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion | None:

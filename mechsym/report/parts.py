@@ -128,7 +128,7 @@ def part(name: str, case: Case) -> ReportPart:
     """A part of the report of a case; bad input and what is missing are told in it."""
     kind, facts = PARTS[name], facts_of(case.mechanism, case.sections)
     if missing := in_words(facts, lacking(facts).get(name, [])):
-        told = [f"the case lacks {what}" if what.startswith("[") else what for what in missing]
+        told = [f"the case lacks {what}" if what.startswith(("[", "drive.")) else what for what in missing]
         return ReportPart(name=name, title=kind.title, state=LEFT_OUT, reason="; ".join(told))
     try:
         return kind.made_of(case)

@@ -218,6 +218,20 @@ def test_what_reads_a_section_with_one_more_is_named(tmp_path):
     assert "lacks [rollers]" in told["unread keys: [limits]"] and "unread keys: [spring]" not in told
 
 
+def test_a_drive_that_names_no_input_of_several_is_lacking_and_told_once(tmp_path):
+    file = tmp_path / "driven.toml"
+    file.write_text(cases.text("zotov-89") + text_of("drive"))
+    lacking = {
+        name for name, missing in checked(file)["commands"].items() if missing == ["drive.input, one of F, M_r, M_h"]
+    }
+    assert lacking >= {"hinge", "flywheel", "simulate", "export", "sweep"} and not lacking & {"forces", "cycle", "size"}
+    assert checked(file)["doubts"] == []
+    done = CliRunner().invoke(cli.mechsym, ["flywheel", str(file)])
+    assert "flywheel needs drive.input, one of F, M_r, M_h" in str(done.exception)
+    file.write_text(cases.text("zotov-89") + text_of("drive") + '\ninput = "M_h"')
+    assert not any("drive.input" in " ".join(missing) for missing in checked(file)["commands"].values())
+
+
 def doubts_of(*argv):
     return json.loads(CliRunner().invoke(cli.mechsym, [*argv, "--json"], catch_exceptions=False).stdout)["doubts"]
 

@@ -47,6 +47,7 @@ COMMANDS = {
     "hinge zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
     "simulate zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
     "cycle nunes-hypocycloid": ({"scipy.interpolate", "mechsym.hinge.contact", "mechsym.codesign"}, 920),
+    "cycle generator": ({"mechsym.codesign", "mechsym.hinge.contact"}, 1010),
     "forces zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 960),
     "size nunes-slider-crank": ({"mechsym.codesign", "mechsym.hinge.contact"}, 970),
 }

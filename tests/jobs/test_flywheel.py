@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -61,6 +62,12 @@ def test_command():
     result = json.loads(found.stdout)
     assert result["check"]["speed_ripple"] == pytest.approx(0.05, rel=1e-3)
     assert result["ripple_bare"] is None
+
+
+def test_a_torque_that_is_round_off_is_none():
+    case = "examples/mechanisms/atkinson.toml"
+    done = CliRunner().invoke(mechsym, ["flywheel", str(Path(__file__).parents[2] / case)], catch_exceptions=False)
+    assert "mean torque 0 N*m, work that swings 20.395 J" in done.stdout
 
 
 def test_refusals():

@@ -130,7 +130,7 @@ def test_the_code_is_derived_once(folder):
             ),
             "theta5 given (gap 0.105); give another pose, or leave theta2, theta4, theta3, theta5 to follow",
         ),
-        (("new", "mechanism", "press", "--kind", "inline", "--bore", "86 mm"), "--kind, --bore belong to an engine;"),
+        (("new", "mechanism", "press", "--kind", "inline", "--bore", "86 mm"), "only an engine has --kind, --bore;"),
     ],
 )
 def test_wrong_input_is_refused_in_one_line(folder, arguments, message):

@@ -12,7 +12,7 @@ from mechsym.cli import mechsym
 from mechsym.cli.identify import _told_apart
 from mechsym.errors import BadInput
 from mechsym.jobs.identify import identify
-from mechsym.optimise.fit import grid
+from mechsym.optimise.fit import grid, unit_columns
 from mechsym.optimise.trace import read_trace
 
 TRUTH = {"I2": 0.58, "k1": 400.0, "c1": 2.0, "friction.constant": 0.4}
@@ -150,6 +150,13 @@ def test_bad_traces_are_refused_with_the_reason(tmp_path, content, words):
     file.write_text(content)
     with pytest.raises(BadInput, match=words):
         found_in(str(file))
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])
+def test_columns_of_any_size_are_divided_by_their_lengths(scale):
+    columns, width = unit_columns(scale * np.array([[3.0, 0.0, 1e-90], [4.0, 0.0, 0.0]]))
+    np.testing.assert_allclose(columns, [[0.6, 0.0, 1.0], [0.8, 0.0, 0.0]], rtol=1e-15)
+    np.testing.assert_allclose(width, [5 * scale, 1.0, 1e-90 * scale], rtol=1e-15)
 
 
 def test_a_trace_that_is_finer_at_its_end_has_no_gap(tmp_path):

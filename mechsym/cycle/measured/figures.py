@@ -91,7 +91,7 @@ def variation(values: Array) -> tuple[Pure, list[Pure]] | None:
     if n < 2 or mean <= 0:
         return None
     cov = float(np.std(values, ddof=1)) / mean
-    return cov, [cov * math.sqrt((n - 1) / scipy.stats.chi2.ppf(level, n - 1)) for level in (_LEVEL, 1 - _LEVEL)]
+    return cov, [cov * math.sqrt((n - 1) / scipy.special.chdtri(n - 1, 1 - level)) for level in (_LEVEL, 1 - _LEVEL)]
 
 
 def interval(values: Array, by_dead_centre: float) -> tuple[float, list[float]]:
@@ -103,7 +103,7 @@ def interval(values: Array, by_dead_centre: float) -> tuple[float, list[float]]:
     n, mean = len(values), float(np.mean(values))
     scatter = 0.0
     if n > 1:
-        scatter = float(scipy.stats.t.ppf(_LEVEL, n - 1)) * float(np.std(values, ddof=1)) / math.sqrt(n)
+        scatter = float(scipy.special.stdtrit(n - 1, _LEVEL)) * float(np.std(values, ddof=1)) / math.sqrt(n)
     half = math.hypot(by_dead_centre, scatter)
     return mean, [mean - half, mean + half]
 

@@ -113,5 +113,7 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
     left = at - weight @ at / weight.sum() - lag * (speeds - middle)
     scatter = float(weight @ left**2) / (len(fits) - 2) / float(weight @ (speeds - middle) ** 2)
     pulled = np.array([pulls(fit, prior) for fit in fits]) * _BY_SPEED * np.log(speeds / middle)[:, None]
-    half = math.hypot(scipy.stats.t.ppf(_LEVEL, len(fits) - 2) * math.sqrt(scatter), _Z * np.linalg.norm(b @ pulled))
+    half = math.hypot(
+        scipy.special.stdtrit(len(fits) - 2, _LEVEL) * math.sqrt(scatter), _Z * np.linalg.norm(b @ pulled)
+    )
     return SensorLag(lag=lag, half=half, omega=middle, speeds=(float(speeds.min()), float(speeds.max())))
