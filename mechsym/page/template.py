@@ -4,6 +4,7 @@ import functools
 import re
 from typing import TYPE_CHECKING
 
+import mechsym
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.style import significant
 
@@ -34,6 +35,7 @@ def _environment() -> "jinja2.Environment":
         autoescape=True,
         trim_blocks=True,
     )
+    made.globals["version"] = mechsym.__version__
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "pretty": pretty,
         "quantity": lambda value, unit, digits=5: pretty(quantity_text(value, unit, digits)),

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+import mechsym
 from mechsym import cases
 from mechsym.cycle.compare import compare
 from mechsym.errors import BadInput
@@ -139,3 +140,10 @@ def test_a_wide_table_is_stacked_on_a_phone_and_repeats_its_head_in_print():
 def test_a_figure_shows_itself_in_a_notebook():
     drawn = Spot(force=1.0).plot()._repr_svg_()
     assert drawn.startswith("<svg") and "<title id=" in drawn and drawn.rstrip().endswith("</svg>")
+
+
+def test_a_printed_page_has_its_title_the_version_and_its_number():
+    given = '{% extends "base.html" %}{% block title %}Report of <b>{{ name }}</b>{% endblock %}'
+    text = _environment().from_string(given).render(name='a "b" & c')
+    assert "@top-left { content: \"Report of a 'b' & c\"" in text
+    assert f'content: "mechsym {mechsym.__version__}"' in text and "counter(page)" in text
